@@ -22,9 +22,9 @@ from robocomp_yaml.parameters.types import (
     EnumType,
     ListType,
     MapType,
-    Member,
     Parameters,
     RecordType,
+    ResolvedMember,
     ScalarType,
     Size,
     Type,
@@ -89,14 +89,14 @@ def fits(linked: ResolvedParameters, mode: str, data: object) -> bool:
 
 def values_schema(parameters: Parameters, mode: str) -> Schema:
     """The schema of what stands under `parameters:`, by itself."""
-    maker = _Maker(mode)
+    maker = _SchemaBuilder(mode)
     made = maker.record(parameters.root)
     return {"$schema": "http://json-schema.org/draft-07/schema#", **made, "definitions": maker.definitions}
 
 
 def gate_of_complete(type_: Type) -> jsonschema_rs.Draft7Validator:
     """A gate for one value that lacks nothing."""
-    maker = _Maker(COMPLETE)
+    maker = _SchemaBuilder(COMPLETE)
     made = maker.type(type_)
     return jsonschema_rs.Draft7Validator({**made, "definitions": maker.definitions})
 
@@ -104,7 +104,7 @@ def gate_of_complete(type_: Type) -> jsonschema_rs.Draft7Validator:
 def document_schema(parameters: Parameters, name: str, ports: Mapping[str, Iterable[str]], mode: str) -> Schema:
     """The self-contained schema of the whole values document of the component that is called so; `ports` has the names
     that may stand below `endpoints` and `proxies`."""
-    maker = _Maker(mode)
+    maker = _SchemaBuilder(mode)
     made = new_schema("config")
     made["$id"] = f"https://rcyaml.invalid/schemas/values/{name}.{mode}.schema.json"
     made["title"] = f"Values of {name}"
@@ -124,7 +124,7 @@ def document_schema(parameters: Parameters, name: str, ports: Mapping[str, Itera
 _PORTS = {"endpoints": "endpoint", "proxies": "proxy"}
 
 
-class _Maker(msgspec.Struct):
+class _SchemaBuilder(msgspec.Struct):
     """Makes schemas in one mode; structs go to `definitions`."""
 
     mode: str
@@ -235,13 +235,13 @@ class _Maker(msgspec.Struct):
             made |= {"markdownDescription": prose(type_.doc)} if self.for_editors else {}
         return made
 
-    def member(self, member: Member) -> Schema:
+    def member(self, member: ResolvedMember) -> Schema:
         made = self.type(member.type, nullable=self.mode == DOCUMENT)
         if self.mode != COMPLETE:
             made |= self.about(member)
         return made
 
-    def about(self, member: Member) -> Schema:
+    def about(self, member: ResolvedMember) -> Schema:
         """Title, description, default; an editor also shows Markdown and examples."""
         unit, doc, facts = member.unit, member.documentation, for_editors(member)
         made: Schema = {"title": f"{member.name} ({unit})" if unit else member.name}

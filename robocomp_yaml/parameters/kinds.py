@@ -5,7 +5,16 @@ from __future__ import annotations
 from typing import Any
 
 from robocomp_yaml.parameters.patterns.pattern import Pattern
-from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, Member, RecordType, Size, Type
+from robocomp_yaml.parameters.types import (
+    BasicType,
+    EnumType,
+    ListType,
+    MapType,
+    RecordType,
+    ResolvedMember,
+    Size,
+    Type,
+)
 from robocomp_yaml.semantics import composite, plain
 
 
@@ -54,7 +63,7 @@ def kind(type_: Type) -> composite.Kind:
     return plain.secret(made) if type_.secret else made
 
 
-def _default(member: Member) -> dict[str, Any]:
+def _default(member: ResolvedMember) -> dict[str, Any]:
     return {} if member.default is None else {"default": member.default.data}
 
 

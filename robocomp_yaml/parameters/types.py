@@ -16,7 +16,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.interface import Literal
 from robocomp_yaml.model.located import Located
 from robocomp_yaml.parameters.patterns.pattern import Pattern
-from robocomp_yaml.parameters.specification.document import Spelling
+from robocomp_yaml.parameters.specification.document import LegacySpelling
 from robocomp_yaml.semantics.limits import (
     INTEGERS,
     LIMITS,
@@ -136,14 +136,14 @@ class RecordType(msgspec.Struct, frozen=True):
     """A struct (`name` is its own), or a group (`name` is ''), whose members stand directly in their parent."""
 
     name: str
-    members: tuple[Member, ...]
+    members: tuple[ResolvedMember, ...]
     doc: str = ""
 
     @property
     def is_group(self) -> bool:
         return not self.name
 
-    def member(self, name: str) -> Member | None:
+    def member(self, name: str) -> ResolvedMember | None:
         return next((member for member in self.members if member.name == name), None)
 
 
@@ -158,7 +158,7 @@ class Default(Located, frozen=True):
     node: Node | None = None
 
 
-class Member(Located, frozen=True):
+class ResolvedMember(Located, frozen=True):
     """A parameter, or a member of a group or struct. `code_name` is the name in code before a language's escaping.
 
     Required when it has neither a default nor is optional; a group has neither, its members may. `secret` where the
@@ -196,7 +196,7 @@ class Member(Located, frozen=True):
         return self.doc or (self.type.doc if isinstance(self.type, RecordType | EnumType) else "")
 
 
-class Constraint(Located, frozen=True):
+class ResolvedConstraint(Located, frozen=True):
     """What must hold between parameters, and what to say otherwise."""
 
     expression: Expression
@@ -216,11 +216,11 @@ class Parameters(msgspec.Struct, frozen=True):
 
     root: RecordType
     types: tuple[EnumType | RecordType, ...] = ()
-    constraints: tuple[Constraint, ...] = ()
-    spellings: tuple[Spelling, ...] = ()
+    constraints: tuple[ResolvedConstraint, ...] = ()
+    spellings: tuple[LegacySpelling, ...] = ()
     doc: str = ""
 
-    def spelling(self, path: str) -> Spelling | None:
+    def spelling(self, path: str) -> LegacySpelling | None:
         return next((spelling for spelling in self.spellings if spelling.path == path), None)
 
 
@@ -276,7 +276,7 @@ def is_secret(type_: Type) -> bool:
     return not isinstance(type_, RecordType) and type_.secret
 
 
-def leaves(record: RecordType, prefix: str = "", *, groups: bool = False) -> Iterator[tuple[str, Member]]:
+def leaves(record: RecordType, prefix: str = "", *, groups: bool = False) -> Iterator[tuple[str, ResolvedMember]]:
     """Every parameter by its dotted path, groups opened; with `groups`, these too."""
     for member in record.members:
         path, is_group = f"{prefix}{member.name}", isinstance(member.type, RecordType) and member.type.is_group

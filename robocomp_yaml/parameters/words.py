@@ -11,8 +11,8 @@ from robocomp_yaml.parameters.types import (
     EnumType,
     ListType,
     MapType,
-    Member,
     RecordType,
+    ResolvedMember,
     Type,
     is_secret,
     unit_of,
@@ -102,14 +102,14 @@ def label(type_: Type) -> str:
     return type_.name
 
 
-def default_in_words(member: Member) -> str:
+def default_in_words(member: ResolvedMember) -> str:
     """A default that is there, on one line, or how that begins; secrets are hidden."""
     assert member.default is not None
     text = flow(hidden(member.type, member.default.data))
     return text if len(text) <= 60 else f"{text[:59]}…"
 
 
-def for_editors(member: Member) -> str:
+def for_editors(member: ResolvedMember) -> str:
     """What an editor shows below the parameter's documentation, with the names of an enum in lines of their own."""
     kind = in_words(member.type)
     facts = [kind[0].upper() + kind[1:]] if not member.is_group else []
@@ -129,7 +129,7 @@ def for_editors(member: Member) -> str:
     return text
 
 
-def for_documents(member: Member) -> str:
+def for_documents(member: ResolvedMember) -> str:
     """What stands above a parameter in a first document."""
     facts = [in_words(member.type)]
     facts += ["may be left out"] if member.optional else []
@@ -137,7 +137,7 @@ def for_documents(member: Member) -> str:
     return "; ".join(facts)
 
 
-def for_code(member: Member) -> str:
+def for_code(member: ResolvedMember) -> str:
     """What stands at an accessor, in one line; '' where there is nothing to say."""
     found = limits_in_words(member.type)
     if not found and (unit := unit_of(member.type)):

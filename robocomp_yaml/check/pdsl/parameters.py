@@ -14,7 +14,7 @@ from robocomp_yaml.link.program import Program
 from robocomp_yaml.model.names import is_identifier
 from robocomp_yaml.parameters.defaults import defaults
 from robocomp_yaml.parameters.expressions import evaluate
-from robocomp_yaml.parameters.types import Member, Parameters, RecordType
+from robocomp_yaml.parameters.types import Parameters, RecordType, ResolvedMember
 from robocomp_yaml.parameters.verdict.specification import default_faults, spelling_faults
 
 Languages = tuple[TargetLanguage, ...]
@@ -38,7 +38,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 def _names(record: RecordType, known: Languages) -> Iterator[Diagnostic]:
     """Of a record, and of the groups in it."""
-    names: dict[tuple[str, str], Member] = {}
+    names: dict[tuple[str, str], ResolvedMember] = {}
     for member in record.members:
         if member.is_group and isinstance(member.type, RecordType):
             yield from _names(member.type, known)

@@ -13,8 +13,8 @@ from robocomp_yaml.link.attachments import leads_to
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues, Program
 from robocomp_yaml.model.build_interface import entries
 from robocomp_yaml.parameters.layers.effective import Effective, document_faults
-from robocomp_yaml.parameters.writing.harmless import is_harmless
 from robocomp_yaml.parameters.writing.properties import properties
+from robocomp_yaml.parameters.writing.writable import is_surely_writable
 from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source.ice_endpoint import parse_endpoints
 from robocomp_yaml.source.ice_options import Refused
@@ -92,7 +92,7 @@ def is_only_layer(linked: LinkedValues) -> bool:
 def is_plain(linked: LinkedValues, values: Effective) -> bool:
     """Whether nothing stands there but parameters, none of which can be trouble."""
     given = {key for layer in linked.layers() for key in layer.document.root.entries}
-    return given <= {"component", "doc", "extends", "parameters"} and is_harmless(values.parameters, values.data)
+    return given <= {"component", "doc", "extends", "parameters"} and is_surely_writable(values.parameters, values.data)
 
 
 def _layers(linked: LinkedValues) -> Iterator[Diagnostic]:

@@ -29,9 +29,9 @@ from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,
-    Member,
     Parameters,
     RecordType,
+    ResolvedMember,
 )
 from robocomp_yaml.transactions.plan import FilePlan
 
@@ -181,7 +181,7 @@ class _Types(Types):
             [self.member(member, group) for member in record.members],
         )
 
-    def member(self, member: Member, group: str | None) -> MemberView:
+    def member(self, member: ResolvedMember, group: str | None) -> MemberView:
         """`group` is the path of the group that it stands in, None in a struct."""
         inner = path_of(member, group)
         name, key = LANGUAGE.in_code(member.code_name), string(member.name)
@@ -195,11 +195,11 @@ class _Types(Types):
             write=f"runtime::putMember(made, {key}, value.{name});",
         )
 
-    def member_type(self, member: Member, group: str | None) -> str:
+    def member_type(self, member: ResolvedMember, group: str | None) -> str:
         made = self.spelled(member.type, group)
         return f"std::optional<{made}>" if member.optional else made
 
-    def initial(self, member: Member) -> str:
+    def initial(self, member: ResolvedMember) -> str:
         """What stands there before the config is read, and in a record that code makes."""
         data = member.default.data if member.default is not None else None
         match member.type:
@@ -235,7 +235,7 @@ class _Types(Types):
                 [_setter(*setter) for setter in setters],
             )
 
-    def argument(self, member: Member) -> str:
+    def argument(self, member: ResolvedMember) -> str:
         made = self.member_type(member, None)
         is_small = isinstance(member.type, BasicType | EnumType) and made != "std::string" and not member.optional
         return made if is_small else f"const {made}&"

@@ -30,9 +30,9 @@ from robocomp_yaml.parameters.types import (
     EnumType,
     ListType,
     MapType,
-    Member,
     Parameters,
     RecordType,
+    ResolvedMember,
     Type,
     is_secret,
 )
@@ -182,7 +182,7 @@ class _Types(Types):
             ],
         )
 
-    def member(self, member: Member, group: str | None) -> MemberView:
+    def member(self, member: ResolvedMember, group: str | None) -> MemberView:
         """`group` is the path of the group that it stands in, None in a struct."""
         inner = path_of(member, group)
         name, key = LANGUAGE.in_code(member.code_name), literal(member.name)
@@ -198,7 +198,7 @@ class _Types(Types):
             kind=_BUILDERS.member(f"new Member({key}", member, self.functions, inner),
         )
 
-    def member_type(self, member: Member, group: str | None) -> str:
+    def member_type(self, member: ResolvedMember, group: str | None) -> str:
         if member.optional:
             return f"java.util.Optional<{self.spelled(member.type, group, boxed=True)}>"
         return self.spelled(member.type, group)

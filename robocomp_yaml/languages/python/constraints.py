@@ -18,10 +18,10 @@ from robocomp_yaml.parameters.specification.expression import (
     Each,
     Expression,
     Index,
-    Listing,
-    Literal,
+    ListExpression,
+    LiteralExpression,
     Logic,
-    Name,
+    NameExpression,
     Unary,
 )
 from robocomp_yaml.parameters.types import ListType, MapType, RecordType
@@ -47,12 +47,12 @@ class _Writer(msgspec.Struct, frozen=True):
 
     def code(self, expression: Expression) -> Code:
         match expression:
-            case Literal(value=value):
+            case LiteralExpression(value=value):
                 return Code(literal(value))
-            case Listing(items=items):
+            case ListExpression(items=items):
                 parts = [self.code(item) for item in items]
                 return Code(f"({_joined(parts)},)", _any_may(parts))
-            case Name(name=name):
+            case NameExpression(name=name):
                 return self.name(name)
             case Attribute(of=of, name=name):
                 return self.attribute(of, name)

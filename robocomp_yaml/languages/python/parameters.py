@@ -23,15 +23,15 @@ from robocomp_yaml.emit.render import render
 from robocomp_yaml.languages.python import LANGUAGE
 from robocomp_yaml.languages.python.text import docstring, literal, one_line
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.parameters.specification.document import Spelling as PropertySpelling
+from robocomp_yaml.parameters.specification.document import LegacySpelling as PropertySpelling
 from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,
     ListType,
     MapType,
-    Member,
     Parameters,
     RecordType,
+    ResolvedMember,
     Size,
     Type,
 )
@@ -148,7 +148,7 @@ class _Types(Types):
             [self.member(member, group) for member in record.members],
         )
 
-    def member(self, member: Member, group: str | None) -> MemberView:
+    def member(self, member: ResolvedMember, group: str | None) -> MemberView:
         """`group` is the path of the group that it stands in, None in a struct."""
         inner = path_of(member, group)
         arguments = [self.kind(member.type, inner)]

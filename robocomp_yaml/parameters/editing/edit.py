@@ -32,7 +32,7 @@ class NotEditable(Exception):
         self.node = node
 
 
-class Change(msgspec.Struct, frozen=True):
+class DocumentEdit(msgspec.Struct, frozen=True):
     """`text` is the whole document after the change; `was` what stood there before, or ''."""
 
     text: str
@@ -42,7 +42,7 @@ class Change(msgspec.Struct, frozen=True):
 def set_value(
     path: str, text: str, root: Mapping, steps: list[Step], new: str, *, is_text: bool,
     lines_above: Callable[[list[Step]], Collection[str]] = lambda steps: (),
-) -> Change:  # fmt: skip
+) -> DocumentEdit:  # fmt: skip
     """The document with another value at `steps` (from its top; numbers are places in lists, and the one behind the
     last is a new entry); `new` is YAML on one line, or the text itself where `is_text`. `lines_above` gives the
     comments of which one stands above the line of a value that is left out. Raises NotEditable."""
@@ -108,7 +108,7 @@ def _same_but(before: object, after: object, steps: list[Step]) -> bool:
     return False
 
 
-def _replace(text: str, node: Node, key: Scalar | None, new: str, is_text: bool) -> Change:
+def _replace(text: str, node: Node, key: Scalar | None, new: str, is_text: bool) -> DocumentEdit:
     start, end = node.start, node.end
     if key is not None and start < key.end:
         raise NotEditable("the value is an alias of another one", key)
@@ -123,22 +123,22 @@ def _replace(text: str, node: Node, key: Scalar | None, new: str, is_text: bool)
         spelled = new
         if is_text:
             spelled = quoted(new) if old[0] == '"' else single_quoted(new) if old[0] == "'" else scalar(new)
-        return Change(text[:start] + spelled + text[end:], old)
+        return DocumentEdit(text[:start] + spelled + text[end:], old)
     if old[0] not in "[{":
         raise NotEditable("the value fills several lines; change what it holds, or write it in the document", node)
-    return Change(text[:start] + (scalar(new) if is_text else new) + text[end:], old)
+    return DocumentEdit(text[:start] + (scalar(new) if is_text else new) + text[end:], old)
 
 
-def _fill(text: str, node: Node, key: Scalar | None, new: str) -> Change:
+def _fill(text: str, node: Node, key: Scalar | None, new: str) -> DocumentEdit:
     if key is None:
         raise NotEditable("the entry is empty", node)
     colon = _COLON.match(text, key.end)
     if colon is None:
         raise NotEditable("the key has no value", key)
-    return Change(f"{text[: colon.end()]} {new}{text[colon.end() :]}", "")
+    return DocumentEdit(f"{text[: colon.end()]} {new}{text[colon.end() :]}", "")
 
 
-def _insert(text: str, node: Node, key: Scalar | None, steps: list[Step], new: str) -> Change:
+def _insert(text: str, node: Node, key: Scalar | None, steps: list[Step], new: str) -> DocumentEdit:
     """A new entry in a mapping or list, or the first one below a key that has nothing behind it."""
     if isinstance(node, Sequence) and isinstance(steps[0], int):
         return _append(text, node, key, steps[1:], new)
@@ -148,7 +148,7 @@ def _insert(text: str, node: Node, key: Scalar | None, steps: list[Step], new: s
             raise NotEditable("there is no mapping here to add to", node)
         at = _end_of_line(text, colon.end())
         indent = " " * _inside(text, key)
-        return Change(text[:at] + _line_end(text) + _block(steps, new, indent, _line_end(text)) + text[at:], "")
+        return DocumentEdit(text[:at] + _line_end(text) + _block(steps, new, indent, _line_end(text)) + text[at:], "")
     if not isinstance(node, Mapping) or not isinstance(steps[0], str):
         what = "list" if isinstance(steps[0], int) else "mapping"
         raise NotEditable(f"there is no {what} here to add to", node)
@@ -158,15 +158,15 @@ def _insert(text: str, node: Node, key: Scalar | None, steps: list[Step], new: s
     if text[node.start : node.start + 1] == "{":
         entry = _flow(steps, new)
         at = node.start + 1 if last is None else last
-        return Change(text[:at] + (f", {entry}" if last is not None else entry) + text[at:], "")
+        return DocumentEdit(text[:at] + (f", {entry}" if last is not None else entry) + text[at:], "")
     first_key = next(iter(node.entries.values()))[0]
     indent = " " * (first_key.span.column - 1)
     assert last is not None
     line_end = _line_end(text)
     if text[:last].endswith("\n"):  # behind a text of several lines
-        return Change(text[:last] + _block(steps, new, indent, line_end) + line_end + text[last:], "")
+        return DocumentEdit(text[:last] + _block(steps, new, indent, line_end) + line_end + text[last:], "")
     at = _behind_comments(text, _end_of_line(text, last), len(indent))
-    return Change(text[:at] + line_end + _block(steps, new, indent, line_end) + text[at:], "")
+    return DocumentEdit(text[:at] + line_end + _block(steps, new, indent, line_end) + text[at:], "")
 
 
 def _behind_comments(text: str, at: int, indent: int) -> int:
@@ -206,24 +206,24 @@ def _inside(text: str, key: Scalar) -> int:
     return len(line["indent"]) if line is not None and is_inside else outer + 2
 
 
-def _uncommented(text: str, line: re.Match[str], steps: list[Step], new: str) -> Change:
+def _uncommented(text: str, line: re.Match[str], steps: list[Step], new: str) -> DocumentEdit:
     block = _block(steps, new, line["indent"], _line_end(text))
-    return Change(text[: line.start("indent")] + block + text[line.end("body") :], "")
+    return DocumentEdit(text[: line.start("indent")] + block + text[line.end("body") :], "")
 
 
-def _append(text: str, node: Sequence, key: Scalar | None, steps: list[Step], new: str) -> Change:
+def _append(text: str, node: Sequence, key: Scalar | None, steps: list[Step], new: str) -> DocumentEdit:
     """A new entry behind the last one of a list."""
     if key is not None and node.start < key.end:
         raise NotEditable("the list is an alias of another one", key)
     entry = f"{{{_flow(steps, new)}}}" if steps else new
     if text[node.start : node.start + 1] == "[":
         at = node.items[-1].end if node.items else node.start + 1
-        return Change(text[:at] + (f", {entry}" if node.items else entry) + text[at:], "")
+        return DocumentEdit(text[:at] + (f", {entry}" if node.items else entry) + text[at:], "")
     last = end_of(node)
     if node.items[-1].data is None or text[:last].endswith("\n"):
         raise NotEditable("the last entry is empty, or a text of several lines", node)
     at, indent = _end_of_line(text, last), " " * (node.span.column - 1)
-    return Change(f"{text[:at]}{_line_end(text)}{indent}- {entry}{text[at:]}", "")
+    return DocumentEdit(f"{text[:at]}{_line_end(text)}{indent}- {entry}{text[at:]}", "")
 
 
 def _end_of_line(text: str, at: int) -> int:

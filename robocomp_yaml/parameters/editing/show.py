@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from robocomp_yaml import secrets
 from robocomp_yaml.parameters.hidden import hidden, holds_secret
 from robocomp_yaml.parameters.layers.effective import Effective
-from robocomp_yaml.parameters.layers.merge import Place, Where, child, node_of, step
+from robocomp_yaml.parameters.layers.merge import MergedValue, Origin, child, node_of, step
 from robocomp_yaml.parameters.types import (
     BasicType,
     ListType,
@@ -83,7 +83,7 @@ def hidden_text(root: RecordType, steps: list[str], text: str) -> str:
 
 
 def _record(
-    type_: RecordType, data: dict[str, Any], where: Where, default: Node | None, path: Path, editable: bool
+    type_: RecordType, data: dict[str, Any], where: Origin, default: Node | None, path: Path, editable: bool
 ) -> Iterator[Value]:
     for member in type_.members:
         if member.name in data:
@@ -94,7 +94,7 @@ def _record(
             yield from _value(member.type, data[member.name], given, node_of(fallback), inner, is_editable)
 
 
-def _value(type_: Type, data: Any, where: Where, default: Node | None, path: Path, editable: bool) -> Iterator[Value]:
+def _value(type_: Type, data: Any, where: Origin, default: Node | None, path: Path, editable: bool) -> Iterator[Value]:
     if isinstance(type_, RecordType) and isinstance(data, dict):
         yield from _record(type_, data, where, default, path, editable)
     elif isinstance(type_, ListType | MapType) and data:
@@ -107,16 +107,16 @@ def _value(type_: Type, data: Any, where: Where, default: Node | None, path: Pat
         spelled = default if node is None else node
         as_spelled = isinstance(spelled, Scalar) and spelled.data == data and not isinstance(data, str)
         text = spelled.lexeme if as_spelled else flow(data)  # type: ignore[union-attr]
-        overrode = where.overrode if isinstance(where, Place) else ()
+        overrode = where.overrode if isinstance(where, MergedValue) else ()
         yield Value(in_words(path), data, text, unit_of(type_), editable, node, default, overrode, type_, path)
 
 
-def _below(where: Where, name: Step) -> Where:
+def _below(where: Origin, name: Step) -> Origin:
     """One step down, with what the same place of the overridden lists was."""
     inner = step(where, name)
-    if isinstance(where, Place) and inner is not None and not isinstance(inner, Place) and where.overrode:
+    if isinstance(where, MergedValue) and inner is not None and not isinstance(inner, MergedValue) and where.overrode:
         earlier = tuple(found[1] for node in where.overrode if (found := child(node, name)) is not None)
-        return Place(inner, None, None, earlier)
+        return MergedValue(inner, None, None, earlier)
     return inner
 
 

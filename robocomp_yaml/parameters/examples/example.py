@@ -12,7 +12,7 @@ from robocomp_yaml.parameters.types import (
     EnumType,
     ListType,
     MapType,
-    Member,
+    ResolvedMember,
     ScalarType,
     Size,
     Type,
@@ -26,7 +26,7 @@ _MOST = 16  # different values that are thought of
 _LARGEST = 1024  # entries of an example
 
 
-def example(member: Member) -> object:
+def example(member: ResolvedMember) -> object:
     if isinstance(member.type, BasicType | EnumType) and member.type.secret:
         return reference(member.name)
     if member.default is not None and not is_secret(member.type):

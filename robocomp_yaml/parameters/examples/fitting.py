@@ -15,11 +15,11 @@ import msgspec
 from robocomp_yaml.parameters.specification import expression
 from robocomp_yaml.parameters.types import (
     BasicType,
-    Constraint,
+    ResolvedConstraint,
     EnumType,
     ListType,
     MapType,
-    Member,
+    ResolvedMember,
     Parameters,
     RecordType,
     ScalarType,
@@ -118,7 +118,7 @@ class _Slot(msgspec.Struct):
 class _Search:
     """`base` are the values that stand already, by path."""
 
-    def __init__(self, parameters: Parameters, members: Mapping[Path, Member], base: dict[Path, Any]) -> None:
+    def __init__(self, parameters: Parameters, members: Mapping[Path, ResolvedMember], base: dict[Path, Any]) -> None:
         self.parameters, self.members, self.base = parameters, members, base
         said = [literal for each in parameters.constraints for literal in _literals(each.expression)]
         said += [member.default.data for member in members.values() if member.default is not None]
@@ -169,7 +169,7 @@ class _Search:
         self,
         shapes: dict[Path, Any],
         optional: Sequence[Path],
-        constraints: Sequence[Constraint],
+        constraints: Sequence[ResolvedConstraint],
         both: Mapping[Path, Any] | None,
     ) -> dict[Path, Any] | None:
         data = {path: shape for path, shape in shapes.items() if path not in optional}
@@ -222,7 +222,7 @@ class _Search:
 
         return dict(data) if search(0) else None
 
-    def _hold(self, constraints: Sequence[Constraint], base: Mapping[Path, Any], more: Mapping[Path, Any]) -> bool:
+    def _hold(self, constraints: Sequence[ResolvedConstraint], base: Mapping[Path, Any], more: Mapping[Path, Any]) -> bool:
         if not constraints:
             return True
         root = self.parameters.root
@@ -355,7 +355,7 @@ def _is_named(code: Path, named: Sequence[Path]) -> bool:
 
 def _literals(part: object) -> Iterator[object]:
     """The values that an expression holds."""
-    if isinstance(part, expression.Literal):
+    if isinstance(part, expression.LiteralExpression):
         yield part.value
     elif isinstance(part, msgspec.Struct):
         for name in part.__struct_fields__:

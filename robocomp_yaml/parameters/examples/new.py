@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from robocomp_yaml.parameters.types import Member, Parameters, RecordType
+from robocomp_yaml.parameters.types import ResolvedMember, Parameters, RecordType
 from robocomp_yaml.semantics.paths import Step
 from robocomp_yaml.parameters.examples.fitting import Fitted, fitted
 from robocomp_yaml.source.yaml_text import comment, flow, scalar
@@ -57,7 +57,7 @@ def _record(record: RecordType, indent: str, above: tuple[str, ...], found: Fitt
             yield f"{indent}# {name}:"
 
 
-def _about(member: Member, indent: str) -> Iterator[str]:
+def _about(member: ResolvedMember, indent: str) -> Iterator[str]:
     for line in member.documentation.strip().splitlines():
         yield indent + comment(line)
     if not member.is_group:

@@ -17,10 +17,10 @@ from robocomp_yaml.parameters.specification.expression import (
     Each,
     Expression,
     Index,
-    Listing,
-    Literal,
+    ListExpression,
+    LiteralExpression,
     Logic,
-    Name,
+    NameExpression,
     Unary,
 )
 from robocomp_yaml.parameters.types import ListType, MapType, RecordType, Type
@@ -37,16 +37,16 @@ def holds(expression: Expression, data: Mapping[str, Any]) -> bool:
 
 def value(expression: Expression, scope: Mapping[str, Any]) -> Any:
     match expression:
-        case Literal(value=literal):
+        case LiteralExpression(value=literal):
             return literal
-        case Name(name=name):
+        case NameExpression(name=name):
             return _known(scope.get(name))
         case Attribute(of=of, name=name):
             owner = value(of, scope)
             return None if owner is None else _known(owner.get(name))
         case Index(of=of, index=index):
             return _known(constraints.entry(value(of, scope), value(index, scope)))
-        case Listing(items=items):
+        case ListExpression(items=items):
             return tuple(value(item, scope) for item in items)
         case Unary(operator="not", operand=operand):
             return constraints.opposite(value(operand, scope))
@@ -74,7 +74,7 @@ def _known(data: Any) -> Any:
 
 def _has(asked: Expression | Each, scope: Mapping[str, Any]) -> Any:
     """Whether there is a value: one that a reference stands for is not known, but there."""
-    if isinstance(asked, Name):
+    if isinstance(asked, NameExpression):
         return scope.get(asked.name) is not None
     if not isinstance(asked, Attribute | Index):
         return not isinstance(asked, Each) and value(asked, scope) is not None
@@ -144,7 +144,7 @@ def _renamed(type_: Type, data: Any) -> Any:
 def paths(expression: object) -> Iterator[tuple[str, ...]]:
     """The parameters that an expression names, in order: `motors`, `Yolo.use_gpu`."""
     match expression:
-        case Name(name=name):
+        case NameExpression(name=name):
             yield (name,)
         case Attribute(of=of, name=name):
             yield from ((*path, name) for path in paths(of))
@@ -157,7 +157,7 @@ def paths(expression: object) -> Iterator[tuple[str, ...]]:
             yield from paths(second)
         case Unary(operand=operand):
             yield from paths(operand)
-        case Listing(items=parts) | Logic(operands=parts) | Call(arguments=parts):
+        case ListExpression(items=parts) | Logic(operands=parts) | Call(arguments=parts):
             for part in parts:
                 yield from paths(part)
         case Compare(first=first, rest=rest):

@@ -15,12 +15,12 @@ from robocomp_yaml.parameters.specification.expression import (
     Compare,
     Each,
     Expression,
+    ExpressionError,
     Index,
-    Listing,
-    Literal,
+    ListExpression,
+    LiteralExpression,
     Logic,
-    Name,
-    NotInLanguage,
+    NameExpression,
     Unary,
 )
 from robocomp_yaml.parameters.types import (
@@ -63,10 +63,10 @@ def find_member(record: RecordType, name: str) -> Type | None:
 
 
 def check_constraint(expression: Expression, root: RecordType) -> None:
-    """Raises NotInLanguage for what has no meaning, at its place."""
+    """Raises ExpressionError for what has no meaning, at its place."""
     type_ = type_of(expression, Scope(root))
     if not is_bool(type_):
-        raise NotInLanguage(f"a constraint is true or false, and this is {in_brief(type_)}", 0, "compare it: … > 0")
+        raise ExpressionError(f"a constraint is true or false, and this is {in_brief(type_)}", 0, "compare it: … > 0")
 
 
 def is_bool(type_: Type) -> bool:
@@ -83,15 +83,15 @@ def comparable(one: Type, other: Type) -> bool:
 
 
 def type_of(expression: Expression, scope: Scope) -> Type:
-    """The type of an expression. Raises NotInLanguage."""
+    """The type of an expression. Raises ExpressionError."""
     match expression:
-        case Literal(value=bool()):
+        case LiteralExpression(value=bool()):
             return BOOL
-        case Literal(value=str()):
+        case LiteralExpression(value=str()):
             return TEXT
-        case Literal(value=value):
+        case LiteralExpression(value=value):
             return WHOLE if isinstance(value, int) else NUMBER
-        case Name(name=name, at=at):
+        case NameExpression(name=name, at=at):
             found = scope.find(name)
             if found is None:
                 raise _unknown(name, scope.names, at)
@@ -100,7 +100,7 @@ def type_of(expression: Expression, scope: Scope) -> Type:
             return _attribute(type_of(of, scope), name, at)
         case Index():
             return _index(expression, scope)
-        case Listing(items=items, at=at):
+        case ListExpression(items=items, at=at):
             return _listing(items, scope, at)
         case Unary(operator=operator, operand=operand):
             wanted = is_bool if operator == "not" else is_number
@@ -122,19 +122,19 @@ def type_of(expression: Expression, scope: Scope) -> Type:
 def _want(expression: Expression, fits: object, wanted: str, where: str, scope: Scope) -> Type:
     found = type_of(expression, scope)
     if not fits(found):  # type: ignore[operator]
-        raise NotInLanguage(f"'{where}' needs {wanted} here, and this is {in_brief(found)}", expression.at)
+        raise ExpressionError(f"'{where}' needs {wanted} here, and this is {in_brief(found)}", expression.at)
     return found
 
 
-def _unknown(name: str, known: list[str], at: int, of: str = "parameter") -> NotInLanguage:
+def _unknown(name: str, known: list[str], at: int, of: str = "parameter") -> ExpressionError:
     hint = did_you_mean(name, known, otherwise=f"there are: {', '.join(known[:20])}")
-    return NotInLanguage(f"there is no {of} '{name}'", at, hint)
+    return ExpressionError(f"there is no {of} '{name}'", at, hint)
 
 
 def _attribute(owner: Type, name: str, at: int) -> Type:
     if not isinstance(owner, RecordType):
         hint = "take an entry with [0], or go through them with 'for'" if isinstance(owner, ListType) else ""
-        raise NotInLanguage(f"{in_brief(owner)} has no members, so no '{name}'", at, hint)
+        raise ExpressionError(f"{in_brief(owner)} has no members, so no '{name}'", at, hint)
     found = find_member(owner, name)
     if found is None:
         raise _unknown(name, [member.code_name for member in owner.members], at, "member")
@@ -146,21 +146,21 @@ def _index(expression: Index, scope: Scope) -> Type:
     if isinstance(owner, ListType):
         index = expression.index
         if isinstance(index, Unary) or not (isinstance(found := type_of(index, scope), BasicType) and found.is_integer):
-            raise NotInLanguage("an entry of a list is taken by its number, from 0", index.at)
+            raise ExpressionError("an entry of a list is taken by its number, from 0", index.at)
         return owner.element
     if isinstance(owner, MapType):
         _want(expression.index, is_text, "text", "[]", scope)
         return owner.element
-    raise NotInLanguage(f"{in_brief(owner)} has no entries", expression.at)
+    raise ExpressionError(f"{in_brief(owner)} has no entries", expression.at)
 
 
 def _listing(items: tuple[Expression, ...], scope: Scope, at: int) -> Type:
     types = [type_of(item, scope) for item in items]
     if not types:
-        raise NotInLanguage("an empty list holds nothing to compare with", at)
+        raise ExpressionError("an empty list holds nothing to compare with", at)
     for item, type_ in zip(items, types, strict=True):
         if not comparable(types[0], type_):
-            raise NotInLanguage(f"{in_brief(type_)} stands beside {in_brief(types[0])}", item.at)
+            raise ExpressionError(f"{in_brief(type_)} stands beside {in_brief(types[0])}", item.at)
     return ListType(types[0])
 
 
@@ -170,33 +170,35 @@ def _compare(expression: Compare, scope: Scope) -> Type:
         right = type_of(node, scope)
         if operator in ("in", "not in"):
             if not isinstance(right, ListType | MapType):
-                raise NotInLanguage(f"'{operator}' needs a list or a map here, and this is {in_brief(right)}", node.at)
+                raise ExpressionError(
+                    f"'{operator}' needs a list or a map here, and this is {in_brief(right)}", node.at
+                )
             inner = right.element if isinstance(right, ListType) else TEXT
             _same(left, inner, left_node, node, operator)
-            if isinstance(node, Listing):
+            if isinstance(node, ListExpression):
                 for item in node.items:
                     _same(left, type_of(item, scope), left_node, item, operator)
         else:
             _same(left, right, left_node, node, operator)
             if operator in ("<", "<=", ">", ">=") and not (is_number(left) and is_number(right)):
-                raise NotInLanguage(f"'{operator}' compares numbers, and this is {in_brief(left)}", left_node.at)
+                raise ExpressionError(f"'{operator}' compares numbers, and this is {in_brief(left)}", left_node.at)
         left_node, left = node, right
     return BOOL
 
 
 def _same(left: Type, right: Type, left_node: Expression, right_node: Expression, operator: str) -> None:
     if not comparable(left, right):
-        raise NotInLanguage(f"'{operator}' cannot compare {in_brief(left)} with {in_brief(right)}", right_node.at)
+        raise ExpressionError(f"'{operator}' cannot compare {in_brief(left)} with {in_brief(right)}", right_node.at)
     for type_, node in ((left, right_node), (right, left_node)):
-        if isinstance(type_, EnumType) and isinstance(node, Literal) and node.value not in type_.names:
+        if isinstance(type_, EnumType) and isinstance(node, LiteralExpression) and node.value not in type_.names:
             raise _unknown(str(node.value), list(type_.names), node.at, f"enumerator of {type_.name}")
 
 
 def _call(call: Call, scope: Scope) -> Type:
     function, first = call.function, call.arguments[0]
     if function == "has":
-        if not isinstance(first, Name | Attribute | Index):
-            raise NotInLanguage("has() asks whether a parameter has a value", call.at)
+        if not isinstance(first, NameExpression | Attribute | Index):
+            raise ExpressionError("has() asks whether a parameter has a value", call.at)
         type_of(first, scope)
         return BOOL
     if isinstance(first, Each):
@@ -213,7 +215,7 @@ def _call(call: Call, scope: Scope) -> Type:
         if function in _OF_ONE:
             return _of_one(function, operand, first)
         if not isinstance(operand, ListType):
-            raise NotInLanguage(f"{function}() needs a list here, and this is {in_brief(operand)}", first.at)
+            raise ExpressionError(f"{function}() needs a list here, and this is {in_brief(operand)}", first.at)
         element = operand.element
     return _of_many(function, element, first)
 
@@ -229,30 +231,30 @@ def _of_one(function: str, operand: Type, node: Expression) -> Type:
     if function in ("keys", "values") and isinstance(operand, MapType):
         return ListType(TEXT if function == "keys" else operand.element)
     wanted = {"abs": "a number", "len": "a list or a map"}.get(function, "a map")
-    raise NotInLanguage(f"{function}() needs {wanted} here, and this is {in_brief(operand)}", node.at)
+    raise ExpressionError(f"{function}() needs {wanted} here, and this is {in_brief(operand)}", node.at)
 
 
 def _of_many(function: str, element: Type, node: Expression | Each) -> Type:
     at = node.element.at if isinstance(node, Each) else node.at
     if function in ("all", "any"):
         if not is_bool(element):
-            raise NotInLanguage(f"{function}() needs true or false here, and this is {in_brief(element)}", at)
+            raise ExpressionError(f"{function}() needs true or false here, and this is {in_brief(element)}", at)
         return BOOL
     if function == "unique":
         if not isinstance(element, BasicType | EnumType):
-            raise NotInLanguage(f"unique() needs plain values, and this is {in_brief(element)}", at)
+            raise ExpressionError(f"unique() needs plain values, and this is {in_brief(element)}", at)
         return BOOL
     if not is_number(element):
-        raise NotInLanguage(f"{function}() needs numbers, and this is {in_brief(element)}", at)
+        raise ExpressionError(f"{function}() needs numbers, and this is {in_brief(element)}", at)
     return element
 
 
 def _each(each: Each, scope: Scope) -> Type:
     source = type_of(each.source, scope)
     if isinstance(source, MapType):
-        raise NotInLanguage("a 'for' goes through a list", each.source.at, "write keys(…) or values(…) of a map")
+        raise ExpressionError("a 'for' goes through a list", each.source.at, "write keys(…) or values(…) of a map")
     if not isinstance(source, ListType):
-        raise NotInLanguage(f"a 'for' goes through a list, and this is {in_brief(source)}", each.source.at)
+        raise ExpressionError(f"a 'for' goes through a list, and this is {in_brief(source)}", each.source.at)
     inner = scope.with_variable(each.variable, source.element)
     if each.condition is not None:
         _want(each.condition, is_bool, "true or false", "if", inner)

@@ -15,7 +15,7 @@ from typing import Any
 from robocomp_yaml.parameters.defaults import defaults
 from robocomp_yaml.parameters.documents import ResolvedParameters
 from robocomp_yaml.parameters.json_schema import COMPLETE, fits, gate_of_complete
-from robocomp_yaml.parameters.types import BasicType, ListType, MapType, Member, RecordType, Type
+from robocomp_yaml.parameters.types import BasicType, ListType, MapType, RecordType, ResolvedMember, Type
 
 Data = dict[str, Any]
 Completer = Callable[[Any], Any]
@@ -54,7 +54,7 @@ def _completer(type_: Type) -> Completer | None:
             inner = _completer(element)
             return None if inner is None else partial(_entries, inner)
         case RecordType(members=members) if any(m.default is not None or _completer(m.type) for m in members):
-            return _Records(type_).complete
+            return _RecordCompleter(type_).complete
         case _:
             return None
 
@@ -65,7 +65,7 @@ def _entries(inner: Completer, value: Any) -> Any:
     return [inner(item) for item in value]
 
 
-class _Records:
+class _RecordCompleter:
     """Completes records of a type. `added` is what those with these keys lacked."""
 
     def __init__(self, type_: RecordType) -> None:
@@ -94,7 +94,7 @@ def _rules(record: RecordType) -> Data:
     return {member.name: _rules_of(member.type) | _default(member) for member in record.members}
 
 
-def _default(member: Member) -> Data:
+def _default(member: ResolvedMember) -> Data:
     data = {} if member.is_group else None if member.default is None else member.default.data
     return {} if data is None else {"default_setter": lambda document: copy.deepcopy(data)}
 

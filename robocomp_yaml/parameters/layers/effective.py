@@ -13,7 +13,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.parameters.documents import LayeredValues, ResolvedParameters
 from robocomp_yaml.parameters.json_schema import DOCUMENT, EFFECTIVE, fits
 from robocomp_yaml.parameters.layers.completion import complete_at_once, completed
-from robocomp_yaml.parameters.layers.merge import Place, data_of, merged, section
+from robocomp_yaml.parameters.layers.merge import MergedValue, data_of, merged, section
 from robocomp_yaml.parameters.types import MapType, Parameters, RecordType, Type
 from robocomp_yaml.parameters.verdict.judge import judge, missing, wrong_size
 from robocomp_yaml.parameters.verdict.specification import is_usable
@@ -27,7 +27,7 @@ class Effective(msgspec.Struct, frozen=True):
     reads them shares them."""
 
     data: dict[str, Any]
-    place: Place | None
+    place: MergedValue | None
     parameters: Parameters
 
 
@@ -79,7 +79,7 @@ def _not_misspelled(found: list[Diagnostic], missing_ones: Iterable[Diagnostic])
     return [fault for fault in missing_ones if fault.fact("path") not in meant]
 
 
-def _incomplete(type_: Type, place: Place | None, path: Path, head: Span) -> Iterator[Diagnostic]:
+def _incomplete(type_: Type, place: MergedValue | None, path: Path, head: Span) -> Iterator[Diagnostic]:
     """What is missing from merged values, and maps whose merged size is wrong."""
     if place is not None and place.key is not None:
         head = place.key.span
@@ -100,7 +100,7 @@ def _incomplete(type_: Type, place: Place | None, path: Path, head: Span) -> Ite
             yield from _incomplete(type_.element, entry, (*path, name), head)
 
 
-def _incomplete_node(type_: Type, place: Place, path: Path, head: Span) -> Iterator[Diagnostic]:
+def _incomplete_node(type_: Type, place: MergedValue, path: Path, head: Span) -> Iterator[Diagnostic]:
     """Inside of a list nothing merges: each entry is judged as it stands, but for null."""
     for fault in judge(type_, _given(place.node), path, complete=True, key=place.key):
         if fault.code in (codes.MISSING.id, codes.WRONG_SIZE.id):
@@ -116,7 +116,7 @@ def _given(node: Node) -> Node:
 
 
 def _broken_constraints(
-    parameters: Parameters, data: dict[str, Any], place: Place | None, head: Span
+    parameters: Parameters, data: dict[str, Any], place: MergedValue | None, head: Span
 ) -> Iterator[Diagnostic]:
     if not parameters.constraints:
         return
@@ -131,7 +131,7 @@ def _broken_constraints(
             )
 
 
-def _concerned(root: RecordType, expression: object, place: Place | None) -> Span | None:
+def _concerned(root: RecordType, expression: object, place: MergedValue | None) -> Span | None:
     """The first value that a constraint names and that a document gives."""
     from robocomp_yaml.parameters.expressions import evaluate
 

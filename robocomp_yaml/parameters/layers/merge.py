@@ -17,35 +17,35 @@ from robocomp_yaml.semantics.paths import Step
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 
-class Place(msgspec.Struct, frozen=True):
+class MergedValue(msgspec.Struct, frozen=True):
     """A merged value. `node` is what the last layer says (of a merged mapping: its last one), `key` the key it stands
     behind; `entries` are those of a merged mapping, None for lists and plain values. `overrode` are the nodes of
     earlier layers that it replaces, the latest first."""
 
     node: Node
     key: Scalar | None
-    entries: dict[str, Place] | None = None
+    entries: dict[str, MergedValue] | None = None
     overrode: tuple[Node, ...] = ()
 
 
-Given = tuple[Scalar | None, Node]
-Where = Place | Node | None
+LayerEntry = tuple[Scalar | None, Node]
+Origin = MergedValue | Node | None
 """Where a value stands, if anywhere: among merged ones, or inside of one that is not merged."""
 
 
-def merged(values: LayeredValues) -> Place | None:
+def merged(values: LayeredValues) -> MergedValue | None:
     """What the layers say under `parameters:`, merged by the types; None where they say nothing."""
     assert values.parameters is not None
     return merge(values.parameters.parameters.root, [given for layer in values.layers() for given in section(layer)])
 
 
-def section(values: LayeredValues) -> list[Given]:
+def section(values: LayeredValues) -> list[LayerEntry]:
     """What a document itself has under `parameters:`: one entry, or none."""
     entry = values.document.root.entries.get("parameters")
     return [entry] if entry is not None and isinstance(entry[1], Mapping) else []
 
 
-def merge(type_: Type, given: Iterable[Given]) -> Place | None:
+def merge(type_: Type, given: Iterable[LayerEntry]) -> MergedValue | None:
     """One value of several layers, the most general first."""
     layers = list(given)
     for index in range(len(layers) - 1, -1, -1):
@@ -56,11 +56,11 @@ def merge(type_: Type, given: Iterable[Given]) -> Place | None:
         return None
     key, top = layers[-1]
     if not isinstance(type_, RecordType | MapType) or not isinstance(top, Mapping):
-        return Place(top, key, None, _overridden(layers[:-1]))
+        return MergedValue(top, key, None, _overridden(layers[:-1]))
     first = len(layers) - 1
     while first > 0 and isinstance(layers[first - 1][1], Mapping):
         first -= 1
-    by_name: dict[str, list[Given]] = {}
+    by_name: dict[str, list[LayerEntry]] = {}
     for _, node in layers[first:]:
         assert isinstance(node, Mapping)
         for name, entry in node.entries.items():
@@ -70,14 +70,14 @@ def merge(type_: Type, given: Iterable[Given]) -> Place | None:
         entry_type = below(type_, name)
         if entry_type is not None and (place := merge(entry_type, entry_layers)) is not None:
             entries[name] = place
-    return Place(top, key, entries, _overridden(layers[:first]))
+    return MergedValue(top, key, entries, _overridden(layers[:first]))
 
 
-def _overridden(layers: list[Given]) -> tuple[Node, ...]:
+def _overridden(layers: list[LayerEntry]) -> tuple[Node, ...]:
     return tuple(node for _, node in reversed(layers))
 
 
-def data_of(place: Place | None, type_: Type) -> Any:
+def data_of(place: MergedValue | None, type_: Type) -> Any:
     """Plain data of merged values, without null."""
     if place is None:
         return {}
@@ -109,7 +109,7 @@ def _without_null(data: Any, type_: Type) -> Any:
     return data
 
 
-def child(node: Node | None, name: Step) -> Given | None:
+def child(node: Node | None, name: Step) -> LayerEntry | None:
     """Key and node one step further down."""
     if isinstance(node, Mapping) and isinstance(name, str):
         return node.entries.get(name)
@@ -118,9 +118,9 @@ def child(node: Node | None, name: Step) -> Given | None:
     return None
 
 
-def step(where: Where, name: Step) -> Where:
+def step(where: Origin, name: Step) -> Origin:
     """One step further down: the merged entry, or the node."""
-    if isinstance(where, Place):
+    if isinstance(where, MergedValue):
         if where.entries is not None:
             return where.entries.get(name) if isinstance(name, str) else None
         where = where.node
@@ -128,15 +128,15 @@ def step(where: Where, name: Step) -> Where:
     return None if found is None or found[1].data is None else found[1]
 
 
-def node_of(where: Where) -> Node | None:
-    return where.node if isinstance(where, Place) else where
+def node_of(where: Origin) -> Node | None:
+    return where.node if isinstance(where, MergedValue) else where
 
 
-def span_of(where: Where) -> Span | None:
+def span_of(where: Origin) -> Span | None:
     """A value's place; its key's where it fills many lines."""
     node = node_of(where)
     if node is None:
         return None
     span = node.span
-    key = where.key if isinstance(where, Place) else None
+    key = where.key if isinstance(where, MergedValue) else None
     return key.span if key is not None and span.line != span.end_line else span

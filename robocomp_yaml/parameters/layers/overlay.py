@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import msgspec
 
-from robocomp_yaml.parameters.layers.merge import Place
-from robocomp_yaml.parameters.types import ListType, Member, RecordType, Type, below
+from robocomp_yaml.parameters.layers.merge import MergedValue
+from robocomp_yaml.parameters.types import ListType, RecordType, ResolvedMember, Type, below
 from robocomp_yaml.semantics import limits, paths
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, mapping_at, sequence_at, text_at
 
@@ -29,7 +29,7 @@ class Overlay(msgspec.Struct):
     faults: list[NoEntry] = []
 
 
-def overlay(settings: Mapping, type_: RecordType, base: Place | None) -> Overlay:
+def overlay(settings: Mapping, type_: RecordType, base: MergedValue | None) -> Overlay:
     """The layer that `settings` are, on top of the merged values `base`."""
     result = Overlay(mapping_at(settings.span, {}))
     entries: Entries = {}
@@ -43,7 +43,7 @@ def overlay(settings: Mapping, type_: RecordType, base: Place | None) -> Overlay
     return result
 
 
-def _put(entries: Entries, steps: list[str], key: Scalar, node: Node, type_: Type, base: Place | None) -> None:
+def _put(entries: Entries, steps: list[str], key: Scalar, node: Node, type_: Type, base: MergedValue | None) -> None:
     """Changes `entries`, those of a mapping of this type. Raises LookupError with what is not there."""
     step, *rest = steps
     known = entries.get(step)
@@ -72,7 +72,7 @@ def _joined(known: tuple[Scalar, Node] | None, node: Node) -> Node:
     return node
 
 
-def _list(place: Place | None, member: Member | None) -> Node | None:
+def _list(place: MergedValue | None, member: ResolvedMember | None) -> Node | None:
     """What a list holds before: by the document, else by its default."""
     if place is not None:
         return place.node

@@ -42,10 +42,10 @@ def matcher(portable: str) -> Matcher:
 
 
 def parsed(portable: str) -> Alternatives:
-    return _Parser(portable).alternatives()
+    return _TreeParser(portable).alternatives()
 
 
-class _Parser(msgspec.Struct):
+class _TreeParser(msgspec.Struct):
     text: str
     at: int = 0
 

@@ -54,7 +54,7 @@ def parse(text: str) -> Pattern:
         body, shift = body[1:], 1
     if body.endswith("$") and (len(body) - len(body.rstrip("$").rstrip("\\")) - 1) % 2 == 0:
         body = body[:-1]
-    parser = _Parser(body, shift)
+    parser = _PatternParser(body, shift)
     portable = parser.alternatives()
     if parser.at < len(body):
         raise NotPortable("a ')' has no '(' before it", parser.at + shift)
@@ -65,7 +65,7 @@ def parse(text: str) -> Pattern:
     return Pattern(text, portable)
 
 
-class _Parser(msgspec.Struct):
+class _PatternParser(msgspec.Struct):
     text: str
     shift: int
     at: int = 0

@@ -15,7 +15,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.model.interface import Literal
 from robocomp_yaml.parameters.patterns import pattern
-from robocomp_yaml.parameters.specification.document import Limits
+from robocomp_yaml.parameters.specification.document import LimitNodes
 from robocomp_yaml.parameters.types import (
     BasicType,
     Bound,
@@ -40,9 +40,9 @@ class _Rejected(Exception):
         self.diagnostic = diagnostic
 
 
-def limited(type_: Type, limits: Limits, found: list[Diagnostic]) -> Type:
+def limited(type_: Type, limits: LimitNodes, found: list[Diagnostic]) -> Type:
     """The type with more limits; what is wrong with them goes to `found`."""
-    for key in Limits.__struct_fields__:
+    for key in LimitNodes.__struct_fields__:
         node = getattr(limits, key)
         if node is not None:
             try:

@@ -15,20 +15,20 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean, meaning
 from robocomp_yaml.parameters.defaults import EMERGENCY, PERIOD
 from robocomp_yaml.parameters.resolution.limits import inside, limited
-from robocomp_yaml.parameters.specification.document import Entry, ParameterDocument, Rule, Spec
+from robocomp_yaml.parameters.specification.document import ConstraintSpec, MemberSpec, ParameterDocument, TypeSpec
 from robocomp_yaml.parameters.types import (
     BASIC_TYPES,
     BasicType,
     Bound,
-    Constraint,
     Default,
     EnumType,
     ListType,
     MapType,
-    Member,
     Parameters,
     Range,
     RecordType,
+    ResolvedConstraint,
+    ResolvedMember,
     ScalarType,
     Type,
     innermost,
@@ -67,15 +67,17 @@ def hides_types(found: Iterable[Diagnostic]) -> bool:
     return has_errors(fault for fault in found if fault.code != codes.BAD_EXPRESSION.id)
 
 
-def _sound(constraints: Iterable[Constraint], root: RecordType, found: list[Diagnostic]) -> Iterator[Constraint]:
+def _sound(
+    constraints: Iterable[ResolvedConstraint], root: RecordType, found: list[Diagnostic]
+) -> Iterator[ResolvedConstraint]:
     """The constraints that are true or false, and say only what has a meaning: nothing else ever sees others."""
     for constraint in constraints:
         from robocomp_yaml.parameters.expressions.types import check_constraint  # few documents have any
-        from robocomp_yaml.parameters.specification.expression import NotInLanguage
+        from robocomp_yaml.parameters.specification.expression import ExpressionError
 
         try:
             check_constraint(constraint.expression, root)
-        except NotInLanguage as refused:
+        except ExpressionError as refused:
             assert isinstance(constraint.node, Scalar)
             if not hides_types(found):
                 place = inside(constraint.node, refused.index)
@@ -119,7 +121,7 @@ class _Resolver:
         self.open.pop()
         return resolved
 
-    def definition(self, name: str, spec: Spec) -> Type | None:
+    def definition(self, name: str, spec: TypeSpec) -> Type | None:
         if not self.has_one_kind(spec, "type", name, _IN_TYPES):
             return None
         if spec.kind == "enum":
@@ -135,7 +137,7 @@ class _Resolver:
             return limited(record, spec.limits, self.found)
         return self.type(spec, name)
 
-    def has_one_kind(self, spec: Spec, what: str, name: str, possible: tuple[str, ...]) -> bool:
+    def has_one_kind(self, spec: TypeSpec, what: str, name: str, possible: tuple[str, ...]) -> bool:
         if not spec.kinds:
             choice = ", ".join(f"{kind}: …" for kind in possible)
             self.report(codes.NO_TYPE, spec.span, what=what, name=name, hint=f"write one of {choice}")
@@ -144,7 +146,7 @@ class _Resolver:
             self.report(codes.TWO_TYPES, spec.kinds[1][1], what=what, name=name, kinds=kinds)
         return len(spec.kinds) == 1
 
-    def type(self, spec: Spec, name: str) -> Type | None:
+    def type(self, spec: TypeSpec, name: str) -> Type | None:
         """The type of a parameter, a member, or of the entries of a list or map; `name` is for messages."""
         if len(self.open) > MAX_DEPTH:
             self.report(codes.TOO_LARGE, spec.span, name=name, limit=MAX_DEPTH, what="types inside each other")
@@ -164,7 +166,7 @@ class _Resolver:
                 return None
         return None if base is None else limited(base, spec.limits, self.found)
 
-    def reference(self, spec: Spec) -> Type | None:
+    def reference(self, spec: TypeSpec) -> Type | None:
         name = spec.name
         if name in BASIC_TYPES and name not in self.specs:
             return BasicType(name)
@@ -183,8 +185,8 @@ class _Resolver:
         return self.named(name)
 
     def members(
-        self, entries: tuple[Entry, ...], editable: bool | None, possible: tuple[str, ...], *, secret: bool = False
-    ) -> Iterator[Member]:
+        self, entries: tuple[MemberSpec, ...], editable: bool | None, possible: tuple[str, ...], *, secret: bool = False
+    ) -> Iterator[ResolvedMember]:
         """Entries with their types; one without a type is left out, having been reported. `secret`: the name of the
         group around them says so."""
         what = "parameter" if "group" in possible else "member"
@@ -205,7 +207,7 @@ class _Resolver:
             if entry.optional and entry.default is not None:
                 self.report(codes.DEFAULT_AND_OPTIONAL, entry.default_span or entry.span, name=entry.name)
             default = None if entry.default is None else Default(entry.default.data, entry.default)
-            yield Member(
+            yield ResolvedMember(
                 entry.name,
                 type_,
                 entry.doc,
@@ -217,7 +219,7 @@ class _Resolver:
                 span=entry.span,
             )
 
-    def group(self, entry: Entry, type_: RecordType) -> None:
+    def group(self, entry: MemberSpec, type_: RecordType) -> None:
         limited(type_, entry.spec.limits, self.found)
         problem = "is for values; give it to what the group holds"
         if entry.default is not None:
@@ -225,7 +227,7 @@ class _Resolver:
         if entry.optional:
             self.report(codes.LIMIT_MISFIT, entry.span, key="optional", problem=problem)
 
-    def secret(self, entry: Entry, type_: Type) -> Type:
+    def secret(self, entry: MemberSpec, type_: Type) -> Type:
         """The type of a parameter that the document calls secret."""
         assert entry.secret is not None
         if entry.default is not None:
@@ -238,18 +240,18 @@ class _Resolver:
             return type_
         return _as_secret(type_)
 
-    def constraints(self, rules: tuple[Rule, ...]) -> Iterator[Constraint]:
+    def constraints(self, rules: tuple[ConstraintSpec, ...]) -> Iterator[ResolvedConstraint]:
         if rules:
             from robocomp_yaml.parameters.specification import expression  # Python's parser is slow to import
         for rule in rules:
             assert isinstance(rule.that, Scalar)
             try:
                 tree = expression.parse(rule.that.lexeme)
-            except expression.NotInLanguage as refused:
+            except expression.ExpressionError as refused:
                 place = inside(rule.that, refused.index)
                 self.report(codes.BAD_EXPRESSION, place, problem=str(refused), hint=refused.hint)
                 continue
-            yield Constraint(tree, rule.that.lexeme, rule.otherwise, rule.that, span=rule.span)
+            yield ResolvedConstraint(tree, rule.that.lexeme, rule.otherwise, rule.that, span=rule.span)
 
 
 def _plain_of(type_: Type) -> ScalarType | None:
@@ -319,7 +321,7 @@ def with_period(root: RecordType, period: int | None) -> tuple[RecordType, list[
     others = [member for member in own if member.name not in _PERIODS]
     group = RecordType("", (compute, emergency, *others), "How often the component works.")
     doc, span = (given.doc, given.span) if given is not None else (group.doc, Span(""))
-    made = Member("period", group, doc, code_name="period", editable=True, span=span)
+    made = ResolvedMember("period", group, doc, code_name="period", editable=True, span=span)
     rest = [other for other in root.members if other.name != "period"]
     return replace(root, members=(*rest, made)), found
 
@@ -330,6 +332,6 @@ _PERIODS = {
 }
 
 
-def _period(name: str, default: int) -> Member:
+def _period(name: str, default: int) -> ResolvedMember:
     type_ = BasicType("int", Range(Bound(1, False, "1"), None), unit="ms")
-    return Member(name, type_, _PERIODS[name], Default(default), editable=True, code_name=name)
+    return ResolvedMember(name, type_, _PERIODS[name], Default(default), editable=True, code_name=name)

@@ -16,7 +16,7 @@ from robocomp_yaml.source.tree import Mapping, Node
 KINDS = ("type", "list", "map", "group", "enum", "struct")
 
 
-class Limits(msgspec.Struct, frozen=True):
+class LimitNodes(msgspec.Struct, frozen=True):
     """The nodes of the keys that limit a type's values, as they stand there; None where a key is missing."""
 
     range: Node | None = None
@@ -27,17 +27,17 @@ class Limits(msgspec.Struct, frozen=True):
     unit: Node | None = None
 
 
-class Spec(Located, frozen=True):
+class TypeSpec(Located, frozen=True):
     """What a document says about a type. `kinds` are those of KINDS that stand there, with their places: exactly one
     when nothing is wrong. `name` goes with 'type', `element` with 'list' and 'map', `members` with 'group' and
     'struct', `enumerators` with 'enum'. `key_span` is where it has its name, if it has one."""
 
     kinds: tuple[tuple[str, Span], ...]
     name: str = ""
-    element: Spec | None = None
-    members: tuple[Entry, ...] = ()
+    element: TypeSpec | None = None
+    members: tuple[MemberSpec, ...] = ()
     enumerators: tuple[tuple[Literal, str], ...] = ()
-    limits: Limits = Limits()
+    limits: LimitNodes = LimitNodes()
     doc: str = ""
     span: Span = Span("")
     key_span: Span = Span("")
@@ -47,12 +47,12 @@ class Spec(Located, frozen=True):
         return self.kinds[0][0] if self.kinds else ""
 
 
-class Entry(Located, frozen=True):
+class MemberSpec(Located, frozen=True):
     """A parameter, or a member of a group or struct. `editable` is None where nothing is said; `secret` is the place of
     the key where the document says so."""
 
     name: str
-    spec: Spec
+    spec: TypeSpec
     default: Node | None = None
     default_span: Span | None = None
     optional: bool = False
@@ -63,7 +63,7 @@ class Entry(Located, frozen=True):
     span: Span = Span("")
 
 
-class Rule(Located, frozen=True):
+class ConstraintSpec(Located, frozen=True):
     """An entry of `constraints:`. `that` is the expression's node: diagnostics point into it."""
 
     that: Node
@@ -73,7 +73,7 @@ class Rule(Located, frozen=True):
 
 
 @dataclass(frozen=True)
-class Spelling(spellings.Spelling):
+class LegacySpelling(spellings.Spelling):
     """An entry of `legacy:`: how properties spell the parameter at `path`."""
 
     path: str = ""
@@ -85,10 +85,10 @@ class ParameterDocument(Located, frozen=True):
 
     path: str
     component: str = ""
-    types: tuple[tuple[str, Spec], ...] = ()
-    parameters: tuple[Entry, ...] = ()
-    rules: tuple[Rule, ...] = ()
-    legacy: tuple[Spelling, ...] = ()
+    types: tuple[tuple[str, TypeSpec], ...] = ()
+    parameters: tuple[MemberSpec, ...] = ()
+    rules: tuple[ConstraintSpec, ...] = ()
+    legacy: tuple[LegacySpelling, ...] = ()
     doc: str = ""
     span: Span = Span("")
     component_span: Span = Span("")

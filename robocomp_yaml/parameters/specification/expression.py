@@ -39,7 +39,7 @@ _RESERVED = re.compile(
 )
 
 
-class NotInLanguage(ValueError):
+class ExpressionError(ValueError):
     """Says what an expression may not say, where (an index), and how to say it."""
 
     def __init__(self, problem: str, index: int = 0, hint: str | Hint = "") -> None:
@@ -53,19 +53,19 @@ class _Part(Located, frozen=True, kw_only=True):
     at: int = 0
 
 
-class Literal(_Part, frozen=True):
+class LiteralExpression(_Part, frozen=True):
     """A number, a text, true or false."""
 
     value: bool | int | float | str
 
 
-class Listing(_Part, frozen=True):
+class ListExpression(_Part, frozen=True):
     """`[a, b]`, for `in`."""
 
     items: tuple[Expression, ...]
 
 
-class Name(_Part, frozen=True):
+class NameExpression(_Part, frozen=True):
     """A parameter, a group, or the variable of a `for`."""
 
     name: str
@@ -128,35 +128,37 @@ class Call(_Part, frozen=True):
     arguments: tuple[Expression | Each, ...]
 
 
-Expression = Literal | Listing | Name | Attribute | Index | Unary | Binary | Compare | Logic | Call
+Expression = (
+    LiteralExpression | ListExpression | NameExpression | Attribute | Index | Unary | Binary | Compare | Logic | Call
+)
 
 
 def parse(text: str) -> Expression:
-    """The tree of an expression. Raises NotInLanguage."""
+    """The tree of an expression. Raises ExpressionError."""
     if len(text) > MAX_LENGTH:
-        raise NotInLanguage(f"an expression has at most {MAX_LENGTH} characters")
+        raise ExpressionError(f"an expression has at most {MAX_LENGTH} characters")
     source = _without_keywords(text.replace("\n", " ").replace("\r", " "))
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of the parser, about code that we do not run
             tree = ast.parse(source, mode="eval")
-        return _Reader(source).read(tree.body)
+        return _ExpressionReader(source).read(tree.body)
     except SyntaxError as error:
         raise _syntax(source, error) from None
     except (RecursionError, MemoryError):
-        raise NotInLanguage("this expression is nested too deep") from None
+        raise ExpressionError("this expression is nested too deep") from None
     except ValueError as error:
-        if isinstance(error, NotInLanguage):
+        if isinstance(error, ExpressionError):
             raise
-        raise NotInLanguage("this is no expression") from None
+        raise ExpressionError("this is no expression") from None
 
 
-def _syntax(source: str, error: SyntaxError) -> NotInLanguage:
+def _syntax(source: str, error: SyntaxError) -> ExpressionError:
     for pattern, word in _FOREIGN:
         found = pattern.search(_without_texts(source))
         if found:
-            return NotInLanguage(f"'{found[0]}' means nothing here", found.start(), _instead(found[0], word))
-    return NotInLanguage("this is no expression", max(0, (error.offset or 1) - 1))
+            return ExpressionError(f"'{found[0]}' means nothing here", found.start(), _instead(found[0], word))
+    return ExpressionError("this is no expression", max(0, (error.offset or 1) - 1))
 
 
 def _without_texts(source: str) -> str:
@@ -174,7 +176,7 @@ def _without_keywords(source: str) -> str:
     return source
 
 
-class _Reader:
+class _ExpressionReader:
     def __init__(self, source: str) -> None:
         self.source = source
         self._bytes = None if source.isascii() else source.encode()
@@ -189,7 +191,7 @@ class _Reader:
     def read(self, node: ast.expr) -> Expression:
         self._depth += 1
         if self._depth > MAX_DEPTH:
-            raise NotInLanguage("this expression is nested too deep", self.at(node), "write several constraints")
+            raise ExpressionError("this expression is nested too deep", self.at(node), "write several constraints")
         read = self._read(node, self.at(node))
         self._depth -= 1
         return read
@@ -197,15 +199,15 @@ class _Reader:
     def _read(self, node: ast.expr, at: int) -> Expression:
         match node:
             case ast.Constant(value=bool() | int() | float() | str() as value):
-                return Literal(value, at=at)
+                return LiteralExpression(value, at=at)
             case ast.Name(id=name):
-                return Literal(_TRUTHS[name], at=at) if name in _TRUTHS else Name(name, at=at)
+                return LiteralExpression(_TRUTHS[name], at=at) if name in _TRUTHS else NameExpression(name, at=at)
             case ast.Attribute(value=of, attr=name):
                 return Attribute(self.read(of), name, at=self.at(node, node.end_col_offset) - len(name))
             case ast.Subscript(value=of, slice=index) if not isinstance(index, ast.Slice | ast.Tuple):
                 return Index(self.read(of), self.read(index), at=at)
             case ast.List(elts=items) | ast.Tuple(elts=items):
-                return Listing(tuple(self.read(item) for item in items), at=at)
+                return ListExpression(tuple(self.read(item) for item in items), at=at)
             case ast.UnaryOp(op=ast.Not() | ast.USub() | ast.UAdd() as operator, operand=operand):
                 spelled = {ast.Not: "not", ast.USub: "-", ast.UAdd: "+"}[type(operator)]
                 return Unary(spelled, self.read(operand), at=at)
@@ -221,7 +223,7 @@ class _Reader:
                 )
             case ast.Call(func=ast.Name(id=function), args=arguments, keywords=[]):
                 return self.call(function, arguments, at)
-        raise NotInLanguage(
+        raise ExpressionError(
             _refusal(node),
             at,
             "comparisons, arithmetic, and, or, not, in, and functions may stand here; docs/pdsl.md lists them",
@@ -232,9 +234,9 @@ class _Reader:
 
         if function not in FUNCTIONS:
             hint = did_you_mean(function, FUNCTIONS, otherwise=f"there are: {', '.join(FUNCTIONS)}")
-            raise NotInLanguage(f"there is no function '{function}'", at, hint)
+            raise ExpressionError(f"there is no function '{function}'", at, hint)
         if not arguments or (len(arguments) > 1 and function not in ("min", "max")):
-            raise NotInLanguage(f"{function}() takes one argument", at)
+            raise ExpressionError(f"{function}() takes one argument", at)
         read: list[Expression | Each] = []
         for argument in arguments:
             if isinstance(argument, ast.GeneratorExp | ast.ListComp):
@@ -242,18 +244,18 @@ class _Reader:
             else:
                 read.append(self.read(argument))
         if len(read) > 1 and any(isinstance(one, Each) for one in read):
-            raise NotInLanguage(f"{function}() takes one 'for', and nothing beside it", at)
+            raise ExpressionError(f"{function}() takes one 'for', and nothing beside it", at)
         return Call(function, tuple(read), at=at)
 
     def each(self, function: str, node: ast.GeneratorExp | ast.ListComp) -> Each:
         at = self.at(node)
         loop = node.generators[0]
         if function not in GENERATORS:
-            raise NotInLanguage(f"{function}() takes no 'for'", at, f"{', '.join(GENERATORS)} do")
+            raise ExpressionError(f"{function}() takes no 'for'", at, f"{', '.join(GENERATORS)} do")
         if len(node.generators) > 1 or len(loop.ifs) > 1:
-            raise NotInLanguage("one 'for' and one 'if' may stand here", at, "nest a second all() or any()")
+            raise ExpressionError("one 'for' and one 'if' may stand here", at, "nest a second all() or any()")
         if not isinstance(loop.target, ast.Name):
-            raise NotInLanguage("a 'for' has one variable", self.at(loop.target))
+            raise ExpressionError("a 'for' has one variable", self.at(loop.target))
         condition = self.read(loop.ifs[0]) if loop.ifs else None
         return Each(self.read(node.elt), loop.target.id, self.read(loop.iter), condition, at=at)
 

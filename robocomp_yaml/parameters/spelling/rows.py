@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from robocomp_yaml.parameters.specification.document import Spelling
+from robocomp_yaml.parameters.specification.document import LegacySpelling
 from robocomp_yaml.parameters.types import BasicType, ListType, RecordType, Type
 from robocomp_yaml.semantics import rows, texts
 
@@ -21,7 +21,7 @@ def _is_string(type_: Type) -> bool:
     return isinstance(type_, BasicType) and type_.name == "string"
 
 
-def read_parts(type_: Type, text: str, spelling: Spelling) -> Any:
+def read_parts(type_: Type, text: str, spelling: LegacySpelling) -> Any:
     """Nested lists of texts (and of rows, at the innermost level) between separators."""
     levels = 0
     while isinstance(type_, ListType):
@@ -29,7 +29,7 @@ def read_parts(type_: Type, text: str, spelling: Spelling) -> Any:
     return _parts(type_, rows.nested(text, spelling.separators, levels, spelling.trailing), spelling, levels)
 
 
-def _parts(type_: Type, parts: Any, spelling: Spelling, levels: int) -> Any:
+def _parts(type_: Type, parts: Any, spelling: LegacySpelling, levels: int) -> Any:
     if isinstance(parts, list):
         return [_parts(type_, part, spelling, levels) for part in parts]
     if isinstance(type_, RecordType):
@@ -37,7 +37,7 @@ def _parts(type_: Type, parts: Any, spelling: Spelling, levels: int) -> Any:
     return parts
 
 
-def as_read(type_: Type, parts: Any, spelling: Spelling) -> Any:
+def as_read(type_: Type, parts: Any, spelling: LegacySpelling) -> Any:
     """Nested lists of texts, where a record is the list of its columns, as `read_parts` returns them."""
     if isinstance(type_, ListType):
         return [as_read(type_.element, part, spelling) for part in parts]

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from robocomp_yaml.parameters.specification.document import Spelling
+from robocomp_yaml.parameters.specification.document import LegacySpelling
 from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,
@@ -21,7 +21,7 @@ from robocomp_yaml.parameters.types import (
 from robocomp_yaml.semantics.spellings import holes as holes_of
 
 
-def fault(spelling: Spelling, type_: Type) -> str:
+def fault(spelling: LegacySpelling, type_: Type) -> str:
     """Why a parameter of this type cannot be spelled so, or ''."""
     key, holes = spelling.key, holes_of(spelling.key)
     if isinstance(type_, RecordType) and type_.is_group:
@@ -47,7 +47,7 @@ def fault(spelling: Spelling, type_: Type) -> str:
     return _rows(spelling, element, holes)
 
 
-def _rows(spelling: Spelling, element: Type, holes: tuple[str, ...]) -> str:
+def _rows(spelling: LegacySpelling, element: Type, holes: tuple[str, ...]) -> str:
     if not holes:
         return "needs {i}, the row's number, in its key (or 'separators', for a list in one property)"
     if isinstance(element, RecordType):
@@ -61,7 +61,7 @@ def _rows(spelling: Spelling, element: Type, holes: tuple[str, ...]) -> str:
     return "" if isinstance(element, BasicType | EnumType) else "cannot nest lists or maps in rows"
 
 
-def _row(spelling: Spelling, record: RecordType, in_key: tuple[str, ...]) -> str:
+def _row(spelling: LegacySpelling, record: RecordType, in_key: tuple[str, ...]) -> str:
     if not spelling.columns:
         return "needs 'columns': the members that a row holds, in order"
     for name in (*in_key, *spelling.columns):
@@ -81,7 +81,7 @@ def _left_out(record: RecordType, named: set[str]) -> str:
     return f"leaves '{left[0]}' out, which has no default" if left else ""
 
 
-def _fields(spelling: Spelling, element: Type) -> str:
+def _fields(spelling: LegacySpelling, element: Type) -> str:
     if not isinstance(element, RecordType):
         return "has 'fields', and the entries are no records"
     for name, key in spelling.fields:
@@ -95,7 +95,7 @@ def _fields(spelling: Spelling, element: Type) -> str:
     return _left_out(element, {name for name, _ in spelling.fields})
 
 
-def _separated(spelling: Spelling, type_: ListType, holes: tuple[str, ...]) -> str:
+def _separated(spelling: LegacySpelling, type_: ListType, holes: tuple[str, ...]) -> str:
     if holes or spelling.count:
         return "has 'separators', and all in one property: so no {i} and no 'count'"
     depth, inner = 0, type_

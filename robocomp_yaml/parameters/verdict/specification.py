@@ -10,7 +10,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.parameters.documents import ResolvedParameters
 from robocomp_yaml.parameters.spelling.templates import fault
-from robocomp_yaml.parameters.types import Member, Parameters, RecordType, leaves
+from robocomp_yaml.parameters.types import Parameters, RecordType, ResolvedMember, leaves
 from robocomp_yaml.parameters.verdict.judge import judge
 from robocomp_yaml.semantics.paths import Path
 from robocomp_yaml.semantics.references import is_reference
@@ -52,7 +52,7 @@ def _of_members(record: RecordType, path: Path) -> Iterator[Diagnostic]:
             yield from _of_default(member, member.default.node, (*path, member.name))
 
 
-def _of_default(member: Member, node: Node, path: Path) -> Iterator[Diagnostic]:
+def _of_default(member: ResolvedMember, node: Node, path: Path) -> Iterator[Diagnostic]:
     for one in judge(member.type, node, path, complete=True):
         problem = one.message
         if one.code == value_codes.UNKNOWN_PARAMETER.id:

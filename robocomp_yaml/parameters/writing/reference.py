@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from robocomp_yaml.parameters.types import EnumType, Member, Parameters, RecordType, Type, innermost, is_secret
+from robocomp_yaml.parameters.types import EnumType, Parameters, RecordType, ResolvedMember, Type, innermost, is_secret
 from robocomp_yaml.parameters.words import default_in_words, in_words, prose
 
 
@@ -83,13 +83,13 @@ def _linked(type_: Type) -> str:
     return f"{link}: {inner}" if isinstance(named, EnumType) else link
 
 
-def _default(member: Member) -> str:
+def _default(member: ResolvedMember) -> str:
     if member.default is None:
         return "may be left out" if member.optional else "**required**"
     return _code(default_in_words(member)).replace("|", "\\|")
 
 
-def _meaning(member: Member) -> str:
+def _meaning(member: ResolvedMember) -> str:
     facts = ("May change while running.", member.editable), ("Secret.", is_secret(member.type))
     return " ".join(part for part in (member.documentation, *(fact for fact, holds in facts if holds)) if part)
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from robocomp_yaml.parameters.documents import LayeredValues
 from robocomp_yaml.parameters.layers.effective import Effective
-from robocomp_yaml.parameters.layers.merge import Where, node_of, step
+from robocomp_yaml.parameters.layers.merge import Origin, node_of, step
 from robocomp_yaml.parameters.spelling import references
 from robocomp_yaml.parameters.types import (
     BasicType,
@@ -68,7 +68,7 @@ def _parameters(effective: Effective, as_given: bool) -> Iterator[tuple[list[str
     """`as_given`: a migrated document says again what the file said, without defaults, and as it spelled it."""
     for path, member in leaves(effective.parameters.root):
         data: Any = effective.data
-        where: Where = effective.place
+        where: Origin = effective.place
         for name in path.split("."):
             data = data.get(name) if isinstance(data, dict) else None
             where = step(where, name) if where is not None else None
@@ -104,7 +104,7 @@ def _key(key: str) -> str:
     return key if _BARE.match(key) else quoted(key)
 
 
-def _literal(type_: Type, data: Any, where: Where) -> str:
+def _literal(type_: Type, data: Any, where: Origin) -> str:
     match type_:
         case RecordType():
             return (
@@ -124,7 +124,7 @@ def _literal(type_: Type, data: Any, where: Where) -> str:
             return _scalar(type_, data, where)
 
 
-def _scalar(type_: BasicType | EnumType, data: Any, where: Where) -> str:
+def _scalar(type_: BasicType | EnumType, data: Any, where: Origin) -> str:
     if isinstance(data, dict):
         return quoted(references.text(data, node_of(where), None))
     if isinstance(data, bool):

@@ -17,17 +17,17 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.parameters.defaults import with_defaults
 from robocomp_yaml.parameters.hidden import holds_secret
-from robocomp_yaml.parameters.layers.merge import Place, Where, node_of, span_of, step
-from robocomp_yaml.parameters.specification.document import Spelling
+from robocomp_yaml.parameters.layers.merge import MergedValue, Origin, node_of, span_of, step
+from robocomp_yaml.parameters.specification.document import LegacySpelling
 from robocomp_yaml.parameters.spelling import references, rows
 from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,
     ListType,
     MapType,
-    Member,
     Parameters,
     RecordType,
+    ResolvedMember,
     Type,
     is_secret,
     is_text,
@@ -63,15 +63,15 @@ class Property(msgspec.Struct, frozen=True):
 class _Position(msgspec.Struct, frozen=True):
     """Where a value comes from, and its path."""
 
-    where: Where
+    where: Origin
     path: Path = ()
 
-    def child(self, name: Step, otherwise: Where = None) -> _Position:
+    def child(self, name: Step, otherwise: Origin = None) -> _Position:
         """One step further down; `otherwise` is where a value comes from that no document sets."""
         inner = step(self.where, name)
         return _Position(inner if inner is not None else otherwise, (*self.path, name))
 
-    def member(self, member: Member) -> _Position:
+    def member(self, member: ResolvedMember) -> _Position:
         return self.child(member.name, member.default.node if member.default else None)
 
 
@@ -88,7 +88,7 @@ class Writer(msgspec.Struct):
     folder: str | None = None
     faults: list[Diagnostic] = []
 
-    def write(self, data: dict[str, Any], place: Place | None) -> list[Property]:
+    def write(self, data: dict[str, Any], place: MergedValue | None) -> list[Property]:
         return list(self.record(self.parameters.root, data, _Position(place), "", is_top=True))
 
     def record(
@@ -111,7 +111,7 @@ class Writer(msgspec.Struct):
             yield from self.checked_member(member, value, here, written)
 
     def checked_member(
-        self, member: Member, value: Any, at: _Position, written: Iterator[Property]
+        self, member: ResolvedMember, value: Any, at: _Position, written: Iterator[Property]
     ) -> Iterator[Property]:
         """What is empty has no property (or, as a list, must not count on one), and reads as if it were not given."""
         before, made = len(self.faults), list(written)
@@ -182,7 +182,7 @@ class Writer(msgspec.Struct):
         is_unquoted = (self.quote or self.unquotes) and unquoted(text) != text
         return "in quotes, it would be read without them" if is_unquoted else ""
 
-    def spelled(self, spelling: Spelling, type_: Type, data: Any, at: _Position) -> Iterator[Property]:
+    def spelled(self, spelling: LegacySpelling, type_: Type, data: Any, at: _Position) -> Iterator[Property]:
         if isinstance(type_, BasicType | EnumType):
             yield from self.scalar(type_, data, at, spelling.key)
         elif isinstance(type_, RecordType):
@@ -194,7 +194,7 @@ class Writer(msgspec.Struct):
             if spelling.count:
                 yield Property(spelling.count, str(len(data)), span_of(at.where))
 
-    def rows(self, spelling: Spelling, element: Type, data: Any, at: _Position) -> Iterator[Property]:
+    def rows(self, spelling: LegacySpelling, element: Type, data: Any, at: _Position) -> Iterator[Property]:
         keys = set()
         for index, item in enumerate(data):
             here, number, before = at.child(index), str(index + spelling.first), len(self.faults)
@@ -208,7 +208,7 @@ class Writer(msgspec.Struct):
                 yield made
 
     def numbered_row(
-        self, spelling: Spelling, element: Type, item: Any, at: _Position, number: str
+        self, spelling: LegacySpelling, element: Type, item: Any, at: _Position, number: str
     ) -> Iterator[Property]:
         if not isinstance(element, RecordType):
             yield from self.scalar(element, item, at, spellings.filled(spelling.key, {"i": number}))
@@ -217,7 +217,9 @@ class Writer(msgspec.Struct):
         elif key := self.row_key(spelling, element, item, at, number):
             yield from self.row(spelling, key, element, item, at)
 
-    def row_key(self, spelling: Spelling, record: RecordType, item: Any, at: _Position, number: str) -> str | None:
+    def row_key(
+        self, spelling: LegacySpelling, record: RecordType, item: Any, at: _Position, number: str
+    ) -> str | None:
         holes, found = spellings.holes(spelling.key), {"i": number}
         for hole in holes:
             member = record.member(hole)
@@ -231,7 +233,9 @@ class Writer(msgspec.Struct):
             return None
         return key
 
-    def row(self, spelling: Spelling, key: str, record: RecordType, item: Any, at: _Position) -> Iterator[Property]:
+    def row(
+        self, spelling: LegacySpelling, key: str, record: RecordType, item: Any, at: _Position
+    ) -> Iterator[Property]:
         texts = self.columns(spelling, record, item, at)
         if texts is None:
             return
@@ -253,7 +257,7 @@ class Writer(msgspec.Struct):
                 holds_secret(record),
             )  # fmt: skip
 
-    def columns(self, spelling: Spelling, record: RecordType, item: Any, at: _Position) -> dict[str, str] | None:
+    def columns(self, spelling: LegacySpelling, record: RecordType, item: Any, at: _Position) -> dict[str, str] | None:
         """The texts of a row by column; None where one cannot be."""
         members = {member.name: member for member in record.members if member.name in item}
         named = {*spelling.columns, *spellings.holes(spelling.key)}
@@ -274,7 +278,7 @@ class Writer(msgspec.Struct):
         return texts
 
     def fields(
-        self, spelling: Spelling, record: RecordType, item: Any, at: _Position, number: str
+        self, spelling: LegacySpelling, record: RecordType, item: Any, at: _Position, number: str
     ) -> Iterator[Property]:
         keys = dict(spelling.fields)
         for member in record.members:
@@ -287,7 +291,7 @@ class Writer(msgspec.Struct):
             elif not _is_default(member, value):
                 self.fault(_Position(here.where or at.where, here.path), "its rows have no property for it")
 
-    def separated(self, spelling: Spelling, type_: Type, data: Any, at: _Position) -> Iterator[Property]:
+    def separated(self, spelling: LegacySpelling, type_: Type, data: Any, at: _Position) -> Iterator[Property]:
         parts = self.texts(spelling, type_, data, at)
         if parts is None:
             return
@@ -301,7 +305,7 @@ class Writer(msgspec.Struct):
                 lambda other: rows.typed(type_, rows.read_parts(type_, other, spelling)), holds_secret(type_),
             )  # fmt: skip
 
-    def texts(self, spelling: Spelling, type_: Type, data: Any, at: _Position) -> Any:
+    def texts(self, spelling: LegacySpelling, type_: Type, data: Any, at: _Position) -> Any:
         """Nested lists of texts, a record as the list of its columns; None where one cannot be."""
         if isinstance(type_, RecordType):
             row = self.columns(spelling, type_, data, at)
@@ -316,5 +320,5 @@ class Writer(msgspec.Struct):
         self.faults.append(codes.NOT_FOR_ICE.at(span, path=in_words(at.path), problem=problem))
 
 
-def _is_default(member: Member, value: Any) -> bool:
+def _is_default(member: ResolvedMember, value: Any) -> bool:
     return member.default is not None and with_defaults(member.type, member.default.data) == value

@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 
 from in_memory import ROOT, pdsl, program, refused, said
-from robocomp_yaml.parameters.types import Member, RecordType, is_secret
+from robocomp_yaml.parameters.types import RecordType, ResolvedMember, is_secret
 
 
-def parameters(flow: str, types: str = "", component: str = "") -> dict[str, Member]:
+def parameters(flow: str, types: str = "", component: str = "") -> dict[str, ResolvedMember]:
     """Every parameter by its path, those of groups behind a dot."""
     documents = pdsl(flow, types)
     documents["c.cdsl.yaml"] += component
@@ -17,7 +17,7 @@ def parameters(flow: str, types: str = "", component: str = "") -> dict[str, Mem
     return dict(_opened(linked.parameters.root, ""))
 
 
-def _opened(record: RecordType, before: str) -> list[tuple[str, Member]]:
+def _opened(record: RecordType, before: str) -> list[tuple[str, ResolvedMember]]:
     found = []
     for member in record.members:
         found.append((f"{before}{member.name}", member))
@@ -26,7 +26,7 @@ def _opened(record: RecordType, before: str) -> list[tuple[str, Member]]:
     return found
 
 
-def names(found: dict[str, Member], what: str) -> str:
+def names(found: dict[str, ResolvedMember], what: str) -> str:
     return " ".join(path for path, member in found.items() if getattr(member, what) and path[:6] != "period")
 
 

@@ -12,20 +12,20 @@ from robocomp_yaml.parameters.types import (
     EnumType,
     ListType,
     MapType,
-    Member,
     Parameters,
     RecordType,
+    ResolvedMember,
     Type,
     leaves,
 )
 from robocomp_yaml.source.properties import unwritable
 
 _ODD = frozenset('\r\n\0\t\ufeff$"')
-Known = dict[str, list[Member]]
+Known = dict[str, list[ResolvedMember]]
 """Of structs, which stand in many places, the members that can be trouble."""
 
 
-def is_harmless(parameters: Parameters, data: dict[str, Any]) -> bool:
+def is_surely_writable(parameters: Parameters, data: dict[str, Any]) -> bool:
     """Whether every value has a property that says it, whatever else there is."""
     spelled = {spelling.path for spelling in parameters.spellings}
     if any(
@@ -61,7 +61,7 @@ def _value(type_: Type, value: Any, known: Known) -> bool:
     return True
 
 
-def _troublesome(record: RecordType, known: Known) -> list[Member]:
+def _troublesome(record: RecordType, known: Known) -> list[ResolvedMember]:
     if record.name not in known:
         found = [member for member in record.members if _can_be_trouble(member.type, known)]
         return known.setdefault(record.name, found) if record.name else found
