@@ -18,7 +18,7 @@ from robocomp_yaml.parameters.types import (
 from robocomp_yaml.semantics import composite, plain
 
 
-class _Text(plain.Text):
+class _Text(plain.TextKind):
     """Patterns are matched by our own matcher, whose time is bounded."""
 
     def __init__(self, values: tuple[str, ...], pattern: Pattern | None) -> None:
@@ -29,7 +29,7 @@ class _Text(plain.Text):
         return self._matching is None or self._matching.matches(value)
 
 
-def recording(record: RecordType) -> composite.Recording:
+def recording(record: RecordType) -> composite.RecordKind:
     members = {
         f"m{number}": composite.member(
             kind(member.type),
@@ -39,13 +39,13 @@ def recording(record: RecordType) -> composite.Recording:
         )
         for number, member in enumerate(record.members)
     }
-    return composite.Recording(type("Values", (composite.Record,), members), is_group=record.is_group)
+    return composite.RecordKind(type("Values", (composite.Record,), members), is_group=record.is_group)
 
 
 def kind(type_: Type) -> composite.Kind:
     match type_:
         case BasicType(name="bool"):
-            made: plain.Plain = plain.truth()
+            made: plain.PlainKind = plain.truth()
         case BasicType(name="string", values=values, pattern=pattern):
             made = _Text(tuple(str(literal.value) for literal in values), pattern)
         case BasicType(name=name, values=values, range=limits, unit=unit):

@@ -18,7 +18,7 @@ from .secrecy import HIDDEN, url
 
 
 @dataclass
-class Taking:
+class Conversion:
     """Values being taken. `is_text`: plain values are legacy texts. `references` are the paths of values that were
     given by reference, with the reference."""
 
@@ -26,12 +26,12 @@ class Taking:
     problems: list[Problem] = field(default_factory=list)
     references: dict[Path, str] = field(default_factory=dict)
 
-    def refuse(self, path: Path, message: str, value: str = "", wanted: str = "", unit: str = "") -> None:
+    def reject(self, path: Path, message: str, value: str = "", wanted: str = "", unit: str = "") -> None:
         name = in_words(path)
         self.problems.append(Problem(name, f"{name} {message}" if name else message, value, wanted, unit))
 
 
-class Plain:
+class PlainKind:
     """A type of plain values. `name` is the type's, `unit` that of its numbers;
     `takes_any_text`: a text is a value as it stands; `is_secret`: it is never shown."""
 
@@ -47,27 +47,27 @@ class Plain:
         """What a value is, for messages."""
         return limits.WORDS[self.name]
 
-    def take(self, raw: Any, path: Path, taking: Taking) -> Any:
-        """The value that `raw` stands for; a problem goes to `taking` where there is none."""
+    def convert(self, raw: Any, path: Path, conversion: Conversion) -> Any:
+        """The value that `raw` stands for; a problem goes to `conversion` where there is none."""
         raw = references.referred(raw)
         if isinstance(raw, references.Unresolved):
             return raw
         if isinstance(raw, references.Missing):
-            taking.refuse(path, raw.why)
+            conversion.reject(path, raw.why)
             return None
         if isinstance(raw, references.Referred):
-            taking.references[path] = raw.reference
-        is_text = isinstance(raw, references.Referred) or (taking.is_text and isinstance(raw, str))
+            conversion.references[path] = raw.reference
+        is_text = isinstance(raw, references.Referred) or (conversion.is_text and isinstance(raw, str))
         value = self.read(raw) if is_text else self.of(raw)
         if value is None:
             unit = f" ({self.unit})" if self.unit else ""
             wanted = f"{self.words}{unit}"
             said = self.shown(raw)
-            taking.refuse(path, f"must be {wanted}, and is {said}", said, wanted, self.unit)
+            conversion.reject(path, f"must be {wanted}, and is {said}", said, wanted, self.unit)
         elif wanted := self.limit(value):
             unit = f" {self.unit}" if self.unit else ""
             said = self.shown(raw) if self.takes_any_text else self.shown(raw).strip("'")
-            taking.refuse(path, f"is {said}{unit}, and must {wanted}", said, wanted, self.unit)
+            conversion.reject(path, f"is {said}{unit}, and must {wanted}", said, wanted, self.unit)
         return value
 
     def shown(self, raw: Any) -> str:
@@ -102,7 +102,7 @@ def shown(raw: Any) -> str:
     return text if len(text) <= 60 else f"{text[:59]}…"
 
 
-class Truth(Plain):
+class BoolKind(PlainKind):
     def __init__(self) -> None:
         super().__init__("bool")
 
@@ -110,7 +110,7 @@ class Truth(Plain):
         return raw if limits.is_of("bool", raw) else None
 
 
-class Numeric(Plain):
+class NumberKind(PlainKind):
     """Numbers, within limits: `at_least` and `at_most` may be reached, `above` and `below` not."""
 
     def __init__(self, name: str, values: Sequence[Number] = (), unit: str = "", **ends: Number) -> None:
@@ -129,12 +129,12 @@ class Numeric(Plain):
         return f"be {limits.bounds(self.name)}" if fault else ""
 
 
-class Whole(Numeric):
+class WholeKind(NumberKind):
     def of(self, raw: Any) -> Any:
         return trunc(raw) if limits.is_of(self.name, raw) else None
 
 
-class Decimal(Numeric):
+class DecimalKind(NumberKind):
     def of(self, raw: Any) -> Any:
         if not limits.is_of(self.name, raw):
             return None
@@ -144,7 +144,7 @@ class Decimal(Numeric):
             return raw  # no type can hold it
 
 
-class Text(Plain):
+class TextKind(PlainKind):
     """Text; `pattern` must match all of it."""
 
     takes_any_text = True
@@ -168,7 +168,7 @@ class Text(Plain):
         return f"match {self._shown_as}" if fault else ""
 
 
-class Choice(Plain):
+class ChoiceKind(PlainKind):
     """One of an enum's names."""
 
     takes_any_text = True
@@ -189,10 +189,10 @@ class Choice(Plain):
 
 
 # What generated code calls.
-truth, whole, decimal, text, choice = Truth, Whole, Decimal, Text, Choice
+truth, whole, decimal, text, choice = BoolKind, WholeKind, DecimalKind, TextKind, ChoiceKind
 
 
-def secret(kind: Plain) -> Plain:
+def secret(kind: PlainKind) -> PlainKind:
     """The same type, of values that are never shown."""
     kind.is_secret = True
     return kind

@@ -10,13 +10,13 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from . import references, rows, spellings, texts
-from .composite import Kind, Listing, Naming, Recording
+from .composite import Kind, ListKind, MapKind, RecordKind
 from .paths import unescaped
-from .plain import Plain, Text
+from .plain import PlainKind, TextKind
 from .spellings import Spelling
 
 
-class Reader:
+class PropertyReader:
     """Reads a set of properties; `used` are the keys that it has come upon. `follow` gives the value of a text, which
     may be a reference; `known` are plain values by their paths, which are taken as they are."""
 
@@ -40,7 +40,7 @@ class Reader:
                 self._stems.add(key[:at])
                 at = key.find(".", at + 1)
 
-    def read(self, kind: Recording) -> dict[str, Any]:
+    def read(self, kind: RecordKind) -> dict[str, Any]:
         """The values of the parameters, as texts in dictionaries and lists."""
         return self._record(kind, "", is_top=True)
 
@@ -50,11 +50,11 @@ class Reader:
             self.used.add(key)
         return text
 
-    def _record(self, kind: Recording, key: str, *, is_top: bool = False) -> dict[str, Any]:
+    def _record(self, kind: RecordKind, key: str, *, is_top: bool = False) -> dict[str, Any]:
         found: dict[str, Any] = {}
         for member in kind.members.values():
             stem = f"{key}.{member.key}" if key else member.key
-            if isinstance(member.kind, Recording) and member.kind.is_group:
+            if isinstance(member.kind, RecordKind) and member.kind.is_group:
                 found[member.key] = self._record(member.kind, stem, is_top=is_top)
                 continue
             spelling = self._spellings.get(stem) if is_top else None
@@ -67,21 +67,21 @@ class Reader:
 
     def _value(self, kind: Kind, key: str) -> Any:
         """What stands under a path; None where nothing does."""
-        if isinstance(kind, Plain):
+        if isinstance(kind, PlainKind):
             text = self._get(key)
             if text is not None and key in self._known:
                 return self._known[key]
             return None if text is None else self._text(kind, text)
-        if isinstance(kind, Listing):
+        if isinstance(kind, ListKind):
             return self._list(kind, key)
-        if isinstance(kind, Naming):
+        if isinstance(kind, MapKind):
             names = self._get(f"{key}.keys")
             if names is None:
                 return None
             return {unescaped(name): self._entry(kind.element, f"{key}.{name}") for name in names.split()}
         return self._record(kind, key) if key in self._stems else None
 
-    def _list(self, kind: Listing, key: str) -> Any:
+    def _list(self, kind: ListKind, key: str) -> Any:
         size = self._get(f"{key}.size")
         count = self._count(size) if size else 0
         if count is None:
@@ -103,17 +103,17 @@ class Reader:
         return _empty(kind) if value is None else value
 
     def _text(self, kind: Kind, text: str) -> Any:
-        is_text = isinstance(kind, Plain) and kind.takes_any_text
+        is_text = isinstance(kind, PlainKind) and kind.takes_any_text
         return self._follow(texts.unquoted(text) if self._quoted and is_text else text)
 
     def _spelled(self, spelling: Spelling, kind: Kind) -> Any:
-        if isinstance(kind, Listing) and not spelling.separators:
+        if isinstance(kind, ListKind) and not spelling.separators:
             is_numbered = bool(spelling.fields) or "i" in spellings.holes(spelling.key)
             return self._numbered(spelling, kind) if is_numbered else self._keyed(spelling, kind)
         text = self._get(spelling.key)
         if text is None:
             return None
-        if isinstance(kind, Listing):
+        if isinstance(kind, ListKind):
             levels, inner = _levels(kind)
             parts = rows.nested(text, spelling.separators, levels, spelling.trailing)
             separator = spelling.separators[levels] if levels < len(spelling.separators) else ""
@@ -127,19 +127,19 @@ class Reader:
 
     def _row(self, spelling: Spelling, kind: Kind, text: str, separator: str) -> Any:
         """A record's columns, or one plain value; a text that is no row is refused later."""
-        if not isinstance(kind, Recording):
-            return self._text(kind, text) if isinstance(kind, Plain) else text
+        if not isinstance(kind, RecordKind):
+            return self._text(kind, text) if isinstance(kind, PlainKind) else text
         members = kind.members
         found = rows.row(
             text,
             separator,
             spelling.columns,
             lambda name: members[name].is_optional,
-            lambda name: isinstance(members[name].kind, Text),
+            lambda name: isinstance(members[name].kind, TextKind),
         )
         return text if found is None else {name: self._text(members[name].kind, part) for name, part in found.items()}
 
-    def _numbered(self, spelling: Spelling, kind: Listing) -> Any:
+    def _numbered(self, spelling: Spelling, kind: ListKind) -> Any:
         """Rows by their numbers: as many as the count says, else until one is missing."""
         counted = self._get(spelling.count) if spelling.count else None
         count = self._count(counted) if counted else None
@@ -154,7 +154,7 @@ class Reader:
         return None if count is None and not found else found
 
     def _numbered_row(self, spelling: Spelling, kind: Kind, number: str) -> Any:
-        if spelling.fields and isinstance(kind, Recording):
+        if spelling.fields and isinstance(kind, RecordKind):
             row = {}
             for name, key in spelling.fields:
                 text = self._get(spellings.filled(key, {"i": number}))
@@ -164,7 +164,7 @@ class Reader:
         text = self._get(spellings.filled(spelling.key, {"i": number}))
         return None if text is None else self._row(spelling, kind, text, spelling.separator)
 
-    def _keyed(self, spelling: Spelling, kind: Listing) -> Any:
+    def _keyed(self, spelling: Spelling, kind: ListKind) -> Any:
         """Rows whose key holds members: in the order of these, since properties have none."""
         names, pattern = spellings.holes(spelling.key), spellings.pattern(spelling.key)
         found: list[tuple[Any, Any]] = []
@@ -181,16 +181,16 @@ class Reader:
 
 def _empty(kind: Kind) -> Any:
     """What is there, and has no property."""
-    if isinstance(kind, Text):
+    if isinstance(kind, TextKind):
         return ""
-    if isinstance(kind, Listing):
+    if isinstance(kind, ListKind):
         return []
-    if isinstance(kind, Naming):
+    if isinstance(kind, MapKind):
         return {}
-    return _emptiness(kind) if isinstance(kind, Recording) else None
+    return _emptiness(kind) if isinstance(kind, RecordKind) else None
 
 
-def _emptiness(kind: Recording) -> dict[str, Any]:
+def _emptiness(kind: RecordKind) -> dict[str, Any]:
     """The members of a record that read as empty where they have no property."""
     found = {member.key: _empty(member.kind) for member in kind.members.values() if member.reads_as_empty}
     return {key: value for key, value in found.items() if value is not None}
@@ -198,7 +198,7 @@ def _emptiness(kind: Recording) -> dict[str, Any]:
 
 def _levels(kind: Kind) -> tuple[int, Kind]:
     levels = 0
-    while isinstance(kind, Listing):
+    while isinstance(kind, ListKind):
         levels, kind = levels + 1, kind.element
     return levels, kind
 

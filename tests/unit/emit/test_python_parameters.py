@@ -267,11 +267,11 @@ def test_constraints_mean_what_the_checker_says(that: str) -> None:
     assert not faults
     table = accessors.python(made).TABLE
     from generated.runtime.semantics import composite  # type: ignore[import-not-found]
-    from generated.runtime.semantics.plain import Taking  # type: ignore[import-not-found]
+    from generated.runtime.semantics.plain import Conversion  # type: ignore[import-not-found]
 
-    kind = composite.Recording(table.values)
+    kind = composite.RecordKind(table.values)
     for data in CASES:
-        values = kind.take(data, (), Taking())
+        values = kind.convert(data, (), Conversion())
         (constraint,) = table.constraints
         assert constraint.holds(values) == evaluate.holds(made.constraints[0].expression, data), data
 

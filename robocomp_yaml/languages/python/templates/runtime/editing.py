@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from generated.runtime.semantics import secrecy, texts
-from generated.runtime.semantics.composite import Kind, Listing, Naming, Recording
+from generated.runtime.semantics.composite import Kind, ListKind, MapKind, RecordKind
 from generated.runtime.semantics.paths import Path, dotted, escaped
-from generated.runtime.semantics.plain import Plain
+from generated.runtime.semantics.plain import PlainKind
 
 
 class Entry(NamedTuple):
@@ -30,7 +30,7 @@ def put(kind: Kind, data: Any, steps: Sequence[str], value: Any) -> bool:
         kind, key = found
         inner = data.get(key) if isinstance(data, dict) else data[key]
         if not isinstance(inner, (dict, list)):
-            inner = data[key] = [] if isinstance(kind, Listing) else {}
+            inner = data[key] = [] if isinstance(kind, ListKind) else {}
         data = inner
     found = _step(kind, data, steps[-1]) if steps else None
     if found is None:
@@ -44,11 +44,11 @@ def put(kind: Kind, data: Any, steps: Sequence[str], value: Any) -> bool:
 
 def _step(kind: Kind, data: Any, step: str) -> Any:
     """The type that stands there, and the key of `data` for it; None where there is nothing."""
-    if isinstance(kind, Recording) and step in kind.members and isinstance(data, dict):
+    if isinstance(kind, RecordKind) and step in kind.members and isinstance(data, dict):
         return kind.members[step].kind, step
-    if isinstance(kind, Naming) and isinstance(data, dict):
+    if isinstance(kind, MapKind) and isinstance(data, dict):
         return kind.element, step
-    if isinstance(kind, Listing) and isinstance(data, list) and step.isdigit() and int(step) <= len(data):
+    if isinstance(kind, ListKind) and isinstance(data, list) and step.isdigit() and int(step) <= len(data):
         data += [None] * (int(step) == len(data))
         return kind.element, int(step)
     return None
@@ -57,11 +57,11 @@ def _step(kind: Kind, data: Any, step: str) -> Any:
 def at(kind: Kind, steps: Sequence[str]) -> Any:
     """The type at a path, or None."""
     for step in steps:
-        if isinstance(kind, Recording):
+        if isinstance(kind, RecordKind):
             if step not in kind.members:
                 return None
             kind = kind.members[step].kind
-        elif isinstance(kind, Plain) or (isinstance(kind, Listing) and not step.isdigit()):
+        elif isinstance(kind, PlainKind) or (isinstance(kind, ListKind) and not step.isdigit()):
             return None
         else:
             kind = kind.element
@@ -72,14 +72,14 @@ def differences(kind: Kind, old: Any, new: Any, path: Path = (), editable: bool 
     """What has changed, and whether it may: a parameter may with all that it holds, and a record's member by itself."""
     if old == new:
         return
-    if isinstance(kind, Recording) and old is not None and new is not None:
+    if isinstance(kind, RecordKind) and old is not None and new is not None:
         for member in kind.members.values():
             pair = getattr(old, member.attribute), getattr(new, member.attribute)
             yield from differences(member.kind, *pair, (*path, member.key), editable or _is_editable(member))
-    elif isinstance(kind, Listing) and old is not None and new is not None and len(old) == len(new):
+    elif isinstance(kind, ListKind) and old is not None and new is not None and len(old) == len(new):
         for place, pair in enumerate(zip(old, new)):
             yield from differences(kind.element, *pair, (*path, place), editable)
-    elif isinstance(kind, Naming) and old is not None and new is not None and old.keys() == new.keys():
+    elif isinstance(kind, MapKind) and old is not None and new is not None and old.keys() == new.keys():
         for name in old:
             yield from differences(kind.element, old[name], new[name], (*path, name), editable)
     else:
@@ -88,7 +88,7 @@ def differences(kind: Kind, old: Any, new: Any, path: Path = (), editable: bool 
 
 def _is_editable(member: Any) -> bool:
     """A group's members say it themselves."""
-    is_group = isinstance(member.kind, Recording) and member.kind.is_group
+    is_group = isinstance(member.kind, RecordKind) and member.kind.is_group
     return member.is_editable and not is_group
 
 
@@ -99,16 +99,16 @@ def flat(
     Secrets are hidden; of what was given by reference, the reference stands there."""
     if value is None:
         return
-    if isinstance(kind, Recording):
+    if isinstance(kind, RecordKind):
         for member in kind.members.values():
             inner = getattr(value, member.attribute)
             may = editable or _is_editable(member)
             yield from flat(member.kind, inner, references, (*path, member.key), may)
-    elif isinstance(kind, Listing):
+    elif isinstance(kind, ListKind):
         yield f"{dotted(path)}.size", Entry(str(len(value)), "int", editable)
         for place, item in enumerate(value):
             yield from flat(kind.element, item, references, (*path, place), editable)
-    elif isinstance(kind, Naming):
+    elif isinstance(kind, MapKind):
         yield f"{dotted(path)}.keys", Entry(" ".join(escaped(name) for name in value), "string", editable)
         for name, item in value.items():
             yield from flat(kind.element, item, references, (*path, name), editable)
@@ -116,7 +116,7 @@ def flat(
         yield dotted(path), Entry(references.get(path) or _shown(kind, value, path), kind.name, editable)
 
 
-def _shown(kind: Plain, value: Any, path: Path) -> str:
+def _shown(kind: PlainKind, value: Any, path: Path) -> str:
     text = texts.spelled(value)
     if kind.is_secret:
         return secrecy.HIDDEN if text else text
@@ -128,13 +128,13 @@ def plain_values(kind: Kind, value: Any, path: Path = ()) -> Iterator[tuple[Path
     """Each plain value with its path."""
     if value is None:
         return
-    if isinstance(kind, Recording):
+    if isinstance(kind, RecordKind):
         for member in kind.members.values():
             yield from plain_values(member.kind, getattr(value, member.attribute), (*path, member.key))
-    elif isinstance(kind, Listing):
+    elif isinstance(kind, ListKind):
         for place, item in enumerate(value):
             yield from plain_values(kind.element, item, (*path, place))
-    elif isinstance(kind, Naming):
+    elif isinstance(kind, MapKind):
         for name, item in value.items():
             yield from plain_values(kind.element, item, (*path, name))
     else:
