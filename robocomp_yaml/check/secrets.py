@@ -21,7 +21,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.link.documents import Document
 from robocomp_yaml.link.program import LinkedParameters, Program
-from robocomp_yaml.parameters.hidden import declared, named_nodes, nodes, plain_below
+from robocomp_yaml.parameters.hidden import named_nodes, nodes, plain_below, secret_names
 from robocomp_yaml.parameters.types import RecordType
 from robocomp_yaml.source import properties
 from robocomp_yaml.source.disk import Disk
@@ -60,7 +60,7 @@ def _of_configurations(program: Program) -> Iterator[Diagnostic]:
             if given is None or place in told or path not in program.disk.contents or not _others_can_read(path):
                 continue
             told.add(place)
-            names = set(declared(component.parameters.parameters.root)) if component is not None else set()
+            names = set(secret_names(component.parameters.parameters.root)) if component is not None else set()
             line = _line_of_secret(program.disk.contents[path].decode("utf-8", "replace"), names)
             if line:
                 file, hint = os.path.relpath(path), f"`{typed('chmod', '600', os.path.relpath(path))}`"
@@ -126,7 +126,7 @@ class _Finder:
     def __init__(self, program: Program) -> None:
         self.program = program
         linked = [*program.parameters.values(), *(one.parameters for one in program.components.values())]
-        self.names = {name for one in linked for name in declared(one.parameters.root)}
+        self.names = {name for one in linked for name in secret_names(one.parameters.root)}
 
     def may_hold(self, document: Document) -> bool:
         """Most documents hold none, which is soon seen."""

@@ -19,7 +19,7 @@ from robocomp_yaml.link.knot import grow, tie
 from robocomp_yaml.link.program import LinkedComponent, LinkedParameters, LinkedValues, Tables
 from robocomp_yaml.model.component import Component
 from robocomp_yaml.model.interface import Literal
-from robocomp_yaml.parameters.resolution.resolve import hides_types, of_no_document, resolve
+from robocomp_yaml.parameters.resolution.resolve import leaves_types_unknown, of_no_document, resolve
 from robocomp_yaml.parameters.specification.document import ParameterDocument, ValuesDocument
 from robocomp_yaml.source.discover import kind_of, of_kind
 from robocomp_yaml.source.disk import Disk
@@ -193,7 +193,7 @@ class Attachments(msgspec.Struct):
                 parameters, found = resolve(document.model)
                 self.diagnostics += found
                 self.tables.parameters[document.real] = LinkedParameters(
-                    parameters, document.model, broken=hides_types(found)
+                    parameters, document.model, broken=leaves_types_unknown(found)
                 )
                 self.diagnostics += self._unclaimed(document.model)
         self._join_layers()
@@ -250,7 +250,7 @@ class Attachments(msgspec.Struct):
         elif isinstance(document, ParameterDocument):
             parameters, found = resolve(document, period)
             self.diagnostics += found
-            broken = hides_types(found)
+            broken = leaves_types_unknown(found)
             own = LinkedParameters(parameters, document, broken, component=component)
             tie(component, parameters=own, broken=component.broken or broken)
             self.tables.parameters.setdefault(reals[0], component.parameters)

@@ -17,7 +17,7 @@ def holds_secret(type_: Type) -> bool:
     return any(isinstance(each, BasicType | EnumType) and each.secret for each in nested(type_))
 
 
-def declared(type_: Type) -> Iterator[str]:
+def secret_names(type_: Type) -> Iterator[str]:
     """The names of members that a document calls secret."""
     for record in nested(type_):
         if isinstance(record, RecordType):

@@ -108,7 +108,7 @@ class PropertyReader:
 
     def _spelled(self, spelling: Spelling, kind: Kind) -> Any:
         if isinstance(kind, ListKind) and not spelling.separators:
-            is_numbered = bool(spelling.fields) or "i" in spellings.holes(spelling.key)
+            is_numbered = bool(spelling.fields) or "i" in spellings.placeholders(spelling.key)
             return self._numbered(spelling, kind) if is_numbered else self._keyed(spelling, kind)
         text = self._get(spelling.key)
         if text is None:
@@ -166,7 +166,7 @@ class PropertyReader:
 
     def _keyed(self, spelling: Spelling, kind: ListKind) -> Any:
         """Rows whose key holds members: in the order of these, since properties have none."""
-        names, pattern = spellings.holes(spelling.key), spellings.pattern(spelling.key)
+        names, pattern = spellings.placeholders(spelling.key), spellings.pattern(spelling.key)
         found: list[tuple[Any, Any]] = []
         for key, text in self._properties.items():
             in_key = pattern.match(key)

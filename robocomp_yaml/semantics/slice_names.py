@@ -3,5 +3,5 @@
 
 from __future__ import annotations
 
-FORGOTTEN = ("as", "async", "await", "nonlocal", "staticmethod", "with", "True", "False")
+NOT_ESCAPED = ("as", "async", "await", "nonlocal", "staticmethod", "with", "True", "False")
 """Those that Ice 3.7 does not escape: most are a syntax error, and a method `staticmethod` breaks its class."""

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-_HOLE = r"\{([A-Za-z0-9_][A-Za-z0-9_-]*)\}"
+_PLACEHOLDER = r"\{([A-Za-z0-9_][A-Za-z0-9_-]*)\}"
 _TOML = r"(?:Endpoints|Period|Agent)\.|Proxies\.(?!.*Prefix$)"
 
 
@@ -27,20 +27,20 @@ class Spelling:
     count: str = ""
 
 
-def holes(key: str) -> tuple[str, ...]:
+def placeholders(key: str) -> tuple[str, ...]:
     """The holes of a property's name: `i` of `JointMotor.M{i}`, `from` and `to` of `ID:{from}-{to}`."""
-    return tuple(re.findall(_HOLE, key))
+    return tuple(re.findall(_PLACEHOLDER, key))
 
 
 def filled(key: str, values: Mapping[str, str]) -> str:
     """The name with those holes filled that there are values for."""
-    return re.sub(_HOLE, lambda hole: values.get(hole[1], hole[0]), key)
+    return re.sub(_PLACEHOLDER, lambda hole: values.get(hole[1], hole[0]), key)
 
 
 def pattern(key: str) -> re.Pattern[str]:
     """Reads the holes back; each as short as the rest allows, a number where it is the row's."""
     out, at = "", 0
-    for hole in re.finditer(_HOLE, key):
+    for hole in re.finditer(_PLACEHOLDER, key):
         out += re.escape(key[at : hole.start()]) + ("([0-9]+)" if hole[1] == "i" else "(.+?)")
         at = hole.end()
     return re.compile(out + re.escape(key[at:]) + r"\Z", re.DOTALL)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from robocomp_yaml.emit.lowering.ports import Spelling
-from robocomp_yaml.semantics.slice_names import FORGOTTEN
+from robocomp_yaml.semantics.slice_names import NOT_ESCAPED
 
 # What Ice 3.7's mapping puts an underscore before. What it forgets is escaped when the generated component loads its
 # Slice (templates/runtime/keywords.py).
@@ -14,7 +14,7 @@ ICE_ESCAPES = frozenset(
     "not or pass print raise return self try while yield".split()
 )
 _PROXY_METHODS = frozenset(("checkedCast", "uncheckedCast"))
-_KEYWORDS = ICE_ESCAPES.union(FORGOTTEN)
+_KEYWORDS = ICE_ESCAPES.union(NOT_ESCAPED)
 
 # Attributes of every worker: accessors and methods called so get another name.
 WORKER_ATTRIBUTES = frozenset(
@@ -47,7 +47,7 @@ def proxy_method(name: str) -> str:
 
 def is_forgotten(name: str) -> bool:
     """Whether Python cannot have the name, and Ice does not escape it."""
-    return name in FORGOTTEN
+    return name in NOT_ESCAPED
 
 
 def module_variable(name: str) -> str:

@@ -62,7 +62,7 @@ def resolve(document: ParameterDocument, period: int | None = None) -> tuple[Par
     return Parameters(root, named, sound, document.legacy, document.doc), found
 
 
-def hides_types(found: Iterable[Diagnostic]) -> bool:
+def leaves_types_unknown(found: Iterable[Diagnostic]) -> bool:
     """Whether some parameters have no usable type; a constraint that cannot be read harms no other."""
     return has_errors(fault for fault in found if fault.code != codes.BAD_EXPRESSION.id)
 
@@ -79,7 +79,7 @@ def _sound(
             check_constraint(constraint.expression, root)
         except ExpressionError as refused:
             assert isinstance(constraint.node, Scalar)
-            if not hides_types(found):
+            if not leaves_types_unknown(found):
                 place = inside(constraint.node, refused.index)
                 found.append(codes.BAD_EXPRESSION.at(place, problem=str(refused), hint=refused.hint))
         else:

@@ -18,12 +18,12 @@ from robocomp_yaml.parameters.types import (
     Type,
     leaves,
 )
-from robocomp_yaml.semantics.spellings import holes as holes_of
+from robocomp_yaml.semantics.spellings import placeholders as placeholders_of
 
 
 def fault(spelling: LegacySpelling, type_: Type) -> str:
     """Why a parameter of this type cannot be spelled so, or ''."""
-    key, holes = spelling.key, holes_of(spelling.key)
+    key, holes = spelling.key, placeholders_of(spelling.key)
     if isinstance(type_, RecordType) and type_.is_group:
         return "is a group's: spell what the group holds, such as period.compute"
     if isinstance(type_, MapType):
@@ -90,7 +90,7 @@ def _fields(spelling: LegacySpelling, element: Type) -> str:
             return f"names '{name}', which is no member of {element.name}"
         if not isinstance(member.type, BasicType | EnumType):
             return f"has '{name}' as a field, which is no plain value"
-        if holes_of(key) != ("i",):
+        if placeholders_of(key) != ("i",):
             return f"needs {{i}} once in the property of '{name}'"
     return _left_out(element, {name for name, _ in spelling.fields})
 
@@ -123,7 +123,7 @@ def exact_keys(parameters: Parameters) -> Iterator[tuple[str, str, bool]]:
         if spelling is None:
             yield path, path, False
         else:
-            if spelling.key and not holes_of(spelling.key):
+            if spelling.key and not placeholders_of(spelling.key):
                 yield path, spelling.key, True
             if spelling.count:
                 yield path, spelling.count, True
@@ -135,5 +135,5 @@ def row_keys(parameters: Parameters) -> Iterator[tuple[str, str]]:
         if spelling is not None:
             keys = [spelling.key] if spelling.key else [key for _, key in spelling.fields]
             for key in keys:
-                if holes_of(key):
+                if placeholders_of(key):
                     yield path, key

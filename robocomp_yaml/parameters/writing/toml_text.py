@@ -21,7 +21,7 @@ from robocomp_yaml.parameters.types import (
 )
 from robocomp_yaml.parameters.writing.properties import CLASSIC, Section, dialect, legacy_file, properties
 from robocomp_yaml.semantics import connections
-from robocomp_yaml.semantics.spellings import holes
+from robocomp_yaml.semantics.spellings import placeholders
 from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source.tree import Scalar
 from robocomp_yaml.source.yaml_text import quoted
@@ -75,7 +75,7 @@ def _parameters(effective: Effective, as_given: bool) -> Iterator[tuple[list[str
         if data is None or (as_given and where is None):
             continue
         spelling = effective.parameters.spelling(path)
-        is_plain = spelling is not None and bool(spelling.key) and not holes(spelling.key)
+        is_plain = spelling is not None and bool(spelling.key) and not placeholders(spelling.key)
         key = spelling.key if spelling is not None and is_plain else path
         yield key.split("."), _literal(member.type, data, where or (member.default.node if member.default else None))
 

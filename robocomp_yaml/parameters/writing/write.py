@@ -220,7 +220,7 @@ class Writer(msgspec.Struct):
     def row_key(
         self, spelling: LegacySpelling, record: RecordType, item: Any, at: _Position, number: str
     ) -> str | None:
-        holes, found = spellings.holes(spelling.key), {"i": number}
+        holes, found = spellings.placeholders(spelling.key), {"i": number}
         for hole in holes:
             member = record.member(hole)
             if member is not None:
@@ -260,7 +260,7 @@ class Writer(msgspec.Struct):
     def columns(self, spelling: LegacySpelling, record: RecordType, item: Any, at: _Position) -> dict[str, str] | None:
         """The texts of a row by column; None where one cannot be."""
         members = {member.name: member for member in record.members if member.name in item}
-        named = {*spelling.columns, *spellings.holes(spelling.key)}
+        named = {*spelling.columns, *spellings.placeholders(spelling.key)}
         for name, member in members.items():
             if name not in named and not _is_default(member, item[name]):
                 self.fault(at.child(name, at.where), "its rows have no column for it")

@@ -13,9 +13,9 @@ from tempfile import TemporaryDirectory
 
 import Ice
 import IcePy
-from generated.runtime.semantics.slice_names import FORGOTTEN
+from generated.runtime.semantics.slice_names import NOT_ESCAPED
 
-_WORD = "|".join(FORGOTTEN)
+_WORD = "|".join(NOT_ESCAPED)
 
 # The first alternative that matches decides; what is in no group stays as it is.
 _PLACES = re.compile(
