@@ -1,5 +1,5 @@
 # Part of rcyaml and of the components that it makes. Do not edit a copy: the next compile overwrites it.
-"""The types of parameters that hold others: lists, maps and records; and the members of records.
+"""The types of parameters that contain values: lists, maps and records; and the members of records.
 
 All values are immutable: lists become tuples, maps read-only mappings, records instances of their classes.
 """
@@ -20,7 +20,7 @@ Kind = Union[PlainKind, "ListKind", "MapKind", "RecordKind"]
 
 
 class _SizedKind:
-    """What has entries: `at_least` to `at_most` of them."""
+    """A type of values with entries: `at_least` to `at_most` of them, any number where it is None."""
 
     def __init__(self, element: Kind, at_least: int = 0, at_most: int | None = None) -> None:
         self.element = element
@@ -28,8 +28,8 @@ class _SizedKind:
 
     def check_size(self, count: int, path: Path, conversion: Conversion) -> None:
         if not limits.has_size(count, self._at_least, self._at_most):
-            entries, wanted = limits.entries(count), limits.size_in_words(self._at_least, self._at_most)
-            conversion.reject(path, f"has {entries}, and must have {wanted}", entries, wanted)
+            entries, expected = limits.entries(count), limits.size_in_words(self._at_least, self._at_most)
+            conversion.reject(path, f"has {entries}, and must have {expected}", entries, expected)
 
 
 class ListKind(_SizedKind):
@@ -42,12 +42,12 @@ class ListKind(_SizedKind):
             conversion.reject(path, f"must be {limits.LIST}, and is {shown(raw)}", shown(raw), limits.LIST)
             return None
         self.check_size(len(raw), path, conversion)
-        items = tuple(self.element.convert(item, (*path, place), conversion) for place, item in enumerate(raw))
+        items = tuple(self.element.convert(item, (*path, index), conversion) for index, item in enumerate(raw))
         known = [item for item in items if item is not None]
         if self._unique and len(set(known)) < len(known):
-            twice = next(item for place, item in enumerate(known) if item in known[:place])
-            said = self.element.shown(twice) if isinstance(self.element, PlainKind) else shown(twice)
-            conversion.reject(path, f"holds {said} twice", said, "entries that all differ")
+            twice = next(item for index, item in enumerate(known) if item in known[:index])
+            text = self.element.shown(twice) if isinstance(self.element, PlainKind) else shown(twice)
+            conversion.reject(path, f"contains {text} twice", text, "entries that all differ")
         return items
 
 
@@ -65,7 +65,7 @@ class MapKind(_SizedKind):
 
 
 class RecordMember:
-    """A member of a record. `key` is its name in documents and paths, `attribute` the one in code."""
+    """A member of a record. `key` is its name in documents and paths, `attribute` its name in code."""
 
     attribute = ""
 
@@ -80,7 +80,7 @@ class RecordMember:
 
     @property
     def reads_as_empty(self) -> bool:
-        """Whether a text or list without a property is an empty one."""
+        """Whether a text or list that has no property is empty, rather than missing."""
         return not self.has_default and not self.is_optional
 
 
@@ -90,13 +90,13 @@ _NOTHING = object()
 def member(
     kind: Kind, *, default: Any = _NOTHING, optional: bool = False, editable: bool = False, key: str = ""
 ) -> Any:
-    """Declares a member in the class of a record."""
+    """A member of a record, for the class that declares it."""
     has_default = default is not _NOTHING
     return RecordMember(kind, key, has_default, default if has_default else None, optional, editable)
 
 
 class Record:
-    """A group of values: they can be read and compared, never changed."""
+    """A group of values, which can be read and compared. Setting or deleting one raises AttributeError."""
 
     __hash__ = None  # type: ignore[assignment]
     __members__: tuple[RecordMember, ...] = ()
@@ -105,11 +105,11 @@ class Record:
         own = {name: value for name, value in vars(cls).items() if isinstance(value, RecordMember)}
         for name, value in own.items():
             value.attribute, value.key = name, value.key or name
-            delattr(cls, name)  # what is read is the instance's
+            delattr(cls, name)  # each instance has its own value
         cls.__members__ = (*cls.__members__, *own.values())
 
     def __setattr__(self, name: str, value: Any) -> None:
-        raise AttributeError(f"{type(self).__name__}.{name} cannot be set: parameters change through set()")
+        raise AttributeError(f"{type(self).__name__}.{name} cannot be set: use set() of the parameters")
 
     def __delattr__(self, name: str) -> None:
         raise AttributeError(f"{type(self).__name__}.{name} cannot be deleted")
@@ -121,19 +121,19 @@ class Record:
 
     def __repr__(self) -> str:
         pairs = ((member, getattr(self, member.attribute)) for member in self.__members__)
-        said = (f"{m.attribute}={HIDDEN if _hides(m.kind) and value else repr(value)}" for m, value in pairs)
-        return f"{type(self).__name__}({', '.join(said)})"
+        shown_pairs = (f"{m.attribute}={HIDDEN if _hides(m.kind) and value else repr(value)}" for m, value in pairs)
+        return f"{type(self).__name__}({', '.join(shown_pairs)})"
 
 
 def _hides(kind: Kind) -> bool:
-    """Whether plain values of a type, or those that it holds, are secret."""
+    """Whether plain values of a type, or its plain entries, are secret."""
     while isinstance(kind, _SizedKind):
         kind = kind.element
     return isinstance(kind, PlainKind) and kind.is_secret
 
 
 class RecordKind:
-    """Records of a class; `is_group` when their members stand directly in their parent's document."""
+    """Records of the class `made`. `is_group`: the record is a group, not a struct."""
 
     def __init__(self, made: type[Record], *, is_group: bool = False) -> None:
         self.made = made
@@ -150,7 +150,7 @@ class RecordKind:
             return None
         for key in raw:
             if key not in self.members:
-                conversion.reject((), f"there is no parameter '{in_words((*path, str(key)))}'")
+                conversion.reject((), f"unknown parameter '{in_words((*path, str(key)))}'")
         made = self.made()
         for member in self.members.values():
             object.__setattr__(made, member.attribute, self._member(member, raw, (*path, member.key), conversion))
@@ -168,7 +168,7 @@ class RecordKind:
         return None
 
 
-# What generated code calls.
+# The names that generated code uses.
 listing, naming, record = ListKind, MapKind, RecordKind
 
 
@@ -177,8 +177,8 @@ def group(made: type[Record]) -> Kind:
 
 
 def data(kind: Kind, value: Any) -> Any:
-    """A value as plain data: dictionaries, lists, numbers, texts; what is optional and left out is left out. References
-    that were not followed are as documents have them."""
+    """A value as plain data: dictionaries, lists, numbers, texts. Missing optional members are omitted. References that
+    are not resolved are as documents spell them."""
     if isinstance(kind, RecordKind):
         pairs = ((member, getattr(value, member.attribute)) for member in kind.members.values())
         return {member.key: data(member.kind, item) for member, item in pairs if item is not None}

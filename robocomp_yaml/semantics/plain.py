@@ -1,5 +1,5 @@
 # Part of rcyaml and of the components that it makes. Do not edit a copy: the next compile overwrites it.
-"""The types of plain parameters: what values they take, from data or from text, and how they say so."""
+"""The types of plain parameters: values from data or from text, their limits, and messages about both."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from .secrecy import HIDDEN, url
 
 @dataclass
 class Conversion:
-    """Values being taken. `is_text`: plain values are legacy texts. `references` are the paths of values that were
-    given by reference, with the reference."""
+    """A conversion of raw values, with its result: `problems`, and `references`, the references by the paths of the
+    values that they set. `is_text`: plain values are the texts of properties."""
 
     is_text: bool = False
     problems: list[Problem] = field(default_factory=list)
@@ -32,11 +32,11 @@ class Conversion:
 
 
 class PlainKind:
-    """A type of plain values. `name` is the type's, `unit` that of its numbers;
-    `takes_any_text`: a text is a value as it stands; `is_secret`: it is never shown."""
+    """A type of plain values. `name` is the name of the type, `unit` the unit of its numbers. `accepts_any_text`: every
+    text is a value. `is_secret`: values are never shown."""
 
     unit = ""
-    takes_any_text = False
+    accepts_any_text = False
     is_secret = False
 
     def __init__(self, name: str) -> None:
@@ -44,11 +44,11 @@ class PlainKind:
 
     @property
     def words(self) -> str:
-        """What a value is, for messages."""
+        """The values in words, for messages."""
         return limits.WORDS[self.name]
 
     def convert(self, raw: Any, path: Path, conversion: Conversion) -> Any:
-        """The value that `raw` stands for; a problem goes to `conversion` where there is none."""
+        """The value of `raw`, or None, with a problem in `conversion`."""
         raw = references.referred(raw)
         if isinstance(raw, references.Unresolved):
             return raw
@@ -61,39 +61,38 @@ class PlainKind:
         value = self.read(raw) if is_text else self.of(raw)
         if value is None:
             unit = f" ({self.unit})" if self.unit else ""
-            wanted = f"{self.words}{unit}"
-            said = self.shown(raw)
-            conversion.reject(path, f"must be {wanted}, and is {said}", said, wanted, self.unit)
-        elif wanted := self.limit(value):
+            expected, text = f"{self.words}{unit}", self.shown(raw)
+            conversion.reject(path, f"must be {expected}, and is {text}", text, expected, self.unit)
+        elif expected := self.limit(value):
             unit = f" {self.unit}" if self.unit else ""
-            said = self.shown(raw) if self.takes_any_text else self.shown(raw).strip("'")
-            conversion.reject(path, f"is {said}{unit}, and must {wanted}", said, wanted, self.unit)
+            text = self.shown(raw) if self.accepts_any_text else self.shown(raw).strip("'")
+            conversion.reject(path, f"is {text}{unit}, and must {expected}", text, expected, self.unit)
         return value
 
     def shown(self, raw: Any) -> str:
-        """A value of this type, or what was to be one, for messages."""
+        """A value for messages, or data in its position; HIDDEN for a secret."""
         is_hidden = self.is_secret and isinstance(raw, (str, Real)) and not isinstance(raw, references.Referred)
         return HIDDEN if is_hidden else shown(raw)
 
     def one_of(self, values: Sequence[Any]) -> str:
-        """Which values it may have, for messages."""
+        """The allowed values in words, for messages."""
         return limits.one_of(tuple(map(str, values)), self.is_secret)
 
     def of(self, raw: Any) -> Any:
-        """The value of data of the right type, else None."""
+        """The value of data, or None if the data has the wrong type."""
         raise NotImplementedError
 
     def read(self, text: str) -> Any:
-        """The value that a text spells, or None."""
-        return str(text) if self.takes_any_text else texts.read(self.name, text)
+        """The value that a text spells, or None if it spells none."""
+        return str(text) if self.accepts_any_text else texts.read(self.name, text)
 
     def limit(self, value: Any) -> str:
-        """What the value must do to be within the limits, or ''."""
+        """The limit that a value breaks, as words after "must", or ''."""
         return ""
 
 
 def shown(raw: Any) -> str:
-    """A value for messages, shortened."""
+    """A value for messages, shortened to 60 characters."""
     if isinstance(raw, references.Referred):
         return raw.reference
     if raw is None or isinstance(raw, (list, tuple)) or hasattr(raw, "keys"):
@@ -111,7 +110,7 @@ class BoolKind(PlainKind):
 
 
 class NumberKind(PlainKind):
-    """Numbers, within limits: `at_least` and `at_most` may be reached, `above` and `below` not."""
+    """Numbers. `ends` are `at_least` and `at_most` (inclusive), `above` and `below` (exclusive)."""
 
     def __init__(self, name: str, values: Sequence[Number] = (), unit: str = "", **ends: Number) -> None:
         super().__init__(name)
@@ -141,13 +140,13 @@ class DecimalKind(NumberKind):
         try:
             return float(raw)
         except OverflowError:
-            return raw  # no type can hold it
+            return raw  # too large for every type
 
 
 class TextKind(PlainKind):
     """Text; `pattern` must match all of it."""
 
-    takes_any_text = True
+    accepts_any_text = True
 
     def __init__(self, values: Sequence[str] = (), pattern: str = "", shown_as: str = "") -> None:
         super().__init__("string")
@@ -169,9 +168,9 @@ class TextKind(PlainKind):
 
 
 class ChoiceKind(PlainKind):
-    """One of an enum's names."""
+    """An enumerator."""
 
-    takes_any_text = True
+    accepts_any_text = True
 
     def __init__(self, name: str, *names: str) -> None:
         super().__init__(name)
@@ -188,11 +187,11 @@ class ChoiceKind(PlainKind):
         return f"be {self.words}" if limits.outside(self.name, value, self.names) else ""
 
 
-# What generated code calls.
+# The names that generated code uses.
 truth, whole, decimal, text, choice = BoolKind, WholeKind, DecimalKind, TextKind, ChoiceKind
 
 
 def secret(kind: PlainKind) -> PlainKind:
-    """The same type, of values that are never shown."""
+    """The same type; its values are never shown."""
     kind.is_secret = True
     return kind

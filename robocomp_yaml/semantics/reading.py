@@ -1,7 +1,7 @@
 # Part of rcyaml and of the components that it makes. Do not edit a copy: the next compile overwrites it.
-"""Properties to the values of parameters, all still text: by their paths, or as a table spells them.
+"""Properties to the values of parameters, which are still texts: by their paths, or as a table spells them.
 
-What stands here reads what `rcyaml compile` writes, and the files that components have had before.
+The reader accepts what `rcyaml compile` writes, and legacy files.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from .spellings import Spelling
 
 
 class PropertyReader:
-    """Reads a set of properties; `used` are the keys that it has come upon. `follow` gives the value of a text, which
-    may be a reference; `known` are plain values by their paths, which are taken as they are."""
+    """Reads a set of properties. `used` are the keys that it has read. `follow` returns the value of a text, which may
+    be a reference. `known` are plain values by their paths, which are used instead of their texts."""
 
     def __init__(
         self,
@@ -33,7 +33,7 @@ class PropertyReader:
         self._known = known or {}
         self._quoted = spellings.quotes_texts(properties)
         self.used: set[str] = set()
-        self._stems: set[str] = set()  # every beginning of a key, so that "is there anything below" is one look-up
+        self._stems: set[str] = set()  # every prefix of a key, so that a test for properties below a path is one lookup
         for key in properties:
             at = key.find(".")
             while at >= 0:
@@ -41,7 +41,7 @@ class PropertyReader:
                 at = key.find(".", at + 1)
 
     def read(self, kind: RecordKind) -> dict[str, Any]:
-        """The values of the parameters, as texts in dictionaries and lists."""
+        """The texts of the parameters, in dictionaries and lists."""
         return self._record(kind, "", is_top=True)
 
     def _get(self, key: str) -> str | None:
@@ -66,7 +66,7 @@ class PropertyReader:
         return found
 
     def _value(self, kind: Kind, key: str) -> Any:
-        """What stands under a path; None where nothing does."""
+        """The texts at a path; None if there are none."""
         if isinstance(kind, PlainKind):
             text = self._get(key)
             if text is not None and key in self._known:
@@ -85,7 +85,7 @@ class PropertyReader:
         size = self._get(f"{key}.size")
         count = self._count(size) if size else 0
         if count is None:
-            return size  # no list: refused
+            return size  # not a list: rejected later
         if not size:
             while f"{key}.{count}" in self._stems or f"{key}.{count}" in self._properties:
                 count += 1
@@ -94,16 +94,16 @@ class PropertyReader:
         return [self._entry(kind.element, f"{key}.{index}") for index in range(count)]
 
     def _count(self, text: str) -> int | None:
-        """How many entries a count asks for; None where it is no count, or more than there could be."""
+        """The number of entries that a count sets; None if it is not a count, or is implausibly large."""
         return texts.count(text, len(self._properties) + 1_000_000)
 
     def _entry(self, kind: Kind, key: str) -> Any:
-        """An entry of a list or map is there, whether or not it has a property."""
+        """The texts of an entry of a list or map; empty if the entry has no property."""
         value = self._value(kind, key)
         return _empty(kind) if value is None else value
 
     def _text(self, kind: Kind, text: str) -> Any:
-        is_text = isinstance(kind, PlainKind) and kind.takes_any_text
+        is_text = isinstance(kind, PlainKind) and kind.accepts_any_text
         return self._follow(texts.unquoted(text) if self._quoted and is_text else text)
 
     def _spelled(self, spelling: Spelling, kind: Kind) -> Any:
@@ -126,7 +126,7 @@ class PropertyReader:
         return self._row(spelling, kind, parts, separator)
 
     def _row(self, spelling: Spelling, kind: Kind, text: str, separator: str) -> Any:
-        """A record's columns, or one plain value; a text that is no row is refused later."""
+        """The columns of a record, or one plain value. A text that is not a row is rejected later."""
         if not isinstance(kind, RecordKind):
             return self._text(kind, text) if isinstance(kind, PlainKind) else text
         members = kind.members
@@ -140,11 +140,11 @@ class PropertyReader:
         return text if found is None else {name: self._text(members[name].kind, part) for name, part in found.items()}
 
     def _numbered(self, spelling: Spelling, kind: ListKind) -> Any:
-        """Rows by their numbers: as many as the count says, else until one is missing."""
+        """Rows by their numbers: as many as the count sets, or up to the first missing one."""
         counted = self._get(spelling.count) if spelling.count else None
         count = self._count(counted) if counted else None
         if counted and count is None:
-            return counted  # no list: refused
+            return counted  # not a list: rejected later
         found: list[Any] = []
         while count is None or len(found) < count:
             row = self._numbered_row(spelling, kind.element, str(spelling.first + len(found)))
@@ -165,7 +165,7 @@ class PropertyReader:
         return None if text is None else self._row(spelling, kind, text, spelling.separator)
 
     def _keyed(self, spelling: Spelling, kind: ListKind) -> Any:
-        """Rows whose key holds members: in the order of these, since properties have none."""
+        """Rows whose key contains members, sorted by these, because properties have no order."""
         names, pattern = spellings.placeholders(spelling.key), spellings.pattern(spelling.key)
         found: list[tuple[Any, Any]] = []
         for key, text in self._properties.items():
@@ -180,7 +180,7 @@ class PropertyReader:
 
 
 def _empty(kind: Kind) -> Any:
-    """What is there, and has no property."""
+    """The value of something that exists and has no property."""
     if isinstance(kind, TextKind):
         return ""
     if isinstance(kind, ListKind):
@@ -191,7 +191,7 @@ def _empty(kind: Kind) -> Any:
 
 
 def _emptiness(kind: RecordKind) -> dict[str, Any]:
-    """The members of a record that read as empty where they have no property."""
+    """The members of a record that are empty if they have no property."""
     found = {member.key: _empty(member.kind) for member in kind.members.values() if member.reads_as_empty}
     return {key: value for key, value in found.items() if value is not None}
 
@@ -204,7 +204,7 @@ def _levels(kind: Kind) -> tuple[int, Kind]:
 
 
 def _by_number(text: str) -> tuple[bool, int, str]:
-    """Numbers first, in their order, however long they are; then words."""
+    """A sort key: numbers of any length first, by their value, then words."""
     if not texts.is_digits(text):
         return True, 0, text
     digits = text.lstrip("0")
