@@ -1,4 +1,4 @@
-"""Types of parameters as components have them: for reading what a component would read, as it would."""
+"""Types of parameters as components have them, to read properties exactly as a component does."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from robocomp_yaml.semantics import composite, plain
 
 
 class _Text(plain.TextKind):
-    """Patterns are matched by our own matcher, whose time is bounded."""
+    """Text that is matched by `patterns.match`, whose time is bounded."""
 
     def __init__(self, values: tuple[str, ...], pattern: Pattern | None) -> None:
         super().__init__(values, shown_as="" if pattern is None else pattern.text)

@@ -88,7 +88,7 @@ def _required(parameters: Parameters) -> dict[str, Any]:
     from robocomp_yaml.parameters.examples.fitting import fitted
 
     found: dict[str, Any] = {}
-    for path, value in fitted(parameters).given.items():
+    for path, value in fitted(parameters).present.items():
         here = found
         for step in path[:-1]:
             here = here.setdefault(step, {})

@@ -1,9 +1,8 @@
-"""One value of a document changed in its text; every other byte stays.
+"""An edit of one value in the text of its document; every other byte is unchanged.
 
-The tree says where: an existing value is replaced between its marks, a new one is put behind the last entry of the
-mapping or list that it belongs to, and behind the comments that are indented as that entry's own. Where a first
-document (`values.new`) has a line for it with a # before it, that line becomes the value. What would touch more than
-that (a list over many lines, an alias) is refused.
+An existing value is replaced at its location. A new value is inserted after the last entry of its mapping or list, and
+after the comments that are indented like that entry. A commented line of a first document (`examples.new`) is replaced.
+An edit that affects more than the value, such as a list on several lines or an alias, is rejected.
 """
 
 from __future__ import annotations
@@ -25,7 +24,7 @@ _REST_OF_LINE = re.compile(r"[ \t]*(?:#[^\n]*)?(?=\r?\n|\Z)")
 
 
 class NotEditable(Exception):
-    """Says why a value cannot be changed in place; `node` is what stands in the way."""
+    """A value cannot be edited in place. `node` is the reason."""
 
     def __init__(self, reason: str, node: Node) -> None:
         super().__init__(reason)
@@ -33,7 +32,7 @@ class NotEditable(Exception):
 
 
 class DocumentEdit(msgspec.Struct, frozen=True):
-    """`text` is the whole document after the change; `was` what stood there before, or ''."""
+    """`text` is the whole document after the edit, `was` the previous text of the value, or ''."""
 
     text: str
     was: str
@@ -43,21 +42,21 @@ def set_value(
     path: str, text: str, root: Mapping, steps: list[Step], new: str, *, is_text: bool,
     lines_above: Callable[[list[Step]], Collection[str]] = lambda steps: (),
 ) -> DocumentEdit:  # fmt: skip
-    """The document with another value at `steps` (from its top; numbers are places in lists, and the one behind the
-    last is a new entry); `new` is YAML on one line, or the text itself where `is_text`. `lines_above` gives the
-    comments of which one stands above the line of a value that is left out. Raises NotEditable."""
+    """The document with a new value at `steps`, from its root. An index equal to the length of a list appends an entry.
+    `new` is YAML on one line, or the text itself if `is_text`. `lines_above` returns the possible comments above the
+    commented line of a value. Raises NotEditable."""
     node: Node = root
     key: Scalar | None = None
     for depth, step in enumerate(steps):
         found = _child(node, step)
         if found is None:
             if any(isinstance(each, int) for each in steps[depth + 1 :]):
-                raise NotEditable("there is no list here to add to; give the whole list", node)
+                raise NotEditable("there is no list to append to; set the whole list", node)
             spelled = scalar(new) if is_text else new
-            left_out = _left_out(text, node, key, steps[depth], lines_above(steps[: depth + 1]))
+            commented = _commented(text, node, key, steps[depth], lines_above(steps[: depth + 1]))
             change = (
-                _uncommented(text, left_out, steps[depth:], spelled)
-                if left_out is not None
+                _uncommented(text, commented, steps[depth:], spelled)
+                if commented is not None
                 else (_insert(text, node, key, steps[depth:], spelled))
             )
             break
@@ -68,7 +67,7 @@ def set_value(
     meant, _ = (None, []) if is_text else parse(path, new)
     expected = new if is_text else meant.data if meant is not None else None
     if after is None or faults or not _same_but(root.data, after.data, steps) or _at(after.data, steps) != expected:
-        raise NotEditable("a change here would touch more than this value", node)
+        raise NotEditable("an edit would affect more than this value", node)
     return change
 
 
@@ -84,13 +83,13 @@ def _child(node: Node, step: Step) -> tuple[Scalar | None, Node] | None:
     if isinstance(node, Sequence) and isinstance(step, int):
         count = len(node.items)
         if step > count:
-            raise NotEditable(f"the list has {entries(count)} here", node)
+            raise NotEditable(f"the list has {entries(count)}", node)
         return (None, node.items[step]) if step < count else None
     return None
 
 
 def _same_but(before: object, after: object, steps: list[Step]) -> bool:
-    """Whether two documents are the same but for the place."""
+    """Whether the data of two documents differ at most at `steps`."""
     if not steps:
         return True
     if isinstance(before, dict | None.__class__) and isinstance(after, dict):
@@ -103,8 +102,8 @@ def _same_but(before: object, after: object, steps: list[Step]) -> bool:
     if isinstance(before, list) and isinstance(after, list) and isinstance(at, int):
         if at == len(before):
             return after[:-1] == before
-        around = [*before[:at], *before[at + 1 :]] == [*after[:at], *after[at + 1 :]]
-        return len(before) == len(after) and around and _same_but(before[at], after[at], steps[1:])
+        others_alike = [*before[:at], *before[at + 1 :]] == [*after[:at], *after[at + 1 :]]
+        return len(before) == len(after) and others_alike and _same_but(before[at], after[at], steps[1:])
     return False
 
 
@@ -113,10 +112,10 @@ def _replace(text: str, node: Node, key: Scalar | None, new: str, is_text: bool)
     if key is not None and start < key.end:
         raise NotEditable("the value is an alias of another one", key)
     if text[start : start + 1] in ("&", "!", "*"):
-        raise NotEditable("the value has an anchor, which aliases may repeat", node)
+        raise NotEditable("the value has an anchor, to which aliases may refer", node)
     old = text[start:end]
     if isinstance(node, Scalar):
-        if not old:  # nothing behind the colon, or in a list
+        if not old:  # an empty value, or an empty entry of a list
             return _fill(text, node, key, scalar(new) if is_text else new)
         if old[0] in "|>":
             raise NotEditable("the value is a text of several lines", node)
@@ -125,7 +124,7 @@ def _replace(text: str, node: Node, key: Scalar | None, new: str, is_text: bool)
             spelled = quoted(new) if old[0] == '"' else single_quoted(new) if old[0] == "'" else scalar(new)
         return DocumentEdit(text[:start] + spelled + text[end:], old)
     if old[0] not in "[{":
-        raise NotEditable("the value fills several lines; change what it holds, or write it in the document", node)
+        raise NotEditable("the value spans several lines; set its entries, or edit the document", node)
     return DocumentEdit(text[:start] + (scalar(new) if is_text else new) + text[end:], old)
 
 
@@ -139,19 +138,19 @@ def _fill(text: str, node: Node, key: Scalar | None, new: str) -> DocumentEdit:
 
 
 def _insert(text: str, node: Node, key: Scalar | None, steps: list[Step], new: str) -> DocumentEdit:
-    """A new entry in a mapping or list, or the first one below a key that has nothing behind it."""
+    """Inserts an entry in a mapping or list, or the first entry below a key without a value."""
     if isinstance(node, Sequence) and isinstance(steps[0], int):
         return _append(text, node, key, steps[1:], new)
     if isinstance(node, Scalar) and node.data is None and key is not None and isinstance(steps[0], str):
         colon = _COLON.match(text, key.end)
         if colon is None or node.end > node.start:
-            raise NotEditable("there is no mapping here to add to", node)
+            raise NotEditable("there is no mapping to add to", node)
         at = _end_of_line(text, colon.end())
         indent = " " * _inside(text, key)
         return DocumentEdit(text[:at] + _line_end(text) + _block(steps, new, indent, _line_end(text)) + text[at:], "")
     if not isinstance(node, Mapping) or not isinstance(steps[0], str):
         what = "list" if isinstance(steps[0], int) else "mapping"
-        raise NotEditable(f"there is no {what} here to add to", node)
+        raise NotEditable(f"there is no {what} to add to", node)
     if key is not None and node.start < key.end:
         raise NotEditable("the mapping is an alias of another one", key)
     last = last_end(node)
@@ -163,14 +162,14 @@ def _insert(text: str, node: Node, key: Scalar | None, steps: list[Step], new: s
     indent = " " * (first_key.span.column - 1)
     assert last is not None
     line_end = _line_end(text)
-    if text[:last].endswith("\n"):  # behind a text of several lines
+    if text[:last].endswith("\n"):  # after a text of several lines
         return DocumentEdit(text[:last] + _block(steps, new, indent, line_end) + line_end + text[last:], "")
     at = _behind_comments(text, _end_of_line(text, last), len(indent))
     return DocumentEdit(text[:at] + line_end + _block(steps, new, indent, line_end) + text[at:], "")
 
 
 def _behind_comments(text: str, at: int, indent: int) -> int:
-    """Behind the comments that follow and are indented deeper: they are about what stands above them."""
+    """The index after the following comments that are indented deeper: they belong to the entry above them."""
     for line in _LINE.finditer(text, at):
         if line["body"] and (not line["body"].startswith("#") or len(line["indent"]) <= indent):
             break
@@ -179,8 +178,8 @@ def _behind_comments(text: str, at: int, indent: int) -> int:
     return at
 
 
-def _left_out(text: str, node: Node, key: Scalar | None, step: Step, above: Collection[str]) -> re.Match[str] | None:
-    """The line of an entry that a first document leaves out, below the key of the mapping that it belongs to."""
+def _commented(text: str, node: Node, key: Scalar | None, step: Step, above: Collection[str]) -> re.Match[str] | None:
+    """The commented line of an entry in a first document, below the key of its mapping; None if there is none."""
     is_block = (isinstance(node, Mapping) and not node.is_flow) or (isinstance(node, Scalar) and node.data is None)
     if key is None or not above or not is_block:
         return None
@@ -199,7 +198,7 @@ def _left_out(text: str, node: Node, key: Scalar | None, step: Step, above: Coll
 
 
 def _inside(text: str, key: Scalar) -> int:
-    """The indentation of what belongs below a key that has nothing yet: that of the comments which stand there."""
+    """The indentation of the entries below a key without entries: that of the comments there."""
     outer = key.span.column - 1
     line = _LINE.search(text, key.end)
     is_inside = line is not None and line["body"].startswith("#") and len(line["indent"]) > outer
@@ -212,7 +211,7 @@ def _uncommented(text: str, line: re.Match[str], steps: list[Step], new: str) ->
 
 
 def _append(text: str, node: Sequence, key: Scalar | None, steps: list[Step], new: str) -> DocumentEdit:
-    """A new entry behind the last one of a list."""
+    """Appends an entry to a list."""
     if key is not None and node.start < key.end:
         raise NotEditable("the list is an alias of another one", key)
     entry = f"{{{_flow(steps, new)}}}" if steps else new

@@ -1,4 +1,4 @@
-"""Every effective value with where it comes from."""
+"""Effective values with their origin."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ from robocomp_yaml.source.yaml_text import flow
 
 
 class Value(msgspec.Struct, frozen=True):
-    """A plain value, or an empty list or map. `node` is where it is given; None for a default, whose node (if a
-    document wrote it) is `default`. `overrode` are the nodes of earlier layers, the latest first."""
+    """A plain value, or an empty list or map. `node` is the node that sets it; None for a default, whose node is
+    `default` if a document defines it. `overrode` are the nodes of earlier layers, the latest first."""
 
     path: str
     data: Any
@@ -44,12 +44,12 @@ class Value(msgspec.Struct, frozen=True):
     reveal: bool = True
 
     def hide(self, data: Any) -> Any:
-        """What was given in another layer, as it may be shown."""
+        """The value of another layer, as it may be shown."""
         return data if self.reveal else _hidden(self.type, self.steps, data)
 
 
 def shown(effective: Effective, *, reveal: bool) -> Iterator[Value]:
-    """Secrets are hidden unless `reveal` says otherwise."""
+    """All effective values, in order. Secrets are hidden unless `reveal`."""
     for row in _record(effective.parameters.root, effective.data, effective.place, None, (), False):
         data = row.data if reveal else _hidden(row.type, row.steps, row.data)
         text = row.text if data == row.data else flow(data) if data != HIDDEN else HIDDEN
@@ -57,19 +57,20 @@ def shown(effective: Effective, *, reveal: bool) -> Iterator[Value]:
 
 
 def _hidden(type_: Type, steps: Path, data: Any) -> Any:
-    """Data at a path, as it may be shown: what stands in a map can be secret by its name."""
+    """Data at a path, as it may be shown. An entry of a map can be secret by its name."""
     name = steps[-1] if steps else 0
     named = isinstance(data, str) and data != "" and isinstance(name, str) and secrets.is_secret(name)
     return HIDDEN if named and isinstance(type_, BasicType) else hidden(type_, data)
 
 
 def hidden_at(root: RecordType, steps: list[str], data: Any) -> Any:
+    """Data at a path, with its secrets hidden."""
     type_ = type_at(root, steps)
     return data if type_ is None else _hidden(type_, tuple(steps), data)
 
 
 def hidden_text(root: RecordType, steps: list[str], text: str) -> str:
-    """A value as it is written in a document, as it may be shown."""
+    """The text of a value in a document, as it may be shown."""
     type_ = type_at(root, steps)
     if type_ is None or not text or text == "null":
         return text
@@ -87,11 +88,11 @@ def _record(
 ) -> Iterator[Value]:
     for member in type_.members:
         if member.name in data:
-            given = step(where, member.name)
+            inner_origin = step(where, member.name)
             own = step(default, member.name) if default is not None else None
             fallback = own if own is not None else member.default.node if member.default else None
             inner, is_editable = (*path, member.name), editable or member.editable
-            yield from _value(member.type, data[member.name], given, node_of(fallback), inner, is_editable)
+            yield from _value(member.type, data[member.name], inner_origin, node_of(fallback), inner, is_editable)
 
 
 def _value(type_: Type, data: Any, where: Origin, default: Node | None, path: Path, editable: bool) -> Iterator[Value]:
@@ -112,7 +113,7 @@ def _value(type_: Type, data: Any, where: Origin, default: Node | None, path: Pa
 
 
 def _below(where: Origin, name: Step) -> Origin:
-    """One step down, with what the same place of the overridden lists was."""
+    """The origin one step below, with the entries of overridden lists at the same position."""
     inner = step(where, name)
     if isinstance(where, MergedValue) and inner is not None and not isinstance(inner, MergedValue) and where.overrode:
         earlier = tuple(found[1] for node in where.overrode if (found := child(node, name)) is not None)
@@ -121,7 +122,7 @@ def _below(where: Origin, name: Step) -> Origin:
 
 
 def find(effective: Effective, steps: list[str]) -> Any:
-    """The value at a path; None where there is none."""
+    """The effective value at a path; None if it has none."""
     data: Any = effective.data
     for name in typed(effective.parameters.root, steps):
         try:
@@ -132,7 +133,7 @@ def find(effective: Effective, steps: list[str]) -> Any:
 
 
 def type_at(root: RecordType, steps: Sequence[str]) -> Type | None:
-    """The type of what a path names, whether or not it has a value; None where the path names nothing."""
+    """The type at a path, whether or not it has a value; None if the path is unknown."""
     type_: Type | None = root
     for name in steps:
         type_ = below(type_, name)
@@ -140,6 +141,6 @@ def type_at(root: RecordType, steps: Sequence[str]) -> Type | None:
 
 
 def typed(root: RecordType, steps: list[str]) -> list[Step]:
-    """The steps of a path that names something, with numbers for places in lists."""
+    """The steps of a known path, with indexes of lists as numbers."""
     types = (type_at(root, steps[:depth]) for depth in range(len(steps)))
     return [int(step) if isinstance(type_, ListType) else step for step, type_ in zip(steps, types, strict=True)]

@@ -1,7 +1,7 @@
-"""Example values that fit together: a document's constraints hold for them, and what is to differ does.
+"""Examples that satisfy the constraints of a document, and in which entries that must differ are different.
 
-A search over few values for each: the simplest ones, and those that the constraints speak of. It gives up after a
-number of steps; then there is no example, and a person has to find one.
+The search tries few values of each parameter: the simplest ones, and those that occur in the constraints. It stops
+after a limited number of steps; then there is no example, and the user has to choose one.
 """
 
 from __future__ import annotations
@@ -36,50 +36,50 @@ _STEPS = 3000  # of one search
 _MOST_STEPS = 12_000  # of all, with up to ten parameters; with more, each step takes longer
 _MOST_SLOTS = 200
 _VALUES = 14  # tried for one slot
-_UNKNOWN = {"env": "UNKNOWN"}  # what a reference is before the component starts
-_COUNTS = (None, 2, 3, 0, 1, 4, 6)  # of the entries of lists and maps, where they may be so many; None: the usual
+_UNKNOWN = {"env": "UNKNOWN"}  # a value that is not chosen yet; constraints skip references
+_COUNTS = (None, 2, 3, 0, 1, 4, 6)  # numbers of entries of lists and maps to try; None: the default of `count_of`
 
 Path = tuple[str, ...]
 
 
 class Fitted(msgspec.Struct):
-    """Examples by path. `given` stand in the document, so that it is right as it is; `possible` may be added to it,
-    alone or together. `unknown` are those for which no example was found."""
+    """Examples by path. `present` are in the document, so that it is valid. `possible` may be added to it, alone or
+    together. `unknown` are the parameters without an example."""
 
-    given: dict[Path, Any] = {}
+    present: dict[Path, Any] = {}
     possible: dict[Path, Any] = {}
     unknown: set[Path] = set()
 
 
 def fitted(parameters: Parameters, carried: Mapping[str, Any] | None = None) -> Fitted:
-    """Examples of all parameters; `carried` are values that are given already."""
+    """Examples of all parameters. `carried` are values that are already set."""
     found = Fitted()
     members = {tuple(path.split(".")): member for path, member in leaves(parameters.root)}
     carried_ = {path: value for path in members if (value := _at(carried or {}, path)) is not None}
     required = [path for path, member in members.items() if member.required and path not in carried_]
     optional = [path for path, member in members.items() if not member.required and path not in carried_]
     search = _Search(parameters, members, {**carried_})
-    # First what must be given; then with some that may be given, where the others alone cannot fit.
+    # First the required ones; then, if these alone have no solution, together with optional ones.
     some = [path for path in optional if search.concerns(path)]
     chosen = search.solve(required) or (search.solve([*required, *some], some) if some else None)
     if chosen is None:
-        found.given = dict(carried_)
+        found.present = dict(carried_)
         for path in required:
             alone = search.solve([path], others=False)
             if alone is None or search.concerns(path):
                 found.unknown.add(path)
             else:
-                found.given[path] = alone[path]
+                found.present[path] = alone[path]
         chosen = {}
     else:
-        found.given = {**carried_, **chosen}
-    together = dict(found.given)
-    for path in (path for path in optional if path not in found.given):
+        found.present = {**carried_, **chosen}
+    together = dict(found.present)
+    for path in (path for path in optional if path not in found.present):
         if members[path].default is not None:
             found.possible[path] = example(members[path])
             continue
         search.base = together
-        fit = search.solve([path], both=found.given)
+        fit = search.solve([path], both=found.present)
         if fit is None:
             found.unknown.add(path)
         else:
@@ -88,8 +88,8 @@ def fitted(parameters: Parameters, carried: Mapping[str, Any] | None = None) -> 
 
 
 class _Form(msgspec.Struct, frozen=True):
-    """What lists, maps and records look like: their number of entries, whether optional members are there, and names
-    that maps have."""
+    """The form of lists, maps and records: their number of entries, whether they have optional members, and names of
+    maps."""
 
     count: int | None = None
     is_full: bool = False
@@ -97,7 +97,8 @@ class _Form(msgspec.Struct, frozen=True):
 
 
 class _Slot(msgspec.Struct):
-    """A plain value of an example, by the path of the parameter and the steps inside of its value."""
+    """A plain value of an example, by the path of its parameter and the steps inside its value. `first` are tried
+    first."""
 
     path: Path
     inside: tuple[str | int, ...]
@@ -111,19 +112,19 @@ class _Slot(msgspec.Struct):
 
     @property
     def column(self) -> tuple[Any, ...]:
-        """What it shares with its like in other entries of a list."""
+        """The steps without indexes: slots of one column are in different entries of a list."""
         return tuple("" if isinstance(step, int) else step for step in self.steps)
 
 
 class _Search:
-    """`base` are the values that stand already, by path."""
+    """`base` are the values that are already set, by path."""
 
     def __init__(self, parameters: Parameters, members: Mapping[Path, ResolvedMember], base: dict[Path, Any]) -> None:
         self.parameters, self.members, self.base = parameters, members, base
-        said = [literal for each in parameters.constraints for literal in _literals(each.expression)]
-        said += [member.default.data for member in members.values() if member.default is not None]
-        self.texts = list(dict.fromkeys(each for each in said if isinstance(each, str)))
-        numbers = [each for each in said if isinstance(each, int | float) and not isinstance(each, bool)]
+        constants = [literal for each in parameters.constraints for literal in _literals(each.expression)]
+        constants += [member.default.data for member in members.values() if member.default is not None]
+        self.texts = list(dict.fromkeys(each for each in constants if isinstance(each, str)))
+        numbers = [each for each in constants if isinstance(each, int | float) and not isinstance(each, bool)]
         self.numbers = list(dict.fromkeys(numbers))
         named = [code for each in parameters.constraints for code in evaluate.paths(each.expression)]
         self.named = {path for path in members if _is_named(_code_path(parameters.root, path), named)}
@@ -132,7 +133,7 @@ class _Search:
         self.is_careful = False
 
     def concerns(self, path: Path) -> bool:
-        """Whether a constraint speaks of a parameter."""
+        """Whether a constraint names a parameter."""
         return path in self.named
 
     def solve(
@@ -143,8 +144,9 @@ class _Search:
         both: Mapping[Path, Any] | None = None,
         others: bool = True,
     ) -> dict[Path, Any] | None:
-        """Values for these parameters with which the constraints hold, beside those that stand, and beside `both`
-        alone; those that are `optional` only where they are needed. Without `others`, for each by itself."""
+        """Values of these parameters that satisfy the constraints, together with the values in `base`, and also
+        together with those in `both` alone. Parameters in `optional` have a value only if it is needed. `others`:
+        constraints apply; else each value is only valid by itself. None if there is no solution."""
         constraints = self.parameters.constraints if others else ()
         self.steps = 0
         for self.is_careful in (False, True):
@@ -188,10 +190,10 @@ class _Search:
         if len(slots) > _MOST_SLOTS:
             return None
         columns = list(dict.fromkeys(slot.column for slot in slots))
-        # Whether something is there decides most; what is compared with each other is chosen in a row.
+        # Optional parameters decide most, so they come first. Slots that are compared with each other are neighbours.
         slots.sort(key=lambda slot: (not slot.is_optional, columns.index(slot.column)))
 
-        def goes_well() -> bool:
+        def is_consistent() -> bool:
             self.steps += 1
             self.left -= 1
             return all(
@@ -200,7 +202,7 @@ class _Search:
 
         def search(at: int) -> bool:
             if at == len(slots):
-                return goes_well()
+                return is_consistent()
             slot = slots[at]
             can_be_absent = slot.is_optional and not slot.inside
             if can_be_absent:
@@ -212,7 +214,7 @@ class _Search:
                     return False
                 data.setdefault(slot.path, shapes[slot.path])
                 _put(data, slot.steps, value)
-                if goes_well() and search(at + 1):
+                if is_consistent() and search(at + 1):
                     return True
             if can_be_absent:
                 data.pop(slot.path, None)
@@ -229,7 +231,7 @@ class _Search:
         data = defaults(root)
         for path, value in {**base, **more}.items():
             _put(data, path, with_defaults(self.members[path].type, value))
-        for path, member in self.members.items():  # still to be chosen
+        for path, member in self.members.items():  # not chosen yet
             if member.required and _at(data, path) is None:
                 _put(data, path, _UNKNOWN)
         named = evaluate.by_code_names(root, data)
@@ -240,7 +242,7 @@ class _Search:
         )
 
     def _values(self, slot: _Slot) -> list[Any]:
-        """What a slot may hold, the simplest first."""
+        """The values to try in a slot, the simplest first."""
         type_ = slot.type
         if type_.secret:
             steps = (*slot.path, *slot.inside)
@@ -265,7 +267,7 @@ def _plain(number: float) -> int | float:
 
 
 def _shape(type_: Type, form: _Form) -> Any:
-    """A value of which every plain part is still to be chosen."""
+    """A value in which no plain value is chosen."""
     match type_:
         case ListType(element=element, size=size):
             return [_shape(element, form) for _ in range(count_of(size, form.count))]
@@ -305,7 +307,7 @@ def _is_unique(type_: Type) -> bool:
 
 
 def _is_open(data: Any) -> bool:
-    """Whether something in it is still to be chosen."""
+    """Whether data has a value that is not chosen."""
     if isinstance(data, dict):
         return data == _UNKNOWN or any(map(_is_open, data.values()))
     return isinstance(data, list) and any(map(_is_open, data))
@@ -324,7 +326,7 @@ def _at(data: Any, path: Path) -> Any:
 
 
 def _differs(type_: Type, value: Any) -> bool:
-    """Whether all that is chosen of lists whose entries are to differ does."""
+    """Whether the chosen entries of unique lists differ."""
     match type_:
         case ListType(element=element, unique=unique) if isinstance(value, list):
             known = [repr(item) for item in value if item != _UNKNOWN]
@@ -349,12 +351,12 @@ def _code_path(record: RecordType, path: Path) -> Path:
 
 
 def _is_named(code: Path, named: Sequence[Path]) -> bool:
-    """Whether expressions name a parameter, what it holds or what it stands in."""
+    """Whether expressions name a parameter, a value inside it, or a group around it."""
     return any(each[: len(code)] == code[: len(each)] for each in named)
 
 
 def _literals(part: object) -> Iterator[object]:
-    """The values that an expression holds."""
+    """The constants in an expression."""
     if isinstance(part, expression.LiteralExpression):
         yield part.value
     elif isinstance(part, msgspec.Struct):

@@ -1,7 +1,7 @@
-"""What a constraint means: an expression's value over normalized parameters.
+"""The value of an expression over complete values of parameters.
 
-A value that is not there (an optional one left out, a reference to the environment) is unknown, None: what comes of it
-components decide by the same functions (`semantics.constraints`), with every reference resolved.
+A missing optional value and a reference are unknown, None. Components evaluate constraints with the same functions
+(`semantics.constraints`) when all references are resolved.
 """
 
 from __future__ import annotations
@@ -27,15 +27,17 @@ from robocomp_yaml.parameters.types import ListType, MapType, RecordType, Type
 from robocomp_yaml.semantics import constraints
 from robocomp_yaml.semantics.references import is_reference
 
-_OF_ALL = ("len", "abs", "keys", "values")  # whatever is known of what it holds
+_OF_ALL = ("len", "abs", "keys", "values")  # defined even if entries are unknown
 
 
 def holds(expression: Expression, data: Mapping[str, Any]) -> bool:
-    """Whether a constraint holds; `data` is by the names that expressions use."""
+    """Whether a constraint holds. `data` has the names that expressions use, see `by_code_names`."""
     return constraints.holds(lambda: value(expression, data))
 
 
 def value(expression: Expression, scope: Mapping[str, Any]) -> Any:
+    """The value of an expression, None if it is unknown. Raises ArithmeticError, LookupError or ValueError if it is
+    undefined, as a division by zero is."""
     match expression:
         case LiteralExpression(value=literal):
             return literal
@@ -68,23 +70,23 @@ def value(expression: Expression, scope: Mapping[str, Any]) -> Any:
 
 
 def _known(data: Any) -> Any:
-    """What a reference stands for is not known yet."""
+    """The data, or None for a reference, whose value is unknown."""
     return None if is_reference(data) else data
 
 
-def _has(asked: Expression | Each, scope: Mapping[str, Any]) -> Any:
-    """Whether there is a value: one that a reference stands for is not known, but there."""
-    if isinstance(asked, NameExpression):
-        return scope.get(asked.name) is not None
-    if not isinstance(asked, Attribute | Index):
-        return not isinstance(asked, Each) and value(asked, scope) is not None
-    if (around := _has(asked.of, scope)) is not True:
-        return around
-    owner = value(asked.of, scope)
-    if isinstance(asked, Attribute):
-        return None if owner is None else owner.get(asked.name) is not None
-    index = value(asked.index, scope)
-    constraints.entry(owner, index)  # raises where there is none
+def _has(operand: Expression | Each, scope: Mapping[str, Any]) -> Any:
+    """Whether a value is set. A reference sets a value, though it is unknown."""
+    if isinstance(operand, NameExpression):
+        return scope.get(operand.name) is not None
+    if not isinstance(operand, Attribute | Index):
+        return not isinstance(operand, Each) and value(operand, scope) is not None
+    if (outer := _has(operand.of, scope)) is not True:
+        return outer
+    owner = value(operand.of, scope)
+    if isinstance(operand, Attribute):
+        return None if owner is None else owner.get(operand.name) is not None
+    index = value(operand.index, scope)
+    constraints.entry(owner, index)  # raises LookupError if there is no such entry
     return None if owner is None or index is None else True
 
 
@@ -100,7 +102,7 @@ def _operand(function: str, arguments: tuple[Expression | Each, ...], scope: Map
 
 
 def _elements(each: Each, source: Any, scope: Mapping[str, Any]) -> Iterator[Any]:
-    """The values of the element; where a condition is unknown, so is the element."""
+    """The values of the element. Where the condition is unknown, the element is unknown."""
     inner = dict(scope)
     for item in source:
         inner[each.variable] = item
@@ -111,12 +113,12 @@ def _elements(each: Each, source: Any, scope: Mapping[str, Any]) -> Iterator[Any
 
 
 def by_code_names(record: RecordType, data: dict[str, Any]) -> dict[str, Any]:
-    """The values by the names that expressions use, which differ from the keys where `as:` says so."""
+    """The values by the names that expressions use: `as:` sets a name that differs from the key."""
     return data if not _renames(record, {}) else _renamed(record, data)
 
 
 def _renames(type_: Type, known: dict[str, bool]) -> bool:
-    """`known` remembers structs, which stand in many places."""
+    """Whether a type has names that differ from the keys. `known` caches structs, which are used more than once."""
     match type_:
         case RecordType(name=name, members=members):
             if name not in known:
@@ -142,7 +144,7 @@ def _renamed(type_: Type, data: Any) -> Any:
 
 
 def paths(expression: object) -> Iterator[tuple[str, ...]]:
-    """The parameters that an expression names, in order: `motors`, `Yolo.use_gpu`."""
+    """The paths that an expression names, in order: `motors`, `Yolo.use_gpu`."""
     match expression:
         case NameExpression(name=name):
             yield (name,)

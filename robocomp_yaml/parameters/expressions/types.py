@@ -1,6 +1,6 @@
-"""Types of expressions: every name is there, every operator and function has operands that fit.
+"""Types of expressions: every name is known, and every operator and function has operands of the right types.
 
-A constraint that has a type can be said in every language that components are written in.
+A constraint with a valid type can be generated in every language of components.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ BOOL, WHOLE, NUMBER, TEXT = BasicType("bool"), BasicType("long"), BasicType("dou
 
 
 class Scope(msgspec.Struct, frozen=True):
-    """The names of the parameters, and of the variables of `for` around the place."""
+    """The names of parameters, and of the variables of the enclosing `for`."""
 
     root: RecordType
     variables: tuple[tuple[str, Type], ...] = ()
@@ -58,15 +58,17 @@ class Scope(msgspec.Struct, frozen=True):
 
 
 def find_member(record: RecordType, name: str) -> Type | None:
-    """A member's type by its name in expressions: the name in code."""
+    """The type of a member by its name in expressions, which is its name in code; None if it is unknown."""
     return next((member.type for member in record.members if member.code_name == name), None)
 
 
 def check_constraint(expression: Expression, root: RecordType) -> None:
-    """Raises ExpressionError for what has no meaning, at its place."""
+    """Raises ExpressionError unless the expression has a valid type and is true or false."""
     type_ = type_of(expression, Scope(root))
     if not is_bool(type_):
-        raise ExpressionError(f"a constraint is true or false, and this is {in_brief(type_)}", 0, "compare it: … > 0")
+        raise ExpressionError(
+            f"a constraint must be true or false, and this is {in_brief(type_)}", 0, "compare it: … > 0"
+        )
 
 
 def is_bool(type_: Type) -> bool:
@@ -78,7 +80,7 @@ def is_number(type_: Type) -> bool:
 
 
 def comparable(one: Type, other: Type) -> bool:
-    """Whether == has a meaning between them."""
+    """Whether two types can be compared with ==."""
     return any(fits(one) and fits(other) for fits in (is_bool, is_number, is_text))
 
 
@@ -94,7 +96,7 @@ def type_of(expression: Expression, scope: Scope) -> Type:
         case NameExpression(name=name, at=at):
             found = scope.find(name)
             if found is None:
-                raise _unknown(name, scope.names, at)
+                raise _unknown("parameter", name, scope.names, at)
             return found
         case Attribute(of=of, name=name, at=at):
             return _attribute(type_of(of, scope), name, at)
@@ -103,15 +105,15 @@ def type_of(expression: Expression, scope: Scope) -> Type:
         case ListExpression(items=items, at=at):
             return _listing(items, scope, at)
         case Unary(operator=operator, operand=operand):
-            wanted = is_bool if operator == "not" else is_number
-            return _want(operand, wanted, "true or false" if operator == "not" else "a number", operator, scope)
+            fits = is_bool if operator == "not" else is_number
+            return _expect(operand, fits, "true or false" if operator == "not" else "a number", operator, scope)
         case Binary(operator=operator, left=left, right=right):
-            types = [_want(side, is_number, "a number", operator, scope) for side in (left, right)]
+            types = [_expect(side, is_number, "a number", operator, scope) for side in (left, right)]
             whole = operator != "/" and all(isinstance(t, BasicType) and t.is_integer for t in types)
             return WHOLE if whole else NUMBER
         case Logic(operator=operator, operands=operands):
             for operand in operands:
-                _want(operand, is_bool, "true or false", operator, scope)
+                _expect(operand, is_bool, "true or false", operator, scope)
             return BOOL
         case Compare():
             return _compare(expression, scope)
@@ -119,25 +121,25 @@ def type_of(expression: Expression, scope: Scope) -> Type:
             return _call(expression, scope)
 
 
-def _want(expression: Expression, fits: object, wanted: str, where: str, scope: Scope) -> Type:
+def _expect(expression: Expression, fits: object, expected: str, where: str, scope: Scope) -> Type:
     found = type_of(expression, scope)
     if not fits(found):  # type: ignore[operator]
-        raise ExpressionError(f"'{where}' needs {wanted} here, and this is {in_brief(found)}", expression.at)
+        raise ExpressionError(f"'{where}' needs {expected} here, and this is {in_brief(found)}", expression.at)
     return found
 
 
-def _unknown(name: str, known: list[str], at: int, of: str = "parameter") -> ExpressionError:
+def _unknown(what: str, name: str, known: list[str], at: int, of: str = "") -> ExpressionError:
     hint = did_you_mean(name, known, otherwise=f"there are: {', '.join(known[:20])}")
-    return ExpressionError(f"there is no {of} '{name}'", at, hint)
+    return ExpressionError(f"unknown {what} '{name}'{of}", at, hint)
 
 
 def _attribute(owner: Type, name: str, at: int) -> Type:
     if not isinstance(owner, RecordType):
-        hint = "take an entry with [0], or go through them with 'for'" if isinstance(owner, ListType) else ""
+        hint = "select an entry with [0], or loop over the entries with 'for'" if isinstance(owner, ListType) else ""
         raise ExpressionError(f"{in_brief(owner)} has no members, so no '{name}'", at, hint)
     found = find_member(owner, name)
     if found is None:
-        raise _unknown(name, [member.code_name for member in owner.members], at, "member")
+        raise _unknown("member", name, [member.code_name for member in owner.members], at)
     return found
 
 
@@ -146,10 +148,10 @@ def _index(expression: Index, scope: Scope) -> Type:
     if isinstance(owner, ListType):
         index = expression.index
         if isinstance(index, Unary) or not (isinstance(found := type_of(index, scope), BasicType) and found.is_integer):
-            raise ExpressionError("an entry of a list is taken by its number, from 0", index.at)
+            raise ExpressionError("an entry of a list is selected by its number, counted from 0", index.at)
         return owner.element
     if isinstance(owner, MapType):
-        _want(expression.index, is_text, "text", "[]", scope)
+        _expect(expression.index, is_text, "text", "[]", scope)
         return owner.element
     raise ExpressionError(f"{in_brief(owner)} has no entries", expression.at)
 
@@ -157,10 +159,10 @@ def _index(expression: Index, scope: Scope) -> Type:
 def _listing(items: tuple[Expression, ...], scope: Scope, at: int) -> Type:
     types = [type_of(item, scope) for item in items]
     if not types:
-        raise ExpressionError("an empty list holds nothing to compare with", at)
+        raise ExpressionError("an empty list contains nothing to compare with", at)
     for item, type_ in zip(items, types, strict=True):
         if not comparable(types[0], type_):
-            raise ExpressionError(f"{in_brief(type_)} stands beside {in_brief(types[0])}", item.at)
+            raise ExpressionError(f"a list cannot contain both {in_brief(types[0])} and {in_brief(type_)}", item.at)
     return ListType(types[0])
 
 
@@ -191,21 +193,21 @@ def _same(left: Type, right: Type, left_node: Expression, right_node: Expression
         raise ExpressionError(f"'{operator}' cannot compare {in_brief(left)} with {in_brief(right)}", right_node.at)
     for type_, node in ((left, right_node), (right, left_node)):
         if isinstance(type_, EnumType) and isinstance(node, LiteralExpression) and node.value not in type_.names:
-            raise _unknown(str(node.value), list(type_.names), node.at, f"enumerator of {type_.name}")
+            raise _unknown("enumerator", str(node.value), list(type_.names), node.at, f" of {type_.name}")
 
 
 def _call(call: Call, scope: Scope) -> Type:
     function, first = call.function, call.arguments[0]
     if function == "has":
         if not isinstance(first, NameExpression | Attribute | Index):
-            raise ExpressionError("has() asks whether a parameter has a value", call.at)
+            raise ExpressionError("has() needs the name of a parameter, member or entry", call.at)
         type_of(first, scope)
         return BOOL
     if isinstance(first, Each):
         element = _each(first, scope)
     elif len(call.arguments) > 1:
         types = [
-            _want(one, is_number, "a number", f"{function}()", scope)
+            _expect(one, is_number, "a number", f"{function}()", scope)
             for one in call.arguments
             if not isinstance(one, Each)
         ]
@@ -230,8 +232,8 @@ def _of_one(function: str, operand: Type, node: Expression) -> Type:
         return WHOLE
     if function in ("keys", "values") and isinstance(operand, MapType):
         return ListType(TEXT if function == "keys" else operand.element)
-    wanted = {"abs": "a number", "len": "a list or a map"}.get(function, "a map")
-    raise ExpressionError(f"{function}() needs {wanted} here, and this is {in_brief(operand)}", node.at)
+    expected = {"abs": "a number", "len": "a list or a map"}.get(function, "a map")
+    raise ExpressionError(f"{function}() needs {expected} here, and this is {in_brief(operand)}", node.at)
 
 
 def _of_many(function: str, element: Type, node: Expression | Each) -> Type:
@@ -252,10 +254,12 @@ def _of_many(function: str, element: Type, node: Expression | Each) -> Type:
 def _each(each: Each, scope: Scope) -> Type:
     source = type_of(each.source, scope)
     if isinstance(source, MapType):
-        raise ExpressionError("a 'for' goes through a list", each.source.at, "write keys(…) or values(…) of a map")
+        raise ExpressionError(
+            "'for' needs a list here, and this is a map", each.source.at, "use keys(…) or values(…) of the map"
+        )
     if not isinstance(source, ListType):
-        raise ExpressionError(f"a 'for' goes through a list, and this is {in_brief(source)}", each.source.at)
+        raise ExpressionError(f"'for' needs a list here, and this is {in_brief(source)}", each.source.at)
     inner = scope.with_variable(each.variable, source.element)
     if each.condition is not None:
-        _want(each.condition, is_bool, "true or false", "if", inner)
+        _expect(each.condition, is_bool, "true or false", "if", inner)
     return type_of(each.element, inner)

@@ -1,4 +1,4 @@
-"""The effective values of a document and its layers, with everything that is wrong with them."""
+"""The effective values of a document and its layers, and their problems."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ from robocomp_yaml.source.tree import Sequence as List
 
 
 class Effective(msgspec.Struct, frozen=True):
-    """`data` are the values with all defaults, references as `{"env": NAME}`; `place` is where they stand. Whoever
-    reads them shares them."""
+    """`data` are the values with all defaults, and references as `{"env": NAME}`. `place` are the merged values with
+    their nodes. Callers share `data`, and do not change it."""
 
     data: dict[str, Any]
     place: MergedValue | None
@@ -32,7 +32,7 @@ class Effective(msgspec.Struct, frozen=True):
 
 
 def document_faults(values: LayeredValues, linked: ResolvedParameters) -> Sequence[Diagnostic]:
-    """What is wrong with the values that a document itself gives, whatever is missing."""
+    """The problems of the values that a document itself sets. Missing values are no problem."""
     return linked.once(values, lambda: tuple(_document_faults(values, linked)))
 
 
@@ -43,19 +43,19 @@ def _document_faults(values: LayeredValues, linked: ResolvedParameters) -> Itera
 
 
 def effective(values: LayeredValues) -> tuple[Effective | None, Sequence[Diagnostic]]:
-    """The values of a document and all that it builds on, and what is wrong with them; None where anything is. A
-    program works them out once for each of its documents."""
+    """The effective values of a document and its layers, and their problems. The values are None if there are problems.
+    A program computes them once for each document."""
     linked, found = values.parameters, list[Diagnostic]()
     assert linked is not None
     root, place, head = linked.parameters.root, merged(values), values.head
     data = _of_single_layer(values)
     whole = complete_at_once(linked, data) if data is not None else None
-    # A single layer that is effective as it stands is right as a layer, too: one look is enough.
+    # A single layer that is valid as effective values is also valid as a layer: one validation is enough.
     if data is None or (whole is None and not fits(linked, EFFECTIVE, data)):
         data = data_of(place, root)
         found += [fault for layer in values.layers() for fault in document_faults(layer, linked)]
         if not values.broken and not fits(linked, EFFECTIVE, data):
-            found += _not_misspelled(found, _incomplete(root, place, (), head))
+            found += _without_misspelled(found, _incomplete(root, place, (), head))
     if found or values.broken or not is_usable(linked):
         return None, found
     whole = completed(linked, data) if whole is None else whole
@@ -69,18 +69,18 @@ def _of_single_layer(values: LayeredValues) -> dict[str, Any] | None:
     return data if isinstance(data, dict) else None
 
 
-def _not_misspelled(found: list[Diagnostic], missing_ones: Iterable[Diagnostic]) -> list[Diagnostic]:
-    """What is missing, but for what stands there misspelled: that is one cause, not two."""
+def _without_misspelled(found: list[Diagnostic], missing_ones: Iterable[Diagnostic]) -> list[Diagnostic]:
+    """The missing values, without those that are present with a misspelled name: these have one cause, not two."""
     meant = set()
     for fault in found:
         if fault.code == codes.UNKNOWN_PARAMETER.id and (name := fault.fact("meant")):
-            around = str(fault.fact("path")).rpartition(".")[0]
-            meant.add(f"{around}.{name}" if around else name)
+            outer = str(fault.fact("path")).rpartition(".")[0]
+            meant.add(f"{outer}.{name}" if outer else name)
     return [fault for fault in missing_ones if fault.fact("path") not in meant]
 
 
 def _incomplete(type_: Type, place: MergedValue | None, path: Path, head: Span) -> Iterator[Diagnostic]:
-    """What is missing from merged values, and maps whose merged size is wrong."""
+    """The missing values, and the maps whose size is wrong after merging."""
     if place is not None and place.key is not None:
         head = place.key.span
     if place is not None and place.entries is None:
@@ -101,18 +101,20 @@ def _incomplete(type_: Type, place: MergedValue | None, path: Path, head: Span) 
 
 
 def _incomplete_node(type_: Type, place: MergedValue, path: Path, head: Span) -> Iterator[Diagnostic]:
-    """Inside of a list nothing merges: each entry is judged as it stands, but for null."""
-    for fault in judge(type_, _given(place.node), path, complete=True, key=place.key):
+    """The same in a list, whose entries do not merge: each entry is judged, without null."""
+    for fault in judge(type_, _without_null(place.node), path, complete=True, key=place.key):
         if fault.code in (codes.MISSING.id, codes.WRONG_SIZE.id):
             yield fault
 
 
-def _given(node: Node) -> Node:
-    """Without what is null in a mapping: it is as good as not there."""
+def _without_null(node: Node) -> Node:
+    """The node without null in mappings, which is the same as a missing value."""
     if isinstance(node, Mapping):
-        entries = {name: (key, _given(value)) for name, (key, value) in node.entries.items() if value.data is not None}
+        entries = {
+            name: (key, _without_null(value)) for name, (key, value) in node.entries.items() if value.data is not None
+        }
         return mapping_at(node.span, entries)
-    return sequence_at(node.span, [_given(item) for item in node.items]) if isinstance(node, List) else node
+    return sequence_at(node.span, [_without_null(item) for item in node.items]) if isinstance(node, List) else node
 
 
 def _broken_constraints(
@@ -132,7 +134,7 @@ def _broken_constraints(
 
 
 def _concerned(root: RecordType, expression: object, place: MergedValue | None) -> Span | None:
-    """The first value that a constraint names and that a document gives."""
+    """The location of the first value that a constraint names and a document sets; None if there is none."""
     from robocomp_yaml.parameters.expressions import evaluate
 
     for steps in evaluate.paths(expression):

@@ -1,6 +1,6 @@
-"""Layers of values merged: mappings merge, lists and scalars replace, null returns to the default.
+"""Layers of values merged: mappings merge, lists and scalars replace, null resets to the default.
 
-The result remembers for each value its node, and those that it overrode.
+The result has, for each value, its node and the nodes that it overrides.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 
 class MergedValue(msgspec.Struct, frozen=True):
-    """A merged value. `node` is what the last layer says (of a merged mapping: its last one), `key` the key it stands
-    behind; `entries` are those of a merged mapping, None for lists and plain values. `overrode` are the nodes of
-    earlier layers that it replaces, the latest first."""
+    """A merged value. `node` is its node in the last layer that sets it, `key` the key of that node. `entries` are the
+    entries of a merged mapping; None for lists and plain values. `overrode` are the nodes of earlier layers that it
+    replaces, the latest first."""
 
     node: Node
     key: Scalar | None
@@ -30,26 +30,26 @@ class MergedValue(msgspec.Struct, frozen=True):
 
 LayerEntry = tuple[Scalar | None, Node]
 Origin = MergedValue | Node | None
-"""Where a value stands, if anywhere: among merged ones, or inside of one that is not merged."""
+"""The origin of a value: a merged value, a node inside an unmerged value, or None for a default."""
 
 
 def merged(values: LayeredValues) -> MergedValue | None:
-    """What the layers say under `parameters:`, merged by the types; None where they say nothing."""
+    """The values under `parameters:` of all layers, merged by their types; None if there are none."""
     assert values.parameters is not None
-    return merge(values.parameters.parameters.root, [given for layer in values.layers() for given in section(layer)])
+    return merge(values.parameters.parameters.root, [entry for layer in values.layers() for entry in section(layer)])
 
 
 def section(values: LayeredValues) -> list[LayerEntry]:
-    """What a document itself has under `parameters:`: one entry, or none."""
+    """The entry `parameters:` of the document itself: a list of one entry, or an empty list."""
     entry = values.document.root.entries.get("parameters")
     return [entry] if entry is not None and isinstance(entry[1], Mapping) else []
 
 
-def merge(type_: Type, given: Iterable[LayerEntry]) -> MergedValue | None:
-    """One value of several layers, the most general first."""
-    layers = list(given)
+def merge(type_: Type, entries_of_layers: Iterable[LayerEntry]) -> MergedValue | None:
+    """One value merged from its layers, the most general first; None if no layer sets it."""
+    layers = list(entries_of_layers)
     for index in range(len(layers) - 1, -1, -1):
-        if layers[index][1].data is None:  # null: nothing before it counts
+        if layers[index][1].data is None:  # null discards all earlier layers
             layers = layers[index + 1 :]
             break
     if not layers:
@@ -78,7 +78,7 @@ def _overridden(layers: list[LayerEntry]) -> tuple[Node, ...]:
 
 
 def data_of(place: MergedValue | None, type_: Type) -> Any:
-    """Plain data of merged values, without null."""
+    """The plain data of merged values, without null."""
     if place is None:
         return {}
     if place.entries is None:
@@ -91,8 +91,8 @@ def data_of(place: MergedValue | None, type_: Type) -> Any:
 
 
 def _without_null(data: Any, type_: Type) -> Any:
-    """What stands in a list merges with nothing; null members return to their defaults there too, and keys `x-…` of
-    records are no members."""
+    """Data in a list, which does not merge, without null members, which reset to their defaults, and without the keys
+    `x-…` of records, which are not members."""
     if isinstance(type_, ListType) and isinstance(data, list):
         if not isinstance(type_.element, RecordType | MapType | ListType):
             return data
@@ -110,7 +110,7 @@ def _without_null(data: Any, type_: Type) -> Any:
 
 
 def child(node: Node | None, name: Step) -> LayerEntry | None:
-    """Key and node one step further down."""
+    """The key and the node one step below; None if there are none."""
     if isinstance(node, Mapping) and isinstance(name, str):
         return node.entries.get(name)
     if isinstance(node, Sequence) and isinstance(name, int) and name < len(node.items):
@@ -119,7 +119,7 @@ def child(node: Node | None, name: Step) -> LayerEntry | None:
 
 
 def step(where: Origin, name: Step) -> Origin:
-    """One step further down: the merged entry, or the node."""
+    """The origin one step below: the merged entry, or the node."""
     if isinstance(where, MergedValue):
         if where.entries is not None:
             return where.entries.get(name) if isinstance(name, str) else None
@@ -133,7 +133,7 @@ def node_of(where: Origin) -> Node | None:
 
 
 def span_of(where: Origin) -> Span | None:
-    """A value's place; its key's where it fills many lines."""
+    """The location of a value; of its key if the value spans several lines."""
     node = node_of(where)
     if node is None:
         return None

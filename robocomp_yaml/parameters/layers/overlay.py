@@ -1,6 +1,6 @@
-"""Values set from outside of their document, as one more layer: a `parameters:` block, or paths (`motors[0].vel: 1`).
+"""Values that a deployment sets, as one more layer: a `parameters:` block, or paths such as `motors[0].vel: 1`.
 
-Lists merge with nothing, so a path into one makes a copy of the list that it changes. All nodes keep their places.
+Lists do not merge, so a path into a list copies and changes the list. All nodes keep their locations.
 """
 
 from __future__ import annotations
@@ -16,21 +16,21 @@ Entries = dict[str, tuple[Scalar, Node]]
 
 
 class NoEntry(msgspec.Struct, frozen=True):
-    """A path that leads nowhere: `key` spells it."""
+    """A path that does not exist, as `key` spells it."""
 
     key: Scalar
     problem: str
 
 
 class Overlay(msgspec.Struct):
-    """`root` has the entries of the layer; `faults` are paths into lists that are not there."""
+    """`root` has the entries of the layer. `faults` are the paths into lists that do not exist."""
 
     root: Mapping
     faults: list[NoEntry] = []
 
 
 def overlay(settings: Mapping, type_: RecordType, base: MergedValue | None) -> Overlay:
-    """The layer that `settings` are, on top of the merged values `base`."""
+    """The layer of `settings`, on top of the merged values `base`."""
     result = Overlay(mapping_at(settings.span, {}))
     entries: Entries = {}
     for key, node in settings.items():
@@ -44,7 +44,8 @@ def overlay(settings: Mapping, type_: RecordType, base: MergedValue | None) -> O
 
 
 def _put(entries: Entries, steps: list[str], key: Scalar, node: Node, type_: Type, base: MergedValue | None) -> None:
-    """Changes `entries`, those of a mapping of this type. Raises LookupError with what is not there."""
+    """Adds a value to `entries` of a mapping of this type. Raises LookupError, with the problem, if a path does not
+    exist."""
     step, *rest = steps
     known = entries.get(step)
     name = text_at(key.span, step)
@@ -59,28 +60,28 @@ def _put(entries: Entries, steps: list[str], key: Scalar, node: Node, type_: Typ
         return
     inside = dict(known[1].entries) if known and isinstance(known[1], Mapping) else {}
     if inner is None:
-        inside[rest[0]] = (text_at(key.span, rest[0]), node)  # the judge says what is wrong with it
+        inside[rest[0]] = (text_at(key.span, rest[0]), node)  # the judge reports it
     else:
         _put(inside, rest, key, node, inner, place)
     entries[step] = (name, mapping_at(key.span, inside))
 
 
 def _joined(known: tuple[Scalar, Node] | None, node: Node) -> Node:
-    """A block and paths into it may stand side by side."""
+    """The node, merged with the entries that paths into the same block have set."""
     if known and isinstance(known[1], Mapping) and isinstance(node, Mapping):
         return mapping_at(node.span, {**known[1].entries, **node.entries})
     return node
 
 
 def _list(place: MergedValue | None, member: ResolvedMember | None) -> Node | None:
-    """What a list holds before: by the document, else by its default."""
+    """The list that a path changes: the list of the document, or else the default."""
     if place is not None:
         return place.node
     return member.default.node if member and member.default else None
 
 
 def _replaced(node: Node | None, steps: list[str], key: Scalar, new: Node) -> Node:
-    """A copy of what stands inside of a list, with another value at `steps`."""
+    """A copy of a value in a list, with a new value at `steps`. Raises LookupError."""
     if not steps:
         return new
     step, *rest = steps
@@ -97,4 +98,4 @@ def _replaced(node: Node | None, steps: list[str], key: Scalar, new: Node) -> No
         )
     if node is None and not step.isdigit():
         return mapping_at(key.span, {step: (text_at(key.span, step), _replaced(None, rest, key, new))})
-    raise LookupError("there is no list yet to change" if node is None else "there is a plain value")
+    raise LookupError("there is no list to change" if node is None else "the value is plain")

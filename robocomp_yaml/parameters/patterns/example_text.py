@@ -1,4 +1,4 @@
-"""A text that a pattern matches: the shortest of its first alternatives."""
+"""A text that a pattern matches: the shortest text of its first alternatives."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from robocomp_yaml.parameters.patterns.pattern import CONTROLS, Pattern
 
 _VARIED = "123456789bcdeBCDE"
 _ENOUGH = 32
-_PLAIN = "a0A-_./ "  # what a class is asked for first
+_PLAIN = "a0A-_./ "  # preferred characters of a class
 
 
 def example_texts(pattern: Pattern) -> Iterator[str]:
-    """Different texts that a pattern matches, as far as they are easily found: variations of the first one."""
+    """Different texts that a pattern matches: the example of `example_text`, then variations of it, at most 32."""
     todo = [example_text(pattern)]
     seen = set(todo)
     for text in todo:
@@ -28,6 +28,7 @@ def example_texts(pattern: Pattern) -> Iterator[str]:
 
 
 def example_text(pattern: Pattern) -> str:
+    """A short text that a pattern matches."""
     return "text" if pattern.matches("text") else _shortest(parsed(pattern.portable))
 
 
@@ -38,7 +39,7 @@ def _shortest(alternatives: Alternatives) -> str:
 
 
 def _character(atom: str) -> str:
-    """The character that an atom is; of a class a plain one, or the first that it has."""
+    """A character that an atom matches, preferably a plain one."""
     if not atom.startswith("["):
         return CONTROLS.get(atom[1:], atom[-1])
     is_in = re.compile(atom).fullmatch

@@ -1,7 +1,7 @@
-"""Whether a text matches a pattern, in a time that grows with the text and with the pattern, never with its square.
+"""Whether a text matches a pattern, in a time proportional to the lengths of both.
 
-Engines that try one way after the other take years for `(a+)+b`. Here all ways are gone at once: a pattern becomes a
-graph of places, and each character of the text leads from some of them to others. What was found out is kept.
+Backtracking engines need exponential time for `(a+)+b`. This matcher simulates a nondeterministic finite automaton
+(Thompson, 1968): it follows all alternatives at once, and caches the sets of states that it reaches.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import msgspec
 
 from robocomp_yaml.patterns import pattern
 
-MAX_PLACES = 5_000  # so many that `[a-z]{1,1000}` is none of the large ones
+MAX_STATES = 5_000  # enough for `[a-z]{1,1000}`
 _KEPT = 10_000
 _ATOM = pattern(r"\[(?:\\.|[^\]\\])*\]|\\.|.", re.DOTALL)
 _COUNT = pattern(r"[*+?]|\{(\d+)(,(\d*))?\}")
@@ -32,16 +32,17 @@ class TooLarge(ValueError):
 
 @cache
 def matcher(portable: str) -> Matcher:
-    """For what `patterns.pattern` writes. Raises TooLarge, where counts of counts come to more than MAX_PLACES."""
+    """The matcher of a portable pattern. Raises TooLarge if nested counts need more than MAX_STATES states."""
     alternatives = parsed(portable)
-    if _size(alternatives) > MAX_PLACES:
+    if _size(alternatives) > MAX_STATES:
         raise TooLarge
     made = Matcher()
-    made.end = made.add(alternatives, made.place())
+    made.end = made.add(alternatives, made.state())
     return made
 
 
 def parsed(portable: str) -> Alternatives:
+    """The tree of a portable pattern."""
     return _TreeParser(portable).alternatives()
 
 
@@ -89,7 +90,7 @@ def _size(alternatives: Alternatives) -> int:
 
 
 class Matcher:
-    """`free` leads from a place to others by itself, `steps` by a character of a class."""
+    """A finite automaton. `free` are the transitions without a character, `steps` those with a character of a class."""
 
     def __init__(self) -> None:
         self.free: list[list[int]] = []
@@ -97,19 +98,19 @@ class Matcher:
         self.end = 0
         self._next: dict[tuple[frozenset[int], str], frozenset[int]] = {}
 
-    def place(self) -> int:
+    def state(self) -> int:
         self.free.append([])
         self.steps.append(None)
         return len(self.free) - 1
 
     def add(self, part: Atom, start: int) -> int:
-        """The place that one is at behind a part that begins at `start`."""
-        end = self.place()
+        """Adds a part that begins at state `start`. Returns the state at its end."""
+        end = self.state()
         if isinstance(part, str):
             self.steps[start] = (re.compile(part), end)
             return end
         for sequence in part:
-            here = self.place()
+            here = self.state()
             self.free[start].append(here)
             for atom, least, most in sequence:
                 here = self.repeat(atom, least, most, here)
@@ -119,7 +120,7 @@ class Matcher:
     def repeat(self, atom: Atom, least: int, most: int | None, here: int) -> int:
         for _ in range(least):
             here = self.add(atom, self.behind(here))
-        end = self.place()
+        end = self.state()
         if most is None:
             around = self.behind(here)
             self.free[self.add(atom, self.behind(around))].append(around)
@@ -131,7 +132,7 @@ class Matcher:
         return end
 
     def behind(self, here: int) -> int:
-        there = self.place()
+        there = self.state()
         self.free[here].append(there)
         return there
 
@@ -142,7 +143,7 @@ class Matcher:
             if there is None:
                 if len(self._next) >= _KEPT:
                     self._next.clear()
-                steps = (self.steps[place] for place in here)
+                steps = (self.steps[state] for state in here)
                 there = self._with_free({step[1] for step in steps if step and step[0].fullmatch(char)})
                 self._next[here, char] = there
             if not there:
@@ -150,11 +151,12 @@ class Matcher:
             here = there
         return self.end in here
 
-    def _with_free(self, places: set[int]) -> frozenset[int]:
-        found, left = set(places), list(places)
+    def _with_free(self, states: set[int]) -> frozenset[int]:
+        """The states, and all that transitions without a character reach from them."""
+        found, left = set(states), list(states)
         while left:
-            for place in self.free[left.pop()]:
-                if place not in found:
-                    found.add(place)
-                    left.append(place)
+            for state in self.free[left.pop()]:
+                if state not in found:
+                    found.add(state)
+                    left.append(state)
         return frozenset(found)

@@ -1,4 +1,4 @@
-"""Limits of a type's values: read from their nodes, joined with those that the type already has, and judged."""
+"""Limits of the values of a type: read from their nodes, checked, and combined with the limits of the type."""
 
 from __future__ import annotations
 
@@ -34,14 +34,14 @@ from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 
 class _Rejected(Exception):
-    """A limit that cannot be; the type stays as it is."""
+    """A limit is invalid, and the type is unchanged."""
 
     def __init__(self, diagnostic: Diagnostic) -> None:
         self.diagnostic = diagnostic
 
 
 def limited(type_: Type, limits: LimitNodes, found: list[Diagnostic]) -> Type:
-    """The type with more limits; what is wrong with them goes to `found`."""
+    """The type with more limits. Invalid limits are reported in `found` and skipped."""
     for key in LimitNodes.__struct_fields__:
         node = getattr(limits, key)
         if node is not None:
@@ -58,7 +58,7 @@ def _misfit(key: str, node: Node, problem: str, hint: str | Hint = "") -> _Rejec
 
 def _not_for(key: str, type_: Type, node: Node) -> _Rejected:
     kind = "a group" if isinstance(type_, RecordType) else kind_in_words(type_)
-    return _misfit(key, node, f"says nothing about a value that is {kind}")
+    return _misfit(key, node, f"does not apply to a value that is {kind}")
 
 
 def _empty(node: Node, problem: str) -> _Rejected:
@@ -76,9 +76,9 @@ def _range(type_: Type, node: Node) -> Type:
         if not _is_number(scalar.data):
             raise _misfit("range", scalar, f"needs numbers, not '{scalar.lexeme}'")
         if type_.is_integer and scalar.data != int(scalar.data):  # type: ignore[call-overload]
-            raise _misfit("range", scalar, "of whole numbers has whole limits")
+            raise _misfit("range", scalar, "of whole numbers needs whole limits")
         if not least <= scalar.data <= most:  # type: ignore[operator]
-            problem = f"{scalar.lexeme} cannot be reached: {_reach(type_)}"
+            problem = f"{scalar.lexeme} is out of range: {_reach(type_)}"
             raise _Rejected(codes.UNREACHABLE.at(scalar.span, problem=problem))
     _check_keys(node)
     bounds = {end: _bound(scalar, is_open, type_) for end, is_open, scalar in ends}
@@ -87,15 +87,15 @@ def _range(type_: Type, node: Node) -> Type:
         raise _empty(node, f"no number is {new.in_words}")
     joined = _joined(type_.range, new)
     if type_.range is not None and _is_empty(joined, type_.is_integer):
-        raise _empty(node, f"no number is {new.in_words} and {type_.range.in_words}, as its type says")
+        raise _empty(node, f"no number is {new.in_words} and, as its type requires, {type_.range.in_words}")
     kept = tuple(value for value in type_.values if joined.holds(value.value))  # type: ignore[arg-type]
     if type_.values and not kept:
-        raise _empty(node, f"none of the values of its type is {new.in_words}")
+        raise _empty(node, f"no value of its type is {new.in_words}")
     return replace(type_, range=joined, values=kept)
 
 
 def _ends(node: Node) -> Iterator[tuple[str, bool, Scalar]]:
-    """Each limit of a range: which end, whether open, and its node."""
+    """The limits of a range: which end, whether it is exclusive, and its node."""
     if isinstance(node, Sequence):
         for end, item in zip(("low", "high"), node.items, strict=True):
             assert isinstance(item, Scalar)
@@ -114,11 +114,11 @@ _KEYS = {"from": ("low", False), "above": ("low", True), "to": ("high", False), 
 
 
 def _check_keys(node: Node) -> None:
-    """Raises _Rejected for a range with two limits at one end, or with none."""
+    """Raises _Rejected if a range has two limits at one end, or no limit."""
     keys = node.entries.keys() if isinstance(node, Mapping) else ()
     for one, other in (("from", "above"), ("to", "below")):
         if one in keys and other in keys:
-            raise _misfit("range", node, f"has either '{one}' or '{other}', not both")
+            raise _misfit("range", node, f"cannot have both '{one}' and '{other}'")
     if isinstance(node, Mapping) and not set(keys) & set(_KEYS):
         raise _misfit("range", node, "has no limit")
 
@@ -157,17 +157,17 @@ def _enum_range(type_: EnumType, node: Node) -> Type:
     _check_keys(node)
     kept = tuple(name for name in names[first : last + 1] if name in type_.allowed)
     if not kept:
-        raise _empty(node, f"no enumerator of {type_.name} lies in this range")
+        raise _empty(node, f"no enumerator of {type_.name} is in this range")
     return replace(type_, allowed=kept)
 
 
 def _unknown_enumerator(scalar: Scalar, type_: EnumType, key: str) -> _Rejected:
     hint = did_you_mean(scalar.lexeme, type_.names, otherwise=f"there are: {', '.join(type_.names)}")
-    return _misfit(key, scalar, f"names '{scalar.lexeme}', which is no enumerator of {type_.name}", hint)
+    return _misfit(key, scalar, f"names unknown enumerator '{scalar.lexeme}' of {type_.name}", hint)
 
 
 def _values(type_: Type, node: Node, found: list[Diagnostic]) -> Type:
-    """The type with the values that it can have; the others are reported."""
+    """The type with its valid values. Invalid values are reported in `found`."""
     items = [item for item in node.items if isinstance(item, Scalar)] if isinstance(node, Sequence) else []
     before = len(found)
     if isinstance(type_, EnumType):
@@ -175,7 +175,7 @@ def _values(type_: Type, node: Node, found: list[Diagnostic]) -> Type:
             if item.lexeme not in type_.names:
                 found.append(_unknown_enumerator(item, type_, "values").diagnostic)
             elif item.lexeme not in type_.allowed:
-                found.append(codes.UNREACHABLE.at(item.span, problem=f"'{item.lexeme}' lies outside of the range"))
+                found.append(codes.UNREACHABLE.at(item.span, problem=f"'{item.lexeme}' is outside the range"))
         named = {item.lexeme for item in items}
         kept = tuple(name for name in type_.allowed if name in named)
         return type_ if len(found) > before else replace(type_, allowed=kept)
@@ -183,7 +183,7 @@ def _values(type_: Type, node: Node, found: list[Diagnostic]) -> Type:
         raise _not_for("values", type_, node)
     values: list[Literal] = []
     for item in items:
-        if problem := _unreachable(type_, item, values):
+        if problem := _problem_of(type_, item, values):
             found.append(codes.UNREACHABLE.at(item.span, problem=problem))
             continue
         value: Any = item.data
@@ -191,23 +191,23 @@ def _values(type_: Type, node: Node, found: list[Diagnostic]) -> Type:
     return replace(type_, values=tuple(values)) if values else type_
 
 
-def _unreachable(type_: BasicType, item: Scalar, before: list[Literal]) -> str:
+def _problem_of(type_: BasicType, item: Scalar, before: list[Literal]) -> str:
     fault = wrong(type_, item.data)
     if fault == KIND:
         return f"'{item.lexeme}' is not {kind_in_words(type_)}"
     if any(item.data == other.value for other in before):
-        return f"'{item.lexeme}' stands twice"
+        return f"'{item.lexeme}' appears twice"
     if fault == CHOICE:
-        return f"'{item.lexeme}' is none of the values of its type"
+        return f"'{item.lexeme}' is not a value of its type"
     if fault == PATTERN:
         return f"'{item.lexeme}' does not match the pattern"
     if fault == RANGE and type_.range is not None:
-        return f"{item.lexeme} cannot be reached: the range goes {type_.range.in_words}"
-    return f"{item.lexeme} cannot be reached: {_reach(type_)}" if fault else ""
+        return f"{item.lexeme} is out of range: it must be {type_.range.in_words}"
+    return f"{item.lexeme} is out of range: {_reach(type_)}" if fault else ""
 
 
 def _reach(type_: BasicType) -> str:
-    return "{} goes from {} to {}".format(type_.name, *LIMITS[type_.name])
+    return "{} is from {} to {}".format(type_.name, *LIMITS[type_.name])
 
 
 def _pattern(type_: Type, node: Node) -> Type:
@@ -215,11 +215,11 @@ def _pattern(type_: Type, node: Node) -> Type:
         raise _not_for("pattern", type_, node)
     assert isinstance(node, Scalar)
     if type_.pattern is not None:
-        raise _misfit("pattern", node, "stands at the type already")
+        raise _misfit("pattern", node, "is already set by the type")
     try:
         parsed = pattern.parse(node.lexeme)
-    except pattern.NotPortable as refused:
-        raise _Rejected(codes.BAD_PATTERN.at(inside(node, refused.index), problem=str(refused))) from None
+    except pattern.NotPortable as rejected:
+        raise _Rejected(codes.BAD_PATTERN.at(inside(node, rejected.index), problem=str(rejected))) from None
     for value in type_.values:
         if not parsed.matches(str(value.value)):
             problem = f"'{value.lexeme}' does not match the pattern"
@@ -228,7 +228,7 @@ def _pattern(type_: Type, node: Node) -> Type:
 
 
 def inside(node: Scalar, index: int) -> Span:
-    """The place of a character of a scalar's text, as far as its spelling on one line tells."""
+    """The location of a character of a scalar's text; the whole scalar if it is escaped or spans several lines."""
     span = node.span
     if span.line != span.end_line or span.end_column - span.column != len(node.lexeme) + 2 * node.quoted:
         return span
@@ -254,12 +254,12 @@ def _unique(type_: Type, node: Node) -> Type:
     if node.data is not True:
         return type_
     if not isinstance(type_, ListType) or not isinstance(element := type_.element, BasicType | EnumType):
-        hint = "for records, a constraint says it: unique(m.name for m in motors)"
-        raise _misfit("unique", node, "is for lists of plain values", hint)
+        hint = "for records, write a constraint: unique(m.name for m in motors)"
+        raise _misfit("unique", node, "applies only to lists of plain values", hint)
     possible = element.allowed if isinstance(element, EnumType) else element.values
     count = len(possible) or (2 if element.name == "bool" else None)
     if count is not None and type_.size.least > count:
-        raise _empty(node, f"{type_.size.least} entries, all different, of only {count} values")
+        raise _empty(node, f"{type_.size.least} different entries need more than {count} values")
     return replace(type_, unique=True)
 
 

@@ -1,4 +1,4 @@
-"""Parameters as written become parameters with resolved types; each component also gets its `period`."""
+"""Parameters with resolved types, from parameters as written. Each component also has the parameters of `period`."""
 
 from __future__ import annotations
 
@@ -43,8 +43,8 @@ _IN_PARAMETERS = ("type", "list", "map", "group")
 
 
 def resolve(document: ParameterDocument, period: int | None = None) -> tuple[Parameters, list[Diagnostic]]:
-    """The parameters of a document, as far as they have types, and what is wrong with these. `period` is what the
-    component says, in milliseconds."""
+    """The parameters of a document whose types can be resolved, and the problems of the others. `period` is the period
+    of the component in milliseconds, if it sets one."""
     resolver = _Resolver(document)
     members = tuple(resolver.members(document.parameters, None, _IN_PARAMETERS))
     constraints = tuple(resolver.constraints(document.rules))
@@ -52,9 +52,7 @@ def resolve(document: ParameterDocument, period: int | None = None) -> tuple[Par
     resolver.unused()
     root = RecordType("", members, document.doc)
     if not resolver.found and _size(root, {}) > MAX_VALUES:
-        resolver.report(
-            codes.TOO_LARGE, document.span, name="parameters", limit=MAX_VALUES, what="values of plain types"
-        )
+        resolver.report(codes.TOO_LARGE, document.span, name="parameters", limit=MAX_VALUES, what="plain values")
     root, problems = with_period(root, period)
     found = [*resolver.found, *problems]
     sound = tuple(_sound(constraints, root, found))
@@ -63,31 +61,31 @@ def resolve(document: ParameterDocument, period: int | None = None) -> tuple[Par
 
 
 def leaves_types_unknown(found: Iterable[Diagnostic]) -> bool:
-    """Whether some parameters have no usable type; a constraint that cannot be read harms no other."""
+    """Whether some parameters have no usable type. An invalid constraint affects no type."""
     return has_errors(fault for fault in found if fault.code != codes.BAD_EXPRESSION.id)
 
 
 def _sound(
     constraints: Iterable[ResolvedConstraint], root: RecordType, found: list[Diagnostic]
 ) -> Iterator[ResolvedConstraint]:
-    """The constraints that are true or false, and say only what has a meaning: nothing else ever sees others."""
+    """The constraints with valid types. The others are reported in `found` and dropped."""
     for constraint in constraints:
-        from robocomp_yaml.parameters.expressions.types import check_constraint  # few documents have any
+        from robocomp_yaml.parameters.expressions.types import check_constraint  # few documents have constraints
         from robocomp_yaml.parameters.specification.expression import ExpressionError
 
         try:
             check_constraint(constraint.expression, root)
-        except ExpressionError as refused:
+        except ExpressionError as error:
             assert isinstance(constraint.node, Scalar)
             if not leaves_types_unknown(found):
-                place = inside(constraint.node, refused.index)
-                found.append(codes.BAD_EXPRESSION.at(place, problem=str(refused), hint=refused.hint))
+                place = inside(constraint.node, error.index)
+                found.append(codes.BAD_EXPRESSION.at(place, problem=str(error), hint=error.hint))
         else:
             yield constraint
 
 
 def of_no_document(period: int | None) -> Parameters:
-    """The parameters of a component that has no document for them."""
+    """The parameters of a component without a parameters document."""
     return Parameters(with_period(RecordType("", ()), period)[0])
 
 
@@ -110,7 +108,7 @@ class _Resolver:
                     self.report(codes.UNUSED_TYPE, spec.key_span, name=name)
 
     def named(self, name: str) -> Type | None:
-        """One of the document's own types."""
+        """The type that the document defines with this name; None if it is invalid."""
         if name in self.done:
             return self.done[name]
         spec = self.specs[name]
@@ -126,9 +124,9 @@ class _Resolver:
             return None
         if spec.kind == "enum":
             names = tuple(literal.lexeme for literal, _ in spec.enumerators)
-            for place, (literal, _) in enumerate(spec.enumerators):
-                if literal.lexeme in names[:place]:
-                    problem = f"the enumerator '{literal.lexeme}' stands twice"
+            for index, (literal, _) in enumerate(spec.enumerators):
+                if literal.lexeme in names[:index]:
+                    problem = f"enumerator '{literal.lexeme}' appears twice"
                     self.report(codes.UNREACHABLE, literal.span, problem=problem)
             enumerators = tuple((literal.lexeme, doc) for literal, doc in spec.enumerators)
             return limited(EnumType(name, enumerators, names, spec.doc), spec.limits, self.found)
@@ -147,9 +145,9 @@ class _Resolver:
         return len(spec.kinds) == 1
 
     def type(self, spec: TypeSpec, name: str) -> Type | None:
-        """The type of a parameter, a member, or of the entries of a list or map; `name` is for messages."""
+        """The type of a parameter, a member, or the entries of a list or map. `name` is for messages."""
         if len(self.open) > MAX_DEPTH:
-            self.report(codes.TOO_LARGE, spec.span, name=name, limit=MAX_DEPTH, what="types inside each other")
+            self.report(codes.TOO_LARGE, spec.span, name=name, limit=MAX_DEPTH, what="nested types")
             return None
         match spec.kind:
             case "type":
@@ -173,8 +171,8 @@ class _Resolver:
         if name not in self.specs:
             known = (*BASIC_TYPES, *self.specs)
             hint = did_you_mean(name, known, otherwise=f"there are: {', '.join(known)}")
-            if hint.meant not in self.specs and (ours := _FOREIGN.get(name.lower())):
-                hint = meaning(name, ours)
+            if hint.meant not in self.specs and (own := _FOREIGN.get(name.lower())):
+                hint = meaning(name, own)
             self.report(codes.UNKNOWN_TYPE, spec.span, name=name, hint=hint)
             return None
         self.used.add(name)
@@ -187,8 +185,8 @@ class _Resolver:
     def members(
         self, entries: tuple[MemberSpec, ...], editable: bool | None, possible: tuple[str, ...], *, secret: bool = False
     ) -> Iterator[ResolvedMember]:
-        """Entries with their types; one without a type is left out, having been reported. `secret`: the name of the
-        group around them says so."""
+        """Members with resolved types. A member without a valid type is reported and omitted. `secret`: the name of
+        their group is the name of a secret."""
         what = "parameter" if "group" in possible else "member"
         for entry in entries:
             if not self.has_one_kind(entry.spec, what, entry.name, possible):
@@ -203,7 +201,7 @@ class _Resolver:
                 type_ = self.type(entry.spec, entry.name)
             if type_ is None:
                 continue
-            type_ = self.secret(entry, type_) if entry.secret else _named_so(type_) if hidden else type_
+            type_ = self.secret(entry, type_) if entry.secret else _secret_by_name(type_) if hidden else type_
             if entry.optional and entry.default is not None:
                 self.report(codes.DEFAULT_AND_OPTIONAL, entry.default_span or entry.span, name=entry.name)
             default = None if entry.default is None else Default(entry.default.data, entry.default)
@@ -221,21 +219,21 @@ class _Resolver:
 
     def group(self, entry: MemberSpec, type_: RecordType) -> None:
         limited(type_, entry.spec.limits, self.found)
-        problem = "is for values; give it to what the group holds"
+        problem = "does not apply to a group; set it for the members of the group"
         if entry.default is not None:
             self.report(codes.LIMIT_MISFIT, entry.default_span or entry.span, key="default", problem=problem)
         if entry.optional:
             self.report(codes.LIMIT_MISFIT, entry.span, key="optional", problem=problem)
 
     def secret(self, entry: MemberSpec, type_: Type) -> Type:
-        """The type of a parameter that the document calls secret."""
+        """The type of a parameter with `secret: true`."""
         assert entry.secret is not None
         if entry.default is not None:
-            hint = "leave the default out: values documents give {env: NAME} or {file: PATH}"
+            hint = "remove the default: set {env: NAME} or {file: PATH} in a values document"
             self.report(codes.SECRET_DEFAULT, entry.default_span or entry.span, name=entry.name, hint=hint)
         if _plain_of(type_) is None:
             words = "a group" if isinstance(type_, RecordType) and type_.is_group else kind_in_words(type_)
-            words += ", and not of plain values" if isinstance(type_, ListType) else ""
+            words += " of values that are not plain" if isinstance(type_, ListType) else ""
             self.report(codes.SECRET_MISFIT, entry.secret, name=entry.name, words=words)
             return type_
         return _as_secret(type_)
@@ -247,15 +245,15 @@ class _Resolver:
             assert isinstance(rule.that, Scalar)
             try:
                 tree = expression.parse(rule.that.lexeme)
-            except expression.ExpressionError as refused:
-                place = inside(rule.that, refused.index)
-                self.report(codes.BAD_EXPRESSION, place, problem=str(refused), hint=refused.hint)
+            except expression.ExpressionError as error:
+                place = inside(rule.that, error.index)
+                self.report(codes.BAD_EXPRESSION, place, problem=str(error), hint=error.hint)
                 continue
             yield ResolvedConstraint(tree, rule.that.lexeme, rule.otherwise, rule.that, span=rule.span)
 
 
 def _plain_of(type_: Type) -> ScalarType | None:
-    """The plain type that lists, at any depth, hold; None where they hold something else."""
+    """The plain type of the entries of lists, at any depth; None if the entries are not plain."""
     while isinstance(type_, ListType):
         type_ = type_.element
     return type_ if isinstance(type_, BasicType | EnumType) else None
@@ -267,8 +265,8 @@ def _as_secret(type_: Type) -> Type:
     return replace(type_, secret=True) if isinstance(type_, BasicType | EnumType) else type_
 
 
-def _named_so(type_: Type) -> Type:
-    """The type of what is secret by its name: texts and numbers are, and lists and maps of them."""
+def _secret_by_name(type_: Type) -> Type:
+    """The type of a parameter with the name of a secret: texts and numbers, and lists and maps of these, are secret."""
     plain = innermost(type_)
     return _as_secret(type_) if isinstance(plain, BasicType) and plain.name != "bool" else type_
 
@@ -281,8 +279,8 @@ _FOREIGN = {
 
 
 def _size(type_: Type, known: dict[str, int]) -> int:
-    """How many plain values a value of a type has at least, each list and map counted as one entry. `known` are those
-    of structs, which stand in many places."""
+    """The number of plain values in a value of a type, where a list or map counts as one entry. `known` are the numbers
+    of structs, which are used more than once."""
     match type_:
         case RecordType(name=name, members=members):
             if name not in known:
@@ -296,11 +294,12 @@ def _size(type_: Type, known: dict[str, int]) -> int:
 
 
 def with_period(root: RecordType, period: int | None) -> tuple[RecordType, list[Diagnostic]]:
-    """The parameters with `period.compute` and `period.emergency`, as far as the document does not define them."""
+    """The parameters with `period.compute` and `period.emergency`, unless the document defines them, and the
+    problems."""
     given = root.member("period")
     if given is not None and not given.is_group:
-        problem = "'period' is the group of the worker's periods"
-        hint = "write period: {group: {compute: …}}, or give the parameter another name"
+        problem = "'period' must be the group of the worker's periods"
+        hint = "write period: {group: {compute: …}}, or rename the parameter"
         return root, [codes.PERIOD.at(given.span, problem=problem, hint=hint)]
     found: list[Diagnostic] = []
     own = given.type.members if given is not None and isinstance(given.type, RecordType) else ()
@@ -308,14 +307,14 @@ def with_period(root: RecordType, period: int | None) -> tuple[RecordType, list[
     for name in _PERIODS:
         member = by_name.get(name)
         if member is not None and not (isinstance(member.type, BasicType) and member.type.name == "int"):
-            problem = f"'period.{name}' is a whole number of milliseconds: int"
+            problem = f"'period.{name}' must be a whole number of milliseconds: int"
             found.append(codes.PERIOD.at(member.span, problem=problem))
     compute = by_name.get("compute") or _period("compute", period or PERIOD)
     if compute.default is None and not compute.optional:
         compute = replace(compute, default=Default(period or PERIOD))
     elif period is not None and compute.default is not None and compute.default.data != period:
         if (node := compute.default.node) is not None:
-            problem, hint = f"the component's 'period:' says {period} ms", "leave one of the two out"
+            problem, hint = f"the component's 'period:' is {period} ms", "remove one of the two"
             found.append(codes.PERIOD.at(node.span, problem=problem, hint=hint))
     emergency = by_name.get("emergency") or _period("emergency", EMERGENCY)
     others = [member for member in own if member.name not in _PERIODS]

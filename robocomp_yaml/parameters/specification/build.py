@@ -1,4 +1,4 @@
-"""PDSL and values documents' trees to the model as written. The trees have their schemas' shapes."""
+"""The model as written, from the trees of PDSL and values documents, which have been validated."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 
 def build(root: Mapping, path: str) -> ParameterDocument:
-    """The parameters of a document that fits `pdsl.schema.json`."""
+    """The parameters of a document that is valid by `pdsl.schema.json`."""
     return ParameterDocument(
         path=path,
         component=text(root, "component"),
@@ -35,13 +35,13 @@ def build(root: Mapping, path: str) -> ParameterDocument:
 
 
 def build_values(root: Mapping, path: str) -> ValuesDocument:
-    """A values document that fits `config.schema.json`."""
+    """The values document of a tree that is valid by `config.schema.json`."""
     extends = [
         Literal(node.lexeme, node.lexeme, span=node.span) for node in items(root, "extends") if isinstance(node, Scalar)
     ]
     after = root.get("legacy")
     first = after.get("after") if isinstance(after, Mapping) else None
-    if isinstance(first, Scalar):  # what comes first in the file is what later properties replace: a layer
+    if isinstance(first, Scalar):  # the properties before it in the file are a layer
         extends.insert(0, Literal(first.lexeme, first.lexeme, span=first.span))
     return ValuesDocument(path, root, text(root, "component"), tuple(extends), span=span_of(root, "component"))
 
@@ -71,7 +71,7 @@ def _entry(key: Scalar, node: Node) -> MemberSpec:
 
 
 def _spec(node: Node, key: Scalar | None = None) -> TypeSpec:
-    """A type in its short or its long form."""
+    """A type in its short or long form."""
     if not isinstance(node, Mapping):
         assert isinstance(node, Scalar)
         return TypeSpec((("type", node.span),), node.lexeme, span=node.span, key_span=(key or node).span)

@@ -1,10 +1,10 @@
-"""The expressions of `constraints:`: a small language without side effects, read into a tree of its own.
+"""The expressions of `constraints:`: a small language without side effects, parsed into its own tree.
 
-    all(m.min < m.max for m in motors)     low < high and high <= limits.top     device in ["/dev/ttyUSB0", "sim"]
+all(m.min < m.max for m in motors) low < high and high <= limits.top device in ["/dev/ttyUSB0", "sim"]
 
-The syntax is a subset of Python's, so Python's own parser reads it (it only parses: nothing is ever evaluated by
-Python); whatever is not in the subset is refused at its place. `expression_types` knows the types, and
-`values.evaluate` the meaning.
+The syntax is a subset of Python's, so Python's parser reads it, and Python never evaluates it. What is not in the
+subset is rejected at its location. `expressions.types` has the types of expressions, `expressions.evaluate` their
+values.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ _RESERVED = re.compile(
 
 
 class ExpressionError(ValueError):
-    """Says what an expression may not say, where (an index), and how to say it."""
+    """An expression is invalid: the problem, the index of its location, and a hint."""
 
     def __init__(self, problem: str, index: int = 0, hint: str | Hint = "") -> None:
         super().__init__(problem)
@@ -48,7 +48,7 @@ class ExpressionError(ValueError):
 
 
 class _Part(Located, frozen=True, kw_only=True):
-    """`at` is the index of the character that it is known by."""
+    """`at` is the index in the text of the character that locates the part."""
 
     at: int = 0
 
@@ -91,7 +91,7 @@ class Unary(_Part, frozen=True):
 
 
 class Binary(_Part, frozen=True):
-    """`operator` is one of + - * / % (`/` gives a fraction, `%` takes the divisor's sign, as in Python)."""
+    """`operator` is one of + - * / %. As in Python, `/` returns a fraction, and `%` has the sign of the divisor."""
 
     operator: str
     left: Expression
@@ -140,25 +140,25 @@ def parse(text: str) -> Expression:
     source = _without_keywords(text.replace("\n", " ").replace("\r", " "))
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of the parser, about code that we do not run
+            warnings.simplefilter("ignore")  # the parser warns about code that is never run
             tree = ast.parse(source, mode="eval")
         return _ExpressionReader(source).read(tree.body)
     except SyntaxError as error:
         raise _syntax(source, error) from None
     except (RecursionError, MemoryError):
-        raise ExpressionError("this expression is nested too deep") from None
+        raise ExpressionError("this expression is nested too deeply") from None
     except ValueError as error:
         if isinstance(error, ExpressionError):
             raise
-        raise ExpressionError("this is no expression") from None
+        raise ExpressionError("this is not an expression") from None
 
 
 def _syntax(source: str, error: SyntaxError) -> ExpressionError:
     for pattern, word in _FOREIGN:
         found = pattern.search(_without_texts(source))
         if found:
-            return ExpressionError(f"'{found[0]}' means nothing here", found.start(), _instead(found[0], word))
-    return ExpressionError("this is no expression", max(0, (error.offset or 1) - 1))
+            return ExpressionError(f"'{found[0]}' is not an operator", found.start(), _instead(found[0], word))
+    return ExpressionError("this is not an expression", max(0, (error.offset or 1) - 1))
 
 
 def _without_texts(source: str) -> str:
@@ -166,8 +166,8 @@ def _without_texts(source: str) -> str:
 
 
 def _without_keywords(source: str) -> str:
-    """Python's other reserved words are names here. In bold letters the parser takes them for names, and gives them
-    back in plain ones (it normalizes names by NFKC); their length stays the same."""
+    """The source in which Python's other reserved words are names. Their first letters are bold, so that the parser
+    accepts them as names; it normalizes names by NFKC, so that they are plain again. Their length is unchanged."""
     bare = _without_texts(source)
     for word in reversed(list(_RESERVED.finditer(bare))):
         first = word[0][0]
@@ -183,7 +183,7 @@ class _ExpressionReader:
         self._depth = 0
 
     def at(self, node: ast.AST, offset: int | None = None) -> int:
-        """The index of a node's first character, or of another offset in bytes."""
+        """The index of a node's first character, or of an offset in bytes."""
         if offset is None:
             offset = int(getattr(node, "col_offset", 0))
         return offset if self._bytes is None else len(self._bytes[:offset].decode(errors="ignore"))
@@ -191,7 +191,9 @@ class _ExpressionReader:
     def read(self, node: ast.expr) -> Expression:
         self._depth += 1
         if self._depth > MAX_DEPTH:
-            raise ExpressionError("this expression is nested too deep", self.at(node), "write several constraints")
+            raise ExpressionError(
+                "this expression is nested too deeply", self.at(node), "split it into several constraints"
+            )
         read = self._read(node, self.at(node))
         self._depth -= 1
         return read
@@ -224,9 +226,9 @@ class _ExpressionReader:
             case ast.Call(func=ast.Name(id=function), args=arguments, keywords=[]):
                 return self.call(function, arguments, at)
         raise ExpressionError(
-            _refusal(node),
+            _unsupported(node),
             at,
-            "comparisons, arithmetic, and, or, not, in, and functions may stand here; docs/pdsl.md lists them",
+            "use comparisons, arithmetic, and, or, not, in, and the functions that docs/pdsl.md lists",
         )
 
     def call(self, function: str, arguments: list[ast.expr], at: int) -> Call:
@@ -234,9 +236,9 @@ class _ExpressionReader:
 
         if function not in FUNCTIONS:
             hint = did_you_mean(function, FUNCTIONS, otherwise=f"there are: {', '.join(FUNCTIONS)}")
-            raise ExpressionError(f"there is no function '{function}'", at, hint)
+            raise ExpressionError(f"unknown function '{function}'", at, hint)
         if not arguments or (len(arguments) > 1 and function not in ("min", "max")):
-            raise ExpressionError(f"{function}() takes one argument", at)
+            raise ExpressionError(f"{function}() needs one argument", at)
         read: list[Expression | Each] = []
         for argument in arguments:
             if isinstance(argument, ast.GeneratorExp | ast.ListComp):
@@ -244,18 +246,18 @@ class _ExpressionReader:
             else:
                 read.append(self.read(argument))
         if len(read) > 1 and any(isinstance(one, Each) for one in read):
-            raise ExpressionError(f"{function}() takes one 'for', and nothing beside it", at)
+            raise ExpressionError(f"{function}() accepts one 'for', or arguments without 'for'", at)
         return Call(function, tuple(read), at=at)
 
     def each(self, function: str, node: ast.GeneratorExp | ast.ListComp) -> Each:
         at = self.at(node)
         loop = node.generators[0]
         if function not in GENERATORS:
-            raise ExpressionError(f"{function}() takes no 'for'", at, f"{', '.join(GENERATORS)} do")
+            raise ExpressionError(f"{function}() does not accept 'for'", at, f"{', '.join(GENERATORS)} do")
         if len(node.generators) > 1 or len(loop.ifs) > 1:
-            raise ExpressionError("one 'for' and one 'if' may stand here", at, "nest a second all() or any()")
+            raise ExpressionError("only one 'for' and one 'if' are supported here", at, "nest a second all() or any()")
         if not isinstance(loop.target, ast.Name):
-            raise ExpressionError("a 'for' has one variable", self.at(loop.target))
+            raise ExpressionError("'for' needs one variable", self.at(loop.target))
         condition = self.read(loop.ifs[0]) if loop.ifs else None
         return Each(self.read(node.elt), loop.target.id, self.read(loop.iter), condition, at=at)
 
@@ -264,23 +266,23 @@ def _instead(found: str, word: str) -> Hint:
     return Hint(f"write '{word}'", found, f"{word} " if found == "!" else word, safe=True)
 
 
-def _refusal(node: ast.expr) -> str:
+def _unsupported(node: ast.expr) -> str:
     match node:
         case ast.BinOp(op=ast.Pow()):
-            return "powers cannot stand here"
+            return "powers are not supported"
         case ast.BinOp(op=ast.FloorDiv()):
-            return "'//' cannot stand here"
+            return "'//' is not supported"
         case ast.Compare():
-            return "'is' cannot stand here"
+            return "'is' is not supported"
         case ast.Constant():
-            return "this value cannot stand here"
+            return "this value is not supported"
         case ast.Call():
-            return "only the language's own functions can be called"
+            return "only the functions of constraints can be called"
         case ast.GeneratorExp() | ast.ListComp():
-            return "a 'for' can only stand inside of all(), any(), sum(), min(), max() or unique()"
+            return "'for' is supported only inside all(), any(), sum(), min(), max() and unique()"
         case ast.IfExp():
-            return "'if … else' cannot stand here"
+            return "'if … else' is not supported"
         case ast.Subscript():
-            return "only one entry can be taken from a list or map"
+            return "only one entry of a list or map can be selected"
         case _:
-            return "this cannot stand in a constraint"
+            return "this is not supported in a constraint"

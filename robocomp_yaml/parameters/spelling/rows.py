@@ -1,4 +1,4 @@
-"""Several values in one property, by their types; `semantics.rows` says how they are split."""
+"""Several values in one property, by their types. `semantics.rows` splits them."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from robocomp_yaml.semantics import rows, texts
 
 
 def read_row(record: RecordType, names: tuple[str, ...], text: str, separator: str) -> rows.Row:
-    """The texts of a row by member; None where the columns do not add up."""
+    """The texts of a row by member; None if the number of columns is wrong."""
     members = {member.name: member for member in record.members}
     return rows.row(
         text, separator, names, lambda name: members[name].optional, lambda name: _is_string(members[name].type)
@@ -53,10 +53,10 @@ def typed(type_: Type, read: Any) -> Any:
         return [typed(type_.element, part) for part in read]
     if isinstance(type_, RecordType):
         if read is None:
-            raise ValueError("the columns do not add up")
+            raise ValueError("the number of columns is wrong")
         types = {member.name: member.type for member in type_.members}
         return {name: typed(types[name], text) for name, text in read.items()}
     found = texts.read(type_.name, read) if isinstance(type_, BasicType) else read
     if found is None:
-        raise ValueError(f"'{read}' is no value of its type")
+        raise ValueError(f"'{read}' is not a value of its type")
     return found

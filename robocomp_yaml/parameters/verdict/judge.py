@@ -1,4 +1,4 @@
-"""Values judged at their places: what is wrong with each, in words that name parameter, value, limit and unit."""
+"""The judge: the problems of values as diagnostics, with parameter, value, limit, unit and location."""
 
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 
 def judge(type_: Type, node: Node, path: Path, *, complete: bool, key: Scalar | None = None) -> Iterator[Diagnostic]:
-    """All that is wrong with a value. `complete`: nothing required may be missing, and there is no null, as in a
-    default; else it is a layer, in which null returns to the default and anything may be left out."""
+    """All problems of a value. `complete`: required values must be set and null is invalid, as in a default; else the
+    value is a layer, in which null resets a value to its default and everything may be missing."""
     match type_:
         case BasicType() | EnumType():
             yield from _scalar(type_, node, path, key)
@@ -48,7 +48,7 @@ def judge(type_: Type, node: Node, path: Path, *, complete: bool, key: Scalar | 
 
 
 def shown(node: Node, type_: Type) -> str:
-    """A value for messages, shortened; a secret is not shown."""
+    """A value for messages, shortened to 40 characters; HIDDEN for a secret."""
     if isinstance(node, Mapping):
         return "a mapping"
     if isinstance(node, Sequence):
@@ -66,8 +66,8 @@ def _short(text: str) -> str:
     return text if len(text) <= 40 else f"{text[:39]}…"
 
 
-def _place(node: Node, key: Scalar | None) -> Span:
-    """A value's; its key's where the value is empty or fills many lines."""
+def _span(node: Node, key: Scalar | None) -> Span:
+    """The location of a value; of its key if the value is empty or spans several lines."""
     is_at_key = _is_empty(node) or node.span.line != node.span.end_line
     return key.span if key is not None and is_at_key else node.span
 
@@ -79,22 +79,23 @@ def _is_empty(node: Node) -> bool:
 def _wrong_type(type_: Type, node: Node, path: Path, key: Scalar | None) -> Diagnostic:
     hint = ""
     if is_secret(type_):
-        pass  # a hint would say it
+        pass  # a hint would show it
     elif isinstance(node, Scalar) and isinstance(node.data, str) and isinstance(type_, BasicType):
         bare = node.lexeme.strip()
         if node.quoted and (
             (type_.is_number and re.fullmatch(r"[-+]?[0-9.]+", bare))
             or (type_.name == "bool" and bare in ("true", "false", "True", "False"))
         ):
-            hint = f"without quotes: {bare}"
+            hint = f"write it without quotes: {bare}"
         elif type_.name == "bool" and (meant := TRUTHS.get(bare.lower())):
             hint = f"write {meant}"
     elif isinstance(type_, BasicType) and type_.name == "string" and isinstance(node, Scalar) and node.lexeme:
         hint = f'text needs quotes here: "{node.lexeme}"'
-    wanted = _wanted(type_) if isinstance(type_, BasicType) else kind_in_words(type_)
+    expected = _expected(type_) if isinstance(type_, BasicType) else kind_in_words(type_)
     found, fixes = shown(node, type_), _retyped(type_, node)
-    place = _place(node, key)
-    return codes.WRONG_TYPE.at(place, path=in_words(path), wanted=wanted, found=found, hint=hint, fixes=fixes)
+    return codes.WRONG_TYPE.at(
+        _span(node, key), path=in_words(path), wanted=expected, found=found, hint=hint, fixes=fixes
+    )
 
 
 def _retyped(type_: Type, node: Node) -> tuple[Fix, ...]:
@@ -103,8 +104,8 @@ def _retyped(type_: Type, node: Node) -> tuple[Fix, ...]:
     return retyped([json_type(type_)], node.lexeme, node.data, node.span)
 
 
-def _wanted(type_: Type) -> str:
-    """What a value of a type is, with the unit of its numbers."""
+def _expected(type_: Type) -> str:
+    """The values of a type in words, with the unit of numbers."""
     unit = unit_of(type_)
     return f"{kind_in_words(type_)} ({unit})" if unit else kind_in_words(type_)
 
@@ -119,7 +120,7 @@ def _scalar(type_: ScalarType, node: Node, path: Path, key: Scalar | None) -> It
     elif fault == PATTERN:
         assert isinstance(type_, BasicType) and type_.pattern is not None
         value = HIDDEN if type_.secret else f"'{_short(str(node.data))}'"
-        yield codes.NO_MATCH.at(_place(node, key), path=in_words(path), value=value, pattern=type_.pattern.text)
+        yield codes.NO_MATCH.at(_span(node, key), path=in_words(path), value=value, pattern=type_.pattern.text)
     elif fault:
         yield _outside(type_, fault, node, path, key)
 
@@ -130,7 +131,7 @@ def _reference(node: Node, path: Path) -> Iterator[Diagnostic]:
     key, name = node.entries[kind]
     for other, _ in node.items():
         if other.lexeme != kind:
-            problem = f"has '{other.lexeme}' beside '{kind}'"
+            problem = f"cannot have '{other.lexeme}' beside '{kind}'"
             yield codes.BAD_REFERENCE.at(other.span, path=in_words(path), problem=problem)
     if problem := references.problem(kind, name.data):
         span, hint = key.span if _is_empty(name) else name.span, _REFERENCE_HINTS[kind]
@@ -138,13 +139,13 @@ def _reference(node: Node, path: Path) -> Iterator[Diagnostic]:
 
 
 _REFERENCE_HINTS = {
-    references.ENV: "a variable's name has letters, digits and underscores, and starts with no digit",
+    references.ENV: "a variable's name has letters, digits and underscores, and does not start with a digit",
     references.FILE: "file: is the path of a file that is read when the component starts",
 }
 
 
 def _outside(type_: ScalarType, fault: str, node: Node, path: Path, key: Scalar | None) -> Diagnostic:
-    """Of the right kind, and not allowed."""
+    """The diagnostic for a value of the right kind that is not allowed."""
     assert isinstance(node, Scalar)
     unit = f" {unit}" if (unit := unit_of(type_)) else ""
     hint: str | Hint = NO_HINT
@@ -153,14 +154,14 @@ def _outside(type_: ScalarType, fault: str, node: Node, path: Path, key: Scalar 
         value = f"'{node.data}'" if isinstance(type_, EnumType) else repr(value)
     if fault == CHOICE:
         allowed = type_.allowed if isinstance(type_, EnumType) else [each.lexeme for each in type_.values]
-        wanted = f"{one_of(allowed, type_.secret)}{unit}"
+        expected = f"{one_of(allowed, type_.secret)}{unit}"
         hint = did_you_mean(node.data, allowed) if isinstance(node.data, str) and not type_.secret else NO_HINT
     elif fault == RANGE and isinstance(type_, BasicType) and type_.range is not None:
-        wanted = f"{type_.range.in_words}{unit}"
+        expected = f"{type_.range.in_words}{unit}"
     else:
-        wanted = bounds(type_.name)
+        expected = bounds(type_.name)
     value = f"{HIDDEN if type_.secret else value}{unit}"
-    return codes.OUT_OF_RANGE.at(_place(node, key), path=in_words(path), value=value, wanted=wanted, hint=hint)
+    return codes.OUT_OF_RANGE.at(_span(node, key), path=in_words(path), value=value, wanted=expected, hint=hint)
 
 
 def _list(type_: ListType, node: Node, path: Path, complete: bool, key: Scalar | None) -> Iterator[Diagnostic]:
@@ -169,8 +170,8 @@ def _list(type_: ListType, node: Node, path: Path, complete: bool, key: Scalar |
         return
     yield from wrong_size(type_, len(node.items), node, path, key)
     seen: set[object] = set()
-    for place, item in enumerate(node.items):
-        yield from judge(type_.element, item, (*path, place), complete=complete)
+    for index, item in enumerate(node.items):
+        yield from judge(type_.element, item, (*path, index), complete=complete)
         if type_.unique:
             known = item.data if isinstance(item.data, str | int | float) else repr(item.data)
             if known in seen:
@@ -184,14 +185,14 @@ def wrong_size(
 ) -> Iterator[Diagnostic]:
     if not type_.size.holds(count):
         size = type_.size.in_words
-        yield codes.WRONG_SIZE.at(_place(node, key), path=in_words(path), count=entries(count), wanted=size)
+        yield codes.WRONG_SIZE.at(_span(node, key), path=in_words(path), count=entries(count), wanted=size)
 
 
 def _map(type_: MapType, node: Node, path: Path, complete: bool, key: Scalar | None) -> Iterator[Diagnostic]:
     if not isinstance(node, Mapping):
         yield _wrong_type(type_, node, path, key)
         return
-    if complete:  # layers are judged when they are merged
+    if complete:  # the size of a layer is judged after merging
         yield from wrong_size(type_, len(node.entries), node, path, key)
     for name, value in node.items():
         if value.data is None and not complete:
@@ -207,7 +208,7 @@ def _record(type_: RecordType, node: Node, path: Path, complete: bool, key: Scal
     for name, value in node.items():
         member = members.get(name.lexeme)
         if member is None:
-            if complete or not name.lexeme.startswith("x-"):  # the user's own, in a document
+            if complete or not name.lexeme.startswith("x-"):  # an extension of the user
                 yield unknown(name, type_, path, node)
         elif value.data is None and not isinstance(value, Mapping | Sequence):
             if complete:
@@ -224,11 +225,13 @@ def unknown(name: Scalar, type_: RecordType, path: Path, node: Mapping) -> Diagn
 
 
 def missing(type_: RecordType, given: set[str], path: Path, span: Span) -> Iterator[Diagnostic]:
-    """What has no value and needs one; groups that are not there are looked into."""
+    """The members that need a value and have none, those of missing groups included."""
     for member in type_.members:
         if member.name in given:
             continue
         if isinstance(member.type, RecordType) and member.type.is_group:
             yield from missing(member.type, set(), (*path, member.name), span)
         elif member.required:
-            yield codes.MISSING.at(span, path=in_words((*path, member.name)), hint=f"give it {_wanted(member.type)}")
+            yield codes.MISSING.at(
+                span, path=in_words((*path, member.name)), hint=f"set it to {_expected(member.type)}"
+            )

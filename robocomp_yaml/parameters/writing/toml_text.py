@@ -1,4 +1,4 @@
-"""Effective values as TOML, nested as ConfigLoader-based components of RoboComp read them."""
+"""Effective values as TOML, nested as RoboComp components with ConfigLoader read them."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ Table = dict[str, Any]
 
 
 def toml_text(values: LayeredValues, effective: Effective) -> str:
-    """The text of a TOML file: tables by the first part of each key; under `Ice` keys stay dotted, and text."""
+    """The text of a TOML file, with a table for the first part of each key. Keys under `Ice` stay dotted."""
     table: Table = {}
     sections = properties(values, effective, quoted=True)[0]
     connections = [section for section in sections if section.title != "Parameters"]
@@ -48,7 +48,7 @@ def toml_text(values: LayeredValues, effective: Effective) -> str:
 
 
 def _connections(sections: list[Section], unquotes: bool) -> Iterator[tuple[list[str], str]]:
-    """`unquotes`: quotes around a text are those of the file that it comes from, and no part of it."""
+    """`unquotes`: quotes around a text belong to its file, and are not part of the text."""
     for section in sections:
         for made in section.properties:
             name, _, tail = made.key.rpartition(".")
@@ -64,15 +64,15 @@ def _connections(sections: list[Section], unquotes: bool) -> Iterator[tuple[list
             yield key.split(".", 1), made.value if is_bare else quoted(plain)
 
 
-def _parameters(effective: Effective, as_given: bool) -> Iterator[tuple[list[str], str]]:
-    """`as_given`: a migrated document says again what the file said, without defaults, and as it spelled it."""
+def _parameters(effective: Effective, only_set: bool) -> Iterator[tuple[list[str], str]]:
+    """`only_set`: defaults are omitted, so that a migrated document is written as its legacy file."""
     for path, member in leaves(effective.parameters.root):
         data: Any = effective.data
         where: Origin = effective.place
         for name in path.split("."):
             data = data.get(name) if isinstance(data, dict) else None
             where = step(where, name) if where is not None else None
-        if data is None or (as_given and where is None):
+        if data is None or (only_set and where is None):
             continue
         spelling = effective.parameters.spelling(path)
         is_plain = spelling is not None and bool(spelling.key) and not placeholders(spelling.key)

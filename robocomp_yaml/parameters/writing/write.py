@@ -1,6 +1,6 @@
-"""Effective values as properties: by their paths, or as the legacy table spells them.
+"""Effective values as properties: by their paths, or as `legacy:` spells them.
 
-What no property can say is a fault at its line. Rows are read back before they are believed.
+A value that no property can hold is reported at its location. Rows are read back to verify them.
 """
 
 from __future__ import annotations
@@ -42,12 +42,12 @@ from robocomp_yaml.semantics.texts import spelled, unquoted
 from robocomp_yaml.source.properties import unwritable
 from robocomp_yaml.source.tree import Scalar
 
-_EMPTY_OPTIONAL = "an optional one that is empty cannot be told from one that is left out"
+_EMPTY_OPTIONAL = "an empty optional value would be read as a missing one"
 
 
 class Property(msgspec.Struct, frozen=True):
-    """One line of a property file. `read` gives what a text in its place would mean (None for texts that mean just
-    themselves), so that another spelling of the same value can stand there. `secret`: its value is not to be shown."""
+    """One line of a property file. `read` returns the value that another text would have (None if the text is the
+    value), so that another spelling of the same value is possible. `secret`: the value is secret."""
 
     key: str
     value: str
@@ -61,13 +61,13 @@ class Property(msgspec.Struct, frozen=True):
 
 
 class _Position(msgspec.Struct, frozen=True):
-    """Where a value comes from, and its path."""
+    """The origin of a value, and its path."""
 
     where: Origin
     path: Path = ()
 
     def child(self, name: Step, otherwise: Origin = None) -> _Position:
-        """One step further down; `otherwise` is where a value comes from that no document sets."""
+        """The position one step below. `otherwise` is the origin of a value that no document sets."""
         inner = step(self.where, name)
         return _Position(inner if inner is not None else otherwise, (*self.path, name))
 
@@ -76,13 +76,13 @@ class _Position(msgspec.Struct, frozen=True):
 
 
 class Writer(msgspec.Struct):
-    """Writes the parameters. `only_given`: defaults are left out. `quote`: text stands in double quotes, as in flat
-    TOML. `unquotes`: whoever reads the file takes such quotes away. `head` is where faults are shown that have no line
-    of their own; `folder` is that of the file to be, None where it may be put anywhere."""
+    """Writes parameters. `only_set`: defaults are omitted. `quote`: text is in double quotes, as in flat TOML.
+    `unquotes`: readers of the file remove such quotes. `head` is the location of faults without a location of their
+    own. `folder` is the folder of the file; None if it is unknown."""
 
     parameters: Parameters
     head: Span
-    only_given: bool = False
+    only_set: bool = False
     quote: bool = False
     unquotes: bool = False
     folder: str | None = None
@@ -94,14 +94,14 @@ class Writer(msgspec.Struct):
     def record(
         self, type_: RecordType, data: dict[str, Any], at: _Position, key: str, *, is_top: bool
     ) -> Iterator[Property]:
-        """`is_top` holds in groups, whose members the legacy table may name."""
+        """`is_top`: the record is the root or a group, so that `legacy:` may spell its members."""
         for member in type_.members:
-            given = at.child(member.name)
-            if member.name not in data or (is_top and self.only_given and given.where is None):
+            own = at.child(member.name)
+            if member.name not in data or (is_top and self.only_set and own.where is None):
                 continue
             value, stem = data[member.name], f"{key}.{member.name}" if key else member.name
             if member.is_group and isinstance(member.type, RecordType):
-                yield from self.record(member.type, value, given, stem, is_top=is_top)
+                yield from self.record(member.type, value, own, stem, is_top=is_top)
                 continue
             here, spelling = at.member(member), self.parameters.spelling(stem) if is_top else None
             if spelling is None:
@@ -113,7 +113,7 @@ class Writer(msgspec.Struct):
     def checked_member(
         self, member: ResolvedMember, value: Any, at: _Position, written: Iterator[Property]
     ) -> Iterator[Property]:
-        """What is empty has no property (or, as a list, must not count on one), and reads as if it were not given."""
+        """The properties of a member. An empty value has none, which is a fault if a missing one has another meaning."""
         before, made = len(self.faults), list(written)
         yield from made
         is_empty = value in ([], {}) or (value == "" and not self.quote) or not made
@@ -122,7 +122,7 @@ class Writer(msgspec.Struct):
         if member.optional:
             self.fault(at, _EMPTY_OPTIONAL)
         elif member.default is not None and not _is_default(member, value):
-            self.fault(at, "it is empty, and its default is not")
+            self.fault(at, "it is empty, but its default is not")
 
     def value(self, type_: Type, data: Any, at: _Position, key: str) -> Iterator[Property]:
         match type_:
@@ -158,7 +158,7 @@ class Writer(msgspec.Struct):
             yield Property(key, text, span_of(at.where), read, secret)
 
     def text(self, type_: Type, data: Any, at: _Position) -> str | None:
-        """The text of a plain value; None where none can be."""
+        """The text of a plain value; None, with a fault, if there is none."""
         node = node_of(at.where)
         if isinstance(data, dict):
             return references.text(data, node, self.folder)
@@ -176,11 +176,11 @@ class Writer(msgspec.Struct):
     def misread(self, text: str) -> str:
         """Why a property cannot hold a text, or ''."""
         if any(char in text for char in "\r\n\0"):
-            return "it holds a line end"
+            return "it contains a line end"
         if reference := reference_of(text):
             return f"it would be read as a reference to {'a file' if FILE in reference else 'the environment'}"
         is_unquoted = (self.quote or self.unquotes) and unquoted(text) != text
-        return "in quotes, it would be read without them" if is_unquoted else ""
+        return "its quotes would be removed when it is read" if is_unquoted else ""
 
     def spelled(self, spelling: LegacySpelling, type_: Type, data: Any, at: _Position) -> Iterator[Property]:
         if isinstance(type_, BasicType | EnumType):
@@ -203,7 +203,7 @@ class Writer(msgspec.Struct):
                 self.fault(here, "its row would be empty")
             for made in written:
                 if made.key in keys:
-                    self.fault(here, f"another row is the property {made.key} already")
+                    self.fault(here, f"another row already uses the property {made.key}")
                 keys.add(made.key)
                 yield made
 
@@ -220,15 +220,15 @@ class Writer(msgspec.Struct):
     def row_key(
         self, spelling: LegacySpelling, record: RecordType, item: Any, at: _Position, number: str
     ) -> str | None:
-        holes, found = spellings.placeholders(spelling.key), {"i": number}
-        for hole in holes:
-            member = record.member(hole)
+        names, found = spellings.placeholders(spelling.key), {"i": number}
+        for name in names:
+            member = record.member(name)
             if member is not None:
-                where = _Position(step(at.where, hole), at.path)
-                found[hole] = self.text(member.type, item.get(hole, ""), where) or ""
+                where = _Position(step(at.where, name), at.path)
+                found[name] = self.text(member.type, item.get(name, ""), where) or ""
         key = spellings.filled(spelling.key, found)
         read = spellings.pattern(spelling.key).match(key)
-        if read is None or read.groups() != tuple(found[hole] for hole in holes):
+        if read is None or read.groups() != tuple(found[name] for name in names):
             self.fault(at, f"its key, {key}, would be read differently")
             return None
         return key
@@ -241,15 +241,15 @@ class Writer(msgspec.Struct):
             return
         filled, members = list(texts.values()), {member.name: member for member in record.members}
         while filled and not filled[-1] and members[spelling.columns[len(filled) - 1]].optional:
-            del filled[-1]  # what is optional at the end of a row may be left out
+            del filled[-1]  # optional columns at the end of a row may be missing
         text = spelling.separator.join(filled)
         read = rows.read_row(record, spelling.columns, text, spelling.separator)
         if read is None or any(
             read.get(name, "") != column or (name not in read and members[name].default is not None)
             for name, column in texts.items()
         ):
-            said = "" if holds_secret(record) else f", '{text}',"
-            self.fault(at, f"its row{said} would be read differently")
+            shown = "" if holds_secret(record) else f", '{text}',"
+            self.fault(at, f"its row{shown} would be read differently")
         elif text:
             yield from self.checked(
                 key, text, at,
@@ -258,7 +258,7 @@ class Writer(msgspec.Struct):
             )  # fmt: skip
 
     def columns(self, spelling: LegacySpelling, record: RecordType, item: Any, at: _Position) -> dict[str, str] | None:
-        """The texts of a row by column; None where one cannot be."""
+        """The texts of a row by column; None, with a fault, if one has none."""
         members = {member.name: member for member in record.members if member.name in item}
         named = {*spelling.columns, *spellings.placeholders(spelling.key)}
         for name, member in members.items():
@@ -297,8 +297,8 @@ class Writer(msgspec.Struct):
             return
         text = joined(parts, spelling.separators, spelling.trailing)
         if rows.read_parts(type_, text, spelling) != rows.as_read(type_, parts, spelling):
-            said = "it" if holds_secret(type_) else f"'{text}'"
-            self.fault(at, f"its separators cannot say {said}")
+            shown = "it" if holds_secret(type_) else f"'{text}'"
+            self.fault(at, f"its separators cannot spell {shown}")
         elif text:
             yield from self.checked(
                 spelling.key, text, at,
@@ -306,7 +306,8 @@ class Writer(msgspec.Struct):
             )  # fmt: skip
 
     def texts(self, spelling: LegacySpelling, type_: Type, data: Any, at: _Position) -> Any:
-        """Nested lists of texts, a record as the list of its columns; None where one cannot be."""
+        """Nested lists of texts, where a record is the list of its columns; None, with a fault, if a value has no
+        text."""
         if isinstance(type_, RecordType):
             row = self.columns(spelling, type_, data, at)
             return None if row is None else list(row.values())

@@ -29,27 +29,27 @@ _INT = "{type: int, default: 1}"
         (
             "Arm: {group: {Endpoints: {type: string, default: x}}}",
             "",
-            ["RC3116 'Arm.Endpoints' and the endpoints of Arm are both the property 'Arm.Endpoints'"],
+            ["RC3116 'Arm.Endpoints' and the endpoints of Arm both use the property 'Arm.Endpoints'"],
         ),
         (
             "statemachine: {group: {a: {type: int, default: 1}}}",
             "",
-            ["RC3116 'statemachine.a' and the states of a state machine are both the property 'statemachine.…'"],
+            ["RC3116 'statemachine.a' and the states of a state machine both use the property 'statemachine.…'"],
         ),
         (
             "MovedTopic: {group: {Endpoints: {type: string, default: x}}}",
             "",
             [
-                "RC3116 'MovedTopic.Endpoints' and the endpoints of MovedTopic are both the property 'MovedTopic.Endpoints'"
+                "RC3116 'MovedTopic.Endpoints' and the endpoints of MovedTopic both use the property 'MovedTopic.Endpoints'"
             ],
         ),
-        (f"OtherProxy: {_INT}", "", ["RC3116 'OtherProxy' and the proxy Other are both the property 'OtherProxy'"]),
-        (f"Ice: {{group: {{x: {_INT}}}}}", "", ["RC3116 'Ice.x' and a setting of Ice are both the property 'Ice.…'"]),
-        (f"a: {_INT}, b: {_INT}", "a: X, b: X", ["RC3116 'b' and 'a' are both the property 'X'"]),
+        (f"OtherProxy: {_INT}", "", ["RC3116 'OtherProxy' and the proxy Other both use the property 'OtherProxy'"]),
+        (f"Ice: {{group: {{x: {_INT}}}}}", "", ["RC3116 'Ice.x' and a setting of Ice both use the property 'Ice.…'"]),
+        (f"a: {_INT}, b: {_INT}", "a: X, b: X", ["RC3116 'b' and 'a' both use the property 'X'"]),
         (
             f"a: {_INT}, ids: {{list: int, default: []}}",
             "a: Id7, ids: {key: 'Id{i}'}",
-            ["RC3116 'ids' and 'a' are both the property 'Id7'"],
+            ["RC3116 'ids' and 'a' both use the property 'Id7'"],
         ),
     ],
 )

@@ -35,7 +35,7 @@ def test_what_a_reader_sees(tmp_path: Path) -> None:
         r"Give \<host> and `<port>`, see <https://robocomp.org>.",
         r"| `device` | text that matches `/dev/(a\|b)[0-9]*` | `/dev/a0` |  |",
         r'| `text` | text | `` "a  `b` \| \n" `` |  |',
-        "| `modes` | a map, each value [Mode](#mode): one of slow, fast | `{left arm: slow}` |  |",
+        "| `modes` | a map, each [Mode](#mode): one of slow, fast | `{left arm: slow}` |  |",
         "| `one` | [Mode](#mode): one of slow | `slow` |  |",
         "| `points` | a list of exactly 2 entries, each entry a list, each entry [Point](#point) | **required** |  |",
         "| `ids` | a list, all different, each entry a whole number | `[1]` |  |",

@@ -272,7 +272,7 @@ Value Kind::takeRecord(const Value& raw, const Path& path, Taking& taking) const
     {
         if (member(key) == nullptr)
         {
-            taking.refuse({}, "there is no parameter '" + inWords(path + Step{key}) + "'");
+            taking.refuse({}, "unknown parameter '" + inWords(path + Step{key}) + "'");
         }
     }
     Value::Map items;

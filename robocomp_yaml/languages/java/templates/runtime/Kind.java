@@ -245,7 +245,7 @@ public final class Kind {
         }
         for (Object key : map.keySet()) {
             if (!members.containsKey(key)) {
-                taking.refuse(List.of(), "there is no parameter '"
+                taking.refuse(List.of(), "unknown parameter '"
                     + Paths.inWords(Paths.inside(path, String.valueOf(key))) + "'");
             }
         }

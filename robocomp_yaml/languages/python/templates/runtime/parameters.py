@@ -85,7 +85,7 @@ class Live:
             if member.attribute == name:
                 self.__store__.change({member.key: value})
                 return
-        raise AttributeError(f"there is no parameter '{name}'")
+        raise AttributeError(f"unknown parameter '{name}'")
 
 
 class Store:
@@ -130,7 +130,7 @@ class Store:
             changed = data(self.kind, self.values)
             for path, value in values.items():
                 if not put(self.kind, changed, parse(path), value):
-                    conversion.reject((), f"there is no parameter '{path}'")
+                    conversion.reject((), f"unknown parameter '{path}'")
             made = self.kind.convert(changed, (), conversion) if not conversion.problems else None
             self._replace(made, conversion)
         self._tell()
@@ -144,7 +144,7 @@ class Store:
             conversion = Conversion(is_text=True)
             read = reader.read(self.kind)
             for key in sorted(changes.keys() - reader.used):
-                conversion.reject((), f"there is no parameter '{key}'")
+                conversion.reject((), f"unknown parameter '{key}'")
             for key in sorted(key for key in changes.keys() & reader.used if HIDDEN in changes[key]):
                 if HIDDEN in now.get(key, "") or getattr(at(self.kind, parse(key)), "is_secret", False):
                     conversion.reject((), f"{key} is to hold {HIDDEN}, which stands for what is not shown")
