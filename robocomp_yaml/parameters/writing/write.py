@@ -113,7 +113,7 @@ class Writer(msgspec.Struct):
     def checked_member(
         self, member: ResolvedMember, value: Any, at: _Position, written: Iterator[Property]
     ) -> Iterator[Property]:
-        """The properties of a member. An empty value has none, which is a fault if a missing one has another meaning."""
+        """The properties of a member. An empty value has none: a fault if a missing one means another value."""
         before, made = len(self.faults), list(written)
         yield from made
         is_empty = value in ([], {}) or (value == "" and not self.quote) or not made

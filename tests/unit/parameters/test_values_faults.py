@@ -118,7 +118,7 @@ def test_faults_deep_inside_and_all_at_once(tmp_path: Path) -> None:
         "2:1 RC3307 Yolo.gpu has no value, and no default (set it to true or false)",
         "4:8 RC3301 unknown parameter 'motors[0].nam' (did you mean 'name'?)",
         "4:21 RC3303 motors[0].vel is 3 rad/s, and must be from 0 to 2 rad/s",
-        "5:7 RC3307 motors[1].name has no value, and no default (give it text)",
+        "5:7 RC3307 motors[1].name has no value, and no default (set it to text)",
         "5:22 RC3305 motors[1].pose has 3 entries, and must have exactly 2",
         "5:26 RC3302 motors[1].pose[1] must be a whole number, and is the text 'x'",
     ]
