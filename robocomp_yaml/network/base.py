@@ -6,7 +6,7 @@ import msgspec
 
 from robocomp_yaml.link.deployments import LinkedInstance
 from robocomp_yaml.link.program import LinkedValues
-from robocomp_yaml.parameters.writing.properties import CLASSIC, FLAT_TOML, dialect, given
+from robocomp_yaml.parameters.writing.properties import CLASSIC, FLAT_TOML, dialect, merged_entries
 from robocomp_yaml.semantics import connections
 from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source import properties
@@ -47,8 +47,8 @@ class Base(msgspec.Struct):
         if self.values is None:
             prefix, name = self.first(connections.prefix(prefixes)), self.first(port)
         else:
-            prefix = _text(dict(given(self.values, "topics", "prefix")).get(prefixes))
-            name = _text(dict(given(self.values, "topics", "name")).get(port))
+            prefix = _text(dict(merged_entries(self.values, "topics", "prefix")).get(prefixes))
+            name = _text(dict(merged_entries(self.values, "topics", "name")).get(port))
         return connections.topic(prefix, name, interface)
 
     def first(self, *keys: str) -> str:
@@ -56,7 +56,7 @@ class Base(msgspec.Struct):
 
     def proxy_key(self, name: str) -> Scalar | None:
         """The property that a proxy has instead of its usual one."""
-        node = dict(given(self.values, "proxies")).get(name) if self.values is not None else None
+        node = dict(merged_entries(self.values, "proxies")).get(name) if self.values is not None else None
         key = node.get("key") if isinstance(node, Mapping) else None
         return key if isinstance(key, Scalar) else None
 

@@ -50,7 +50,7 @@ class Value(msgspec.Struct, frozen=True):
 
 def shown(effective: Effective, *, reveal: bool) -> Iterator[Value]:
     """All effective values, in order. Secrets are hidden unless `reveal`."""
-    for row in _record(effective.parameters.root, effective.data, effective.place, None, (), False):
+    for row in _record(effective.parameters.root, effective.data, effective.merged, None, (), False):
         data = row.data if reveal else _hidden(row.type, row.steps, row.data)
         text = row.text if data == row.data else flow(data) if data != HIDDEN else HIDDEN
         yield replace(row, data=data, text=text, reveal=reveal)

@@ -23,11 +23,11 @@ from robocomp_yaml.source.tree import Sequence as List
 
 
 class Effective(msgspec.Struct, frozen=True):
-    """`data` are the values with all defaults, and references as `{"env": NAME}`. `place` are the merged values with
+    """`data` are the values with all defaults, and references as `{"env": NAME}`. `merged` are the merged values with
     their nodes. Callers share `data`, and do not change it."""
 
     data: dict[str, Any]
-    place: MergedValue | None
+    merged: MergedValue | None
     parameters: Parameters
 
 
@@ -47,25 +47,25 @@ def effective(values: LayeredValues) -> tuple[Effective | None, Sequence[Diagnos
     A program computes them once for each document."""
     linked, found = values.parameters, list[Diagnostic]()
     assert linked is not None
-    root, place, head = linked.parameters.root, merged(values), values.head
+    root, merged_value, head = linked.parameters.root, merged(values), values.head
     data = _of_single_layer(values)
     whole = complete_at_once(linked, data) if data is not None else None
     # A single layer that is valid as effective values is also valid as a layer: one validation is enough.
     if data is None or (whole is None and not fits(linked, EFFECTIVE, data)):
-        data = data_of(place, root)
+        data = data_of(merged_value, root)
         found += [fault for layer in values.layers() for fault in document_faults(layer, linked)]
         if not values.broken and not fits(linked, EFFECTIVE, data):
-            found += _without_misspelled(found, _incomplete(root, place, (), head))
+            found += _without_misspelled(found, _incomplete(root, merged_value, (), head))
     if found or values.broken or not is_usable(linked):
         return None, found
     whole = completed(linked, data) if whole is None else whole
-    found += _broken_constraints(linked.parameters, whole, place, head)
-    return (None if found else Effective(whole, place, linked.parameters)), found
+    found += _broken_constraints(linked.parameters, whole, merged_value, head)
+    return (None if found else Effective(whole, merged_value, linked.parameters)), found
 
 
 def _of_single_layer(values: LayeredValues) -> dict[str, Any] | None:
-    given = section(values)
-    data = given[0][1].data if given and not values.extends else None
+    own = section(values)
+    data = own[0][1].data if own and not values.extends else None
     return data if isinstance(data, dict) else None
 
 
@@ -79,30 +79,30 @@ def _without_misspelled(found: list[Diagnostic], missing_ones: Iterable[Diagnost
     return [fault for fault in missing_ones if fault.fact("path") not in meant]
 
 
-def _incomplete(type_: Type, place: MergedValue | None, path: Path, head: Span) -> Iterator[Diagnostic]:
+def _incomplete(type_: Type, merged_value: MergedValue | None, path: Path, head: Span) -> Iterator[Diagnostic]:
     """The missing values, and the maps whose size is wrong after merging."""
-    if place is not None and place.key is not None:
-        head = place.key.span
-    if place is not None and place.entries is None:
+    if merged_value is not None and merged_value.key is not None:
+        head = merged_value.key.span
+    if merged_value is not None and merged_value.entries is None:
         if path:
-            yield from _incomplete_node(type_, place, path, head)
+            yield from _incomplete_node(type_, merged_value, path, head)
         return
-    entries = place.entries if place is not None else None
+    entries = merged_value.entries if merged_value is not None else None
     if isinstance(type_, RecordType):
         yield from missing(type_, set(entries or ()), path, head)
         for name, entry in (entries or {}).items():
             member = type_.member(name)
             assert member is not None
             yield from _incomplete(member.type, entry, (*path, name), head)
-    elif isinstance(type_, MapType) and place is not None:
-        yield from wrong_size(type_, len(entries or ()), place.node, path, place.key)
+    elif isinstance(type_, MapType) and merged_value is not None:
+        yield from wrong_size(type_, len(entries or ()), merged_value.node, path, merged_value.key)
         for name, entry in (entries or {}).items():
             yield from _incomplete(type_.element, entry, (*path, name), head)
 
 
-def _incomplete_node(type_: Type, place: MergedValue, path: Path, head: Span) -> Iterator[Diagnostic]:
+def _incomplete_node(type_: Type, merged_value: MergedValue, path: Path, head: Span) -> Iterator[Diagnostic]:
     """The same in a list, whose entries do not merge: each entry is judged, without null."""
-    for fault in judge(type_, _without_null(place.node), path, complete=True, key=place.key):
+    for fault in judge(type_, _without_null(merged_value.node), path, complete=True, key=merged_value.key):
         if fault.code in (codes.MISSING.id, codes.WRONG_SIZE.id):
             yield fault
 
@@ -118,7 +118,7 @@ def _without_null(node: Node) -> Node:
 
 
 def _broken_constraints(
-    parameters: Parameters, data: dict[str, Any], place: MergedValue | None, head: Span
+    parameters: Parameters, data: dict[str, Any], merged_value: MergedValue | None, head: Span
 ) -> Iterator[Diagnostic]:
     if not parameters.constraints:
         return
@@ -127,25 +127,25 @@ def _broken_constraints(
     named = evaluate.by_code_names(parameters.root, data)
     for constraint in parameters.constraints:
         if not evaluate.holds(constraint.expression, named):
-            span = _concerned(parameters.root, constraint.expression, place) or head
+            span = _concerned(parameters.root, constraint.expression, merged_value) or head
             yield codes.CONSTRAINT.at(
                 span, message=constraint.message, hint="" if not constraint.otherwise else constraint.text
             )
 
 
-def _concerned(root: RecordType, expression: object, place: MergedValue | None) -> Span | None:
+def _concerned(root: RecordType, expression: object, merged_value: MergedValue | None) -> Span | None:
     """The location of the first value that a constraint names and a document sets; None if there is none."""
     from robocomp_yaml.parameters.expressions import evaluate
 
     for steps in evaluate.paths(expression):
-        here, record = place, root
+        value, record = merged_value, root
         found: Span | None = None
         for step in steps:
             member = next((m for m in record.members if m.code_name == step), None)
-            entry = here.entries.get(member.name) if here and here.entries and member else None
+            entry = value.entries.get(member.name) if value and value.entries and member else None
             if entry is None or member is None:
                 break
-            here, found = entry, entry.key.span if entry.key else entry.node.span
+            value, found = entry, entry.key.span if entry.key else entry.node.span
             if not isinstance(member.type, RecordType):
                 break
             record = member.type

@@ -68,8 +68,8 @@ def merge(type_: Type, entries_of_layers: Iterable[LayerEntry]) -> MergedValue |
     entries = {}
     for name, entry_layers in by_name.items():
         entry_type = below(type_, name)
-        if entry_type is not None and (place := merge(entry_type, entry_layers)) is not None:
-            entries[name] = place
+        if entry_type is not None and (merged_value := merge(entry_type, entry_layers)) is not None:
+            entries[name] = merged_value
     return MergedValue(top, key, entries, _overridden(layers[:first]))
 
 
@@ -77,15 +77,15 @@ def _overridden(layers: list[LayerEntry]) -> tuple[Node, ...]:
     return tuple(node for _, node in reversed(layers))
 
 
-def data_of(place: MergedValue | None, type_: Type) -> Any:
+def data_of(merged_value: MergedValue | None, type_: Type) -> Any:
     """The plain data of merged values, without null."""
-    if place is None:
+    if merged_value is None:
         return {}
-    if place.entries is None:
-        return _without_null(place.node.data, type_)
+    if merged_value.entries is None:
+        return _without_null(merged_value.node.data, type_)
     return {
         name: data_of(entry, entry_type)
-        for name, entry in place.entries.items()
+        for name, entry in merged_value.entries.items()
         if (entry_type := below(type_, name)) is not None
     }
 

@@ -52,17 +52,17 @@ def _put(entries: Entries, steps: list[str], key: Scalar, node: Node, type_: Typ
     if not rest:
         entries[step] = (name, _joined(known, node))
         return
-    place = base.entries.get(step) if base is not None and base.entries else None
+    merged_value = base.entries.get(step) if base is not None and base.entries else None
     inner = below(type_, step)
     if isinstance(inner, ListType):
         member = type_.member(step) if isinstance(type_, RecordType) else None
-        entries[step] = (name, _replaced(known[1] if known else _list(place, member), rest, key, node))
+        entries[step] = (name, _replaced(known[1] if known else _list(merged_value, member), rest, key, node))
         return
     inside = dict(known[1].entries) if known and isinstance(known[1], Mapping) else {}
     if inner is None:
         inside[rest[0]] = (text_at(key.span, rest[0]), node)  # the judge reports it
     else:
-        _put(inside, rest, key, node, inner, place)
+        _put(inside, rest, key, node, inner, merged_value)
     entries[step] = (name, mapping_at(key.span, inside))
 
 
@@ -73,10 +73,10 @@ def _joined(known: tuple[Scalar, Node] | None, node: Node) -> Node:
     return node
 
 
-def _list(place: MergedValue | None, member: ResolvedMember | None) -> Node | None:
+def _list(merged_value: MergedValue | None, member: ResolvedMember | None) -> Node | None:
     """The list that a path changes: the list of the document, or else the default."""
-    if place is not None:
-        return place.node
+    if merged_value is not None:
+        return merged_value.node
     return member.default.node if member and member.default else None
 
 

@@ -110,46 +110,46 @@ class Matcher:
             self.steps[start] = (re.compile(part), end)
             return end
         for sequence in part:
-            here = self.state()
-            self.free[start].append(here)
+            state = self.state()
+            self.free[start].append(state)
             for atom, least, most in sequence:
-                here = self.repeat(atom, least, most, here)
-            self.free[here].append(end)
+                state = self.repeat(atom, least, most, state)
+            self.free[state].append(end)
         return end
 
-    def repeat(self, atom: Atom, least: int, most: int | None, here: int) -> int:
+    def repeat(self, atom: Atom, least: int, most: int | None, state: int) -> int:
         for _ in range(least):
-            here = self.add(atom, self.behind(here))
+            state = self.add(atom, self.after(state))
         end = self.state()
         if most is None:
-            around = self.behind(here)
-            self.free[self.add(atom, self.behind(around))].append(around)
-            here = around
+            loop = self.after(state)
+            self.free[self.add(atom, self.after(loop))].append(loop)
+            state = loop
         for _ in range((most or 0) - least):
-            self.free[here].append(end)
-            here = self.add(atom, self.behind(here))
-        self.free[here].append(end)
+            self.free[state].append(end)
+            state = self.add(atom, self.after(state))
+        self.free[state].append(end)
         return end
 
-    def behind(self, here: int) -> int:
-        there = self.state()
-        self.free[here].append(there)
-        return there
+    def after(self, state: int) -> int:
+        following = self.state()
+        self.free[state].append(following)
+        return following
 
     def matches(self, text: str) -> bool:
-        here = self._with_free({0})
+        states = self._with_free({0})
         for char in text:
-            there = self._next.get((here, char))
-            if there is None:
+            following = self._next.get((states, char))
+            if following is None:
                 if len(self._next) >= _KEPT:
                     self._next.clear()
-                steps = (self.steps[state] for state in here)
-                there = self._with_free({step[1] for step in steps if step and step[0].fullmatch(char)})
-                self._next[here, char] = there
-            if not there:
+                steps = (self.steps[state] for state in states)
+                following = self._with_free({step[1] for step in steps if step and step[0].fullmatch(char)})
+                self._next[states, char] = following
+            if not following:
                 return False
-            here = there
-        return self.end in here
+            states = following
+        return self.end in states
 
     def _with_free(self, states: set[int]) -> frozenset[int]:
         """The states, and all that transitions without a character reach from them."""

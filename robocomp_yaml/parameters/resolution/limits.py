@@ -152,8 +152,8 @@ def _enum_range(type_: EnumType, node: Node) -> Type:
     for end, is_open, scalar in _ends(node):
         if scalar.lexeme not in names:
             raise _unknown_enumerator(scalar, type_, "range")
-        place = names.index(scalar.lexeme)
-        first, last = (place + is_open, last) if end == "low" else (first, place - is_open)
+        index = names.index(scalar.lexeme)
+        first, last = (index + is_open, last) if end == "low" else (first, index - is_open)
     _check_keys(node)
     kept = tuple(name for name in names[first : last + 1] if name in type_.allowed)
     if not kept:

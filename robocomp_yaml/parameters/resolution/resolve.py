@@ -78,8 +78,8 @@ def _sound(
         except ExpressionError as error:
             assert isinstance(constraint.node, Scalar)
             if not leaves_types_unknown(found):
-                place = inside(constraint.node, error.index)
-                found.append(codes.BAD_EXPRESSION.at(place, problem=str(error), hint=error.hint))
+                location = inside(constraint.node, error.index)
+                found.append(codes.BAD_EXPRESSION.at(location, problem=str(error), hint=error.hint))
         else:
             yield constraint
 
@@ -246,8 +246,8 @@ class _Resolver:
             try:
                 tree = expression.parse(rule.that.lexeme)
             except expression.ExpressionError as error:
-                place = inside(rule.that, error.index)
-                self.report(codes.BAD_EXPRESSION, place, problem=str(error), hint=error.hint)
+                location = inside(rule.that, error.index)
+                self.report(codes.BAD_EXPRESSION, location, problem=str(error), hint=error.hint)
                 continue
             yield ResolvedConstraint(tree, rule.that.lexeme, rule.otherwise, rule.that, span=rule.span)
 
@@ -296,13 +296,13 @@ def _size(type_: Type, known: dict[str, int]) -> int:
 def with_period(root: RecordType, period: int | None) -> tuple[RecordType, list[Diagnostic]]:
     """The parameters with `period.compute` and `period.emergency`, unless the document defines them, and the
     problems."""
-    given = root.member("period")
-    if given is not None and not given.is_group:
+    defined = root.member("period")
+    if defined is not None and not defined.is_group:
         problem = "'period' must be the group of the worker's periods"
         hint = "write period: {group: {compute: …}}, or rename the parameter"
-        return root, [codes.PERIOD.at(given.span, problem=problem, hint=hint)]
+        return root, [codes.PERIOD.at(defined.span, problem=problem, hint=hint)]
     found: list[Diagnostic] = []
-    own = given.type.members if given is not None and isinstance(given.type, RecordType) else ()
+    own = defined.type.members if defined is not None and isinstance(defined.type, RecordType) else ()
     by_name = {member.name: member for member in own}
     for name in _PERIODS:
         member = by_name.get(name)
@@ -319,7 +319,7 @@ def with_period(root: RecordType, period: int | None) -> tuple[RecordType, list[
     emergency = by_name.get("emergency") or _period("emergency", EMERGENCY)
     others = [member for member in own if member.name not in _PERIODS]
     group = RecordType("", (compute, emergency, *others), "How often the component works.")
-    doc, span = (given.doc, given.span) if given is not None else (group.doc, Span(""))
+    doc, span = (defined.doc, defined.span) if defined is not None else (group.doc, Span(""))
     made = ResolvedMember("period", group, doc, code_name="period", editable=True, span=span)
     rest = [other for other in root.members if other.name != "period"]
     return replace(root, members=(*rest, made)), found

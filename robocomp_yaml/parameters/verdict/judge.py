@@ -224,10 +224,10 @@ def unknown(name: Scalar, type_: RecordType, path: Path, node: Mapping) -> Diagn
     return codes.UNKNOWN_PARAMETER.at(name.span, path=in_words((*path, name.lexeme)), hint=hint)
 
 
-def missing(type_: RecordType, given: set[str], path: Path, span: Span) -> Iterator[Diagnostic]:
+def missing(type_: RecordType, present: set[str], path: Path, span: Span) -> Iterator[Diagnostic]:
     """The members that need a value and have none, those of missing groups included."""
     for member in type_.members:
-        if member.name in given:
+        if member.name in present:
             continue
         if isinstance(member.type, RecordType) and member.type.is_group:
             yield from missing(member.type, set(), (*path, member.name), span)

@@ -84,8 +84,8 @@ def spelling_faults(parameters: Parameters) -> Iterator[Diagnostic]:
     for spelling in parameters.spellings:
         type_ = known.get(spelling.path)
         if type_ is None:
-            given = {other.path for other in parameters.spellings}
-            hint = did_you_mean(spelling.path, known, given)
+            present = {other.path for other in parameters.spellings}
+            hint = did_you_mean(spelling.path, known, present)
             yield codes.BAD_SPELLING.at(
                 spelling.span, path=spelling.path, problem="names an unknown parameter", hint=hint
             )

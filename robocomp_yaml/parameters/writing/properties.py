@@ -57,15 +57,15 @@ def properties(
         Section("Where this component serves its interfaces", list(_endpoints(values, form, quote))),
         Section("Where the components are that it requires", list(_proxies(values, form, quote))),
         Section("Topics", list(_topics(values, form, quote))),
-        Section("Ice", [_property(f"Ice.{key}", node, quote) for key, node in given(values, "ice")]),
-        Section("Others", [_property(key, node, False) for key, node in given(values, "properties")]),
+        Section("Ice", [_property(f"Ice.{key}", node, quote) for key, node in merged_entries(values, "ice")]),
+        Section("Others", [_property(key, node, False) for key, node in merged_entries(values, "properties")]),
     ]
     unquotes = _seems_toml(effective.parameters, sections)
     folder = os.path.dirname(values.document.path) if beside else None
     writer = Writer(effective.parameters, head, bool(legacy_file(values)), quote, unquotes, folder)
-    sections.insert(3, Section("Parameters", writer.write(effective.data, effective.place)))
+    sections.insert(3, Section("Parameters", writer.write(effective.data, effective.merged)))
     faults = list(writer.faults)
-    exact = {key: node.lexeme for key, node in given(values, "legacy", "exact") if isinstance(node, Scalar)}
+    exact = {key: node.lexeme for key, node in merged_entries(values, "legacy", "exact") if isinstance(node, Scalar)}
     seen: dict[str, Property] = {}
     for section in sections:
         section.properties = [_exact(made, exact.get(made.key)) for made in section.properties]
@@ -120,7 +120,7 @@ def _exact(made: Property, original: str | None) -> Property:
     return replace(made, value=original) if same else made
 
 
-def given(values: LayeredValues, *keys: str) -> Iterator[tuple[str, Node]]:
+def merged_entries(values: LayeredValues, *keys: str) -> Iterator[tuple[str, Node]]:
     """The entries of a section over all layers: later layers replace entries, and null removes them. In sections of
     ports, names that begin with `x-` are extensions of the user, and are skipped."""
     merged: dict[str, Node] = {}
@@ -146,12 +146,12 @@ def _property(key: str, node: Node, quote: bool) -> Property:
 
 
 def _endpoints(values: LayeredValues, form: str, quote: bool) -> Iterator[Property]:
-    for name, node in given(values, "endpoints"):
+    for name, node in merged_entries(values, "endpoints"):
         yield _property(connections.endpoints(name)[form != CLASSIC], node, quote)
 
 
 def _proxies(values: LayeredValues, form: str, quote: bool) -> Iterator[Property]:
-    for name, node in given(values, "proxies"):
+    for name, node in merged_entries(values, "proxies"):
         key = connections.proxy(name)[form != CLASSIC]
         if isinstance(node, Mapping):
             key = text(node, "key", key)
@@ -170,9 +170,9 @@ def _topics(values: LayeredValues, form: str, quote: bool) -> Iterator[Property]
             manager = None if entry[1].data is None else entry[1]
     if manager is not None:
         yield _property(connections.MANAGER[form != CLASSIC], manager, quote)
-    for name, node in given(values, "topics", "prefix"):
+    for name, node in merged_entries(values, "topics", "prefix"):
         made = _property(connections.prefix(name), node, quote)
         if made.value:  # an empty prefix is no prefix
             yield made
-    for name, node in given(values, "topics", "name"):
+    for name, node in merged_entries(values, "topics", "name"):
         yield _property(name, node, quote)

@@ -68,7 +68,7 @@ def _parameters(effective: Effective, only_set: bool) -> Iterator[tuple[list[str
     """`only_set`: defaults are omitted, so that a migrated document is written as its legacy file."""
     for path, member in leaves(effective.parameters.root):
         data: Any = effective.data
-        where: Origin = effective.place
+        where: Origin = effective.merged
         for name in path.split("."):
             data = data.get(name) if isinstance(data, dict) else None
             where = step(where, name) if where is not None else None

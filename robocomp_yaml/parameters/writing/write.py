@@ -88,8 +88,8 @@ class Writer(msgspec.Struct):
     folder: str | None = None
     faults: list[Diagnostic] = []
 
-    def write(self, data: dict[str, Any], place: MergedValue | None) -> list[Property]:
-        return list(self.record(self.parameters.root, data, _Position(place), "", is_top=True))
+    def write(self, data: dict[str, Any], merged: MergedValue | None) -> list[Property]:
+        return list(self.record(self.parameters.root, data, _Position(merged), "", is_top=True))
 
     def record(
         self, type_: RecordType, data: dict[str, Any], at: _Position, key: str, *, is_top: bool
@@ -103,12 +103,12 @@ class Writer(msgspec.Struct):
             if member.is_group and isinstance(member.type, RecordType):
                 yield from self.record(member.type, value, own, stem, is_top=is_top)
                 continue
-            here, spelling = at.member(member), self.parameters.spelling(stem) if is_top else None
+            inner, spelling = at.member(member), self.parameters.spelling(stem) if is_top else None
             if spelling is None:
-                written = self.value(member.type, value, here, stem)
+                written = self.value(member.type, value, inner, stem)
             else:
-                written = self.spelled(spelling, member.type, value, here)
-            yield from self.checked_member(member, value, here, written)
+                written = self.spelled(spelling, member.type, value, inner)
+            yield from self.checked_member(member, value, inner, written)
 
     def checked_member(
         self, member: ResolvedMember, value: Any, at: _Position, written: Iterator[Property]
@@ -197,13 +197,13 @@ class Writer(msgspec.Struct):
     def rows(self, spelling: LegacySpelling, element: Type, data: Any, at: _Position) -> Iterator[Property]:
         keys = set()
         for index, item in enumerate(data):
-            here, number, before = at.child(index), str(index + spelling.first), len(self.faults)
-            written = list(self.numbered_row(spelling, element, item, here, number))
+            inner, number, before = at.child(index), str(index + spelling.first), len(self.faults)
+            written = list(self.numbered_row(spelling, element, item, inner, number))
             if not written and not spelling.count and before == len(self.faults):
-                self.fault(here, "its row would be empty")
+                self.fault(inner, "its row would be empty")
             for made in written:
                 if made.key in keys:
-                    self.fault(here, f"another row already uses the property {made.key}")
+                    self.fault(inner, f"another row already uses the property {made.key}")
                 keys.add(made.key)
                 yield made
 
@@ -284,12 +284,12 @@ class Writer(msgspec.Struct):
         for member in record.members:
             if member.name not in item:
                 continue
-            value, here = item[member.name], at.member(member)
+            value, inner = item[member.name], at.member(member)
             if member.name in keys:
                 key = spellings.filled(keys[member.name], {"i": number})
-                yield from self.checked_member(member, value, here, self.scalar(member.type, value, here, key))
+                yield from self.checked_member(member, value, inner, self.scalar(member.type, value, inner, key))
             elif not _is_default(member, value):
-                self.fault(_Position(here.where or at.where, here.path), "its rows have no property for it")
+                self.fault(_Position(inner.where or at.where, inner.path), "its rows have no property for it")
 
     def separated(self, spelling: LegacySpelling, type_: Type, data: Any, at: _Position) -> Iterator[Property]:
         parts = self.texts(spelling, type_, data, at)
