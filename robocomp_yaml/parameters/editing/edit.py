@@ -54,11 +54,10 @@ def set_value(
                 raise NotEditable("there is no list to append to; set the whole list", node)
             spelled = scalar(new) if is_text else new
             commented = _commented(text, node, key, steps[depth], lines_above(steps[: depth + 1]))
-            change = (
-                _uncommented(text, commented, steps[depth:], spelled)
-                if commented is not None
-                else (_insert(text, node, key, steps[depth:], spelled))
-            )
+            if commented is not None:
+                change = _uncommented(text, commented, steps[depth:], spelled)
+            else:
+                change = _insert(text, node, key, steps[depth:], spelled)
             break
         key, node = found[0] or key, found[1]
     else:

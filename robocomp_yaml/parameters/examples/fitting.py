@@ -12,7 +12,7 @@ from typing import Any
 
 import msgspec
 
-from robocomp_yaml.parameters.specification import expression
+from robocomp_yaml.parameters.specification.expression import Each, Expression, LiteralExpression, parts
 from robocomp_yaml.parameters.types import (
     BasicType,
     ResolvedConstraint,
@@ -355,13 +355,9 @@ def _is_named(code: Path, named: Sequence[Path]) -> bool:
     return any(each[: len(code)] == code[: len(each)] for each in named)
 
 
-def _literals(part: object) -> Iterator[object]:
+def _literals(expression: Expression | Each) -> Iterator[object]:
     """The constants in an expression."""
-    if isinstance(part, expression.LiteralExpression):
-        yield part.value
-    elif isinstance(part, msgspec.Struct):
-        for name in part.__struct_fields__:
-            yield from _literals(getattr(part, name))
-    elif isinstance(part, tuple):
-        for each in part:
-            yield from _literals(each)
+    if isinstance(expression, LiteralExpression):
+        yield expression.value
+    for part in parts(expression):
+        yield from _literals(part)

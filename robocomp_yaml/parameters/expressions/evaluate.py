@@ -22,6 +22,7 @@ from robocomp_yaml.parameters.specification.expression import (
     Logic,
     NameExpression,
     Unary,
+    parts,
 )
 from robocomp_yaml.parameters.types import ListType, MapType, RecordType, Type
 from robocomp_yaml.semantics import constraints
@@ -61,8 +62,8 @@ def value(expression: Expression, scope: Mapping[str, Any]) -> Any:
             others = ((operator, value(part, scope)) for operator, part in rest)
             return constraints.all_of(constraints.compared(value(first, scope), others))
         case Logic(operator=operator, operands=operands):
-            parts = (value(operand, scope) for operand in operands)
-            return constraints.all_of(parts) if operator == "and" else constraints.any_of(parts)
+            truths = (value(operand, scope) for operand in operands)
+            return constraints.all_of(truths) if operator == "and" else constraints.any_of(truths)
         case Call(function="has", arguments=(argument, *_)):
             return _has(argument, scope)
         case Call(function=function, arguments=arguments):
@@ -143,26 +144,13 @@ def _renamed(type_: Type, data: Any) -> Any:
             return data
 
 
-def paths(expression: object) -> Iterator[tuple[str, ...]]:
+def paths(expression: Expression | Each) -> Iterator[tuple[str, ...]]:
     """The paths that an expression names, in order: `motors`, `Yolo.use_gpu`."""
     match expression:
         case NameExpression(name=name):
             yield (name,)
         case Attribute(of=of, name=name):
             yield from ((*path, name) for path in paths(of))
-        case Each(element=element, source=source, condition=condition):
-            yield from paths(source)
-            yield from paths(element)
-            yield from paths(condition)
-        case Index(of=first, index=second) | Binary(left=first, right=second):
-            yield from paths(first)
-            yield from paths(second)
-        case Unary(operand=operand):
-            yield from paths(operand)
-        case ListExpression(items=parts) | Logic(operands=parts) | Call(arguments=parts):
-            for part in parts:
-                yield from paths(part)
-        case Compare(first=first, rest=rest):
-            yield from paths(first)
-            for _, part in rest:
+        case _:
+            for part in parts(expression):
                 yield from paths(part)

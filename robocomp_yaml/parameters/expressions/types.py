@@ -124,8 +124,12 @@ def type_of(expression: Expression, scope: Scope) -> Type:
 def _expect(expression: Expression, fits: object, expected: str, where: str, scope: Scope) -> Type:
     found = type_of(expression, scope)
     if not fits(found):  # type: ignore[operator]
-        raise ExpressionError(f"'{where}' needs {expected} here, and this is {in_brief(found)}", expression.at)
+        raise _needs(f"'{where}'", expected, found, expression.at)
     return found
+
+
+def _needs(what: str, expected: str, found: Type, at: int) -> ExpressionError:
+    return ExpressionError(f"{what} needs {expected} here, and this is {in_brief(found)}", at)
 
 
 def _unknown(what: str, name: str, known: list[str], at: int, of: str = "") -> ExpressionError:
@@ -172,9 +176,7 @@ def _compare(expression: Compare, scope: Scope) -> Type:
         right = type_of(node, scope)
         if operator in ("in", "not in"):
             if not isinstance(right, ListType | MapType):
-                raise ExpressionError(
-                    f"'{operator}' needs a list or a map here, and this is {in_brief(right)}", node.at
-                )
+                raise _needs(f"'{operator}'", "a list or a map", right, node.at)
             inner = right.element if isinstance(right, ListType) else TEXT
             _same(left, inner, left_node, node, operator)
             if isinstance(node, ListExpression):
@@ -206,18 +208,15 @@ def _call(call: Call, scope: Scope) -> Type:
     if isinstance(first, Each):
         element = _each(first, scope)
     elif len(call.arguments) > 1:
-        types = [
-            _expect(one, is_number, "a number", f"{function}()", scope)
-            for one in call.arguments
-            if not isinstance(one, Each)
-        ]
+        arguments = (one for one in call.arguments if not isinstance(one, Each))
+        types = [_expect(one, is_number, "a number", f"{function}()", scope) for one in arguments]
         return WHOLE if all(isinstance(t, BasicType) and t.is_integer for t in types) else NUMBER
     else:
         operand = type_of(first, scope)
         if function in _OF_ONE:
             return _of_one(function, operand, first)
         if not isinstance(operand, ListType):
-            raise ExpressionError(f"{function}() needs a list here, and this is {in_brief(operand)}", first.at)
+            raise _needs(f"{function}()", "a list", operand, first.at)
         element = operand.element
     return _of_many(function, element, first)
 
@@ -233,32 +232,31 @@ def _of_one(function: str, operand: Type, node: Expression) -> Type:
     if function in ("keys", "values") and isinstance(operand, MapType):
         return ListType(TEXT if function == "keys" else operand.element)
     expected = {"abs": "a number", "len": "a list or a map"}.get(function, "a map")
-    raise ExpressionError(f"{function}() needs {expected} here, and this is {in_brief(operand)}", node.at)
+    raise _needs(f"{function}()", expected, operand, node.at)
 
 
 def _of_many(function: str, element: Type, node: Expression | Each) -> Type:
     at = node.element.at if isinstance(node, Each) else node.at
     if function in ("all", "any"):
         if not is_bool(element):
-            raise ExpressionError(f"{function}() needs true or false here, and this is {in_brief(element)}", at)
+            raise _needs(f"{function}()", "true or false", element, at)
         return BOOL
     if function == "unique":
         if not isinstance(element, BasicType | EnumType):
-            raise ExpressionError(f"unique() needs plain values, and this is {in_brief(element)}", at)
+            raise _needs("unique()", "plain values", element, at)
         return BOOL
     if not is_number(element):
-        raise ExpressionError(f"{function}() needs numbers, and this is {in_brief(element)}", at)
+        raise _needs(f"{function}()", "numbers", element, at)
     return element
 
 
 def _each(each: Each, scope: Scope) -> Type:
     source = type_of(each.source, scope)
     if isinstance(source, MapType):
-        raise ExpressionError(
-            "'for' needs a list here, and this is a map", each.source.at, "use keys(…) or values(…) of the map"
-        )
+        hint = "use keys(…) or values(…) of the map"
+        raise ExpressionError("'for' needs a list here, and this is a map", each.source.at, hint)
     if not isinstance(source, ListType):
-        raise ExpressionError(f"'for' needs a list here, and this is {in_brief(source)}", each.source.at)
+        raise _needs("'for'", "a list", source, each.source.at)
     inner = scope.with_variable(each.variable, source.element)
     if each.condition is not None:
         _expect(each.condition, is_bool, "true or false", "if", inner)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 
@@ -20,6 +20,9 @@ from robocomp_yaml.parameters.verdict.specification import is_usable
 from robocomp_yaml.semantics.paths import Path
 from robocomp_yaml.source.tree import Mapping, Node, mapping_at, sequence_at
 from robocomp_yaml.source.tree import Sequence as List
+
+if TYPE_CHECKING:
+    from robocomp_yaml.parameters.specification.expression import Expression
 
 
 class Effective(msgspec.Struct, frozen=True):
@@ -133,7 +136,7 @@ def _broken_constraints(
             )
 
 
-def _concerned(root: RecordType, expression: object, merged_value: MergedValue | None) -> Span | None:
+def _concerned(root: RecordType, expression: Expression, merged_value: MergedValue | None) -> Span | None:
     """The location of the first value that a constraint names and a document sets; None if there is none."""
     from robocomp_yaml.parameters.expressions import evaluate
 

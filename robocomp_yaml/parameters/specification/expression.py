@@ -12,6 +12,7 @@ from __future__ import annotations
 import ast
 import re
 import warnings
+from collections.abc import Iterator
 from keyword import kwlist
 
 from robocomp_yaml.diag.fix import Hint
@@ -115,9 +116,9 @@ class Logic(_Part, frozen=True):
 class Each(_Part, frozen=True):
     """`element for variable in source if condition`: the argument of all, any, sum, min, max or unique."""
 
-    element: Expression
-    variable: str
     source: Expression
+    variable: str
+    element: Expression
     condition: Expression | None = None
 
 
@@ -131,6 +132,16 @@ class Call(_Part, frozen=True):
 Expression = (
     LiteralExpression | ListExpression | NameExpression | Attribute | Index | Unary | Binary | Compare | Logic | Call
 )
+
+
+def parts(expression: Expression | Each) -> Iterator[Expression | Each]:
+    """The expressions directly inside an expression, in the order of evaluation."""
+    for name in expression.__struct_fields__:
+        field = getattr(expression, name)
+        for part in field if isinstance(field, tuple) else (field,):
+            part = part[1] if isinstance(part, tuple) else part  # of a comparison: the operator comes first
+            if isinstance(part, _Part):
+                yield part  # type: ignore[misc]
 
 
 def parse(text: str) -> Expression:
@@ -259,7 +270,8 @@ class _ExpressionReader:
         if not isinstance(loop.target, ast.Name):
             raise ExpressionError("'for' needs one variable", self.at(loop.target))
         condition = self.read(loop.ifs[0]) if loop.ifs else None
-        return Each(self.read(node.elt), loop.target.id, self.read(loop.iter), condition, at=at)
+        element = self.read(node.elt)
+        return Each(self.read(loop.iter), loop.target.id, element, condition, at=at)
 
 
 def _instead(found: str, word: str) -> Hint:

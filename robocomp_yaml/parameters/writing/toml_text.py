@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from robocomp_yaml.parameters.documents import LayeredValues
@@ -107,21 +107,19 @@ def _key(key: str) -> str:
 def _literal(type_: Type, data: Any, where: Origin) -> str:
     match type_:
         case RecordType():
-            return (
-                "{"
-                + ", ".join(
-                    f"{_key(m.name)} = {_literal(m.type, data[m.name], step(where, m.name))}"
-                    for m in type_.members
-                    if m.name in data
-                )
-                + "}"
-            )
+            types = {member.name: member.type for member in type_.members if member.name in data}
+            return _inline({name: _literal(each, data[name], step(where, name)) for name, each in types.items()})
         case ListType(element=element):
             return "[" + ", ".join(_literal(element, item, step(where, n)) for n, item in enumerate(data)) + "]"
         case MapType(element=element):
-            return "{" + ", ".join(f"{_key(k)} = {_literal(element, v, step(where, k))}" for k, v in data.items()) + "}"
+            return _inline({name: _literal(element, item, step(where, name)) for name, item in data.items()})
         case BasicType() | EnumType():
             return _scalar(type_, data, where)
+
+
+def _inline(literals: Mapping[str, str]) -> str:
+    """An inline table."""
+    return "{" + ", ".join(f"{_key(name)} = {literal}" for name, literal in literals.items()) + "}"
 
 
 def _scalar(type_: BasicType | EnumType, data: Any, where: Origin) -> str:
