@@ -140,4 +140,4 @@ def _contents(path: str) -> str:
     try:
         return raw.decode("utf-8")
     except UnicodeDecodeError:
-        raise _Unusable("which is not UTF-8") from None
+        raise _Unusable("which is not in UTF-8") from None

@@ -218,7 +218,7 @@ public final class Kind {
             for (Object item : made) {
                 if (item != null && !seen.add(item)) {
                     String twice = element.isPlain() ? element.shown(item) : said(item);
-                    taking.refuse(path, "holds " + twice + " twice", twice, "entries that all differ", "");
+                    taking.refuse(path, "contains " + twice + " twice", twice, "entries that all differ", "");
                     break;
                 }
             }
@@ -280,7 +280,7 @@ public final class Kind {
             return;
         }
         String wanted = most < 0 ? "at least " + least : least == most ? "exactly " + least
-            : least > 0 ? "from " + least + " to " + most : "at most " + most;
+            : least > 0 ? least + " to " + most : "at most " + most;
         String entries = count + " entr" + (count == 1 ? "y" : "ies");
         taking.refuse(path, "has " + entries + ", and must have " + wanted, entries, wanted, "");
     }
