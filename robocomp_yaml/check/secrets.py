@@ -21,7 +21,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.link.documents import Document, read_tree
 from robocomp_yaml.link.program import LinkedParameters, Program
-from robocomp_yaml.parameters.hidden import declared, named_nodes, nodes, plain_below
+from robocomp_yaml.parameters.hidden import named_nodes, nodes, plain_below, secret_names
 from robocomp_yaml.parameters.types import RecordType
 from robocomp_yaml.source import properties
 from robocomp_yaml.source.disk import Disk
@@ -127,7 +127,7 @@ class _SecretFinder:
     def __init__(self, program: Program) -> None:
         self.program = program
         linked = [*program.parameters.values(), *(one.parameters for one in program.components.values())]
-        self.names = {name for one in linked for name in declared(one.parameters.root)}
+        self.names = {name for one in linked for name in secret_names(one.parameters.root)}
 
     def may_hold(self, document: Document) -> bool:
         """Whether a document may contain a secret; a quick test, which is False for most documents."""

@@ -15,8 +15,8 @@ from robocomp_yaml.parameters.examples.new import Sections, new_document
 from robocomp_yaml.parameters.kinds import recording
 from robocomp_yaml.parameters.types import Parameters, RecordType
 from robocomp_yaml.semantics import composite, connections
-from robocomp_yaml.semantics.plain import Taking
-from robocomp_yaml.semantics.reading import Reader
+from robocomp_yaml.semantics.plain import Conversion
+from robocomp_yaml.semantics.reading import PropertyReader
 from robocomp_yaml.semantics.references import unresolved
 from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source.properties import read
@@ -69,7 +69,7 @@ def _changed(folder: str, standing: Mapping[str, str], usual: str) -> dict[str, 
 def _values(parameters: Parameters, standing: Mapping[str, str]) -> dict[str, Any]:
     """The parameters that an `etc/config` gives other values than their defaults."""
     kind = recording(parameters.root)
-    texts = Reader(standing, {each.path: each for each in parameters.spellings}, unresolved).read(kind)
+    texts = PropertyReader(standing, {each.path: each for each in parameters.spellings}, unresolved).read(kind)
     return _but_defaults(parameters.root, kind, texts)
 
 
@@ -78,19 +78,19 @@ def _is_toml(standing: Mapping[str, str]) -> bool:
     return any(key.startswith(("Endpoints.", "Proxies.")) and value[:1] == '"' for key, value in standing.items())
 
 
-def _but_defaults(record: RecordType, kind: composite.Recording, texts: Mapping[str, Any]) -> dict[str, Any]:
+def _but_defaults(record: RecordType, kind: composite.RecordKind, texts: Mapping[str, Any]) -> dict[str, Any]:
     """What of the values that the texts spell fits its type, and is no default."""
     kept: dict[str, Any] = {}
     for member in record.members:
         if member.name not in texts:
             continue
         inner, text = kind.members[member.name].kind, texts[member.name]
-        if isinstance(inner, composite.Recording) and isinstance(member.type, RecordType) and inner.is_group:
+        if isinstance(inner, composite.RecordKind) and isinstance(member.type, RecordType) and inner.is_group:
             kept[member.name] = _but_defaults(member.type, inner, text)
             continue
-        taking = Taking(is_text=True)
-        taken = inner.take(text, (), taking)
-        value = None if taking.problems else composite.data(inner, taken)
+        conversion = Conversion(is_text=True)
+        taken = inner.convert(text, (), conversion)
+        value = None if conversion.problems else composite.data(inner, taken)
         if value is not None and (member.default is None or value != member.default.data):
             kept[member.name] = value
     return kept

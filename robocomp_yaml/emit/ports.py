@@ -121,10 +121,10 @@ def is_own(values: LinkedValues) -> bool:
 
 
 def _given(values: LinkedValues) -> dict[str, str]:
-    from robocomp_yaml.parameters.writing.properties import given  # most components have no values
+    from robocomp_yaml.parameters.writing.properties import merged_entries  # most components have no values
     from robocomp_yaml.source.tree import Scalar
 
-    return {name: node.lexeme for name, node in given(values, "endpoints") if isinstance(node, Scalar)}
+    return {name: node.lexeme for name, node in merged_entries(values, "endpoints") if isinstance(node, Scalar)}
 
 
 def _written(linked: LinkedComponent, disk: Disk) -> Iterator[tuple[str, Entry]]:

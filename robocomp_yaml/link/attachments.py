@@ -19,7 +19,7 @@ from robocomp_yaml.link.knot import grow, tie
 from robocomp_yaml.link.program import LinkedComponent, LinkedParameters, LinkedValues, Tables
 from robocomp_yaml.model.component import Component
 from robocomp_yaml.model.interface import Literal
-from robocomp_yaml.parameters.resolution.resolve import hides_types, of_no_document, resolve
+from robocomp_yaml.parameters.resolution.resolve import leaves_types_unknown, of_no_document, resolve
 from robocomp_yaml.parameters.specification.document import ParameterDocument, ValuesDocument
 from robocomp_yaml.source.discover import kind_of, of_kind
 from robocomp_yaml.source.disk import Disk

@@ -18,7 +18,7 @@ from robocomp_yaml.link.program import LinkedParameters, LinkedValues, Program
 from robocomp_yaml.network.configuration_base import ConfigurationBase
 from robocomp_yaml.network.draft import Draft, LocatedText, listening
 from robocomp_yaml.parameters.layers.effective import document_faults
-from robocomp_yaml.parameters.layers.merge import Place, data_of, merged
+from robocomp_yaml.parameters.layers.merge import MergedValue, data_of, merged
 from robocomp_yaml.parameters.layers.overlay import overlay
 from robocomp_yaml.parameters.specification.document import ValuesDocument
 from robocomp_yaml.parameters.writing.properties import (
@@ -133,7 +133,7 @@ class Configuration(msgspec.Struct):
                 entries[name] = (text_at(span, name), mapping_at(span, section))
         return mapping_at(span, entries)
 
-    def _parameters(self, linked: LinkedParameters, settings: Mapping, below: Place | None) -> Mapping:
+    def _parameters(self, linked: LinkedParameters, settings: Mapping, below: MergedValue | None) -> Mapping:
         laid = overlay(settings, linked.parameters.root, below)
         self.diagnostics += [
             codes.NO_ENTRY.at(fault.key.span, path=fault.key.lexeme, problem=fault.problem) for fault in laid.faults

@@ -6,7 +6,7 @@ import msgspec
 
 from robocomp_yaml.link.deployments import LinkedInstance
 from robocomp_yaml.link.program import LinkedValues
-from robocomp_yaml.parameters.writing.properties import CLASSIC, FLAT_TOML, dialect, given
+from robocomp_yaml.parameters.writing.properties import CLASSIC, FLAT_TOML, dialect, merged_entries
 from robocomp_yaml.semantics import connections
 from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source import properties
@@ -47,8 +47,8 @@ class ConfigurationBase(msgspec.Struct):
         if self.values is None:
             prefix, name = self.first(connections.prefix(prefixes)), self.first(port)
         else:
-            prefix = _text(dict(given(self.values, "topics", "prefix")).get(prefixes))
-            name = _text(dict(given(self.values, "topics", "name")).get(port))
+            prefix = _text(dict(merged_entries(self.values, "topics", "prefix")).get(prefixes))
+            name = _text(dict(merged_entries(self.values, "topics", "name")).get(port))
         return connections.topic(prefix, name, interface)
 
     def first(self, *keys: str) -> str:

@@ -21,7 +21,7 @@ from robocomp_yaml.network.network import (
     Readiness,
     RestartRule,
 )
-from robocomp_yaml.parameters.hidden import declared
+from robocomp_yaml.parameters.hidden import secret_names
 from robocomp_yaml.source.properties import entry_line
 
 _DEFAULTS = RestartRule()
@@ -57,7 +57,7 @@ def of_draft(
         groups=tuple(group.name for group in instance.groups),
         enabled=entry.enabled,
         is_ice=component is not None or bool(draft.offers or entry.config_as or entry.connect),
-        secrets=tuple(sorted(set(declared(component.parameters.parameters.root)))) if component is not None else (),
+        secrets=tuple(sorted(set(secret_names(component.parameters.parameters.root)))) if component is not None else (),
         component=component.component.name if component is not None else "",
         build=_build(draft),
         extra=(*entry.extra, ("aliases", of_aliases)) if of_aliases else entry.extra,

@@ -132,7 +132,7 @@ def test_the_command_line_has_the_last_word(component: Component, start: Start) 
         ("--basicPeriod=soon", "basicPeriod must be a whole number (ms), and is 'soon'"),
         ("--motors.1.vel=2.5", "motors[1].vel is 2.5 rad/s, and must be from 0 to 2 rad/s"),
         ("--mode=fst", "mode is 'fst', and must be one of slow, fast"),
-        ("--Arm.NumMotors=0", "motors has 0 entries, and must have from 1 to 4"),
+        ("--Arm.NumMotors=0", "motors has 0 entries, and must have 1 to 4"),
         ("--motors.0.min=2", "a motor's min must be below its max"),
         (
             "--token=${env:NOBODY_HAS_THIS}",
@@ -174,11 +174,11 @@ def test_a_misspelled_property_is_told_of(component: Component, start: Start) ->
     options = ["--motors.0.velo=1", "--moters.0.vel=1", "--BasicPeriod=1", "--bsaicPeriod=1", "--Ice.Trace.Network=0"]
     running = component.run(start, *options, "--Endpoints.Arm=", "--basics=1").wait_for("ParaComp is running")
     for key in ("motors.0.speed", "offsets.z"):
-        running.wait_for(f"WARNING ParaComp: {component.config}: there is no parameter '{key}'")
-    running.wait_for("WARNING ParaComp: --motors.0.velo on the command line: there is no parameter 'motors.0.velo'")
+        running.wait_for(f"WARNING ParaComp: {component.config}: unknown parameter '{key}'")
+    running.wait_for("WARNING ParaComp: --motors.0.velo on the command line: unknown parameter 'motors.0.velo'")
     for key, meant in (("moters.0.vel", "motors"), ("BasicPeriod", "basicPeriod"), ("bsaicPeriod", "basicPeriod")):
         where = f"WARNING ParaComp: --{key} on the command line: "
-        running.wait_for(f"{where}there is no parameter '{key}' (did you mean '{meant}'?)")
+        running.wait_for(f"{where}unknown parameter '{key}' (did you mean '{meant}'?)")
     assert running.output.count("there is no parameter") == 6
 
 
@@ -227,8 +227,8 @@ def test_changes_from_another_process(component: Component, start: Start, behavi
         ("basicPeriod", "", "basicPeriod must be a whole number (ms), and is ''"),
         ("motors_0_min", "1", "a motor's min must be below its max"),
         ("device", "/dev/x", "device cannot be changed while the component runs: it is not editable"),
-        ("motors_9_vel", "1", "there is no parameter 'motors.9.vel'"),
-        ("CommonBehavior_Endpoints", "tcp", "there is no parameter 'CommonBehavior.Endpoints'"),
+        ("motors_9_vel", "1", "unknown parameter 'motors.9.vel'"),
+        ("CommonBehavior_Endpoints", "tcp", "unknown parameter 'CommonBehavior.Endpoints'"),
         ("gains_size", "-1", "gains must be a list, and is '-1'"),
     ],
 )
@@ -281,7 +281,7 @@ SECRETS = ("4711", "oak", "elm", "hunter2", "beech", "birch", "larch")
     [
         (("--pin=17",), "pin is ***, and must be from 1000 to 9999"),
         (("--pin=hunter2",), "pin must be a whole number, and is ***"),
-        (("--locks.0=hunter2", "--locks.1=hunter2"), "locks holds *** twice"),
+        (("--locks.0=hunter2", "--locks.1=hunter2"), "locks contains *** twice"),
         (("--password=HUNTER2",), "password is ***, and must match [a-z0-9]+"),
         (("--door=unter2x",), "door is ***, and must be one of the 2 values allowed"),
         (("--speed=unter2",), "speed is ***, and must be one of the 2 values allowed"),
@@ -290,8 +290,8 @@ SECRETS = ("4711", "oak", "elm", "hunter2", "beech", "birch", "larch")
             "comes from the file /nowhere/pin, which cannot be read: No such file or directory",
         ),
         (("--mode=${file:/}",), "mode is '${file:/}', and must be one of slow, fast"),
-        (("--mode=${file:/etc}",), "mode comes from the file /etc, which is no regular file"),
-        (("--mode=${file:/dev/zero}",), "mode comes from the file /dev/zero, which is no regular file"),
+        (("--mode=${file:/etc}",), "mode comes from the file /etc, which is not a regular file"),
+        (("--mode=${file:/dev/zero}",), "mode comes from the file /dev/zero, which is not a regular file"),
     ],
 )
 def test_a_secret_that_is_wrong_is_not_shown(
@@ -365,7 +365,7 @@ def test_any_plain_value_can_come_from_a_file(component: Component, start: Start
 @pytest.mark.parametrize(
     ("content", "said"),
     [
-        (b"a\0b", "which holds a NUL"),
+        (b"a\0b", "which contains a NUL character"),
         (b"x" * ((1 << 20) + 1), "which is larger than 1 MiB"),
         (b"\xff\xfe", "which is not in UTF-8"),
         (b"\xed\xa0\x80", "which is not in UTF-8"),

@@ -13,7 +13,7 @@ from robocomp_yaml.languages.record import TargetLanguage
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.parameters.defaults import defaults
 from robocomp_yaml.parameters.expressions import evaluate
-from robocomp_yaml.parameters.types import Member, Parameters, RecordType
+from robocomp_yaml.parameters.types import Parameters, RecordType, ResolvedMember
 from robocomp_yaml.parameters.verdict.specification import default_faults, spelling_faults
 
 

@@ -13,8 +13,8 @@ from robocomp_yaml.link.attachments import refers_to
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues, Program
 from robocomp_yaml.model.build_interface import entries
 from robocomp_yaml.parameters.layers.effective import Effective, document_faults
-from robocomp_yaml.parameters.writing.harmless import is_harmless
 from robocomp_yaml.parameters.writing.properties import properties
+from robocomp_yaml.parameters.writing.writable import is_surely_writable
 from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source.ice_endpoint import parse_endpoints
 from robocomp_yaml.source.ice_options import Refused

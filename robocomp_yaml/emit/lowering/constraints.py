@@ -15,10 +15,10 @@ from robocomp_yaml.parameters.specification.expression import (
     Each,
     Expression,
     Index,
-    Listing,
-    Literal,
+    ListExpression,
+    LiteralExpression,
     Logic,
-    Name,
+    NameExpression,
     Unary,
 )
 from robocomp_yaml.parameters.types import ListType, MapType, RecordType
@@ -57,11 +57,11 @@ class _Writer(msgspec.Struct, frozen=True):
         calls = self.calls
         of = calls.prefix
         match expression:
-            case Literal(value=data):
+            case LiteralExpression(value=data):
                 return calls.value(data)
-            case Listing(items=items):
+            case ListExpression(items=items):
                 return self.listing(items)
-            case Name(name=name):
+            case NameExpression(name=name):
                 return self.name(name)
             case Attribute(of=owner, name=name):
                 record = type_of(owner, self.scope)

@@ -7,8 +7,17 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import msgspec
 
-from robocomp_yaml.parameters.specification.document import Spelling
-from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, Member, RecordType, Size, Type
+from robocomp_yaml.parameters.specification.document import LegacySpelling
+from robocomp_yaml.parameters.types import (
+    BasicType,
+    EnumType,
+    ListType,
+    MapType,
+    RecordType,
+    ResolvedMember,
+    Size,
+    Type,
+)
 
 _LIMITS = {"at_least": "atLeast", "above": "above", "at_most": "atMost", "below": "below"}
 
@@ -39,7 +48,7 @@ class Builders(msgspec.Struct, frozen=True):
             case _:
                 return f"{functions[type_.name or group or '']}()"
 
-    def member(self, start: str, member: Member, functions: Mapping[str, str], group: str | None) -> str:
+    def member(self, start: str, member: ResolvedMember, functions: Mapping[str, str], group: str | None) -> str:
         """The same of a member; `start` is the call up to its name."""
         made = f"{start}, {self.kind(member.type, functions, group)})"
         made += f".byDefault({self.value(member.default.data)})" if member.default is not None else ""
@@ -64,7 +73,7 @@ class Builders(msgspec.Struct, frozen=True):
         if type_.unit:
             yield f"in({self.text(type_.unit)})"
 
-    def spelling(self, spelling: Spelling) -> str:
+    def spelling(self, spelling: LegacySpelling) -> str:
         """All members of a spelling of properties, in their order."""
         fields = self.listed([self.listed([self.text(name), self.text(key)]) for name, key in spelling.fields])
         words = [

@@ -8,7 +8,16 @@ import msgspec
 
 from robocomp_yaml.emit.lowering.names import Names
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, Member, Parameters, RecordType, Type
+from robocomp_yaml.parameters.types import (
+    BasicType,
+    EnumType,
+    ListType,
+    MapType,
+    Parameters,
+    RecordType,
+    ResolvedMember,
+    Type,
+)
 from robocomp_yaml.parameters.words import for_code
 
 ROOT = "."
@@ -63,8 +72,8 @@ class Types:
                 return spelling.own.format(self.of[type_.name or group or ""])
 
     def setters(
-        self, member: Member, taken: Names, around: str = ROOT, before: str = ""
-    ) -> Iterator[tuple[str, Member, str]]:
+        self, member: ResolvedMember, taken: Names, around: str = ROOT, before: str = ""
+    ) -> Iterator[tuple[str, ResolvedMember, str]]:
         """Name, member and path of each setter: of the member, or of what the group holds."""
         in_code, path = inside(around, member.code_name), f"{before}{member.name}"
         if member.is_group and isinstance(member.type, RecordType):
@@ -97,11 +106,11 @@ def about_enum(enum: EnumType) -> list[str]:
     return words + [f"{name}: {' '.join(doc.split())}" for name, doc in enum.enumerators if doc]
 
 
-def about_member(member: Member, between: str) -> str:
+def about_member(member: ResolvedMember, between: str) -> str:
     return between.join(part for part in (member.doc.strip(), for_code(member)) if part) or f"{member.name}."
 
 
-def path_of(member: Member, group: str | None) -> str | None:
+def path_of(member: ResolvedMember, group: str | None) -> str | None:
     """The path of a member that stands in a group; None in a struct."""
     return None if group is None else inside(group, member.code_name)
 

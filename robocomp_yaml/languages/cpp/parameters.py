@@ -29,9 +29,9 @@ from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,
-    Member,
     Parameters,
     RecordType,
+    ResolvedMember,
 )
 from robocomp_yaml.transactions.plan import FilePlan
 
@@ -183,7 +183,7 @@ class _Types(Types):
             write=f"runtime::putMember(made, {key}, value.{name});",
         )
 
-    def member_type(self, member: Member, group: str | None) -> str:
+    def member_type(self, member: ResolvedMember, group: str | None) -> str:
         made = self.spelled(member.type, group)
         return f"std::optional<{made}>" if member.optional else made
 
@@ -223,7 +223,7 @@ class _Types(Types):
                 [_setter(*setter) for setter in setters],
             )
 
-    def argument(self, member: Member) -> str:
+    def argument(self, member: ResolvedMember) -> str:
         made = self.member_type(member, None)
         is_small = isinstance(member.type, BasicType | EnumType) and made != "std::string" and not member.optional
         return made if is_small else f"const {made}&"

@@ -32,9 +32,9 @@ from robocomp_yaml.parameters.types import (
     EnumType,
     ListType,
     MapType,
-    Member,
     Parameters,
     RecordType,
+    ResolvedMember,
     Type,
     is_secret,
 )
@@ -171,7 +171,7 @@ class _Types(Types):
             kind=_BUILDERS.member(f"new Member({key}", member, self.functions, inner),
         )
 
-    def member_type(self, member: Member, group: str | None) -> str:
+    def member_type(self, member: ResolvedMember, group: str | None) -> str:
         if member.optional:
             return f"java.util.Optional<{self.spelled(member.type, group, boxed=True)}>"
         return self.spelled(member.type, group)

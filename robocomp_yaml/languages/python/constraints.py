@@ -18,10 +18,10 @@ from robocomp_yaml.parameters.specification.expression import (
     Each,
     Expression,
     Index,
-    Listing,
-    Literal,
+    ListExpression,
+    LiteralExpression,
     Logic,
-    Name,
+    NameExpression,
     Unary,
 )
 from robocomp_yaml.parameters.types import ListType, MapType, RecordType

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from robocomp_yaml.emit.lowering.ports import Spelling
-from robocomp_yaml.semantics.slice_names import FORGOTTEN
+from robocomp_yaml.semantics.slice_names import NOT_ESCAPED
 
 # Ice 3.7's mapping puts an underscore before these. The keywords that it does not escape are escaped when the generated
 # component loads its Slice (templates/runtime/keywords.py).
@@ -14,7 +14,7 @@ ICE_ESCAPES = frozenset(
     "not or pass print raise return self try while yield".split()
 )
 _PROXY_METHODS = frozenset(("checkedCast", "uncheckedCast"))
-_KEYWORDS = ICE_ESCAPES.union(FORGOTTEN)
+_KEYWORDS = ICE_ESCAPES.union(NOT_ESCAPED)
 
 # Attributes of every worker: accessors and methods of the same name are renamed.
 WORKER_ATTRIBUTES = frozenset(

@@ -24,15 +24,15 @@ from robocomp_yaml.languages._shared.views import constraint_views
 from robocomp_yaml.languages.python import LANGUAGE
 from robocomp_yaml.languages.python.text import docstring, folded, literal, one_line
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.parameters.specification.document import Spelling as PropertySpelling
+from robocomp_yaml.parameters.specification.document import LegacySpelling as PropertySpelling
 from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,
     ListType,
     MapType,
-    Member,
     Parameters,
     RecordType,
+    ResolvedMember,
     Size,
     Type,
 )

@@ -29,18 +29,18 @@ _INT = "{type: int, default: 1}"
         (
             "Arm: {group: {Endpoints: {type: string, default: x}}}",
             "",
-            ["RC3116 'Arm.Endpoints' and the endpoints of Arm are both the property 'Arm.Endpoints'"],
+            ["RC3116 'Arm.Endpoints' and the endpoints of Arm both use the property 'Arm.Endpoints'"],
         ),
         (
             "statemachine: {group: {a: {type: int, default: 1}}}",
             "",
-            ["RC3116 'statemachine.a' and the states of a state machine are both the property 'statemachine.…'"],
+            ["RC3116 'statemachine.a' and the states of a state machine both use the property 'statemachine.…'"],
         ),
         (
             "MovedTopic: {group: {Endpoints: {type: string, default: x}}}",
             "",
             [
-                "RC3116 'MovedTopic.Endpoints' and the endpoints of MovedTopic are both the property 'MovedTopic.Endpoints'"
+                "RC3116 'MovedTopic.Endpoints' and the endpoints of MovedTopic both use the property 'MovedTopic.Endpoints'"
             ],
         ),
         (f"OtherProxy: {_INT}", "", ["RC3116 'OtherProxy' and the proxy Other are both the property 'OtherProxy'"]),
@@ -49,7 +49,7 @@ _INT = "{type: int, default: 1}"
         (
             f"a: {_INT}, ids: {{list: int, default: []}}",
             "a: Id7, ids: {key: 'Id{i}'}",
-            ["RC3116 'ids' and 'a' are both the property 'Id7'"],
+            ["RC3116 'ids' and 'a' both use the property 'Id7'"],
         ),
     ],
 )

@@ -101,7 +101,7 @@ def test_right_deployments(text: str, others: dict[str, str]) -> None:
         ('components: {m: {component: mouth, config: etc/config}}\n', {}, 'RC4103', 'etc/config', "there is no configuration 'etc/config': no mouth/etc/config and no etc/config", "the folder 'mouth/etc' does not exist"),
         ('components: {m: {component: mouth, config: ../speech/x.config.yaml}}\n', {'speech/x.config.yaml': 'component: speech.cdsl.yaml\n'}, 'RC4104', '../speech/x.config.yaml', 'these are the values of SpeechComp, and this is MouthComp', 'a component cannot use the values of another one: see `component:` in that document'),
         ('components: {m: {component: mouth, set: {period.compute: 0}}}\n', {}, 'RC3303', '0', 'period.compute is 0 ms, and must be at least 1 ms', ''),
-        ('components: {m: {component: mouth, set: {nothing: 0}}}\n', {}, 'RC3301', 'nothing', "there is no parameter 'nothing'", 'there can be: period'),
+        ('components: {m: {component: mouth, set: {nothing: 0}}}\n', {}, 'RC3301', 'nothing', "unknown parameter 'nothing'", 'there can be: period'),
         ('components: {m: {component: mouth, set: {period.compute: x}}}\n', {}, 'RC3302', 'x', "period.compute must be a whole number (ms), and is the text 'x'", ''),
     ],
 )  # fmt: skip

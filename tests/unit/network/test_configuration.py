@@ -89,7 +89,7 @@ def test_a_wrong_path_is_reported_with_its_reason() -> None:
     (found,) = faults(files(", set: {period.compute: 0, voice.pitch: 1}"))
     assert found.message.startswith("period.compute is 0 ms")
     (found,) = faults(files(", set: {voice.pich: 1}"))
-    assert found.message == "there is no parameter 'voice.pich'" and found.hint == "did you mean 'pitch'?"
+    assert found.message == "unknown parameter 'voice.pich'" and found.hint == "did you mean 'pitch'?"
 
 
 def test_each_instance_has_its_own_configuration() -> None:

@@ -115,7 +115,7 @@ class Values(composite.Record):
         composite.listing(composite.record(Motor), at_least=1, at_most=3),
         editable=True,
     )
-    """From 1 to 3 entries; may change while the component runs."""
+    """1 to 3 entries; may change while the component runs."""
 
     gains: tuple[tuple[float, ...], ...] = composite.member(
         composite.listing(composite.listing(plain.decimal("float"), at_least=3, at_most=3)),

@@ -85,7 +85,7 @@ void warnOfProperties(const Store& store, const Settings& settings, const Log& l
     for (const auto& [key, meant] : store.misspelled(ports))
     {
         const auto hint = meant.empty() ? "" : " (did you mean '" + meant + "'?)";
-        log.warning(settings.source(key) + ": there is no parameter '" + key + "'" + hint);
+        log.warning(settings.source(key) + ": unknown parameter '" + key + "'" + hint);
     }
 }
 

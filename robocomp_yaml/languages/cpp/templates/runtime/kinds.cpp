@@ -230,7 +230,7 @@ Value Kind::takeList(const Value& raw, const Path& path, Taking& taking) const
         {
             isTwice = true;
             taking.refuse(
-                path, "holds " + element->shown(item) + " twice", element->shown(item), "entries that all differ");
+                path, "contains " + element->shown(item) + " twice", element->shown(item), "entries that all differ");
         }
         items.push_back(std::move(item));
     }
@@ -272,7 +272,7 @@ Value Kind::takeRecord(const Value& raw, const Path& path, Taking& taking) const
     {
         if (member(key) == nullptr)
         {
-            taking.refuse({}, "there is no parameter '" + inWords(path + Step{key}) + "'");
+            taking.refuse({}, "unknown parameter '" + inWords(path + Step{key}) + "'");
         }
     }
     Value::Map items;
@@ -319,7 +319,7 @@ void Kind::checkSize(std::size_t count, const Path& path, Taking& taking) const
     const auto wanted = !most_ ? "at least " + least
         : *most_ == least_ ? "exactly " + least
         : least_ == 0 ? "at most " + std::to_string(*most_)
-                      : "from " + least + " to " + std::to_string(*most_);
+                      : least + " to " + std::to_string(*most_);
     const auto entries = std::to_string(count) + (count == 1 ? " entry" : " entries");
     taking.refuse(path, "has " + entries + ", and must have " + wanted, entries, wanted);
 }

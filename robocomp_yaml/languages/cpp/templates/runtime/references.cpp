@@ -123,7 +123,7 @@ std::string contents(const std::string& path)
     }
     if (!S_ISREG(status.st_mode))
     {
-        throw std::runtime_error("which is no regular file");
+        throw std::runtime_error("which is not a regular file");
     }
     std::string text(largest + 1, '\0');
     std::size_t size = 0;
@@ -142,7 +142,7 @@ std::string contents(const std::string& path)
     }
     if (text.find('\0') != std::string::npos)
     {
-        throw std::runtime_error("which holds a NUL");
+        throw std::runtime_error("which contains a NUL character");
     }
     if (!text.empty() && text.back() == '\n')
     {

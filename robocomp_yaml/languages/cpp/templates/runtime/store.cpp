@@ -102,7 +102,7 @@ void Store::change(const std::map<std::string, Value>& values)
         {
             if (!put(table_.kind, changed, parsePath(path), value))
             {
-                taking.refuse({}, "there is no parameter '" + path + "'");
+                taking.refuse({}, "unknown parameter '" + path + "'");
             }
         }
         auto made = taking.problems.empty() ? table_.kind.take(changed, {}, taking) : Value();
@@ -146,7 +146,7 @@ void Store::changeTexts(const Texts& changes)
         {
             if (reader.used().count(key) == 0)
             {
-                taking.refuse({}, "there is no parameter '" + key + "'");
+                taking.refuse({}, "unknown parameter '" + key + "'");
             }
         }
         for (const auto& [key, text] : changes)

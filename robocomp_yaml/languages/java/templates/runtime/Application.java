@@ -180,7 +180,7 @@ final class Application {
 
     private void warnOfProperties() {
         store.misspelled(component.ports()).forEach((key, meant) -> log.warning(settings.source(key)
-            + ": there is no parameter '" + key + "'" + (meant.isEmpty() ? "" : " (did you mean '" + meant + "'?)")));
+            + ": unknown parameter '" + key + "'" + (meant.isEmpty() ? "" : " (did you mean '" + meant + "'?)")));
     }
 
     /** Serves CommonBehavior, unless the config has no endpoint for it or the component implements it itself. */

@@ -245,7 +245,7 @@ public final class Kind {
         }
         for (Object key : map.keySet()) {
             if (!members.containsKey(key)) {
-                taking.refuse(List.of(), "there is no parameter '"
+                taking.refuse(List.of(), "unknown parameter '"
                     + Paths.inWords(Paths.inside(path, String.valueOf(key))) + "'");
             }
         }
@@ -280,7 +280,7 @@ public final class Kind {
             return;
         }
         String wanted = most < 0 ? "at least " + least : least == most ? "exactly " + least
-            : least > 0 ? "from " + least + " to " + most : "at most " + most;
+            : least > 0 ? least + " to " + most : "at most " + most;
         String entries = count + " entr" + (count == 1 ? "y" : "ies");
         taking.refuse(path, "has " + entries + ", and must have " + wanted, entries, wanted, "");
     }

@@ -71,7 +71,7 @@ final class References {
         byte[] raw;
         try {
             if (!Files.isRegularFile(path) && Files.exists(path)) {
-                throw new IOException("which is no regular file");
+                throw new IOException("which is not a regular file");
             }
             try (InputStream file = Files.newInputStream(path)) {
                 raw = file.readNBytes(LARGEST + 1);
@@ -87,7 +87,7 @@ final class References {
         int end = raw.length;
         for (byte one : raw) {
             if (one == 0) {
-                throw new IOException("which holds a NUL");
+                throw new IOException("which contains a NUL character");
             }
         }
         if (end > 0 && raw[end - 1] == '\n') {

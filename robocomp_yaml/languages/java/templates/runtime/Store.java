@@ -63,7 +63,7 @@ public final class Store {
             Object changed = Editing.copy(values);
             changes.forEach((path, value) -> {
                 if (!Editing.put(table.kind(), changed, Paths.parse(path), Data.plain(value))) {
-                    taking.refuse(List.of(), "there is no parameter '" + path + "'");
+                    taking.refuse(List.of(), "unknown parameter '" + path + "'");
                 }
             });
             replace(taking.problems.isEmpty() ? taken(changed, taking) : null, taking);
@@ -85,7 +85,7 @@ public final class Store {
             Object read = reader.read(table.kind());
             for (String key : new TreeSet<>(changes.keySet())) {
                 if (!reader.used.contains(key)) {
-                    taking.refuse(List.of(), "there is no parameter '" + key + "'");
+                    taking.refuse(List.of(), "unknown parameter '" + key + "'");
                 } else if (changes.get(key).contains(Secrecy.HIDDEN)) {
                     Kind kind = Editing.at(table.kind(), Paths.parse(key));
                     Entry entry = entries.get(key);

@@ -125,7 +125,7 @@ class Application:
         ports = (*component.implements, *component.requires, *component.publishes, *component.subscribes)
         for key, meant in configuration.misspelled(self._store, [port.name for port in ports]):
             hint = f" (did you mean '{meant}'?)" if meant else ""
-            self._log.warning("%s: there is no parameter '%s'%s", self._settings.source(key), key, hint)
+            self._log.warning("%s: unknown parameter '%s'%s", self._settings.source(key), key, hint)
 
     def _serve_common_behavior(self) -> commonbehavior.Behavior | None:
         """Serves CommonBehavior, unless the config has no endpoint for it or the component implements it itself."""

@@ -10,7 +10,7 @@ from typing import Optional
 from generated.runtime.errors import StartError
 from generated.runtime.parameters import Store, Table
 from generated.runtime.schedule import Schedule
-from generated.runtime.semantics.plain import Plain
+from generated.runtime.semantics.plain import PlainKind
 from generated.runtime.semantics.problems import ParameterError
 from generated.runtime.settings import Settings, on_the_command_line
 
@@ -75,7 +75,7 @@ def misspelled(store: Store, ports: Iterable[str]) -> Iterator[tuple[str, str]]:
             meant = next((name for name in members if _alike(first, name)), "")
             if meant:
                 yield key, meant
-        elif dot and not isinstance(members[first].kind, Plain):
+        elif dot and not isinstance(members[first].kind, PlainKind):
             yield key, ""
 
 

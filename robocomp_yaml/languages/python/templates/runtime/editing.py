@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from generated.runtime.semantics import secrecy, texts
-from generated.runtime.semantics.composite import Kind, Listing, Naming, Recording
+from generated.runtime.semantics.composite import Kind, ListKind, MapKind, RecordKind
 from generated.runtime.semantics.paths import Path, dotted, escaped
-from generated.runtime.semantics.plain import Plain
+from generated.runtime.semantics.plain import PlainKind
 
 
 class Entry(NamedTuple):
@@ -30,7 +30,7 @@ def put(kind: Kind, data: Any, steps: Sequence[str], value: Any) -> bool:
         kind, key = found
         inner = data.get(key) if isinstance(data, dict) else data[key]
         if not isinstance(inner, (dict, list)):
-            inner = data[key] = [] if isinstance(kind, Listing) else {}
+            inner = data[key] = [] if isinstance(kind, ListKind) else {}
         data = inner
     found = _step(kind, data, steps[-1]) if steps else None
     if found is None:
@@ -46,9 +46,9 @@ def _step(kind: Kind, data: Any, step: str) -> Any:
     """The type at a step, and its key in `data`; None for an unknown step."""
     if isinstance(kind, Recording) and step in kind.members and isinstance(data, dict):
         return kind.members[step].kind, step
-    if isinstance(kind, Naming) and isinstance(data, dict):
+    if isinstance(kind, MapKind) and isinstance(data, dict):
         return kind.element, step
-    if isinstance(kind, Listing) and isinstance(data, list) and step.isdigit() and int(step) <= len(data):
+    if isinstance(kind, ListKind) and isinstance(data, list) and step.isdigit() and int(step) <= len(data):
         data += [None] * (int(step) == len(data))
         return kind.element, int(step)
     return None
@@ -57,11 +57,11 @@ def _step(kind: Kind, data: Any, step: str) -> Any:
 def at(kind: Kind, steps: Sequence[str]) -> Any:
     """The type at a path, or None."""
     for step in steps:
-        if isinstance(kind, Recording):
+        if isinstance(kind, RecordKind):
             if step not in kind.members:
                 return None
             kind = kind.members[step].kind
-        elif isinstance(kind, Plain) or (isinstance(kind, Listing) and not step.isdigit()):
+        elif isinstance(kind, PlainKind) or (isinstance(kind, ListKind) and not step.isdigit()):
             return None
         else:
             kind = kind.element
@@ -72,14 +72,14 @@ def differences(kind: Kind, old: Any, new: Any, path: Path = (), editable: bool 
     """The changed paths, and whether each may change: an editable parameter with all of its content, or a member."""
     if old == new:
         return
-    if isinstance(kind, Recording) and old is not None and new is not None:
+    if isinstance(kind, RecordKind) and old is not None and new is not None:
         for member in kind.members.values():
             pair = getattr(old, member.attribute), getattr(new, member.attribute)
             yield from differences(member.kind, *pair, (*path, member.key), editable or _is_editable(member))
-    elif isinstance(kind, Listing) and old is not None and new is not None and len(old) == len(new):
+    elif isinstance(kind, ListKind) and old is not None and new is not None and len(old) == len(new):
         for place, pair in enumerate(zip(old, new)):
             yield from differences(kind.element, *pair, (*path, place), editable)
-    elif isinstance(kind, Naming) and old is not None and new is not None and old.keys() == new.keys():
+    elif isinstance(kind, MapKind) and old is not None and new is not None and old.keys() == new.keys():
         for name in old:
             yield from differences(kind.element, old[name], new[name], (*path, name), editable)
     else:
@@ -104,7 +104,7 @@ def flat(kind: Kind, value: Any, references: Mapping[Path, str]) -> Iterator[tup
             yield dotted(path), Entry(references.get(path) or _shown(each, inner, path), each.name, editable)
 
 
-def _shown(kind: Plain, value: Any, path: Path) -> str:
+def _shown(kind: PlainKind, value: Any, path: Path) -> str:
     text = texts.spelled(value)
     if kind.is_secret:
         return secrecy.HIDDEN if text else text

@@ -13,9 +13,9 @@ from tempfile import TemporaryDirectory
 
 import Ice
 import IcePy
-from generated.runtime.semantics.slice_names import FORGOTTEN
+from generated.runtime.semantics.slice_names import NOT_ESCAPED
 
-_WORD = "|".join(FORGOTTEN)
+_WORD = "|".join(NOT_ESCAPED)
 
 # The first alternative that matches decides. Text outside of groups stays unchanged.
 _PLACES = re.compile(

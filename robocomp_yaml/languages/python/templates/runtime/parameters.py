@@ -12,12 +12,12 @@ from typing import Any, Callable
 
 from generated.runtime.editing import Entry, at, differences, flat, plain_values, put
 from generated.runtime.semantics import texts
-from generated.runtime.semantics.composite import Record, Recording, data
+from generated.runtime.semantics.composite import Record, RecordKind, data
 from generated.runtime.semantics.constraints import Constraint
 from generated.runtime.semantics.paths import Path, dotted, in_words, parse
-from generated.runtime.semantics.plain import Plain, Taking
+from generated.runtime.semantics.plain import PlainKind, Conversion
 from generated.runtime.semantics.problems import ParameterError, Problem
-from generated.runtime.semantics.reading import Reader
+from generated.runtime.semantics.reading import PropertyReader
 from generated.runtime.semantics.references import referring, resolved
 from generated.runtime.semantics.secrecy import HIDDEN, shown
 from generated.runtime.semantics.spellings import Spelling
@@ -85,7 +85,7 @@ class Live:
             if member.attribute == name:
                 self.__store__.change({member.key: value})
                 return
-        raise AttributeError(f"there is no parameter '{name}'")
+        raise AttributeError(f"unknown parameter '{name}'")
 
 
 class Store:
@@ -95,7 +95,7 @@ class Store:
     def __init__(
         self, table: Table, properties: Mapping[str, str], overrides: Mapping[str, str], folder: str = ""
     ) -> None:
-        self.kind = Recording(table.values)
+        self.kind = RecordKind(table.values)
         self.table = table
         self._lock = threading.Lock()
         self._listeners: list[Listener] = []
@@ -126,7 +126,7 @@ class Store:
 
     def change(self, values: Mapping[str, Any]) -> None:
         with self._lock:
-            taking = Taking()
+            conversion = Conversion()
             changed = data(self.kind, self.values)
             for path, value in values.items():
                 if not put(self.kind, changed, parse(path), value):
@@ -140,11 +140,11 @@ class Store:
         with self._lock:
             now = {key: entry.text for key, entry in self.entries().items()}
             known = {key: value for key, value in self._known().items() if key not in changes}
-            reader = Reader({**now, **changes}, {}, known=known)
-            taking = Taking(is_text=True)
+            reader = PropertyReader({**now, **changes}, {}, known=known)
+            conversion = Conversion(is_text=True)
             read = reader.read(self.kind)
             for key in sorted(changes.keys() - reader.used):
-                taking.refuse((), f"there is no parameter '{key}'")
+                conversion.reject((), f"unknown parameter '{key}'")
             for key in sorted(key for key in changes.keys() & reader.used if HIDDEN in changes[key]):
                 if HIDDEN in now.get(key, "") or getattr(at(self.kind, parse(key)), "is_secret", False):
                     taking.refuse((), f"{key} cannot be {HIDDEN}, which is shown instead of a secret")
@@ -162,7 +162,7 @@ class Store:
         """Reads the values from properties again. Raises ParameterError, and then changes nothing."""
         with self._lock:
             made, references, unread = self._read(properties, overrides, folder)
-            self._replace(made, Taking(references=references))
+            self._replace(made, Conversion(references=references))
             self.unread = unread
         self._notify()
 
@@ -185,19 +185,19 @@ class Store:
         known = {**properties}
         if "Period.Compute" in properties:  # RoboComp's own name
             known.setdefault("period.compute", properties["Period.Compute"])
-        reader = Reader(known, self.table.spellings, lambda text: resolved(text, folder))
+        reader = PropertyReader(known, self.table.spellings, lambda text: resolved(text, folder))
         read = reader.read(self.kind)
         for key, text in overrides.items():
             steps = parse(key)
-            if key not in reader.used and isinstance(at(self.kind, steps), Plain):
+            if key not in reader.used and isinstance(at(self.kind, steps), PlainKind):
                 put(self.kind, read, steps, resolved(text))
                 reader.used.add(key)
-        taking = Taking(is_text=True)
-        made = self.kind.take(read, (), taking)
-        taking.problems += () if taking.problems else self._broken(made)
-        if taking.problems:
-            raise ParameterError(taking.problems)
-        return made, taking.references, {key: properties[key] for key in properties.keys() - reader.used}
+        conversion = Conversion(is_text=True)
+        made = self.kind.convert(read, (), conversion)
+        conversion.problems += () if conversion.problems else self._broken(made)
+        if conversion.problems:
+            raise ParameterError(conversion.problems)
+        return made, conversion.references, {key: properties[key] for key in properties.keys() - reader.used}
 
     def _broken(self, made: Any) -> Iterable[Problem]:
         return [
@@ -213,13 +213,13 @@ class Store:
             changed = list(differences(self.kind, self.values, made))
             for path, is_editable in changed:
                 if not is_editable:
-                    taking.refuse(path, "cannot be changed while the component runs: it is not editable")
-        if taking.problems:
-            raise ParameterError(taking.problems)
+                    conversion.reject(path, "cannot be changed while the component runs: it is not editable")
+        if conversion.problems:
+            raise ParameterError(conversion.problems)
         if not changed:
             return
         kept = {path: text for path, text in self._references.items() if not _is_within(path, changed)}
-        before, self.values, self._references = self.values, made, {**kept, **taking.references}
+        before, self.values, self._references = self.values, made, {**kept, **conversion.references}
         self._show()
         self._pending.append(Change(tuple(in_words(path) for path, _ in changed), before, made))
 

@@ -1,9 +1,9 @@
 """JSON Schemas (draft-07) of a component's values: for editors, for tools, and as the gate of `check`.
 
-Three of them say the same about each value, and differ in what may be missing. A document may leave out anything, and
-`null` returns to the default; of effective values nothing that is required may be missing; complete ones also have
-every default, so that there is nothing left to normalize. Only the first is read by people, in their editors, and has
-messages, examples and snippets for them; the second, for tools, says what each value is; the third is read by nobody.
+The three modes accept the same values, and differ in what may be missing. In a DOCUMENT everything may be missing, and
+`null` resets a value to its default. EFFECTIVE values have everything that is required. COMPLETE values also have all
+defaults, so that nothing is left to complete. Only the schema of a document has messages, examples and snippets,
+because people see it in editors; the schema of effective values, for tools, has descriptions.
 """
 
 from __future__ import annotations
@@ -11,8 +11,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+import jsonschema_rs
 import msgspec
 
+from robocomp_yaml.parameters.documents import ResolvedParameters
 from robocomp_yaml.parameters.examples.example import example, example_of
 from robocomp_yaml.parameters.hidden import holds_secret
 from robocomp_yaml.parameters.types import (
@@ -20,14 +22,15 @@ from robocomp_yaml.parameters.types import (
     EnumType,
     ListType,
     MapType,
-    Member,
     Parameters,
     RecordType,
+    ResolvedMember,
     ScalarType,
     Size,
     Type,
+    json_type,
 )
-from robocomp_yaml.parameters.words import for_editors, in_words, label, prose
+from robocomp_yaml.parameters.words import entries_in_words, for_editors, in_words, label, prose
 from robocomp_yaml.semantics.limits import LIMITS
 from robocomp_yaml.source.schema import new_schema
 from robocomp_yaml.source.yaml_text import flow
@@ -36,26 +39,26 @@ Schema = dict[str, Any]
 DOCUMENT, EFFECTIVE, COMPLETE = "document", "effective", "complete"
 _REFERENCE: Schema = {
     "title": "Reference",
-    "description": "The value of an environment variable, or the text of a file, taken when the component starts.",
+    "description": "The value of an environment variable, or the text of a file. It is read when the component starts.",
     "type": "object",
     "minProperties": 1,
     "maxProperties": 1,
-    "errorMessage": "a value is referred to by {env: NAME} or by {file: PATH}",
+    "errorMessage": "a reference must be {env: NAME} or {file: PATH}",
     "properties": {
         "env": {
             "title": "Variable",
             "description": "The name of the environment variable.",
             "type": "string",
             "pattern": "^[A-Za-z_][A-Za-z0-9_]*$(?!\\n)",
-            "errorMessage": "env: is the name of an environment variable: letters, digits and underscores",
+            "errorMessage": "env: must be the name of an environment variable: letters, digits and underscores",
         },
         "file": {
             "title": "File",
-            "description": "The path of a file, from the folder of this document. One line end at the "
-            "end of its text does not count.",
+            "description": "The path of a file, relative to the folder of this document. The last line "
+            "end of the file is not part of the value.",
             "type": "string",
             "pattern": "^[^\\r\\n\\x00]*[^ \\t/\\r\\n\\x00]$(?!\\n)",
-            "errorMessage": "file: is the path of a file",
+            "errorMessage": "file: must be the path of a file",
         },
     },
     "additionalProperties": False,
@@ -65,7 +68,7 @@ _REFERENCE_CHOICE = {
     "defaultSnippets": [
         {
             "label": "from the environment",
-            "description": "taken when the component starts",
+            "description": "read when the component starts",
             "body": {"env": "${1:NAME}"},
         },
         {
@@ -77,33 +80,39 @@ _REFERENCE_CHOICE = {
 }
 
 
+def fits(linked: ResolvedParameters, mode: str, data: object) -> bool:
+    """The verdict of the gate on the data under `parameters:`, in one of the modes."""
+    gate = linked.once(mode, lambda: jsonschema_rs.Draft7Validator(values_schema(linked.parameters, mode)))
+    return gate.is_valid(data)
+
+
 def values_schema(parameters: Parameters, mode: str) -> Schema:
-    """The schema of what stands under `parameters:`, by itself."""
-    maker = _Maker(mode)
-    made = maker.record(parameters.root)
-    return {"$schema": "http://json-schema.org/draft-07/schema#", **made, "definitions": maker.definitions}
+    """The schema of the data under `parameters:` alone."""
+    builder = _SchemaBuilder(mode)
+    made = builder.record(parameters.root)
+    return {"$schema": "http://json-schema.org/draft-07/schema#", **made, "definitions": builder.definitions}
 
 
-def complete_schema(type_: Type) -> Schema:
-    """The schema of one complete value."""
-    maker = _Maker(COMPLETE)
-    made = maker.type(type_)
-    return {**made, "definitions": maker.definitions}
+def gate_of_complete(type_: Type) -> jsonschema_rs.Draft7Validator:
+    """The gate for one complete value of a type."""
+    builder = _SchemaBuilder(COMPLETE)
+    made = builder.type(type_)
+    return jsonschema_rs.Draft7Validator({**made, "definitions": builder.definitions})
 
 
 def document_schema(parameters: Parameters, name: str, ports: Mapping[str, Iterable[str]], mode: str) -> Schema:
-    """The self-contained schema of the whole values document of the component that is called so; `ports` has the names
-    that may stand below `endpoints` and `proxies`."""
-    maker = _Maker(mode)
+    """The self-contained schema of a values document of the component `name`. `ports` has the names that are known
+    under `endpoints` and `proxies`."""
+    builder = _SchemaBuilder(mode)
     made = new_schema("config")
     made["$id"] = f"https://rcyaml.invalid/schemas/values/{name}.{mode}.schema.json"
     made["title"] = f"Values of {name}"
-    made["description"] = f"The values of {name}'s parameters, and where it and the others are."
+    made["description"] = f"The values of {name}'s parameters, its endpoints and its proxies."
     made["markdownDescription"] = made["description"] + (f"\n\n{prose(parameters.doc)}" if parameters.doc else "")
     made["examples"] = [{"parameters": {}}]
     head = {key: made["properties"]["parameters"][key] for key in ("title", "description", "markdownDescription")}
-    made["properties"]["parameters"] = {**maker.record(parameters.root, nullable=mode == DOCUMENT), **head}
-    made["definitions"].update(maker.definitions)
+    made["properties"]["parameters"] = {**builder.record(parameters.root, nullable=mode == DOCUMENT), **head}
+    made["definitions"].update(builder.definitions)
     if mode == EFFECTIVE:
         made["required"] = ["parameters"] if any(m.required for m in parameters.root.members) else []
     for key, names in ports.items():
@@ -114,8 +123,8 @@ def document_schema(parameters: Parameters, name: str, ports: Mapping[str, Itera
 _PORTS = {"endpoints": "endpoint", "proxies": "proxy"}
 
 
-class _Maker(msgspec.Struct):
-    """Makes schemas in one mode; structs go to `definitions`."""
+class _SchemaBuilder(msgspec.Struct):
+    """Builds schemas in one mode. Structs are in `definitions`."""
 
     mode: str
     definitions: dict[str, Schema] = msgspec.field(default_factory=lambda: {"reference": _REFERENCE})
@@ -136,7 +145,7 @@ class _Maker(msgspec.Struct):
             case MapType(element=element, size=size):
                 nullable_entries = self.mode == DOCUMENT
                 then = {"additionalProperties": self.type(element, nullable=nullable_entries)}
-                if not nullable_entries:  # layers are merged before entries are counted
+                if not nullable_entries:  # entries are counted after layers are merged
                     then |= self.size(size, "Properties")
                 return self.shape("object", then, nullable, type_)
             case RecordType(name=""):
@@ -144,7 +153,7 @@ class _Maker(msgspec.Struct):
             case _:
                 name = f"Type.{type_.name}"
                 if name not in self.definitions:
-                    self.definitions[name] = {}  # for a second mention while it is made
+                    self.definitions[name] = {}  # for a second use while it is built
                     self.definitions[name] = self.members(type_)
                 return self.shape("object", {"$ref": f"#/definitions/{name}"}, nullable, type_)
 
@@ -153,15 +162,15 @@ class _Maker(msgspec.Struct):
         made |= {f"max{of}": size.most} if size.most is not None else {}
         if not made or not self.for_editors:
             return made
-        said = {"type": "string", "errorMessage": f"there must be {size.in_words} entries"}
-        return {"allOf": [{"if": made, "then": {}, "else": said}]}
+        otherwise = {"type": "string", "errorMessage": f"there must be {entries_in_words(size)}"}
+        return {"allOf": [{"if": made, "then": {}, "else": otherwise}]}
 
     def shape(self, kind: str, then: Schema, nullable: bool, type_: Type) -> Schema:
-        """A list or mapping: what holds for it, and one message for everything else."""
+        """The schema of a list or mapping, with one message for all other values."""
         made: Schema = {"if": {"type": kind}, "then": then, "else": {"type": _types(kind, nullable)}}
         if self.for_editors:
             words = in_words(type_)
-            made["else"]["errorMessage"] = f"this is {words}"
+            made["else"]["errorMessage"] = f"this must be {words}"
             if not (isinstance(type_, RecordType) and type_.is_group):
                 snippet = {"label": label(type_), "description": words, "body": flow(example_of(type_))}
                 made["anyOf"] = [{"type": "string", "defaultSnippets": [snippet]}, {}]
@@ -169,17 +178,17 @@ class _Maker(msgspec.Struct):
 
     def scalar(self, type_: ScalarType, nullable: bool) -> Schema:
         limits = self.limits(type_)
-        said = {"errorMessage": f"this is {in_words(type_)}"} if self.for_editors else {}
-        kind = _json_type(type_)
+        message = {"errorMessage": f"this must be {in_words(type_)}"} if self.for_editors else {}
+        kind = json_type(type_)
         otherwise: Schema
         if "enum" in limits:
-            otherwise = {"enum": [*limits["enum"], *([None] if nullable else [])], **said}
+            otherwise = {"enum": [*limits["enum"], *([None] if nullable else [])], **message}
         elif isinstance(type_, BasicType) and type_.is_number and self.for_editors:
-            # An editor has words of its own for a range, and only for a type takes ours.
-            outside = {"if": limits, "then": {}, "else": {"type": "string", **said}}
-            otherwise = {"if": {"type": kind}, "then": outside, "else": {"type": _types(kind, nullable), **said}}
+            # Editors have their own message for a range, and use `errorMessage` only for a type.
+            outside = {"if": limits, "then": {}, "else": {"type": "string", **message}}
+            otherwise = {"if": {"type": kind}, "then": outside, "else": {"type": _types(kind, nullable), **message}}
         else:
-            otherwise = {"type": _types(kind, nullable), **limits, **said}
+            otherwise = {"type": _types(kind, nullable), **limits, **message}
         made: Schema = {"if": {"type": "object"}, "then": {"$ref": "#/definitions/reference"}, "else": otherwise}
         if self.for_editors:
             made["anyOf"] = [{"enum": limits["enum"]} if "enum" in limits else {"type": kind}, _REFERENCE_CHOICE, {}]
@@ -208,7 +217,7 @@ class _Maker(msgspec.Struct):
         return self.shape("object", self.members(type_), nullable, type_)
 
     def members(self, type_: RecordType) -> Schema:
-        """What holds for a record that is a mapping."""
+        """The schema of a record that is a mapping."""
         made: Schema = {"properties": {member.name: self.member(member) for member in type_.members}}
         if self.mode == DOCUMENT:
             made["patternProperties"] = {"^x-": {}}
@@ -225,14 +234,14 @@ class _Maker(msgspec.Struct):
             made |= {"markdownDescription": prose(type_.doc)} if self.for_editors else {}
         return made
 
-    def member(self, member: Member) -> Schema:
+    def member(self, member: ResolvedMember) -> Schema:
         made = self.type(member.type, nullable=self.mode == DOCUMENT)
         if self.mode != COMPLETE:
             made |= self.about(member)
         return made
 
-    def about(self, member: Member) -> Schema:
-        """Title, description, default; an editor also shows Markdown and examples."""
+    def about(self, member: ResolvedMember) -> Schema:
+        """Title, description and default; for editors also Markdown and examples."""
         unit, doc, facts = member.unit, member.documentation, for_editors(member)
         made: Schema = {"title": f"{member.name} ({unit})" if unit else member.name}
         made["description"] = "\n".join(part for part in (doc, facts) if part)
@@ -246,18 +255,12 @@ class _Maker(msgspec.Struct):
         return made
 
 
-def _json_type(type_: ScalarType) -> str:
-    if isinstance(type_, BasicType) and type_.name in LIMITS:
-        return "integer" if type_.is_integer else "number"
-    return "boolean" if type_.name == "bool" and isinstance(type_, BasicType) else "string"
-
-
 def _types(name: str, nullable: bool) -> str | list[str]:
     return [name, "null"] if nullable else name
 
 
 def _is_simple(data: object) -> bool:
-    """Whether no list holds lists or mappings: of those, editors insert `[object Object]`."""
+    """Whether no list contains lists or mappings, for which editors insert `[object Object]`."""
     if isinstance(data, dict):
         return all(map(_is_simple, data.values()))
     return not (isinstance(data, list) and any(isinstance(item, dict | list) for item in data))
