@@ -169,7 +169,7 @@ class _Types(Types):
             [self.member(member, group) for member in record.members],
         )
 
-    def member(self, member: Member, group: str | None) -> MemberView:
+    def member(self, member: ResolvedMember, group: str | None) -> MemberView:
         """`group` is the path of the member's group, None in a struct."""
         inner = path_of(member, group)
         name, key = LANGUAGE.in_code(member.code_name), string(member.name)
@@ -187,7 +187,7 @@ class _Types(Types):
         made = self.spelled(member.type, group)
         return f"std::optional<{made}>" if member.optional else made
 
-    def initial(self, member: Member) -> str:
+    def initial(self, member: ResolvedMember) -> str:
         """The initializer of the member: its value before the config is read, and in a record that code creates."""
         data = member.default.data if member.default is not None else None
         match member.type:

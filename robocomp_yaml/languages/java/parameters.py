@@ -155,7 +155,7 @@ class _Types(Types):
             [self.member(member, group) for member in record.members],
         )
 
-    def member(self, member: Member, group: str | None) -> MemberView:
+    def member(self, member: ResolvedMember, group: str | None) -> MemberView:
         """`group` is the path of the member's group, None in a struct."""
         inner = path_of(member, group)
         name, key = LANGUAGE.in_code(member.code_name), literal(member.name)

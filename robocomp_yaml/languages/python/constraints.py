@@ -47,12 +47,12 @@ class _ConstraintWriter(msgspec.Struct, frozen=True):
 
     def code(self, expression: Expression) -> PythonCode:
         match expression:
-            case Literal(value=value):
+            case LiteralExpression(value=value):
                 return PythonCode(literal(value))
-            case Listing(items=items):
+            case ListExpression(items=items):
                 parts = [self.code(item) for item in items]
                 return PythonCode(f"({_joined(parts)},)", _any_may(parts))
-            case Name(name=name):
+            case NameExpression(name=name):
                 return self.name(name)
             case Attribute(of=of, name=name):
                 return self.attribute(of, name)

@@ -218,7 +218,7 @@ public final class Kind {
             for (Object item : made) {
                 if (item != null && !seen.add(item)) {
                     String twice = element.isPlain() ? element.shown(item) : shownValue(item);
-                    taking.refuse(path, "holds " + twice + " twice", twice, "entries that all differ", "");
+                    taking.refuse(path, "contains " + twice + " twice", twice, "entries that all differ", "");
                     break;
                 }
             }

@@ -44,7 +44,7 @@ def put(kind: Kind, data: Any, steps: Sequence[str], value: Any) -> bool:
 
 def _step(kind: Kind, data: Any, step: str) -> Any:
     """The type at a step, and its key in `data`; None for an unknown step."""
-    if isinstance(kind, Recording) and step in kind.members and isinstance(data, dict):
+    if isinstance(kind, RecordKind) and step in kind.members and isinstance(data, dict):
         return kind.members[step].kind, step
     if isinstance(kind, MapKind) and isinstance(data, dict):
         return kind.element, step
@@ -88,7 +88,7 @@ def differences(kind: Kind, old: Any, new: Any, path: Path = (), editable: bool 
 
 def _is_editable(member: Any) -> bool:
     """The members of a group are editable themselves."""
-    is_group = isinstance(member.kind, Recording) and member.kind.is_group
+    is_group = isinstance(member.kind, RecordKind) and member.kind.is_group
     return member.is_editable and not is_group
 
 
@@ -96,11 +96,11 @@ def flat(kind: Kind, value: Any, references: Mapping[Path, str]) -> Iterator[tup
     """Each plain value by its dotted path, with the sizes of lists and the keys of maps, as properties have them.
     Secrets are hidden; a value that came from a reference is shown as the reference."""
     for each, inner, path, editable in _nodes(kind, value):
-        if isinstance(each, Listing):
+        if isinstance(each, ListKind):
             yield f"{dotted(path)}.size", Entry(str(len(inner)), "int", editable)
-        elif isinstance(each, Naming):
+        elif isinstance(each, MapKind):
             yield f"{dotted(path)}.keys", Entry(" ".join(escaped(name) for name in inner), "string", editable)
-        elif isinstance(each, Plain):
+        elif isinstance(each, PlainKind):
             yield dotted(path), Entry(references.get(path) or _shown(each, inner, path), each.name, editable)
 
 
@@ -114,7 +114,7 @@ def _shown(kind: PlainKind, value: Any, path: Path) -> str:
 
 def plain_values(kind: Kind, value: Any) -> Iterator[tuple[Path, Any]]:
     """Each plain value with its path."""
-    return ((path, inner) for each, inner, path, _ in _nodes(kind, value) if isinstance(each, Plain))
+    return ((path, inner) for each, inner, path, _ in _nodes(kind, value) if isinstance(each, PlainKind))
 
 
 def _nodes(kind: Kind, value: Any, path: Path = (), editable: bool = False) -> Iterator[tuple[Kind, Any, Path, bool]]:
@@ -122,10 +122,10 @@ def _nodes(kind: Kind, value: Any, path: Path = (), editable: bool = False) -> I
     if value is None:
         return
     yield kind, value, path, editable
-    if isinstance(kind, Recording):
+    if isinstance(kind, RecordKind):
         for member in kind.members.values():
             inner = getattr(value, member.attribute)
             yield from _nodes(member.kind, inner, (*path, member.key), editable or _is_editable(member))
-    elif not isinstance(kind, Plain):
-        for step, item in value.items() if isinstance(kind, Naming) else enumerate(value):
+    elif not isinstance(kind, PlainKind):
+        for step, item in value.items() if isinstance(kind, MapKind) else enumerate(value):
             yield from _nodes(kind.element, item, (*path, step), editable)

@@ -15,7 +15,7 @@ from generated.runtime.semantics import texts
 from generated.runtime.semantics.composite import Record, RecordKind, data
 from generated.runtime.semantics.constraints import Constraint
 from generated.runtime.semantics.paths import Path, dotted, in_words, parse
-from generated.runtime.semantics.plain import PlainKind, Conversion
+from generated.runtime.semantics.plain import Conversion, PlainKind
 from generated.runtime.semantics.problems import ParameterError, Problem
 from generated.runtime.semantics.reading import PropertyReader
 from generated.runtime.semantics.references import referring, resolved
@@ -130,9 +130,9 @@ class Store:
             changed = data(self.kind, self.values)
             for path, value in values.items():
                 if not put(self.kind, changed, parse(path), value):
-                    taking.refuse((), f"there is no parameter '{path}'")
-            made = self.kind.take(changed, (), taking) if not taking.problems else None
-            self._replace(made, taking)
+                    conversion.reject((), f"unknown parameter '{path}'")
+            made = self.kind.convert(changed, (), conversion) if not conversion.problems else None
+            self._replace(made, conversion)
         self._notify()
 
     def change_texts(self, changes: Mapping[str, str]) -> None:
@@ -147,8 +147,8 @@ class Store:
                 conversion.reject((), f"unknown parameter '{key}'")
             for key in sorted(key for key in changes.keys() & reader.used if HIDDEN in changes[key]):
                 if HIDDEN in now.get(key, "") or getattr(at(self.kind, parse(key)), "is_secret", False):
-                    taking.refuse((), f"{key} cannot be {HIDDEN}, which is shown instead of a secret")
-            self._replace(self.kind.take(read, (), taking), taking)
+                    conversion.reject((), f"{key} cannot be {HIDDEN}, which is shown instead of a secret")
+            self._replace(self.kind.convert(read, (), conversion), conversion)
         self._notify()
 
     def _known(self) -> dict[str, Any]:
@@ -206,10 +206,10 @@ class Store:
             if not constraint.holds(made)
         ]
 
-    def _replace(self, made: Any, taking: Taking) -> None:
+    def _replace(self, made: Any, conversion: Conversion) -> None:
         """Replaces the values, if the new ones are valid and may change."""
-        if not taking.problems:
-            taking.problems += self._broken(made)
+        if not conversion.problems:
+            conversion.problems += self._broken(made)
             changed = list(differences(self.kind, self.values, made))
             for path, is_editable in changed:
                 if not is_editable:
