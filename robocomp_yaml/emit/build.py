@@ -7,7 +7,7 @@ goes to its own folder (`-o DIR`: to the same place below DIR), with the Slice t
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -52,46 +52,41 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
             plain = texts[linked]
             yield replace(plain, path=folder + plain.path) if folder else plain
 
-    def slice_root(linked: LinkedModule) -> str:
-        return options.output or options.workspace_of(linked.module.path).slice_folder
-
     asked = {program.modules[real]: real for real in program.asked & program.modules.keys()}
-
-    def beside(root: str) -> Callable[[LinkedModule], bool]:
-        return lambda other: other in asked and slice_root(other) == root
+    roots = {linked: options.output or options.workspace_of(linked.module.path).slice_folder for linked in asked}
 
     for linked in sorted(asked, key=lambda linked: linked.module.path):
         if not options.wants("slice") or options.only:
             continue
-        if _usable(linked.module, [linked], state, result):
-            root = slice_root(linked)
-            owner = os.path.relpath(linked.module.path, root)
-            needed = [linked, *_imports(linked, beside(root))]
-            result.plans.append(RootPlan(root, owner, tuple(slices(needed))))
-        else:
+        cause = "" if linked.module.path in state.faulty else state.cause(linked)
+        if _unusable(linked.module, cause, state, result):
             result.left_out.add(asked[linked])
+            continue
+        owner = os.path.relpath(linked.module.path, roots[linked])
+        files = tuple(slices([linked, *_imports(linked, roots)]))
+        result.plans.append(RootPlan(roots[linked], owner, files))
     shared = Shared(options, slices, program.disk)
     for real in sorted(program.asked_components(), key=lambda r: program.components[r].component.path):
         component = program.components[real]
         if options.only and not options.only(component):
             continue
-        if _usable_component(component, state, result):
-            # with the targets, which Slice alone needs not
-            from robocomp_yaml.emit.component import component_plan, component_root, values_of
-
-            place = shared.layout(component, component_root(component.component.path, options))
-            if not options.only:
-                shared.add(component, place)
-            plan = component_plan(component, options, slices, program, place)
-            sources = _documents_of(component)
-            files = [replace(file, sources=(*sources, *file.sources)) for file in plan.files]
-            if any(document.path in state.faulty for document in values_of(component, program)):
-                # What is wrong has been said; what the values wrote before stays until they are right again.
-                files = [file for file in files if not is_settings(file.path)]
-                plan = replace(plan, partial=True)
-            result.plans.append(replace(plan, files=tuple(files)))
-        else:
+        if _unusable(component.component, next(_causes(component, state), ""), state, result):
             result.left_out.add(real)
+            continue
+        # with the targets, which Slice alone needs not
+        from robocomp_yaml.emit.component import component_plan, component_root, values_of
+
+        place = shared.layout(component, component_root(component.component.path, options))
+        if not options.only:
+            shared.add(component, place)
+        plan = component_plan(component, options, slices, program, place)
+        sources = _documents_of(component)
+        files = tuple(replace(file, sources=(*sources, *file.sources)) for file in plan.files)
+        if any(document.path in state.faulty for document in values_of(component, program)):
+            # What is wrong has been said; what the values wrote before stays until they are right again.
+            files = tuple(file for file in files if not is_settings(file.path))
+            plan = replace(plan, partial=True)
+        result.plans.append(replace(plan, files=files))
     result.plans += shared.plans({(plan.root, plan.owner) for plan in result.plans})
     result.left_out |= _unused(program, state, result.left_out)
     return result
@@ -141,49 +136,39 @@ class _State(msgspec.Struct):
         return self._causes[linked]
 
 
-def _imports(linked: LinkedModule, covered: Callable[[LinkedModule], bool]) -> Iterable[LinkedModule]:
+def _imports(linked: LinkedModule, roots: Mapping[LinkedModule, str]) -> Iterable[LinkedModule]:
     """What a module imports, directly or not, but for what has a plan of its own for the same folder."""
 
     def own(scope: LinkedModule) -> list[LinkedModule]:
-        return [imported for imported in scope.imports if not covered(imported)]
+        return [imported for imported in scope.imports if roots.get(imported) != roots[linked]]
 
     return reached(own(linked), own)
 
 
-def _usable(document: Module | Component, modules: Iterable[LinkedModule], state: _State, result: Build) -> bool:
-    """Whether a document has no error, nor anything that it imports; when only the latter, says what follows."""
-    if document.path in state.faulty:
-        return False
-    for linked in modules:
-        cause = state.cause(linked)
-        if cause:
-            result.diagnostics.append(_unresolved(document, cause, state))
-            return False
-    return True
-
-
-def _usable_component(linked: LinkedComponent, state: _State, result: Build) -> bool:
-    component = linked.component
-    for file in linked.machine_files:
-        if file in state.faulty:
-            result.diagnostics.append(_unresolved(component, file, state))
-            return False
-    if linked.broken and component.path not in state.faulty:
-        result.diagnostics.append(_unresolved(component, component.path, state))
-        return False
+def _causes(linked: LinkedComponent, state: _State) -> Iterator[str]:
+    """The documents that keep a component from being compiled, but for its own, whose errors speak for themselves."""
+    component, document = linked.component, linked.parameters.document
+    is_faulty = component.path in state.faulty
+    yield from (file for file in linked.machine_files if file in state.faulty)
+    if linked.broken and not is_faulty:
+        yield component.path
     if component.gui:
         from robocomp_yaml.check.cdsl.forms import FORM
 
         form = os.path.normpath(os.path.join(os.path.dirname(component.path), FORM))
         if form in state.faulty:
-            result.diagnostics.append(_unresolved(component, form, state))
-            return False
-    document = linked.parameters.document
-    if document is not None and document.path in state.faulty:
-        if component.path not in state.faulty:
-            result.diagnostics.append(_unresolved(component, document.path, state))
-        return False
-    return _usable(component, linked.imports, state, result)
+            yield form
+    if not is_faulty:
+        if document is not None and document.path in state.faulty:
+            yield document.path
+        yield from filter(None, map(state.cause, linked.imports))
+
+
+def _unusable(document: Module | Component, cause: str, state: _State, result: Build) -> bool:
+    """Whether a document has an error, or is kept from being compiled by `cause`, which is reported."""
+    if cause:
+        result.diagnostics.append(_unresolved(document, cause, state))
+    return bool(cause) or document.path in state.faulty
 
 
 def _unresolved(document: Module | Component, cause: str, state: _State) -> Diagnostic:

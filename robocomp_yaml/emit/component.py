@@ -14,7 +14,7 @@ from robocomp_yaml.emit import config, runtime
 from robocomp_yaml.emit.layout import ALONE, CONFIG, GENERATED, SLICE, Layout
 from robocomp_yaml.emit.lowering.component import BEHAVIOR, COMMON
 from robocomp_yaml.emit.options import Options
-from robocomp_yaml.emit.ports import Ports, assign
+from robocomp_yaml.emit.ports import assign
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import Workspace
 from robocomp_yaml.parameters.schema.json_schema import DOCUMENT, EFFECTIVE, document_schema
@@ -53,9 +53,11 @@ def component_plan(
     if options.wants("config"):
         if options.only is None:
             files += schemas(linked)
-        made = list(_configs(linked, program, lambda: options.ports(linked)))
-        files += made
-        if all(file.path != CONFIG for file in made):
+        if program.values:
+            from robocomp_yaml.emit.value_files import configs  # most components have no values
+
+            files += configs(linked, program, lambda: options.ports(linked))
+        if all(file.path != CONFIG for file in files):
             table = assign([linked], program.disk) if _is_complete(root, linked) else options.ports(linked)
             files.append(config.plan(linked, table))
     if options.wants("docs"):
@@ -105,13 +107,6 @@ def _is_complete(root: str, linked: LinkedComponent) -> bool:
     """Whether an `etc/config` stands there that leaves no port open, so that those of the neighbours do not matter."""
     given = config.standing(root)
     return all(config.stated(given, key) is not None for key in config.needed(linked))
-
-
-def _configs(linked: LinkedComponent, program: Program, table: Callable[[], Ports]) -> Iterator[FilePlan]:
-    if program.values:
-        from robocomp_yaml.emit.value_files import configs  # most components have no values
-
-        yield from configs(linked, program, table)
 
 
 def schemas(linked: LinkedComponent) -> Iterator[FilePlan]:

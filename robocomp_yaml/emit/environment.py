@@ -38,19 +38,6 @@ class Found(msgspec.Struct, frozen=True):
     why: str = ""
 
 
-class _Looked(msgspec.Struct):
-    """Answers, each asked for once."""
-
-    cmake: dict[tuple[str, str], Found] = {}
-    answers: dict[tuple[str, str], Found] = {}
-
-    def ask(self, library: Library) -> Found:
-        key = (library.kind, library.name)
-        if key not in self.answers:
-            self.answers[key] = _ASK[library.kind](library.name) if library.kind in _ASK else self.cmake[key]
-        return self.answers[key]
-
-
 def missing(components: Iterable[LinkedComponent], workspace_of: Callable[[str], Workspace]) -> Iterator[Diagnostic]:
     """A warning for each file, folder and library that is not there, or not in a version that will do."""
     wanted = list(components)
@@ -59,13 +46,16 @@ def missing(components: Iterable[LinkedComponent], workspace_of: Callable[[str],
         for linked in wanted for library in linked.component.libraries
         if library.kind in (CMAKE, LINK) and library.kind in linked.component.language.target.has
     }  # fmt: skip
-    looked = _Looked(_by_cmake(sorted(native)) if native else {})
+    answers = _by_cmake(sorted(native)) if native else {}
     for linked in wanted:
         component = linked.component
         has = component.language.target.has
         for library in component.libraries:
             if library.kind in has:
-                yield from _about(library, looked.ask(library))
+                key = (library.kind, library.name)
+                if key not in answers:
+                    answers[key] = (_by_pip if library.kind == PIP else _by_pkg_config)(library.name)
+                yield from _about(library, answers[key])
         places = (os.path.dirname(component.path), workspace_of(component.path).root)
         for source in (source for source in component.sources if source.kind in has):
             befores = _CLASSES if source.is_class else ("",)
@@ -157,6 +147,3 @@ def _run(command: list[str]) -> subprocess.CompletedProcess[str] | None:
         return subprocess.run(command, capture_output=True, text=True, timeout=_SECONDS, check=False)
     except (OSError, subprocess.TimeoutExpired):
         return None
-
-
-_ASK: dict[str, Callable[[str], Found]] = {PIP: _by_pip, PKG_CONFIG: _by_pkg_config}

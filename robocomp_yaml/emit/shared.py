@@ -50,14 +50,14 @@ class Shared:
         name = component.language.name
         if not place.has_own_runtime and options.wants(name) and (workspace.root, name) not in self._runtimes:
             root = runtime_folder(workspace, component.language.target)
-            owner = _owner(os.path.join(workspace.root, WORKSPACE_FILE), root)
+            owner = os.path.relpath(os.path.join(workspace.root, WORKSPACE_FILE), root)
             self._runtimes[workspace.root, name] = RootPlan(root, owner, runtime.files(name))
 
     def plans(self, planned: Set[tuple[str, str]]) -> Iterator[RootPlan]:
         """All of it, but for what has a plan: `planned` are roots with owners."""
         yield from self._runtimes.values()
         for scope, root in self._modules.items():
-            owner = _owner(scope.module.path, root)
+            owner = os.path.relpath(scope.module.path, root)
             if (root, owner) not in planned:
                 yield RootPlan(root, owner, tuple(self._slices([scope])), partial=True)
 
@@ -69,7 +69,3 @@ def _is_beside(workspace: Workspace, scope: LinkedModule, disk: Disk) -> bool:
         if disk.has_file(path := os.path.join(folder, name)):
             return os.path.realpath(path) != os.path.realpath(scope.module.path)
     return False
-
-
-def _owner(document: str, root: str) -> str:
-    return os.path.relpath(document, root)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
-from collections.abc import Iterable, Mapping, Set
+from collections.abc import Iterable
 
 import msgspec
 
@@ -48,11 +48,11 @@ class Merge(msgspec.Struct, frozen=True):
     base: bytes
 
 
-class Merges(msgspec.Struct, frozen=True):
+class Merges(msgspec.Struct):
     """Merges by real root and path; in a `refused` root nothing may be written."""
 
-    files: Mapping[tuple[str, str], Merge] = {}
-    refused: Set[str] = frozenset()
+    files: dict[tuple[str, str], Merge] = {}
+    refused: set[str] = set()
 
 
 class RootPlan(msgspec.Struct, frozen=True):

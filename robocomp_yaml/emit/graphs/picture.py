@@ -18,6 +18,10 @@ class Fault(msgspec.Struct, frozen=True):
     is_error: bool
     message: str
 
+    @property
+    def text(self) -> str:
+        return f"{self.code}: {self.message}"
+
 
 class Box(msgspec.Struct, frozen=True):
     """A host. `title` is what stands on it."""
@@ -44,6 +48,10 @@ class Node(msgspec.Struct, frozen=True):
         """What it serves in words, but for what every component serves besides."""
         own = [(name, port) for name, port in self.serves if name != _EVERYBODYS] or self.serves
         return [f"{name} {port}" if port else name for name, port in own]
+
+    def texts(self) -> list[str]:
+        """Its lines of text, the title first."""
+        return [self.title, *self.about, *self.served()]
 
 
 class Line(msgspec.Struct, frozen=True):

@@ -29,10 +29,6 @@ class Net(msgspec.Struct, eq=False):
     kind: str
     branches: list[Branch] = []
 
-    @property
-    def faults(self) -> tuple[Fault, ...]:
-        return tuple(fault for branch in self.branches for fault in branch.faults)
-
 
 Run = tuple[int, Net]
 """A net in a channel (by the row below it), or in a gap (by the column behind it)."""

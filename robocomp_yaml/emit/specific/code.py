@@ -7,18 +7,12 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
+from robocomp_yaml.diag.span import Span
+
 if TYPE_CHECKING:
     from tree_sitter import Node
 
 CLASS = "SpecificWorker"
-
-
-class Place(msgspec.Struct, frozen=True):
-    """A word of the text; counted as in a span."""
-
-    line: int
-    column: int
-    end_column: int
 
 
 class Signature(msgspec.Struct, frozen=True):
@@ -40,7 +34,7 @@ class Method(msgspec.Struct, frozen=True):
     """
 
     name: str
-    place: Place
+    place: Span
     first: int
     end: int
     signature: Signature | None
@@ -68,7 +62,7 @@ class Code(msgspec.Struct, frozen=True):
     definitions: tuple[Method, ...] = ()
     imports: tuple[Import, ...] = ()
     import_end: int = 0
-    place: Place | None = None
+    place: Span | None = None
     body_end: int = 0
     unit: str = "    "
     bases: tuple[str, ...] = ()
@@ -84,12 +78,11 @@ def lines_of(text: str) -> list[str]:
     return [*lines, last] if last else lines
 
 
-def place(node: Node, lines: list[str]) -> Place:
-    """Where a node of one line stands."""
+def place(node: Node, lines: list[str]) -> Span:
+    """Where a node of one line stands; the path is left empty."""
     row, start = node.start_point
-    line = lines[row].encode()
-    column = len(line[:start].decode(errors="replace")) + 1
-    return Place(row + 1, column, column + len(text(node)))
+    column = len(lines[row].encode()[:start].decode(errors="replace")) + 1
+    return Span("", row + 1, column, row + 1, column + len(text(node)))
 
 
 def text(node: Node) -> str:

@@ -13,42 +13,76 @@ from collections.abc import Collection, Iterator, Sequence
 import msgspec
 from msgspec.structs import replace
 
+from robocomp_yaml.diag.codes import specific as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.emit.layout import SOURCES
 from robocomp_yaml.emit.specific import entries, threeway
 from robocomp_yaml.emit.specific.code import Code, Import
 from robocomp_yaml.emit.specific.compare import compare
 from robocomp_yaml.emit.specific.insert import insert
-from robocomp_yaml.emit.specific.reading import compiles, read
+from robocomp_yaml.emit.specific.own import Own
+from robocomp_yaml.emit.specific.reading import compiles, others, read
 from robocomp_yaml.emit.specific.threeway import Conflict
+from robocomp_yaml.transactions.places import Root
+from robocomp_yaml.transactions.plan import Merge
 
-
-class Side(msgspec.Struct, frozen=True):
-    """A file of the user with the skeletons of before (None where it is not known) and of now."""
-
-    path: str
-    base: str | None
-    yours: str
-    new: str
+_HINT = "nothing was written; make room by hand, or compile without --merge and paste what it names"
 
 
 class Result(msgspec.Struct, frozen=True):
     """`text` is the merge, and `base` what a later one starts from. With `reason`, there is none."""
 
-    path: str
     text: str
     base: str
     conflicts: tuple[Conflict, ...] = ()
     reason: str = ""
 
 
-def merge(sides: Sequence[Side], others: Sequence[Code] = ()) -> list[Result]:
-    """The merge of each file; `others` is more code of the user, in which methods may stand."""
-    plain = [_plain(side) for side in sides]
-    bases = {base for side in plain if (code := read(side.path, side.new)) for base in code.bases}
-    results = (_merge(side, [one for one in plain if one is not side], others, bases) for side in plain)
-    return [_restored(side, result) for side, result in zip(sides, results, strict=True)]
+def merge_files(root: Root, files: Sequence[Own]) -> tuple[dict[str, Merge], list[Diagnostic]]:
+    """The merges by path; with diagnostics, none of them is to be carried out."""
+    merged: dict[str, Merge] = {}
+    refusals: list[Diagnostic] = []
+    sides: list[Own] = []
+    for file in files:
+        path = root.shown(file.path)
+        if not file.is_text:
+            refusals.append(codes.CONFLICT.at(Span(path), path=path, reason="it is not UTF-8 text"))
+        elif file.is_link and not file.is_settled:
+            reason = "it is a link: merge what it leads to by hand"
+            refusals.append(codes.CONFLICT.at(Span(path), path=path, reason=reason))
+        else:
+            sides.append(replace(file, yours=file.yours.replace("\r\n", "\n")) if _is_dos(file) else file)
+    beside = others(root, {side.path for side in sides if side.path.startswith(f"{SOURCES}/")})
+    bases = {base for side in sides if (code := read(side.path, side.new)) for base in code.bases}
+    for side in sides:
+        result = _merge(side, [one for one in sides if one is not side], beside, bases)
+        if result.reason:
+            refusals += _refusals(root.shown(side.path), result)
+        else:
+            text = result.text.replace("\n", "\r\n") if _is_dos(side) else result.text
+            merged[side.path] = Merge(side.data, text.encode(), result.base.encode())
+    return ({}, refusals) if refusals else (merged, [])
 
 
-def _merge(side: Side, besides: Sequence[Side], others: Sequence[Code], bases: Collection[str]) -> Result:
+def _is_dos(file: Own) -> bool:
+    """Whether all its lines end as on Windows."""
+    return 0 < file.data.count(b"\n") == file.data.count(b"\r\n")
+
+
+def _refusals(path: str, result: Result) -> list[Diagnostic]:
+    if not result.conflicts:
+        return [codes.CONFLICT.at(Span(path), path=path, reason=result.reason, hint=_HINT)]
+    return [
+        codes.CONFLICT.at(
+            Span(path, conflict.first + 1, 1, max(conflict.end, conflict.first + 1) + 1, 1),
+            path=path, reason="you and rcyaml changed the same lines", hint=_HINT, more=conflict.text,
+        )
+        for conflict in result.conflicts
+    ]  # fmt: skip
+
+
+def _merge(side: Own, besides: Sequence[Own], others: Sequence[Code], bases: Collection[str]) -> Result:
     yours = read(side.path, side.yours)
     new = read(side.path, side.new)
     if yours is None or new is None:
@@ -60,36 +94,42 @@ def _merge(side: Side, besides: Sequence[Side], others: Sequence[Code], bases: C
     lacking = judge.lacking(yours)
     goal_text = "".join(goal.lines)
     if goal_text == side.base and not lacking:
-        return Result(side.path, side.yours, goal_text)
+        return Result(side.yours, goal_text)
     merged = threeway.Merged(side.yours) if side.base is None else threeway.merge(side.base, side.yours, goal_text)
     reason = ""
     for text in _candidates(side, merged, goal, judge):
         reason = judge.fault(text)
         if not reason:
-            return Result(side.path, text, goal_text)
-    return Result(side.path, side.yours, side.base or "", merged.conflicts, reason)
+            return Result(text, goal_text)
+    return Result(side.yours, side.base or "", merged.conflicts, reason)
 
 
-def _candidates(side: Side, merged: threeway.Merged, goal: Code, judge: _Judge) -> Iterator[str]:
+def _candidates(side: Own, merged: threeway.Merged, goal: Code, judge: _Judge) -> Iterator[str]:
     if not merged.conflicts:
         yield merged.text
     texts = (side.yours,) if judge.touches_changed(merged.conflicts) else (merged.text, side.yours)
     for text in dict.fromkeys(texts):
-        code = read(side.path, text)
-        assert code is not None
+        code = _code(side.path, text)
         yield insert(code, goal, judge.lacking(code))
 
 
-def _merge_text(side: Side) -> Result:
+def _code(path: str, text: str) -> Code:
+    """The code of a file in a language that is known."""
+    code = read(path, text)
+    assert code is not None
+    return code
+
+
+def _merge_text(side: Own) -> Result:
     """A file that is no code."""
     if entries.is_entries(side.path):
-        return Result(side.path, entries.merge(side.base, side.yours, side.new), side.new)
+        return Result(entries.merge(side.base, side.yours, side.new), side.new)
     if side.base is None:
-        return Result(side.path, side.yours, side.new)
+        return Result(side.yours, side.new)
     merged = threeway.merge(side.base, side.yours, side.new)
     if merged.conflicts:
-        return Result(side.path, side.yours, side.base, merged.conflicts, "both changed the same lines")
-    return Result(side.path, merged.text, side.new)
+        return Result(side.yours, side.base, merged.conflicts, "both changed the same lines")
+    return Result(merged.text, side.new)
 
 
 def _with_what_is_gone(new: Code, old: Code, yours: Code) -> Code:
@@ -98,10 +138,7 @@ def _with_what_is_gone(new: Code, old: Code, yours: Code) -> Code:
     today = {method.name for method in (*new.members, *new.definitions)}
     gone = {method.name for method in (*old.members, *old.definitions)} & mine - today
     kept = tuple(one for one in old.imports if one in yours.imports)
-    text = insert(_joined_imports(new, kept), replace(old, imports=kept), gone)
-    code = read(new.path, text)
-    assert code is not None
-    return code
+    return _code(new.path, insert(_joined_imports(new, kept), replace(old, imports=kept), gone))
 
 
 def _joined_imports(code: Code, more: Sequence[Import]) -> Code:
@@ -112,16 +149,14 @@ def _joined_imports(code: Code, more: Sequence[Import]) -> Code:
         if word and head.startswith("from "):
             wanted = [one.line.rstrip().partition(word)[2] for one in more if one.line.startswith(f"{head}{word}")]
             lines[n] = f"{head}{word}{', '.join(sorted({*names.split(', '), *wanted}))}\n"
-    joined = read(code.path, "".join(lines))
-    assert joined is not None
-    return joined
+    return _code(code.path, "".join(lines))
 
 
 class _Judge:
     """Whether a text will do as the merge of a file."""
 
     def __init__(
-        self, side: Side, yours: Code, goal: Code, old: Code | None, elsewhere: Sequence[Code], bases: Collection[str],
+        self, side: Own, yours: Code, goal: Code, old: Code | None, elsewhere: Sequence[Code], bases: Collection[str],
         untouched: Collection[str],
     ) -> None:  # fmt: skip
         """`untouched` are those files of `elsewhere` that are not merged."""
@@ -149,8 +184,7 @@ class _Judge:
 
     def fault(self, text: str) -> str:
         """What is wrong with a text, '' where nothing is."""
-        code = read(self.side.path, text)
-        assert code is not None
+        code = _code(self.side.path, text)
         if lost := self.mine - Counter(_lines(text)):
             return f"it would lose your line '{next(iter(lost)).strip()}'"
         if code.faults > self.yours.faults or (compiles(self.yours) and not compiles(code)):
@@ -179,16 +213,3 @@ def _counts(codes: Sequence[Code]) -> Counter[str]:
 
 def _lines(text: str) -> list[str]:
     return [line.rstrip("\r\n") for line in text.split("\n") if line.strip()]
-
-
-def _plain(side: Side) -> Side:
-    """With line feeds alone, where all lines end as on Windows."""
-    return replace(side, yours=side.yours.replace("\r\n", "\n")) if _is_dos(side.yours) else side
-
-
-def _restored(side: Side, result: Result) -> Result:
-    return replace(result, text=result.text.replace("\n", "\r\n")) if _is_dos(side.yours) else result
-
-
-def _is_dos(text: str) -> bool:
-    return 0 < text.count("\n") == text.count("\r\n")

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import msgspec
 
-from robocomp_yaml.transactions.plan import FilePlan
-
 
 class Own(msgspec.Struct, frozen=True):
-    """A file of the user that a plan has a skeleton for. Texts are None where they are no UTF-8; `base` also where
-    there is none, or none is needed. A link is not written through."""
+    """A file of the user that a plan has a skeleton for: `new` is the skeleton of today. `yours` is '' where the file
+    is no UTF-8 text; `base` is None where there is none, or none is needed. A link is not written through."""
 
-    plan: FilePlan
+    path: str
+    new: str
     data: bytes
-    yours: str | None
+    yours: str
     base: str | None = None
+    is_text: bool = True
     is_link: bool = False
 
     @property
     def is_settled(self) -> bool:
         """Whether it is what would be written today."""
-        return self.data == self.plan.text.encode()
+        return self.data == self.new.encode()

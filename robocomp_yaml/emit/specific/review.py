@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Set
+from collections.abc import Iterable, Iterator
 
 import msgspec
 from msgspec.structs import replace
@@ -11,73 +11,60 @@ from robocomp_yaml.diag.codes import languages as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.layout import SOURCES
-from robocomp_yaml.emit.specific import entries, reading, sources
+from robocomp_yaml.emit.specific import entries, reading
 from robocomp_yaml.emit.specific.own import Own
-from robocomp_yaml.emit.specific.reading import is_code
 from robocomp_yaml.transactions.manifest import BASE
 from robocomp_yaml.transactions.places import Root
 from robocomp_yaml.transactions.plan import ONCE, Merge, Merges, RootPlan
 
 
-class Review(msgspec.Struct, frozen=True):
+class Review(msgspec.Struct):
     """`contents` and `absent` are what it read and looked for in vain, `names` what it saw in folders."""
 
-    diagnostics: tuple[Diagnostic, ...] = ()
-    merges: Merges = Merges()
-    contents: Mapping[str, bytes] = {}
-    absent: Set[str] = frozenset()
-    names: Mapping[str, list[str]] = {}
-
-
-def review(plans: Iterable[RootPlan], *, merge: bool = False) -> Review:
-    """Looks at the files that are there; only where one of them is not as it would be written is it understood."""
     diagnostics: list[Diagnostic] = []
-    merges: dict[tuple[str, str], Merge] = {}
-    refused: set[str] = set()
-    seen = _Seen()
-    for plan in plans:
-        root = Root(plan.root)
-        files = list(_own(plan, root, merge, seen))
-        if merge:
-            alone = [file for file in files if reading.unmerged(file.plan.path)]
-            files = [file for file in files if file not in alone]
-            diagnostics += _not_merged(alone, root)
-        if all(file.is_settled for file in files):
-            continue
-        from robocomp_yaml.emit.specific import merging, telling  # with the parsers of the languages
-
-        if merge:
-            merged, refusals = merging.merge_files(root, files)
-            if refusals:
-                refused.add(root.real)
-                diagnostics += refusals
-                continue
-            merges.update({(root.real, path): one for path, one in merged.items()})
-            files = [_after(file, merged.get(file.plan.path)) for file in files]
-        _remember_code(seen, root, files)
-        diagnostics += telling.tell(root, files, root.shown(plan.owner))
-    return Review(tuple(diagnostics), Merges(merges, refused), seen.contents, seen.absent, seen.names)
-
-
-class _Seen(msgspec.Struct):
+    merges: Merges = msgspec.field(default_factory=Merges)
     contents: dict[str, bytes] = {}
     absent: set[str] = set()
     names: dict[str, list[str]] = {}
 
 
-def _remember_code(seen: _Seen, root: Root, files: Iterable[Own]) -> None:
-    """Parts of the class that it is about may stand in any file beside it."""
-    for folder in {file.plan.path.rpartition("/")[0] for file in files if is_code(file.plan.path)}:
-        seen.names[root.shown(folder)] = sources.names(root, folder)
-        seen.contents.update((root.shown(path), data) for path, data in sources.code_in(root, folder))
+def review(plans: Iterable[RootPlan], *, merge: bool = False) -> Review:
+    """Looks at the files that are there; only where one of them is not as it would be written is it understood."""
+    result = Review()
+    for plan in plans:
+        root = Root(plan.root)
+        files = list(_own(plan, root, merge, result))
+        if merge:
+            alone = [file for file in files if reading.unmerged(file.path)]
+            files = [file for file in files if file not in alone]
+            result.diagnostics += _not_merged(alone, root)
+        if all(file.is_settled for file in files):
+            continue
+        from robocomp_yaml.emit.specific import telling  # most runs need neither
+        from robocomp_yaml.emit.specific.merge import merge_files
+
+        if merge:
+            merged, refusals = merge_files(root, files)
+            if refusals:
+                result.merges.refused.add(root.real)
+                result.diagnostics += refusals
+                continue
+            result.merges.files.update({(root.real, path): one for path, one in merged.items()})
+            files = [_after(file, merged.get(file.path)) for file in files]
+        # Parts of the class that it is about may stand in any file beside it.
+        for folder in {file.path.rpartition("/")[0] for file in files if reading.is_code(file.path)}:
+            result.names[root.shown(folder)] = reading.names(root, folder)
+            result.contents.update((root.shown(path), data) for path, data in reading.code_in(root, folder))
+        result.diagnostics += telling.tell(root, files, root.shown(plan.owner))
+    return result
 
 
 def _not_merged(files: Iterable[Own], root: Root) -> Iterator[Diagnostic]:
     """What would be merged, in languages that are not."""
     for file in files:
-        language = reading.unmerged(file.plan.path)
-        if language and not file.is_settled and file.base != file.plan.text:
-            path = root.shown(file.plan.path)
+        language = reading.unmerged(file.path)
+        if language and not file.is_settled and file.base != file.new:
+            path = root.shown(file.path)
             yield codes.NOT_MERGED.at(
                 Span(path),
                 path=path,
@@ -86,7 +73,7 @@ def _not_merged(files: Iterable[Own], root: Root) -> Iterator[Diagnostic]:
             )
 
 
-def _own(plan: RootPlan, root: Root, every: bool, seen: _Seen) -> Iterator[Own]:
+def _own(plan: RootPlan, root: Root, every: bool, seen: Review) -> Iterator[Own]:
     """The user's files that there are skeletons for; unless `every`, only those that are looked into."""
     for file in plan.files:
         is_read = file.path.startswith(f"{SOURCES}/") or entries.is_entries(file.path)
@@ -96,7 +83,10 @@ def _own(plan: RootPlan, root: Root, every: bool, seen: _Seen) -> Iterator[Own]:
         seen.contents[path] = found.data if found.data is not None else file.text.encode()
         if found.problem or found.data is None:
             continue
-        own = Own(file, found.data, _text(found.data), is_link=not found.mode)
+        yours = _text(found.data)
+        own = Own(
+            file.path, file.text, found.data, yours or "", is_text=yours is not None, is_link=not found.mode
+        )  # fmt: skip
         if not own.is_settled:
             base, where = root.look(f"{BASE}/{file.path}"), root.shown(f"{BASE}/{file.path}")
             if base.data is None:
@@ -108,11 +98,11 @@ def _own(plan: RootPlan, root: Root, every: bool, seen: _Seen) -> Iterator[Own]:
 
 
 def _after(file: Own, merge: Merge | None) -> Own:
-    return file if merge is None else Own(file.plan, merge.text, _text(merge.text), _text(merge.base))
+    return replace(file, data=merge.text, yours=merge.text.decode(), base=merge.base.decode()) if merge else file
 
 
-def _text(data: bytes | None) -> str | None:
+def _text(data: bytes) -> str | None:
     try:
-        return None if data is None else data.decode()
+        return data.decode()
     except UnicodeDecodeError:
         return None

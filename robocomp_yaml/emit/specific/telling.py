@@ -4,40 +4,43 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from msgspec.structs import replace
+
 from robocomp_yaml.diag.codes import specific as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
-from robocomp_yaml.emit.specific import entries, sources
+from robocomp_yaml.emit.specific import entries
 from robocomp_yaml.emit.specific.code import CLASS, Code, Method
 from robocomp_yaml.emit.specific.compare import Comparison, Lacking, compare
 from robocomp_yaml.emit.specific.insert import lead
 from robocomp_yaml.emit.specific.own import Own
-from robocomp_yaml.emit.specific.reading import comment_mark, is_code, read
+from robocomp_yaml.emit.specific.reading import comment_mark, is_code, others, read
 from robocomp_yaml.transactions.places import Root
 
 
 def tell(root: Root, files: Sequence[Own], document: str) -> Iterator[Diagnostic]:
     """All that is to be said of the files of the component that a document describes."""
     merge = f"paste what follows, or let `{typed('rcyaml', 'compile', '--merge', document)}` put it in"
-    code = [file for file in files if file.yours is not None and is_code(file.plan.path)]
+    code = [file for file in files if file.is_text and is_code(file.path)]
     if any(not file.is_settled for file in code):
         yield from _about_class(root, code, merge)
     for file in files:
-        if entries.is_entries(file.plan.path) and file.yours is not None and not file.is_settled:
-            yield from _about_entries(root, file, merge)
+        if entries.is_entries(file.path) and file.is_text and not file.is_settled:
+            if keys := entries.lacking(file.base, file.yours, file.new):
+                path = root.shown(file.path)
+                more = entries.paste(file.new, keys)
+                yield codes.CONFIG_LACKS.at(Span(path), path=path, keys=", ".join(keys), more=more, hint=merge)
 
 
 def _about_class(root: Root, files: Sequence[Own], merge: str) -> Iterator[Diagnostic]:
-    new = [code for file in files if (code := read(file.plan.path, file.plan.text))]
-    base = {file.plan.path: code for file in files if file.base and (code := read(file.plan.path, file.base))}
-    yours = [code for file in files if (code := read(file.plan.path, file.yours or ""))]
+    new = [code for file in files if (code := read(file.path, file.new))]
+    base = {file.path: code for file in files if file.base and (code := read(file.path, file.base))}
+    yours = [code for file in files if (code := read(file.path, file.yours))]
     found = compare(new, base, yours)
     if found.lacking or not any(code.place for code in yours):
         # Parts of the class may stand in other files.
-        folders = sorted({file.plan.path.rpartition("/")[0] for file in files})
-        known = {file.plan.path for file in files}
-        yours += [code for folder in folders for code in sources.others(root, folder, known)]
+        yours += others(root, {file.path for file in files})
         found = compare(new, base, yours)
     home = next((code for code in yours if code.place), None)
     if home is None or home.place is None:
@@ -47,9 +50,8 @@ def _about_class(root: Root, files: Sequence[Own], merge: str) -> Iterator[Diagn
         return
     if found.lacking:
         names = list(dict.fromkeys(one.method.name for one in found.lacking))
-        span = Span(root.shown(home.path), home.place.line, home.place.column, home.place.line, home.place.end_column)
         yield codes.LACKING.at(
-            span, name=CLASS, methods=", ".join(names), more=_paste(root, found.lacking, yours),
+            _span(root, home, home.place), name=CLASS, methods=", ".join(names), more=_paste(found.lacking, yours),
             hint=merge,
         )  # fmt: skip
     yield from _about_methods(root, found)
@@ -58,34 +60,22 @@ def _about_class(root: Root, files: Sequence[Own], merge: str) -> Iterator[Diagn
 def _about_methods(root: Root, found: Comparison) -> Iterator[Diagnostic]:
     for one in found.outdated:
         yield codes.OUTDATED.at(
-            _span(root, one.code, one.method), name=one.method.name, more=_head(one.skeleton, one.wanted),
+            _span(root, one.code, one.method.place), name=one.method.name, more=_head(one.skeleton, one.wanted),
             hint="it must begin like this now",
         )  # fmt: skip
     for gone in found.gone:
-        first, *rest = gone.places
+        first, *rest = (_span(root, code, method.place) for code, method in gone.places)
         yield codes.GONE.at(
-            _span(root, *first), name=gone.name,
-            related=[Related("it stands here too", _span(root, *place)) for place in rest],
+            first, name=gone.name, related=[Related("it stands here too", place) for place in rest],
             hint=f"was it renamed to '{gone.renamed}'?" if gone.renamed else "remove it, or keep it as your own",
         )  # fmt: skip
 
 
-def _about_entries(root: Root, file: Own, merge: str) -> Iterator[Diagnostic]:
-    keys = entries.lacking(file.base, file.yours or "", file.plan.text)
-    if keys:
-        path = root.shown(file.plan.path)
-        yield codes.CONFIG_LACKS.at(
-            Span(path), path=path, keys=", ".join(keys), more=entries.paste(file.plan.text, keys),
-            hint=merge,
-        )  # fmt: skip
+def _span(root: Root, code: Code, word: Span) -> Span:
+    return replace(word, file=root.shown(code.path))
 
 
-def _span(root: Root, code: Code, method: Method) -> Span:
-    place = method.place
-    return Span(root.shown(code.path), place.line, place.column, place.line, place.end_column)
-
-
-def _paste(root: Root, lacking: Sequence[Lacking], yours: Sequence[Code]) -> str:
+def _paste(lacking: Sequence[Lacking], yours: Sequence[Code]) -> str:
     """The text to paste, file by file."""
     parts: list[str] = []
     skeletons = list({one.skeleton.path: one.skeleton for one in lacking}.values())

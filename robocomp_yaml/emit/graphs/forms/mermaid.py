@@ -29,9 +29,8 @@ def draw(picture: Picture) -> str:
 
 
 def _node(node: Node, numbers: dict[str, str]) -> str:
-    text = [node.title, *node.about, *node.served()]
     begin, end = _SHAPES[node.kind]
-    return f"{numbers[node.name]}{begin}{_quoted(*text)}{end}"
+    return f"{numbers[node.name]}{begin}{_quoted(*node.texts())}{end}"
 
 
 def _lines(picture: Picture, numbers: dict[str, str]) -> Iterator[str]:

@@ -6,15 +6,7 @@ from collections.abc import Iterator
 from xml.sax.saxutils import escape
 
 from robocomp_yaml.emit.graphs import picture as parts
-from robocomp_yaml.emit.graphs.geometry import (
-    LINE_HEIGHT,
-    SMALL,
-    Block,
-    Geometry,
-    Point,
-    Way,
-    geometry_of,
-)
+from robocomp_yaml.emit.graphs.geometry import LINE_HEIGHT, SMALL, Block, Geometry, Point, Way, geometry_of
 from robocomp_yaml.emit.graphs.measure import shortened, width
 from robocomp_yaml.emit.graphs.picture import Fault, Node, Picture
 from robocomp_yaml.emit.graphs.routes import Net
@@ -95,7 +87,8 @@ def _host(block: Block) -> Iterator[str]:
 def _node(node: Node, block: Block) -> Iterator[str]:
     corner = block.height / 2 if node.kind == parts.TOPIC else {parts.PROGRAM: 2}.get(node.kind, 8)
     off = "" if node.enabled else ' class="off"'
-    yield f"<g{off}><title>{_text(_tooltip(node))}</title>"
+    tooltip = "\n".join([*node.texts(), *(fault.text for fault in node.faults)])
+    yield f"<g{off}><title>{_text(tooltip)}</title>"
     yield f'<rect class="node {node.kind}{_fault(node.faults)}" {_place(block)} rx="{corner:g}"/>'
     for number, line in enumerate(block.texts):
         style = "name" if number == 0 else "about"
@@ -106,8 +99,8 @@ def _node(node: Node, block: Block) -> Iterator[str]:
 
 def _way(way: Way, colors: dict[str, int]) -> str:
     style = f"{_color(way.net, colors, 'c')}{_fault(way.branch.faults)}"
-    told = "".join(f"\n{fault.code}: {fault.message}" for fault in way.branch.faults)
-    title = f"{way.branch.source} {way.net.kind} {way.net.label or way.net.target}{told}"
+    title = f"{way.branch.source} {way.net.kind} {way.net.label or way.net.target}"
+    title = "\n".join([title, *(fault.text for fault in way.branch.faults)])
     return f'<path class="line {style}" d="{_path(way.points)}"><title>{_text(title)}</title></path>'
 
 
@@ -155,11 +148,6 @@ def _problems(picture: Picture, geometry: Geometry) -> Iterator[str]:
         style = "wrong" if fault.is_error else "warned"
         line = shortened(told, SMALL, room)
         yield f'<text class="told {style}" x="{_MARGIN:g}" y="{y:g}"><title>{_text(told)}</title>{_text(line)}</text>'
-
-
-def _tooltip(node: Node) -> str:
-    told = [f"{fault.code}: {fault.message}" for fault in node.faults]
-    return "\n".join([node.title, *node.about, *node.served(), *told])
 
 
 def _fault(faults: tuple[Fault, ...]) -> str:
