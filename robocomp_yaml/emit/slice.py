@@ -7,7 +7,7 @@ the author's order. The text depends on the module and its imports alone.
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 
 from robocomp_yaml.digraph import inner_first
 from robocomp_yaml.emit.slice_comment import WIDTH, comment, described
@@ -96,9 +96,9 @@ class _File:
                 value = self._value(definition.type, definition.value)
                 yield f"{IN}const {self._type(definition.type)} {definition.name} = {value};"
             case Struct():
-                yield from self._members("struct", definition)
+                yield from _braced(f"struct {definition.name}", self._members(definition))
             case ExceptionType():
-                yield from self._members("exception", definition)
+                yield from _braced(f"exception {definition.name}", self._members(definition))
             case Enum():
                 yield from _enum(definition)
             case Sequence():
@@ -107,24 +107,15 @@ class _File:
                 key, value = self._type(definition.key), self._type(definition.value)
                 yield f"{IN}dictionary<{key}, {value}> {definition.name};"
             case Interface():
-                yield from self._interface(definition)
+                yield from _braced(f"interface {definition.name}", self._methods(definition))
 
-    def _members(self, keyword: str, definition: Struct | ExceptionType) -> Iterator[str]:
-        if not definition.members:
-            yield f"{IN}{keyword} {definition.name} {{}};"
-            return
-        yield from (f"{IN}{keyword} {definition.name}", f"{IN}{{")
+    def _members(self, definition: Struct | ExceptionType) -> Iterator[str]:
         for member in definition.members:
             yield from comment(member.doc, IN * 2, unit=member.unit)
             default = f" = {self._value(member.type, member.default)}" if member.default is not None else ""
             yield f"{IN * 2}{self._type(member.type)} {member.name}{default};"
-        yield f"{IN}}};"
 
-    def _interface(self, interface: Interface) -> Iterator[str]:
-        if not interface.methods:
-            yield f"{IN}interface {interface.name} {{}};"
-            return
-        yield from (f"{IN}interface {interface.name}", f"{IN}{{")
+    def _methods(self, interface: Interface) -> Iterator[str]:
         hidden = {method.name.lower() for method in interface.methods}
         documented = False
         for number, method in enumerate(interface.methods):
@@ -134,7 +125,6 @@ class _File:
             yield from doc
             yield from self._method(method, hidden)
             documented = bool(doc)
-        yield f"{IN}}};"
 
     def _tags(self, method: Method) -> list[tuple[str, str]]:
         """What is said of parameters, result and, where anything is said at all, exceptions."""
@@ -199,17 +189,22 @@ def _listed(items: list[str], indent: str, end: str) -> Iterator[str]:
         yield f"{indent}{item}{',' if number < len(items) else end}"
 
 
+def _braced(head: str, body: Iterable[str]) -> Iterator[str]:
+    lines = list(body)
+    yield from (f"{IN}{head}", f"{IN}{{", *lines, f"{IN}}};") if lines else (f"{IN}{head} {{}};",)
+
+
 def _enum(enum: Enum) -> Iterator[str]:
     names = [e.name if e.value is None else f"{e.name} = {e.value}" for e in enum.enumerators]
     line = f"{IN}enum {enum.name} {{ {', '.join(names)} }};"
     if len(line) <= WIDTH and not any(e.doc for e in enum.enumerators):
         yield line
         return
-    yield from (f"{IN}enum {enum.name}", f"{IN}{{")
+    lines: list[str] = []
     for number, name in enumerate(names, 1):
-        yield from comment(enum.enumerators[number - 1].doc, IN * 2)
-        yield f"{IN * 2}{name}{',' if number < len(names) else ''}"
-    yield f"{IN}}};"
+        lines += comment(enum.enumerators[number - 1].doc, IN * 2)
+        lines.append(f"{IN * 2}{name}{',' if number < len(names) else ''}")
+    yield from _braced(f"enum {enum.name}", lines)
 
 
 def _has_underscores(line: str) -> bool:

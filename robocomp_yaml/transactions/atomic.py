@@ -16,7 +16,7 @@ from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.inside import stays_inside
 from robocomp_yaml.transactions import whole_file
 from robocomp_yaml.transactions.journal import JOURNAL, JOURNAL_DONE, PART, Journal, Mark, clean_up, load, put_back
-from robocomp_yaml.transactions.places import STATE, Root, contents, in_words
+from robocomp_yaml.transactions.places import STATE, Root, contents, folders_of, in_words
 from robocomp_yaml.transactions.plan import ANYBODY
 
 PATIENCE = 10.0
@@ -119,13 +119,11 @@ def locked(root: str) -> Iterator[None]:
 
 
 def _acquire(lock: int) -> bool:
-    try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return False
-    except OSError:
-        # A file system without locks (some network ones): `verify` still finds what changed meanwhile.
-        return True
+    with contextlib.suppress(OSError):  # of a file system without locks: `verify` still finds what changed meanwhile
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            return False
     return True
 
 
@@ -227,15 +225,11 @@ class _Commit(msgspec.Struct):
 
 def _missing_folders(root: str, path: str) -> list[str]:
     """The folders of a path that are not there yet, outer ones first."""
-    parts = path.split("/")[:-1]
-    folders = ["/".join(parts[: n + 1]) for n in range(len(parts))]
-    return [folder for folder in folders if not os.path.isdir(os.path.join(root, folder))]
+    return [folder for folder in folders_of(path) if not os.path.isdir(os.path.join(root, folder))]
 
 
 def _mark(step: Step, number: int) -> Mark:
-    folder = step.path.rpartition("/")[0]
-    beside = f"{folder}/" if folder else ""
-    name = f"{beside}.rcyaml-{os.getpid()}-{number}"
+    name = os.path.join(os.path.dirname(step.path), f".rcyaml-{os.getpid()}-{number}")
     return Mark(
         step.path,
         new=f"{name}.new" if step.after is not None else "",

@@ -51,17 +51,14 @@ def read(data: bytes | None) -> Manifest:
         return Manifest()
     try:
         raw = json.loads(data)
-    except (ValueError, RecursionError):
-        raise Unusable("it is damaged") from None
-    version = raw.get("version") if isinstance(raw, dict) else None
-    if isinstance(version, int) and version > VERSION:
-        raise Newer("a newer rcyaml wrote it")
-    if version != VERSION or not isinstance(raw, dict) or "files" not in raw:
-        raise Unusable("it is damaged")
-    try:
-        return msgspec.convert(raw, Manifest)
-    except msgspec.ValidationError:
-        raise Unusable("it is damaged") from None
+        version = raw["version"]
+        if isinstance(version, int) and version > VERSION:
+            raise Newer("a newer rcyaml wrote it")
+        if version == VERSION and "files" in raw:
+            return msgspec.convert(raw, Manifest)
+    except (ValueError, LookupError, TypeError, RecursionError):
+        pass
+    raise Unusable("it is damaged")
 
 
 def any_has(file: str, hash_: str) -> bool:

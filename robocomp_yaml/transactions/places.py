@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import functools
 import os
 import stat
+from itertools import accumulate
 
 import msgspec
 from msgspec.structs import replace
@@ -36,7 +38,7 @@ class Root:
     def __init__(self, path: str) -> None:
         self.path = path or "."
         self.real = os.path.realpath(self.path)
-        self._folders: dict[str, str] = {}
+        self._real_folder = functools.cache(os.path.realpath)
 
     def shown(self, path: str) -> str:
         return os.path.normpath(os.path.join(self.path, path))
@@ -61,7 +63,7 @@ class Root:
         except OSError as error:
             found = Found(problem=in_words(error), culprit=path)
         folder = path.rpartition("/")[0]
-        if not self._is_inside(self._real_folder(folder)):
+        if not self._is_inside(self._real_folder(f"{self.real}/{folder}")):
             return replace(self._blocked(path), exists=found.exists, outside=True)
         return found
 
@@ -77,8 +79,7 @@ class Root:
 
     def _blocked(self, path: str) -> Found:
         """Which folder of a path is none, or is a link that leads away."""
-        parts = path.split("/")[:-1]
-        for folder in ("/".join(parts[: n + 1]) for n in range(len(parts))):
+        for folder in folders_of(path):
             full = f"{self.real}/{folder}"
             if os.path.islink(full) and not self._is_inside(os.path.realpath(full)):
                 return Found(problem=f"'{folder}' is a link to {os.readlink(full)}", culprit=folder)
@@ -86,14 +87,13 @@ class Root:
                 return Found(problem=f"'{folder}' is no folder", culprit=folder)
         return Found(problem=f"'{self.path}' is no folder", culprit=".")
 
-    def _real_folder(self, folder: str) -> str:
-        real = self._folders.get(folder)
-        if real is None:
-            real = self._folders[folder] = os.path.realpath(f"{self.real}/{folder}") if folder else self.real
-        return real
-
     def _is_inside(self, real: str) -> bool:
         return real == self.real or real.startswith(self.real.rstrip("/") + "/")
+
+
+def folders_of(path: str) -> list[str]:
+    """The folders that a path leads through, outer ones first."""
+    return list(accumulate(path.split("/")[:-1], "{}/{}".format))
 
 
 def contents(path: str) -> bytes:

@@ -8,6 +8,7 @@ imported, for this is what a run with nothing to do consists of.
 from __future__ import annotations
 
 import contextlib
+import functools
 import json
 import os
 import stat
@@ -70,11 +71,13 @@ def take(
 ) -> Stamp | None:
     """The stamp of a run that is done; None where one of its files has gone already. `inputs` are the bytes that were
     read, `outputs` those that were meant to be written: the disk may have changed since."""
-    real = _Real()
     try:
         return Stamp(
             tool(),
-            {path: (real.path(path), f"{digest(data)} {_readers(os.stat(path)):o}") for path, data in inputs.items()},
+            {
+                path: (real, f"{digest(data)} {_readers(os.stat(path)):o}")
+                for (path, data), real in zip(inputs.items(), _real_paths(inputs), strict=True)
+            },
             dict(states),
             dict(listed),
             dict(names),
@@ -102,14 +105,13 @@ def is_current(stamp: Stamp) -> bool:
 
 def reads_the_same(stamp: Stamp) -> bool:
     """Whether the run would read and find the same again, whatever became of what it left."""
-    real = _Real()
     try:
         return (
             all(state_of(path) == state for path, state in stamp.states.items())
             and all(documents_in(names_in(folder)) == found for folder, found in stamp.listed.items())
             and all(names_in(folder) == found for folder, found in stamp.names.items())
             and all(walked(folder) == found for folder, found in stamp.walked.items())
-            and all(real.path(path) == where for path, (where, _) in stamp.inputs.items())
+            and list(_real_paths(stamp.inputs)) == [real for real, _ in stamp.inputs.values()]
             and all(_state(path) == state for path, (_, state) in stamp.inputs.items())
             and stamp.tool == tool()
             and _builds(stamp.plugins) == stamp.plugins
@@ -170,19 +172,12 @@ def _records(place: str) -> Iterator[str]:
                 yield f"{name} {_state(os.path.join(place, name, 'RECORD'))}"
 
 
-class _Real:
+def _real_paths(paths: Iterable[str]) -> Iterator[str]:
     """Real paths; each folder is resolved once."""
-
-    def __init__(self) -> None:
-        self._folders: dict[str, str] = {}
-
-    def path(self, path: str) -> str:
-        if os.path.islink(path):
-            return os.path.realpath(path)
+    real_folder = functools.cache(os.path.realpath)
+    for path in paths:
         folder, name = os.path.split(path)
-        if folder not in self._folders:
-            self._folders[folder] = os.path.realpath(folder)
-        return os.path.join(self._folders[folder], name)
+        yield os.path.realpath(path) if os.path.islink(path) else os.path.join(real_folder(folder), name)
 
 
 def walked(folder: str) -> list[str]:

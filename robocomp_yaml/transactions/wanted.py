@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
@@ -57,38 +58,26 @@ class WantedRoot(msgspec.Struct, frozen=True):
 
     def _exists(self, owner: str) -> bool:
         # A root that is a link has two parents: its own and that of the link.
-        return any(
-            not _is_gone(os.path.normpath(os.path.join(root, owner)))
-            for root in (os.path.abspath(self.root.path), self.root.real)
-        )
-
-
-def _is_gone(path: str) -> bool:
-    """A folder that nobody may look into is no sign that a document in it is gone."""
-    try:
-        os.lstat(path)
-    except (FileNotFoundError, NotADirectoryError):
-        return True
-    except OSError:
+        for root in (os.path.abspath(self.root.path), self.root.real):
+            try:
+                os.lstat(os.path.normpath(os.path.join(root, owner)))
+            except (FileNotFoundError, NotADirectoryError):
+                continue
+            except OSError:
+                pass  # a folder that nobody may look into is no sign that a document in it is gone
+            return True
         return False
-    return False
 
 
 def by_root(plans: Iterable[RootPlan], others: Iterable[str] = ()) -> list[WantedRoot]:
     """One for each root, sorted; `others` are roots to look at though nothing is planned there."""
     roots: dict[str, tuple[Root, list[RootPlan]]] = {}
-    spelled: dict[str, list[RootPlan]] = {}
-
-    def plans_of(path: str) -> list[RootPlan]:
-        if path not in spelled:
-            root = Root(path)
-            spelled[path] = roots.setdefault(root.real, (root, []))[1]
-        return spelled[path]
-
+    root_at = functools.cache(Root)
     for path in others:
-        plans_of(path)
+        roots.setdefault(root_at(path).real, (root_at(path), []))
     for plan in plans:
-        plans_of(plan.root).append(plan)
+        root = root_at(plan.root)
+        roots.setdefault(root.real, (root, []))[1].append(plan)
     return [_together(*roots[real]) for real in sorted(roots)]
 
 

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from msgspec.structs import replace
 
 from robocomp_yaml.diag.codes import emitting as codes
-from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.source import properties
@@ -69,15 +69,12 @@ def recover(plans: Iterable[RootPlan], others: Iterable[str] = ()) -> list[Diagn
                     )
                 )
         except atomic.WriteFailed as failure:
-            diagnostics.append(_cannot_write(wanted, failure.path, failure.reason))
+            shown = wanted.root.shown(failure.path)
+            diagnostics.append(codes.CANNOT_WRITE.at(Span(shown), path=shown, reason=failure.reason))
         except OSError as error:
-            diagnostics.append(_cannot_write(wanted, "", error.strerror or str(error)))
+            shown = wanted.root.shown("")
+            diagnostics.append(codes.CANNOT_WRITE.at(Span(shown), path=shown, reason=error.strerror or str(error)))
     return diagnostics
-
-
-def _cannot_write(wanted: WantedRoot, path: str, reason: str) -> Diagnostic:
-    shown = wanted.root.shown(path)
-    return codes.CANNOT_WRITE.at(Span(shown), path=shown, reason=reason)
 
 
 class _Root:
@@ -115,9 +112,8 @@ class _Root:
             else:
                 self._always(wanted.plan, entry)
         self._manifest(manifest_found)
-        if any(diagnostic.severity == "error" for diagnostic in self.diagnostics) or self._cannot_merge():
-            return self._result().as_refused()
-        return self._result()
+        is_refused = has_errors(self.diagnostics) or self.root.real in self.merges.refused
+        return self._result().as_refused() if is_refused else self._result()
 
     def _result(self) -> RootChanges:
         return RootChanges(
@@ -178,9 +174,6 @@ class _Root:
             self._write(plan, found, changes.MERGE, merge.text)
         self._own(plan.path, merged(entry, merge), once=True)
         self._keep_base(plan, merge.base)
-
-    def _cannot_merge(self) -> bool:
-        return self.root.real in self.merges.refused
 
     def _always(self, plan: FilePlan, entry: Entry | None) -> None:
         found = self.root.look(plan.path)
@@ -265,7 +258,7 @@ class _Root:
             self._note(path, changes.REMOVE, found.data)
             self.steps.append(atomic.Step(path, found.data, None))
         else:
-            orig = free_name(f"{self.root.real}/{path}")[len(self.root.real) + 1 :]
+            orig = self._orig(path)
             self._note(path, changes.EDITED, found.data, orig=orig)
             self.steps.append(atomic.Step(path, found.data, None, orig=orig))
             self._warn_edited(path, f"it is no longer generated, and kept as '{os.path.basename(orig)}'")
@@ -273,26 +266,18 @@ class _Root:
     def _write(self, plan: FilePlan, found: Found, action: str, text: bytes | None = None) -> Change:
         """Writes the plan's text, or another one."""
         text = plan.text.encode() if text is None else text
-        orig = ""
-        if action in (changes.EDITED, changes.ADOPT):
-            orig = free_name(f"{self.root.real}/{plan.path}")[len(self.root.real) + 1 :]
+        orig = self._orig(plan.path) if action in (changes.EDITED, changes.ADOPT) else ""
         mode = found.mode or None
         if mode and plan.executable:
             # Whoever may read it may run it.
             mode |= (mode & 0o444) >> 2
         if not self._has_another(plan):
-            self.steps.append(
-                atomic.Step(
-                    plan.path,
-                    found.data if found.exists else None,
-                    text,
-                    plan.executable,
-                    mode,
-                    orig,
-                    rights_of(plan.sources),
-                )
-            )
+            before, rights = found.data if found.exists else None, rights_of(plan.sources)
+            self.steps.append(atomic.Step(plan.path, before, text, plan.executable, mode, orig, rights))
         return self._note(plan.path, action, found.data, text, orig)
+
+    def _orig(self, path: str) -> str:
+        return os.path.relpath(free_name(f"{self.root.real}/{path}"), self.root.real)
 
     def _note(
         self, path: str, action: str, before: bytes | None = None, after: bytes | None = None, orig: str = ""

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 import msgspec
 
 from robocomp_yaml.digraph import inner_first
-from robocomp_yaml.emit.graphs.picture import Line, Picture
+from robocomp_yaml.emit.graphs.picture import Picture
 
 MOST_COLUMNS = 12
 _SWEEPS = 4
@@ -98,7 +98,8 @@ def _order(picture: Picture, grid: Grid) -> None:
     """Moves nodes within their rows, each below (and above) what it is connected to."""
     near: dict[str, list[str]] = {}
     for line in picture.lines:
-        _connect(near, line)
+        near.setdefault(line.source, []).append(line.target)
+        near.setdefault(line.target, []).append(line.source)
     rows: dict[tuple[int, str], list[str]] = {}
     for name, (row, _) in grid.cells.items():
         rows.setdefault((row, picture.nodes[name].box), []).append(name)
@@ -110,11 +111,6 @@ def _order(picture: Picture, grid: Grid) -> None:
             row = grid.cells[members[0]][0]
             for name, place in zip(sorted(members, key=lambda name: (middle[name], name)), places, strict=True):
                 grid.cells[name] = (row, place)
-
-
-def _connect(near: dict[str, list[str]], line: Line) -> None:
-    near.setdefault(line.source, []).append(line.target)
-    near.setdefault(line.target, []).append(line.source)
 
 
 def _middle(grid: Grid, others: Sequence[str], own: int) -> float:

@@ -15,7 +15,7 @@ from test_exports import one, systemd_words
 
 from conftest import write_tree
 from robocomp_yaml.emit.exports import Unwritable, export, noted
-from robocomp_yaml.emit.exports._units import Unit, folder, quoted
+from robocomp_yaml.emit.exports.systemd import Unit, folder, quoted
 from robocomp_yaml.emit.xml_text import element
 
 
