@@ -14,10 +14,10 @@ from robocomp_yaml.api.outcome import File, Outcome
 from robocomp_yaml.diag.codes.files import PLUGIN_FAILED
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, has_errors, in_order
 from robocomp_yaml.diag.hidden import Hidden
+from robocomp_yaml.emit.allowed_folders import AllowedFolders
 from robocomp_yaml.emit.build import Build, build
-from robocomp_yaml.emit.fences import Fences
 from robocomp_yaml.emit.layout import is_settings
-from robocomp_yaml.emit.options import Options
+from robocomp_yaml.emit.options import EmitOptions
 from robocomp_yaml.emit.specific.review import Review, review
 from robocomp_yaml.link import workspace_files
 from robocomp_yaml.pipeline import Analysis
@@ -28,7 +28,7 @@ from robocomp_yaml.transactions import stamp, writer
 from robocomp_yaml.transactions.changes import Changes
 
 if TYPE_CHECKING:
-    from robocomp_yaml.emit.ports import Ports
+    from robocomp_yaml.emit.ports import PortTable
     from robocomp_yaml.link.program import LinkedComponent
 
 
@@ -45,7 +45,7 @@ class Compilation:
     ) -> None:  # fmt: skip
         self._analysis, self._adopt, self._merge, self._standalone = analysis, adopt, merge, standalone
         self._paths, self._include, self._output, self._targets = tuple(paths), tuple(include), output, tuple(targets)
-        options = Options(
+        options = EmitOptions(
             output,
             analysis.found.folders,
             frozenset(targets),
@@ -54,7 +54,7 @@ class Compilation:
             standalone=standalone,
         )
         self._built = build(analysis.program, analysis.diagnostics, options)
-        Fences(self._paths, output).keep_inside(self._built)
+        AllowedFolders(self._paths, output).keep_inside(self._built)
 
     @cached_property
     def outcome(self) -> Outcome:
@@ -129,7 +129,7 @@ class Compilation:
         """Brings the schemas up to date that editors read; their contents by path. A workspace that cannot be written
         to has compiled all the same."""
         found: dict[str, bytes] = {}
-        fences = Fences(self._paths, None)
+        fences = AllowedFolders(self._paths, None)
         for workspace in self._analysis.linker.workspaces.values():
             if not fences.hold(workspace.root):
                 continue
@@ -145,7 +145,7 @@ class Compilation:
 
     def _stamp(
         self, own: Review, changes: Changes, schemas: dict[str, bytes], again: Outcome
-    ) -> stamp.Stamp | None:  # fmt: skip
+    ) -> stamp.RunStamp | None:  # fmt: skip
         """What the same run made again would come to, errors too; None where something could not be read: that may
         change without any trace."""
         disk = self._analysis.disk
@@ -202,11 +202,11 @@ def _outcome_of(
     )
 
 
-def _ports(analysis: Analysis) -> Callable[[LinkedComponent], Ports]:
+def _ports(analysis: Analysis) -> Callable[[LinkedComponent], PortTable]:
     """Where the ports of a component's workspace come from, once some are asked for."""
 
     @cache
-    def table() -> Callable[[LinkedComponent], Ports]:
+    def table() -> Callable[[LinkedComponent], PortTable]:
         from robocomp_yaml.api.neighbours import ports
 
         return ports(analysis)

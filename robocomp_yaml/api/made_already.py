@@ -39,7 +39,7 @@ def told_of_code(paths: Sequence[str], include: Sequence[str]) -> list[Diagnosti
 
 
 def keep(
-    taken: stamp.Stamp, paths: Sequence[str], include: Sequence[str], output: str | None, targets: Sequence[str], *,
+    taken: stamp.RunStamp, paths: Sequence[str], include: Sequence[str], output: str | None, targets: Sequence[str], *,
     standalone: bool = False,
 ) -> None:  # fmt: skip
     """Keeps the stamp of a compile with these arguments."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from robocomp_yaml.emit.ports import Ports, assign
+from robocomp_yaml.emit.ports import PortTable, assign
 from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import LinkedComponent, Program
 from robocomp_yaml.link.workspace import Workspace
@@ -12,12 +12,12 @@ from robocomp_yaml.pipeline import Analysis
 from robocomp_yaml.source.discover import of_kind
 
 
-def ports(analysis: Analysis) -> Callable[[LinkedComponent], Ports]:
+def ports(analysis: Analysis) -> Callable[[LinkedComponent], PortTable]:
     """The ports of a component's workspace, assigned once for each workspace; where a component is in none, those of
     this run's components."""
-    known: dict[str, Ports] = {}
+    known: dict[str, PortTable] = {}
 
-    def of(linked: LinkedComponent) -> Ports:
+    def of(linked: LinkedComponent) -> PortTable:
         workspace = analysis.linker.workspace_of(linked.component.path)
         key = workspace.root if workspace.declared else ""
         if key not in known:

@@ -161,17 +161,17 @@ class Workspace:
         analysis = self.analysis
         if analysis.program.components:
             from robocomp_yaml.emit import ports
-            from robocomp_yaml.emit.specific import written
+            from robocomp_yaml.emit.specific import existing_code
 
             yield from ports.clashes(analysis.program.components.values(), analysis.disk)
-            if written.has_code(analysis.program):
+            if existing_code.has_code(analysis.program):
                 from robocomp_yaml.api import made_already
 
                 told = None if self._overlay else made_already.told_of_code(self._paths, self._include)
                 if told is not None:
                     yield from told
                 else:
-                    yield from written.of_written(analysis.program, analysis.diagnostics, analysis.linker)
+                    yield from existing_code.check(analysis.program, analysis.diagnostics, analysis.linker)
         if analysis.networks:
             from robocomp_yaml.check.networks import of_environment
 

@@ -20,7 +20,7 @@ from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.digraph import inner_first, reached
 from robocomp_yaml.emit import slice as slice_target
 from robocomp_yaml.emit.layout import is_settings
-from robocomp_yaml.emit.options import Options
+from robocomp_yaml.emit.options import EmitOptions
 from robocomp_yaml.emit.shared import Shared
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.transactions.plan import FilePlan, RootPlan
@@ -38,7 +38,7 @@ class Build(msgspec.Struct):
     left_out: set[str] = set()
 
 
-def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options) -> Build:
+def build(program: Program, diagnostics: Iterable[Diagnostic], options: EmitOptions) -> Build:
     """Plans for every asked document without errors, in its own text or in what it imports."""
     result = Build()
     state = _State.of(diagnostics)

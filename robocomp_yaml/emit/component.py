@@ -13,7 +13,7 @@ from robocomp_yaml import resources
 from robocomp_yaml.emit import config, runtime
 from robocomp_yaml.emit.layout import ALONE, CONFIG, GENERATED, SLICE, Layout
 from robocomp_yaml.emit.lowering.component import BEHAVIOR, COMMON
-from robocomp_yaml.emit.options import Options
+from robocomp_yaml.emit.options import EmitOptions
 from robocomp_yaml.emit.ports import assign
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import Workspace
@@ -28,7 +28,7 @@ DOCS, EXAMPLE = "generated/parameters.md", "generated/example.config.yaml"
 
 def component_plan(
     linked: LinkedComponent,
-    options: Options,
+    options: EmitOptions,
     slices: Callable[[Iterable[LinkedModule], str], Iterator[FilePlan]],
     program: Program,
     layout: Layout,
@@ -81,7 +81,7 @@ def of_language(linked: LinkedComponent, layout: Layout = ALONE) -> list[FilePla
     return files
 
 
-def _telling(linked: LinkedComponent, options: Options) -> AbstractContextManager[None]:
+def _telling(linked: LinkedComponent, options: EmitOptions) -> AbstractContextManager[None]:
     """Where the component's language is a plug-in's, what goes wrong is told as the plug-in's fault."""
     name = linked.component.language.name
     owner = options.workspace_of(linked.component.path).plugins.of(LANGUAGES).get(name)
@@ -140,7 +140,7 @@ def _docs(linked: LinkedComponent) -> Iterator[FilePlan]:
     yield FilePlan(EXAMPLE, new_document(parameters, f"../{where}", head, []))
 
 
-def component_root(path: str, options: Options) -> str:
+def component_root(path: str, options: EmitOptions) -> str:
     folder = os.path.dirname(path) or "."
     if options.output is None:
         return folder

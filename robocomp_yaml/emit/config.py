@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from robocomp_yaml.emit import ports
 from robocomp_yaml.emit.layout import CONFIG
-from robocomp_yaml.emit.ports import Ports, interface_key
+from robocomp_yaml.emit.ports import PortTable, interface_key
 from robocomp_yaml.emit.specific.entries import spellings
 from robocomp_yaml.link.program import LinkedComponent, Port
 from robocomp_yaml.network.port_numbers import default_port
@@ -27,7 +27,7 @@ _ICE = (
 )
 
 
-def plan(component: LinkedComponent, table: Ports) -> FilePlan:
+def plan(component: LinkedComponent, table: PortTable) -> FilePlan:
     """`etc/config` of a component; `table` has the ports of its workspace."""
     sections = (
         _head(component),
@@ -50,7 +50,7 @@ def needed(linked: LinkedComponent) -> list[str]:
     return keys
 
 
-def connections(linked: LinkedComponent, table: Ports, standing: Mapping[str, str]) -> dict[str, str]:
+def connections(linked: LinkedComponent, table: PortTable, standing: Mapping[str, str]) -> dict[str, str]:
     """The same with their values, as a first `etc/config` has them. Where no component is known that implements what
     this one requires, what stands in its configuration already is more than a guess."""
     values = read(plan(linked, table).text).values
@@ -77,7 +77,7 @@ def standing(folder: str) -> dict[str, str]:
     return dict(read(text(os.path.join(folder, CONFIG)) or "").values)
 
 
-def _others(linked: LinkedComponent, port: Port, table: Ports) -> list[tuple[LinkedComponent, str]]:
+def _others(linked: LinkedComponent, port: Port, table: PortTable) -> list[tuple[LinkedComponent, str]]:
     """The other components that implement what one requires."""
     here = ports.document(linked)
     return [one for one in table.implementers.get(interface_key(port), ()) if ports.document(one[0]) != here]
@@ -89,7 +89,7 @@ def _head(linked: LinkedComponent) -> Iterator[str]:
     yield f"# The command line overrides it: bin/{name} --period.compute=50 --Ice.Trace.Network=1"
 
 
-def _offers(linked: LinkedComponent, table: Ports) -> Iterator[str]:
+def _offers(linked: LinkedComponent, table: PortTable) -> Iterator[str]:
     yield "# What it offers: where it listens."
     docs = {port.name: port.interface.doc for port in linked.implements}
     for name in ports.adapters(linked):
@@ -98,7 +98,7 @@ def _offers(linked: LinkedComponent, table: Ports) -> Iterator[str]:
         yield entry_line(endpoints(name)[0], f"tcp -p {table.endpoint(linked, name).port}")
 
 
-def _needs(linked: LinkedComponent, table: Ports) -> Iterator[str]:
+def _needs(linked: LinkedComponent, table: PortTable) -> Iterator[str]:
     if linked.requires:
         yield "# What it needs: where the others listen."
     earlier: dict[tuple[str, str], int] = {}

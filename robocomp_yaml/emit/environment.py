@@ -30,7 +30,7 @@ _WORDS = {
 _CLASSES = ("", "classes", "Classes")
 
 
-class Found(msgspec.Struct, frozen=True):
+class LibraryStatus(msgspec.Struct, frozen=True):
     """`version` is '' where it is not known; `why` says what kept it from being looked for."""
 
     there: bool
@@ -65,7 +65,7 @@ def missing(components: Iterable[LinkedComponent], workspace_of: Callable[[str],
                 yield codes.NO_SOURCE.at(source.span, what=what, path=source.path)
 
 
-def _about(library: Library, found: Found) -> Iterator[Diagnostic]:
+def _about(library: Library, found: LibraryStatus) -> Iterator[Diagnostic]:
     what = f"{_WORDS[library.kind]} {library.name}"
     if not found.there:
         yield codes.NOT_INSTALLED.at(library.span, what=what, why=f": {found.why}" if found.why else "")
@@ -94,32 +94,32 @@ def _numbers(version: str) -> tuple[int, ...]:
     return tuple(int(part) for part in found[0].split(".")) if found else ()
 
 
-def _by_pip(name: str) -> Found:
+def _by_pip(name: str) -> LibraryStatus:
     try:
-        return Found(True, metadata.version(name.partition("[")[0]))
+        return LibraryStatus(True, metadata.version(name.partition("[")[0]))
     except metadata.PackageNotFoundError:
-        return Found(False)
+        return LibraryStatus(False)
 
 
-def _by_pkg_config(name: str) -> Found:
+def _by_pkg_config(name: str) -> LibraryStatus:
     program = shutil.which("pkg-config")
     if program is None:
-        return Found(False, why="pkg-config, which would know it, is missing too")
+        return LibraryStatus(False, why="pkg-config, which would know it, is missing too")
     done = _run([program, "--modversion", name])
-    return Found(True, done.stdout.strip()) if done and done.returncode == 0 else Found(False)
+    return LibraryStatus(True, done.stdout.strip()) if done and done.returncode == 0 else LibraryStatus(False)
 
 
-def _by_cmake(wanted: list[tuple[str, str]]) -> dict[tuple[str, str], Found]:
+def _by_cmake(wanted: list[tuple[str, str]]) -> dict[tuple[str, str], LibraryStatus]:
     """All packages and libraries in one project; one by one where some package ends that with an error."""
     if shutil.which("cmake") is None:
-        return dict.fromkeys(wanted, Found(False, why="CMake, which would find it, is missing too"))
+        return dict.fromkeys(wanted, LibraryStatus(False, why="CMake, which would find it, is missing too"))
     answers = _configured(wanted)
     if answers is None and len(wanted) > 1:
-        return {one: (_configured([one]) or {one: Found(False)})[one] for one in wanted}
-    return answers if answers is not None else dict.fromkeys(wanted, Found(False))
+        return {one: (_configured([one]) or {one: LibraryStatus(False)})[one] for one in wanted}
+    return answers if answers is not None else dict.fromkeys(wanted, LibraryStatus(False))
 
 
-def _configured(wanted: list[tuple[str, str]]) -> dict[tuple[str, str], Found] | None:
+def _configured(wanted: list[tuple[str, str]]) -> dict[tuple[str, str], LibraryStatus] | None:
     """None where CMake stops with an error."""
     lines = ["cmake_minimum_required(VERSION 3.20)", "project(Look LANGUAGES CXX)"]
     for number, (kind, name) in enumerate(wanted):
@@ -135,10 +135,10 @@ def _configured(wanted: list[tuple[str, str]]) -> dict[tuple[str, str], Found] |
         done = _run(["cmake", "-S", folder, "-B", f"{folder}/build"])
     if done is None or done.returncode != 0:
         return None
-    answers = dict.fromkeys(wanted, Found(False))
+    answers = dict.fromkeys(wanted, LibraryStatus(False))
     for number, word, version in re.findall(r"^rcyaml (\d+) (\S*) ?(\S*)$", done.stderr, re.MULTILINE):
         there = bool(word) and word.upper() not in ("0", "FALSE", "OFF", "NO") and not word.endswith("-NOTFOUND")
-        answers[wanted[int(number)]] = Found(there, version)
+        answers[wanted[int(number)]] = LibraryStatus(there, version)
     return answers
 
 

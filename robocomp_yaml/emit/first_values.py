@@ -9,7 +9,7 @@ from typing import Any
 
 from robocomp_yaml.emit import config
 from robocomp_yaml.emit.layout import CONFIG
-from robocomp_yaml.emit.ports import Ports
+from robocomp_yaml.emit.ports import PortTable
 from robocomp_yaml.link.program import LinkedComponent, LinkedParameters
 from robocomp_yaml.parameters.examples.new import Sections, new_document
 from robocomp_yaml.parameters.kinds import recording
@@ -25,7 +25,7 @@ from robocomp_yaml.transactions.manifest import BASE
 
 
 def first_values(
-    linked: LinkedParameters, component: str, target: str, table: Callable[[LinkedComponent], Ports]
+    linked: LinkedParameters, component: str, target: str, table: Callable[[LinkedComponent], PortTable]
 ) -> str:
     """`component` is the path of the CDSL (or PDSL), `target` that of the document to be; `table` gives the ports of a
     component's workspace."""
@@ -48,7 +48,7 @@ def first_values(
     return new_document(linked.parameters, where, modeline, sections, values)
 
 
-def _connections(linked: LinkedComponent, standing: Mapping[str, str], table: Ports) -> Sections:
+def _connections(linked: LinkedComponent, standing: Mapping[str, str], table: PortTable) -> Sections:
     """Where it and the others are: as it stands, else as compile would have it."""
     usual = config.connections(linked, table, standing)
     found = {key: config.stated(standing, key) or value for key, value in usual.items()}

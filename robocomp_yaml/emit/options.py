@@ -11,10 +11,10 @@ from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.link.workspace import Workspace
 
 if TYPE_CHECKING:
-    from robocomp_yaml.emit.ports import Ports
+    from robocomp_yaml.emit.ports import PortTable
 
 
-class Options(msgspec.Struct):
+class EmitOptions(msgspec.Struct):
     """`output` is `-o DIR` or None; `below` are the folders that were asked for (`-o` mirrors what lies below them);
     `targets` what to emit, all when empty; `workspace_of` the workspace of a document; `ports` those of a
     component's workspace (asked for only where its configuration leaves some open). `only` limits it to some
@@ -25,7 +25,7 @@ class Options(msgspec.Struct):
     below: Sequence[str]
     targets: frozenset[str]
     workspace_of: Callable[[str], Workspace]
-    ports: Callable[[LinkedComponent], Ports]
+    ports: Callable[[LinkedComponent], PortTable]
     only: Callable[[LinkedComponent], bool] | None = None
     standalone: bool = False
 

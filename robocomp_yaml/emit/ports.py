@@ -24,7 +24,7 @@ from robocomp_yaml.source.ice_endpoint import IceEndpoint, parse_endpoint
 from robocomp_yaml.source.properties import Entry
 
 
-class Ports(msgspec.Struct):
+class PortTable(msgspec.Struct):
     """The endpoint of each adapter (real path of the component's document, interface's name) of a workspace, and which
     components implement an interface (module, name), in order of their paths."""
 
@@ -45,13 +45,13 @@ def adapters(linked: LinkedComponent) -> list[str]:
     return list(dict.fromkeys([*(use.name for use in linked.component.implements), COMMON_BEHAVIOR]))
 
 
-def assign(components: Iterable[LinkedComponent], disk: Disk, values: Iterable[LinkedValues] = ()) -> Ports:
+def assign(components: Iterable[LinkedComponent], disk: Disk, values: Iterable[LinkedValues] = ()) -> PortTable:
     """The ports of a workspace's components: those that their values give, those that stand in their `etc/config`,
     else defaults."""
     given = {one.parameters.component: one for one in values if one.parameters and is_own(one)}
     distinct = {document(linked): linked for linked in components}
     ordered = sorted(distinct.items(), key=lambda item: (item[1].component.name, item[0]))
-    result = Ports()
+    result = PortTable()
     taken = set(RESERVED)
     for key, linked in ordered:
         texts = {name: entry.value for name, entry in _written(linked, disk)}

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Set
 
 from robocomp_yaml.emit import runtime
 from robocomp_yaml.emit.layout import ALONE, Layout, fingerprint, layout, runtime_folder
-from robocomp_yaml.emit.options import Options
+from robocomp_yaml.emit.options import EmitOptions
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule
 from robocomp_yaml.link.workspace import Workspace
 from robocomp_yaml.source.discover import WORKSPACE_FILE
@@ -20,7 +20,7 @@ Slices = Callable[[Iterable[LinkedModule]], Iterator[FilePlan]]
 class Shared:
     """Gathers, component by component, what is to be there for all of them. `slices` renders modules."""
 
-    def __init__(self, options: Options, slices: Slices, disk: Disk) -> None:
+    def __init__(self, options: EmitOptions, slices: Slices, disk: Disk) -> None:
         self._options, self._slices, self._disk = options, slices, disk
         self._runtimes: dict[tuple[str, str], RootPlan] = {}
         self._modules: dict[LinkedModule, str] = {}

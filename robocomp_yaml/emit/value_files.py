@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 
 from robocomp_yaml.emit import config
 from robocomp_yaml.emit.layout import CONFIG
-from robocomp_yaml.emit.ports import Ports
+from robocomp_yaml.emit.ports import PortTable
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Program
 from robocomp_yaml.parameters.writing.properties import (
     CLASSIC,
@@ -39,7 +39,7 @@ def documents_of(linked: LinkedComponent, program: Program) -> list[LinkedValues
     return [values for values in found if os.path.basename(values.document.path) not in joined]
 
 
-def configs(linked: LinkedComponent, program: Program, table: Callable[[], Ports]) -> Iterator[FilePlan]:
+def configs(linked: LinkedComponent, program: Program, table: Callable[[], PortTable]) -> Iterator[FilePlan]:
     """The property files of a component; the documents have been found right. `table` has the ports of the workspace,
     asked for where a document leaves some open."""
     for values in documents_of(linked, program):
@@ -58,7 +58,9 @@ def configs(linked: LinkedComponent, program: Program, table: Callable[[], Ports
         )  # fmt: skip
 
 
-def _with_connections(sections: list[Section], linked: LinkedComponent, table: Callable[[], Ports]) -> list[Section]:
+def _with_connections(
+    sections: list[Section], linked: LinkedComponent, table: Callable[[], PortTable]
+) -> list[Section]:
     """The endpoints and proxies that the document does not give, as a first `etc/config` would have them: without them
     nothing would start."""
     given = {made.key for section in sections for made in section.properties}

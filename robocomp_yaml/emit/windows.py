@@ -12,7 +12,7 @@ from robocomp_yaml.transactions.plan import ONCE, FilePlan
 PATH = "src/mainUI.ui"
 
 
-class View(msgspec.Struct, frozen=True):
+class WindowView(msgspec.Struct, frozen=True):
     """`base` is a class of Qt; `is_main` says that its widgets stand in a central one."""
 
     base: str
@@ -21,7 +21,7 @@ class View(msgspec.Struct, frozen=True):
 
 
 def text(base: str, title: str) -> str:
-    return render("qt/mainUI.ui.j2", View(base, title, base == "QMainWindow"))
+    return render("qt/mainUI.ui.j2", WindowView(base, title, base == "QMainWindow"))
 
 
 def folders(linked: LinkedComponent) -> set[str]:

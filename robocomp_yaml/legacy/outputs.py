@@ -14,9 +14,9 @@ from robocomp_yaml import secrets
 from robocomp_yaml.diag.render.json import dumps
 from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.migrated import MEMORY
-from robocomp_yaml.transactions.atomic import Batch, Step, WriteFailed, carry_out, recover
+from robocomp_yaml.transactions.atomic import Batch, FileStep, WriteFailed, carry_out, recover
 from robocomp_yaml.transactions.changes import unified
-from robocomp_yaml.transactions.places import Root
+from robocomp_yaml.transactions.output_root import Root
 from robocomp_yaml.transactions.plan import rights_of
 
 CREATED, CHANGED, UNCHANGED, EDITED, TAKEN, FAILED = "created", "changed", "unchanged", "edited", "taken", "failed"
@@ -110,7 +110,7 @@ class OutputRoot(msgspec.Struct):
             steps = [self._step(output) for output in todo]
             memory = self._memory()
             if memory is not None and memory != self.remembered:
-                steps.append(Step(MEMORY, self.remembered, memory))
+                steps.append(FileStep(MEMORY, self.remembered, memory))
             if not steps:
                 return
             try:
@@ -125,11 +125,11 @@ class OutputRoot(msgspec.Struct):
                     self.problem = failed.reason
                     return
 
-    def _step(self, output: Output) -> Step:
+    def _step(self, output: Output) -> FileStep:
         found = self.root.look(output.path)
         before = None if output.state == CREATED else found.data
         mode = None if output.state == CREATED else found.mode or None
-        return Step(output.path, before, output.text.encode(), mode=mode, rights=rights_of(output.sources))
+        return FileStep(output.path, before, output.text.encode(), mode=mode, rights=rights_of(output.sources))
 
     def _memory(self) -> bytes | None:
         """What is to be remembered; None where there never was anything."""

@@ -16,7 +16,7 @@ from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.inside import stays_inside
 from robocomp_yaml.transactions import whole_file
 from robocomp_yaml.transactions.journal import JOURNAL, JOURNAL_DONE, PART, Journal, Mark, clean_up, load, put_back
-from robocomp_yaml.transactions.places import STATE, Root, contents, folders_of, in_words
+from robocomp_yaml.transactions.output_root import STATE, Root, contents, folders_of, in_words
 from robocomp_yaml.transactions.plan import ANYBODY
 
 PATIENCE = 10.0
@@ -33,7 +33,7 @@ class WriteFailed(Exception):
         self.root, self.path, self.reason = root, path, reason
 
 
-class Step(msgspec.Struct, frozen=True):
+class FileStep(msgspec.Struct, frozen=True):
     """One file that changes: from `before` (None: nothing is there) to `after` (None: nothing shall be there).
 
     `mode` are the permissions, where a file that stands there has some already; `rights` are what others than the owner
@@ -53,7 +53,7 @@ class Batch(msgspec.Struct, frozen=True):
     """The changes of one root (a folder without symlinks in its path)."""
 
     root: str
-    steps: tuple[Step, ...]
+    steps: tuple[FileStep, ...]
 
 
 def carry_out(batches: Sequence[Batch]) -> None:
@@ -228,7 +228,7 @@ def _missing_folders(root: str, path: str) -> list[str]:
     return [folder for folder in folders_of(path) if not os.path.isdir(os.path.join(root, folder))]
 
 
-def _mark(step: Step, number: int) -> Mark:
+def _mark(step: FileStep, number: int) -> Mark:
     name = os.path.join(os.path.dirname(step.path), f".rcyaml-{os.getpid()}-{number}")
     return Mark(
         step.path,

@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from robocomp_yaml import secrets
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.source.hidden_properties import without_secret
-from robocomp_yaml.transactions.atomic import Step
+from robocomp_yaml.transactions.atomic import FileStep
 from robocomp_yaml.transactions.journal import JOURNAL, JOURNAL_DONE
 
 CREATE, UPDATE, ADOPT, EDITED, MERGE = "create", "update", "adopt", "edited", "merge"
@@ -68,7 +68,7 @@ class RootChanges(msgspec.Struct, frozen=True):
     root: str
     real: str
     changes: tuple[Change, ...] = ()
-    steps: tuple[Step, ...] = ()
+    steps: tuple[FileStep, ...] = ()
     settled: Mapping[str, bytes] = {}
     once: tuple[str, ...] = ()
     refused: bool = False

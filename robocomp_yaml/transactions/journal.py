@@ -15,7 +15,7 @@ import re
 import msgspec
 
 from robocomp_yaml.source.digest import digest
-from robocomp_yaml.transactions.places import STATE, Root, contents
+from robocomp_yaml.transactions.output_root import STATE, Root, contents
 
 JOURNAL = f"{STATE}/journal.json"
 JOURNAL_DONE = f"{STATE}/journal.done"

@@ -10,7 +10,7 @@ from contextlib import suppress
 import msgspec
 
 from robocomp_yaml.source.regular import regular
-from robocomp_yaml.transactions.places import STATE
+from robocomp_yaml.transactions.output_root import STATE
 
 PATH = f"{STATE}/manifest.json"
 BASE = f"{STATE}/base"
@@ -25,7 +25,7 @@ class Newer(Unusable):
     """A later version of rcyaml wrote it."""
 
 
-class Entry(msgspec.Struct, frozen=True, omit_defaults=True):
+class ManifestEntry(msgspec.Struct, frozen=True, omit_defaults=True):
     """A file that rcyaml wrote: the digest of what it put there last (see `ownership`), the documents it was written
     for (paths relative to the root), and whether it was written once, as the user's."""
 
@@ -35,7 +35,7 @@ class Entry(msgspec.Struct, frozen=True, omit_defaults=True):
 
 
 class Manifest(msgspec.Struct, frozen=True):
-    files: Mapping[str, Entry] = {}
+    files: Mapping[str, ManifestEntry] = {}
 
     def text(self) -> str:
         """One line a file, so that versions compare well."""

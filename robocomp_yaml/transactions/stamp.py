@@ -30,7 +30,7 @@ _KEPT = 32
 _DATA = ("schemas", "templates", "migrate")
 
 
-class Stamp(msgspec.Struct, frozen=True):
+class RunStamp(msgspec.Struct, frozen=True):
     """All paths are as the run used them, relative to its working folder or absolute.
 
     `inputs`: of each file read, its real path and its digest with who may read it. `states` and `listed`: what else it
@@ -68,11 +68,11 @@ def take(
     present: Iterable[str],
     replay: Mapping[str, object],
     plugins: Iterable[str] = (),
-) -> Stamp | None:
+) -> RunStamp | None:
     """The stamp of a run that is done; None where one of its files has gone already. `inputs` are the bytes that were
     read, `outputs` those that were meant to be written: the disk may have changed since."""
     try:
-        return Stamp(
+        return RunStamp(
             tool(),
             {
                 path: (real, f"{digest(data)} {_readers(os.stat(path)):o}")
@@ -91,7 +91,7 @@ def take(
         return None
 
 
-def is_current(stamp: Stamp) -> bool:
+def is_current(stamp: RunStamp) -> bool:
     """Whether the run would read, find and leave the same again."""
     try:
         return (
@@ -103,7 +103,7 @@ def is_current(stamp: Stamp) -> bool:
         return False
 
 
-def reads_the_same(stamp: Stamp) -> bool:
+def reads_the_same(stamp: RunStamp) -> bool:
     """Whether the run would read and find the same again, whatever became of what it left."""
     try:
         return (
@@ -120,16 +120,16 @@ def reads_the_same(stamp: Stamp) -> bool:
         return False
 
 
-def load(folder: str, name: str) -> Stamp | None:
+def load(folder: str, name: str) -> RunStamp | None:
     """The stamp that a run with this key left below a folder, or None."""
     try:
         with open(_file(folder, name), "rb", opener=regular) as file:
-            return msgspec.convert(json.load(file), Stamp)
+            return msgspec.convert(json.load(file), RunStamp)
     except (OSError, ValueError, RecursionError):
         return None
 
 
-def save(folder: str, name: str, stamp: Stamp) -> None:
+def save(folder: str, name: str, stamp: RunStamp) -> None:
     """Keeps a stamp. Where that cannot be done, the next run simply is made again."""
     path = _file(folder, name)
     if not stays_inside(folder or ".", os.path.join(FOLDER, f"{name}.json")):

@@ -15,11 +15,11 @@ from robocomp_yaml.source import properties
 from robocomp_yaml.source.digest import digest
 from robocomp_yaml.transactions import atomic, changes, manifest
 from robocomp_yaml.transactions.changes import Change, Changes, RootChanges
+from robocomp_yaml.transactions.desired import DesiredRoot, by_root
 from robocomp_yaml.transactions.journal import JOURNAL, JOURNAL_DONE, free_name
-from robocomp_yaml.transactions.manifest import Entry, Manifest
-from robocomp_yaml.transactions.places import Found
+from robocomp_yaml.transactions.manifest import Manifest, ManifestEntry
+from robocomp_yaml.transactions.output_root import PathStatus
 from robocomp_yaml.transactions.plan import ANYBODY, ONCE, FilePlan, Merge, Merges, RootPlan, rights_of
-from robocomp_yaml.transactions.wanted import WantedRoot, by_root
 
 
 def prepare(
@@ -84,18 +84,18 @@ class _Root:
     the files of all roots, each with its text and the innermost root that wants it, which writes it.
     """
 
-    def __init__(self, wanted: WantedRoot, adopt: bool, merges: Merges, planned: dict[str, tuple[str, str]]) -> None:
+    def __init__(self, wanted: DesiredRoot, adopt: bool, merges: Merges, planned: dict[str, tuple[str, str]]) -> None:
         self.wanted = wanted
         self.root = wanted.root
         self.adopt = adopt
         self.merges = merges
         self.planned = planned
         self.old = Manifest()
-        self.entries: dict[str, Entry] = {}
+        self.entries: dict[str, ManifestEntry] = {}
         self.diagnostics = list(wanted.diagnostics())
         self.culprits: set[str] = set()
         self.changes: list[Change] = []
-        self.steps: list[atomic.Step] = []
+        self.steps: list[atomic.FileStep] = []
         self.settled: dict[str, bytes] = {}
         self.once: list[str] = []
 
@@ -120,7 +120,7 @@ class _Root:
             self.root.path, self.root.real, tuple(self.changes), tuple(self.steps), self.settled, tuple(self.once)
         )
 
-    def _usable(self, found: Found) -> bool:
+    def _usable(self, found: PathStatus) -> bool:
         if found.problem:
             self._refuse(manifest.PATH, found)
             return False
@@ -145,7 +145,7 @@ class _Root:
             )
         return True
 
-    def _once(self, plan: FilePlan, entry: Entry | None) -> None:
+    def _once(self, plan: FilePlan, entry: ManifestEntry | None) -> None:
         merge = self.merges.files.get((self.root.real, plan.path))
         found = self.root.look(plan.path, read=entry is None or merge is not None)
         text = plan.text.encode()
@@ -163,11 +163,11 @@ class _Root:
         elif found.problem:
             self._refuse(plan.path, found)
         else:
-            self._write(plan, Found(), changes.CREATE)
+            self._write(plan, PathStatus(), changes.CREATE)
             self._own(plan.path, digest(text), once=True)
             self._keep_base(plan, text)
 
-    def _merge(self, plan: FilePlan, found: Found, merge: Merge, entry: Entry | None) -> None:
+    def _merge(self, plan: FilePlan, found: PathStatus, merge: Merge, entry: ManifestEntry | None) -> None:
         if merge.text == found.data:
             self._note(plan.path, changes.KEPT)
         else:
@@ -175,7 +175,7 @@ class _Root:
         self._own(plan.path, merged(entry, merge), once=True)
         self._keep_base(plan, merge.base)
 
-    def _always(self, plan: FilePlan, entry: Entry | None) -> None:
+    def _always(self, plan: FilePlan, entry: ManifestEntry | None) -> None:
         found = self.root.look(plan.path)
         text = plan.text.encode()
         if found.problem:
@@ -211,7 +211,7 @@ class _Root:
         root, text = self.planned[f"{self.root.real}/{plan.path}"]
         return root != self.root.real and text == plan.text
 
-    def _is_ours(self, path: str, data: bytes, entry: Entry | None) -> bool:
+    def _is_ours(self, path: str, data: bytes, entry: ManifestEntry | None) -> bool:
         """Whether rcyaml wrote it, for this root or for another one that has it, too."""
         return is_as_put(entry, data) or manifest.any_has(f"{self.root.real}/{path}", digest(data))
 
@@ -225,7 +225,7 @@ class _Root:
     def _base(self, path: str) -> bytes | None:
         return self.root.look(f"{manifest.BASE}/{path}").data if path in self.old.files else None
 
-    def _not_ours(self, plan: FilePlan, data: bytes, text: bytes, entry: Entry | None) -> Diagnostic:
+    def _not_ours(self, plan: FilePlan, data: bytes, text: bytes, entry: ManifestEntry | None) -> Diagnostic:
         span = Span(self.root.shown(plan.path))
         adopt = typed("rcyaml", "compile", "--adopt", self.root.shown(self.wanted.files[plan.path].owners[0]))
         if entry is None or not plan.stated_in:
@@ -238,7 +238,7 @@ class _Root:
             "the file, and keeps yours as .orig",
         )
 
-    def _unwanted(self, path: str, entry: Entry) -> None:
+    def _unwanted(self, path: str, entry: ManifestEntry) -> None:
         """A file of the manifest that no plan asks for: it stays as long as some document may still want it."""
         owners = self.wanted.holders(path, entry)
         if owners:
@@ -256,14 +256,14 @@ class _Root:
             return
         elif self._is_ours(path, found.data or b"", entry):
             self._note(path, changes.REMOVE, found.data)
-            self.steps.append(atomic.Step(path, found.data, None))
+            self.steps.append(atomic.FileStep(path, found.data, None))
         else:
             orig = self._orig(path)
             self._note(path, changes.EDITED, found.data, orig=orig)
-            self.steps.append(atomic.Step(path, found.data, None, orig=orig))
+            self.steps.append(atomic.FileStep(path, found.data, None, orig=orig))
             self._warn_edited(path, f"it is no longer generated, and kept as '{os.path.basename(orig)}'")
 
-    def _write(self, plan: FilePlan, found: Found, action: str, text: bytes | None = None) -> Change:
+    def _write(self, plan: FilePlan, found: PathStatus, action: str, text: bytes | None = None) -> Change:
         """Writes the plan's text, or another one."""
         text = plan.text.encode() if text is None else text
         orig = self._orig(plan.path) if action in (changes.EDITED, changes.ADOPT) else ""
@@ -273,7 +273,7 @@ class _Root:
             mode |= (mode & 0o444) >> 2
         if not self._has_another(plan):
             before, rights = found.data if found.exists else None, rights_of(plan.sources)
-            self.steps.append(atomic.Step(plan.path, before, text, plan.executable, mode, orig, rights))
+            self.steps.append(atomic.FileStep(plan.path, before, text, plan.executable, mode, orig, rights))
         return self._note(plan.path, action, found.data, text, orig)
 
     def _orig(self, path: str) -> str:
@@ -290,9 +290,9 @@ class _Root:
         return change
 
     def _own(self, path: str, hash_: str, *, once: bool = False) -> None:
-        self.entries[path] = Entry(hash_, self.wanted.holders(path, self.old.files.get(path)), once)
+        self.entries[path] = ManifestEntry(hash_, self.wanted.holders(path, self.old.files.get(path)), once)
 
-    def _refuse(self, path: str, found: Found) -> None:
+    def _refuse(self, path: str, found: PathStatus) -> None:
         self._note(path, changes.REFUSED)
         if found.culprit not in self.culprits:
             self.culprits.add(found.culprit)
@@ -311,7 +311,7 @@ class _Root:
     def _drop_base(self, path: str) -> None:
         self._remember(f"{manifest.BASE}/{path}", None)
 
-    def _manifest(self, found: Found) -> None:
+    def _manifest(self, found: PathStatus) -> None:
         text = found.data
         new = Manifest(self.entries)
         if new != self.old or not new.files:
@@ -327,15 +327,15 @@ class _Root:
             self._refuse(path, found)
         elif found.data != text:
             before = found.data if found.exists else None
-            self.steps.append(atomic.Step(path, before, text, mode=found.mode or None, rights=rights))
+            self.steps.append(atomic.FileStep(path, before, text, mode=found.mode or None, rights=rights))
 
 
-def is_as_put(entry: Entry | None, data: bytes) -> bool:
+def is_as_put(entry: ManifestEntry | None, data: bytes) -> bool:
     """Whether a file with this content is as rcyaml last put it there."""
     return entry is not None and entry.hash == digest(data)
 
 
-def merged(entry: Entry | None, merge: Merge) -> str:
+def merged(entry: ManifestEntry | None, merge: Merge) -> str:
     """What the manifest keeps of a merge: the digest of all of it where nothing of the user was in the file before;
     else that of the skeleton, which the file then differs from."""
     return digest(merge.text if is_as_put(entry, merge.before) else merge.base)

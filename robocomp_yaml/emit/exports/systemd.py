@@ -31,7 +31,7 @@ def export(network: Network) -> dict[str, str]:
 
 
 def _unit(network: Network, process: Process, here: set[str]) -> str:
-    restart, unit = process.restart, Unit()
+    restart, unit = process.restart, UnitFile()
     unit.section("Unit")
     unit.put("Description", plain(f"{process.name} of {network.name}"))
     unit.put("PartOf", _target(network))
@@ -60,7 +60,7 @@ def _unit(network: Network, process: Process, here: set[str]) -> str:
     return unit.text
 
 
-def _environment(unit: Unit, network: Network, process: Process) -> None:
+def _environment(unit: UnitFile, network: Network, process: Process) -> None:
     for item in process.env:
         if not item.source and not item.file:
             unit.put("Environment", quoted(f"{item.name}={item.value}"))
@@ -73,7 +73,7 @@ def _environment(unit: Unit, network: Network, process: Process) -> None:
 
 
 def _all(network: Network, processes: list[Process]) -> str:
-    unit = Unit()
+    unit = UnitFile()
     if any(process.config for process in processes):
         unit.comment(f"The folder config/ beside this file belongs to {_home(network)} (%E is /etc, or ~/.config).")
     unit.section("Unit")
@@ -112,7 +112,7 @@ def _home(network: Network) -> str:
     return f"%E/{file_name(network.name)}"
 
 
-class Unit:
+class UnitFile:
     """The text of a unit: comments, sections, and what is set in them. Every line goes through it, so that no value can
     become a line of its own. A value is text of one line: words in quotes (`quoted`), a folder (`folder`), or names
     that need neither."""

@@ -9,10 +9,10 @@ from itertools import accumulate
 
 import msgspec
 
-from robocomp_yaml.emit.graphs.grid import Area, Grid, grid_of
+from robocomp_yaml.emit.graphs.grid import Area, NodeGrid, grid_of
 from robocomp_yaml.emit.graphs.measure import shortened, width
-from robocomp_yaml.emit.graphs.picture import Node, Picture
-from robocomp_yaml.emit.graphs.routes import Branch, Net, Routes, outgoing, routes_of
+from robocomp_yaml.emit.graphs.picture import Picture, PictureNode
+from robocomp_yaml.emit.graphs.routes import Net, NetBranch, Routes, outgoing, routes_of
 
 TITLE, SMALL, LABEL = 13.0, 11.0, 10.0
 """Sizes of text."""
@@ -29,7 +29,7 @@ _LABEL_BAND, _HOST_TITLE, _HEAD = 18.0, 26.0, 44.0
 Point = tuple[float, float]
 
 
-class Block(msgspec.Struct):
+class Rectangle(msgspec.Struct):
     """A rectangle, and the lines of text in it."""
 
     x: float
@@ -43,11 +43,11 @@ class Block(msgspec.Struct):
         return self.x + self.width / 2
 
 
-class Way(msgspec.Struct):
+class EdgePath(msgspec.Struct):
     """A net's way from one source: its corners from the source to the target."""
 
     net: Net
-    branch: Branch
+    branch: NetBranch
     points: list[Point]
 
 
@@ -56,9 +56,9 @@ class Geometry(msgspec.Struct):
 
     width: float = 0.0
     height: float = 0.0
-    nodes: dict[str, Block] = {}
-    hosts: dict[str, Block] = {}
-    ways: list[Way] = []
+    nodes: dict[str, Rectangle] = {}
+    hosts: dict[str, Rectangle] = {}
+    ways: list[EdgePath] = []
     labels: list[tuple[Net, Point]] = []
 
 
@@ -68,7 +68,7 @@ def geometry_of(picture: Picture) -> Geometry:
     return _Placer(picture, grid, routes).place()
 
 
-def texts_of(node: Node) -> list[str]:
+def texts_of(node: PictureNode) -> list[str]:
     """The lines of a node: its name, what it is, and what it serves."""
     served = node.served()
     if len(served) > MOST_SERVED:
@@ -78,7 +78,7 @@ def texts_of(node: Node) -> list[str]:
 
 
 class _Placer:
-    def __init__(self, picture: Picture, grid: Grid, routes: Routes) -> None:
+    def __init__(self, picture: Picture, grid: NodeGrid, routes: Routes) -> None:
         self.picture, self.grid, self.routes = picture, grid, routes
         self.made = Geometry()
         self.incoming: dict[str, list[Net]] = {}
@@ -104,14 +104,14 @@ class _Placer:
         self.lines()
         return self.made
 
-    def block(self, node: Node) -> Block:
+    def block(self, node: PictureNode) -> Rectangle:
         texts = texts_of(node)
         widest = max([width(texts[0], TITLE, bold=True), *(width(text, SMALL) for text in texts[1:])])
         coming = self.incoming.get(node.name, [])
         ports = sum(map(_slot, coming)) * (2 if len(coming) == 1 else 1)  # a single one comes in the middle
         exits = STEP * (len(self.leaving.get(node.name, ())) + 1)
         size = max(widest + 2 * _PAD, ports + _PAD, exits, 90.0)
-        return Block(0, 0, _even(size + STEP), LINE_HEIGHT * len(texts) + 14, texts)
+        return Rectangle(0, 0, _even(size + STEP), LINE_HEIGHT * len(texts) + 14, texts)
 
     def rule(self) -> None:
         """Where rows and columns begin, behind channels and gaps that are as wide as their tracks need."""
@@ -142,13 +142,13 @@ class _Placer:
         above = _PAD if row in self.tops and row else 0.0
         return above + tracks + (_HOST_TITLE + _PAD if row in self.tops else 0.0) + _LABEL_BAND
 
-    def host(self, area: Area) -> Block:
+    def host(self, area: Area) -> Rectangle:
         left = self.columns[area.left] - _PAD
         right = self.columns[area.right] + self.column_width[area.right] + _PAD
         top = self.rows[area.top] - _LABEL_BAND - _HOST_TITLE
         bottom = self.rows[area.bottom + 1] - self.channels[area.bottom + 1] + _PAD
         title = next(box.title for box in self.picture.boxes if box.name == area.name)
-        return Block(left, top, right - left, bottom - top, [shortened(title, SMALL, right - left - 2 * _PAD)])
+        return Rectangle(left, top, right - left, bottom - top, [shortened(title, SMALL, right - left - 2 * _PAD)])
 
     def lines(self) -> None:
         ports = self.ports()
@@ -165,7 +165,7 @@ class _Placer:
                     x = self.track_x(branch.gap, net)
                     points += [(x, points[-1][1]), (x, self.track_y(row, net))]
                 points += [(port[0], points[-1][1]), port]
-                self.made.ways.append(Way(net, branch, points))
+                self.made.ways.append(EdgePath(net, branch, points))
 
     def ports(self) -> dict[Net, Point]:
         """Where each net reaches its target: side by side on its upper edge, from where they come."""
@@ -182,10 +182,10 @@ class _Placer:
         columns = [self.grid.cells[branch.source][1] for branch in net.branches]
         return sum(columns) / len(columns)
 
-    def exits(self, ports: dict[Net, Point]) -> dict[Branch, Point]:
+    def exits(self, ports: dict[Net, Point]) -> dict[NetBranch, Point]:
         """Where each net leaves a source: side by side on its lower edge, half a step beside the ports of others, but
         for one that goes straight down."""
-        found: dict[Branch, Point] = {}
+        found: dict[NetBranch, Point] = {}
         for name, nets in self.leaving.items():
             block = self.made.nodes[name]
             x = _even(block.middle - STEP * (len(nets) - 1) / 2) + STEP / 2

@@ -28,7 +28,7 @@ class Area(msgspec.Struct, frozen=True):
     right: int
 
 
-class Grid(msgspec.Struct):
+class NodeGrid(msgspec.Struct):
     """`cells` are (row, column) by node."""
 
     cells: dict[str, tuple[int, int]] = {}
@@ -37,7 +37,7 @@ class Grid(msgspec.Struct):
     columns: int = 0
 
 
-def grid_of(picture: Picture) -> Grid:
+def grid_of(picture: Picture) -> NodeGrid:
     needs: dict[str, list[str]] = {}
     for line in picture.lines:
         if line.source != line.target and line.target not in needs.setdefault(line.source, []):
@@ -45,7 +45,7 @@ def grid_of(picture: Picture) -> Grid:
     level = layers(picture.nodes, needs)
     strips = [name for name in [*(box.name for box in picture.boxes), ""] if picture.inside(name)]
     columns = _columns(picture, strips)
-    grid = Grid()
+    grid = NodeGrid()
     for band in _bands(strips, columns):
         _place(picture, band, columns, level, grid)
     _order(picture, grid)
@@ -73,7 +73,7 @@ def _bands(strips: Sequence[str], columns: Mapping[str, int]) -> list[list[str]]
 
 
 def _place(
-    picture: Picture, band: Sequence[str], columns: Mapping[str, int], level: Mapping[str, int], grid: Grid
+    picture: Picture, band: Sequence[str], columns: Mapping[str, int], level: Mapping[str, int], grid: NodeGrid
 ) -> None:
     top, left = grid.rows, 0
     lefts: dict[str, int] = {}
@@ -94,7 +94,7 @@ def _place(
     grid.areas += [Area(name, top, row - 1, lefts[name], lefts[name] + columns[name] - 1) for name in band]
 
 
-def _order(picture: Picture, grid: Grid) -> None:
+def _order(picture: Picture, grid: NodeGrid) -> None:
     """Moves nodes within their rows, each below (and above) what it is connected to."""
     near: dict[str, list[str]] = {}
     for line in picture.lines:
@@ -113,7 +113,7 @@ def _order(picture: Picture, grid: Grid) -> None:
                 grid.cells[name] = (row, place)
 
 
-def _middle(grid: Grid, others: Sequence[str], own: int) -> float:
+def _middle(grid: NodeGrid, others: Sequence[str], own: int) -> float:
     return sum(grid.cells[name][1] for name in others) / len(others) if others else own
 
 

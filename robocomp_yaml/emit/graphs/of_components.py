@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from robocomp_yaml.emit.graphs import picture as parts
-from robocomp_yaml.emit.graphs.picture import Line, Node, Picture
+from robocomp_yaml.emit.graphs.picture import Picture, PictureLine, PictureNode
 from robocomp_yaml.link.program import LinkedComponent, Port
 
 
@@ -18,7 +18,7 @@ def picture_of(name: str, components: Iterable[LinkedComponent]) -> Picture:
     for component in listed:
         wanted = component.component.name
         names[component] = wanted if wanted not in made.nodes else component.component.path
-        node = Node(
+        node = PictureNode(
             names[component], wanted, parts.COMPONENT, about=(component.component.language.name,),
             serves=tuple((port.interface.name, 0) for port in component.implements),
         )  # fmt: skip
@@ -32,14 +32,16 @@ def picture_of(name: str, components: Iterable[LinkedComponent]) -> Picture:
             targets = serving.get(_key(port), [])
             if not targets:
                 about = "nothing here implements it"
-                made.nodes.setdefault(_key(port), Node(_key(port), port.interface.name, parts.OUTSIDE, about=(about,)))
+                made.nodes.setdefault(
+                    _key(port), PictureNode(_key(port), port.interface.name, parts.OUTSIDE, about=(about,))
+                )
                 targets = [_key(port)]
-            made.lines += [Line(source, target, label) for target in targets if target != source]
+            made.lines += [PictureLine(source, target, label) for target in targets if target != source]
         for ports, kind in ((component.publishes, parts.PUBLISHES), (component.subscribes, parts.SUBSCRIBES)):
             for port in ports:
                 topic = f"topic {_key(port)}"
-                made.nodes.setdefault(topic, Node(topic, port.interface.name, parts.TOPIC, about=("topic",)))
-                made.lines.append(Line(source, topic, kind=kind))
+                made.nodes.setdefault(topic, PictureNode(topic, port.interface.name, parts.TOPIC, about=("topic",)))
+                made.lines.append(PictureLine(source, topic, kind=kind))
     return made
 
 

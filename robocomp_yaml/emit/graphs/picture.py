@@ -11,7 +11,7 @@ _EVERYBODYS = "CommonBehavior"
 USES, PUBLISHES, SUBSCRIBES, AFTER = "uses", "publishes", "subscribes", "after"
 
 
-class Fault(msgspec.Struct, frozen=True):
+class PictureFault(msgspec.Struct, frozen=True):
     """A problem, as the diagnostics say it."""
 
     code: str
@@ -30,7 +30,7 @@ class Box(msgspec.Struct, frozen=True):
     title: str
 
 
-class Node(msgspec.Struct, frozen=True):
+class PictureNode(msgspec.Struct, frozen=True):
     """`box` is the name of a box, '' for what is outside. `about` are short lines below the name. `serves` are
     interfaces with their ports, 0 where none is known."""
 
@@ -42,7 +42,7 @@ class Node(msgspec.Struct, frozen=True):
     serves: tuple[tuple[str, int], ...] = ()
     groups: tuple[str, ...] = ()
     enabled: bool = True
-    faults: tuple[Fault, ...] = ()
+    faults: tuple[PictureFault, ...] = ()
 
     def served(self) -> list[str]:
         """What it serves in words, but for what every component serves besides."""
@@ -54,7 +54,7 @@ class Node(msgspec.Struct, frozen=True):
         return [self.title, *self.about, *self.served()]
 
 
-class Line(msgspec.Struct, frozen=True):
+class PictureLine(msgspec.Struct, frozen=True):
     """From `source`, which needs something, to `target`, which has it: `label` says what. Of a topic both who publishes
     and who subscribes are sources; what flows, flows to the topic (PUBLISHES) or from it (SUBSCRIBES)."""
 
@@ -62,7 +62,7 @@ class Line(msgspec.Struct, frozen=True):
     target: str
     label: str = ""
     kind: str = USES
-    faults: tuple[Fault, ...] = ()
+    faults: tuple[PictureFault, ...] = ()
 
 
 class Picture(msgspec.Struct):
@@ -70,16 +70,16 @@ class Picture(msgspec.Struct):
 
     name: str
     boxes: list[Box] = []
-    nodes: dict[str, Node] = {}
-    lines: list[Line] = []
-    faults: tuple[Fault, ...] = ()
+    nodes: dict[str, PictureNode] = {}
+    lines: list[PictureLine] = []
+    faults: tuple[PictureFault, ...] = ()
 
-    def inside(self, box: str) -> list[Node]:
+    def inside(self, box: str) -> list[PictureNode]:
         return [node for node in self.nodes.values() if node.box == box]
 
-    def all_faults(self) -> Iterator[tuple[str, Fault]]:
+    def all_faults(self) -> Iterator[tuple[str, PictureFault]]:
         """Each problem once, with the name of what has it."""
-        seen: set[Fault] = set()
+        seen: set[PictureFault] = set()
         owners = [(node.title, node.faults) for node in self.nodes.values()]
         owners += [(line.source, line.faults) for line in self.lines]
         for name, faults in [*owners, (self.name, self.faults)]:

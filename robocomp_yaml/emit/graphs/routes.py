@@ -11,15 +11,15 @@ from collections.abc import Iterable
 
 import msgspec
 
-from robocomp_yaml.emit.graphs.grid import Grid
-from robocomp_yaml.emit.graphs.picture import Fault, Picture
+from robocomp_yaml.emit.graphs.grid import NodeGrid
+from robocomp_yaml.emit.graphs.picture import Picture, PictureFault
 
 
-class Branch(msgspec.Struct, eq=False):
+class NetBranch(msgspec.Struct, eq=False):
     """A net's way from one source. `gap` is the gap before that column, None where no gap is needed."""
 
     source: str
-    faults: tuple[Fault, ...] = ()
+    faults: tuple[PictureFault, ...] = ()
     gap: int | None = None
 
 
@@ -27,7 +27,7 @@ class Net(msgspec.Struct, eq=False):
     target: str
     label: str
     kind: str
-    branches: list[Branch] = []
+    branches: list[NetBranch] = []
 
 
 Run = tuple[int, Net]
@@ -45,14 +45,14 @@ class Routes(msgspec.Struct):
     gap_tracks: dict[int, int] = {}
 
 
-def routes_of(picture: Picture, grid: Grid) -> Routes:
+def routes_of(picture: Picture, grid: NodeGrid) -> Routes:
     made = Routes()
     nets: dict[tuple[str, str, str], Net] = {}
     for line in picture.lines:
         label = line.label.rpartition(": ")[2]  # a proxy's own name is its owner's business
         key = (line.target, label, line.kind)
         net = nets.setdefault(key, Net(line.target, label, line.kind))
-        net.branches.append(Branch(line.source, line.faults))
+        net.branches.append(NetBranch(line.source, line.faults))
     made.nets = list(nets.values())
     across: dict[int, dict[Net, list[float]]] = {}
     along: dict[int, dict[Net, list[float]]] = {}
@@ -72,7 +72,7 @@ def routes_of(picture: Picture, grid: Grid) -> Routes:
     return made
 
 
-def _gap(grid: Grid, source: int, target: int) -> int:
+def _gap(grid: NodeGrid, source: int, target: int) -> int:
     """The gap beside the target, on the side that the line comes from."""
     if source == target:
         return target if target >= grid.columns / 2 else target + 1

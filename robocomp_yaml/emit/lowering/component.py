@@ -12,7 +12,7 @@ BEHAVIOR = "RoboCompCommonBehavior"
 COMMON = "CommonBehavior.ice"
 
 
-class Lowered(msgspec.Struct, frozen=True):
+class LoweredComponent(msgspec.Struct, frozen=True):
     """`source` is the document's file, `doc` the name with what the document says of it. `files` are the Slice files of
     all `modules`, `imported` those that the component's document imports; `is_common` says that CommonBehavior's file
     is ours, and not among the user's."""
@@ -27,12 +27,12 @@ class Lowered(msgspec.Struct, frozen=True):
     is_common: bool
 
 
-def lower(linked: LinkedComponent) -> Lowered:
+def lower(linked: LinkedComponent) -> LoweredComponent:
     component = linked.component
     scopes = linked.modules()
     is_common = all(scope.module.name != BEHAVIOR for scope in scopes)
     common = [COMMON] if is_common else []
-    return Lowered(
+    return LoweredComponent(
         source=component.path.rpartition("/")[2],
         name=component.name,
         doc=f"{component.name}: {component.doc}" if component.doc else component.name,

@@ -46,10 +46,10 @@ class Calls(msgspec.Struct, frozen=True):
 
     def of(self, expression: Expression, root: RecordType) -> str:
         """What the expression comes to, of the parameters' values, called `p` there."""
-        return _Writer(Scope(root), self).code(expression)
+        return _ConstraintWriter(Scope(root), self).code(expression)
 
 
-class _Writer(msgspec.Struct, frozen=True):
+class _ConstraintWriter(msgspec.Struct, frozen=True):
     scope: Scope
     calls: Calls
 
@@ -105,7 +105,7 @@ class _Writer(msgspec.Struct, frozen=True):
     def each(self, each: Each) -> str:
         type_ = type_of(each.source, self.scope)
         assert isinstance(type_, ListType | MapType)
-        inner = _Writer(self.scope.with_variable(each.variable, type_.element), self.calls)
+        inner = _ConstraintWriter(self.scope.with_variable(each.variable, type_.element), self.calls)
         variable = self.calls.variable(each.variable, len(self.scope.variables))
         functions = [self.calls.function(variable, inner.code(each.element))]
         if each.condition is not None:

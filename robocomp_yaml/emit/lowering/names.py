@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 
-class Names:
+class NameAllocator:
     """Hands out names: what is taken gets an underscore at its end, and another one if need be."""
 
     def __init__(self, taken: Iterable[str] = ()) -> None:

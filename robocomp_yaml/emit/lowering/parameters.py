@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 import msgspec
 
-from robocomp_yaml.emit.lowering.names import Names
+from robocomp_yaml.emit.lowering.names import NameAllocator
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, Member, Parameters, RecordType, Type
 from robocomp_yaml.parameters.words import for_code
@@ -15,7 +15,7 @@ ROOT = "."
 """The path of the record that holds all parameters."""
 
 
-class Spelling(msgspec.Struct, frozen=True):
+class TypeSpelling(msgspec.Struct, frozen=True):
     """How a language names types: `basic` by our names, `listing` and `mapping` with {} for the element's, `own` for
     the classes that are made. `boxed` are the basic ones as elements, where they are others there."""
 
@@ -38,7 +38,7 @@ class ConstraintView(msgspec.Struct, frozen=True):
 class Types:
     """The classes of all enums and records that parameters use: `of` by name, that of a group by its path."""
 
-    def __init__(self, root: RecordType, names: Names, spelling: Spelling) -> None:
+    def __init__(self, root: RecordType, names: NameAllocator, spelling: TypeSpelling) -> None:
         self.records, self.enums = records(root)
         self.spelling = spelling
         self.of = {enum.name: names.take(enum.name) for enum in self.enums}
@@ -63,7 +63,7 @@ class Types:
                 return spelling.own.format(self.of[type_.name or group or ""])
 
     def setters(
-        self, member: Member, taken: Names, around: str = ROOT, before: str = ""
+        self, member: Member, taken: NameAllocator, around: str = ROOT, before: str = ""
     ) -> Iterator[tuple[str, Member, str]]:
         """Name, member and path of each setter: of the member, or of what the group holds."""
         in_code, path = inside(around, member.code_name), f"{before}{member.name}"

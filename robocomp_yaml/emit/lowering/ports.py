@@ -6,13 +6,13 @@ from collections.abc import Callable, Sequence
 
 import msgspec
 
-from robocomp_yaml.emit.lowering.names import Names
+from robocomp_yaml.emit.lowering.names import NameAllocator
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.component import WAIT
 from robocomp_yaml.model.interface import Method
 
 
-class Spelling(msgspec.Struct, frozen=True):
+class PortSpelling(msgspec.Struct, frozen=True):
     """How a language names them: `taken` are names that every worker has, `published` the candidates for the proxy of a
     topic, with {name} for the port's in lower case; `called` is an operation as its caller spells it, and `property`
     how a text sets off the name of one."""
@@ -38,7 +38,7 @@ class Accessor(msgspec.Struct, frozen=True):
     milliseconds: int | None = None
 
 
-class Called(msgspec.Struct, frozen=True):
+class CalledMethod(msgspec.Struct, frozen=True):
     """A method of the worker, `name`, which an operation of a port calls."""
 
     port: Port
@@ -52,23 +52,23 @@ class Service(msgspec.Struct, frozen=True):
     port: Port
     title: str
     identity: str
-    methods: tuple[Called, ...]
-    new: tuple[Called, ...]
+    methods: tuple[CalledMethod, ...]
+    new: tuple[CalledMethod, ...]
 
 
-class Ports(msgspec.Struct, frozen=True):
+class LoweredPorts(msgspec.Struct, frozen=True):
     requires: tuple[Accessor, ...]
     publishes: tuple[Accessor, ...]
     implements: tuple[Service, ...]
     subscribes: tuple[Service, ...]
 
 
-def lower(component: LinkedComponent, spelling: Spelling) -> Ports:
+def lower(component: LinkedComponent, spelling: PortSpelling) -> LoweredPorts:
     """All ports of a component, with names that do not clash."""
-    names = Names(spelling.taken)
+    names = NameAllocator(spelling.taken)
     requires = tuple(_required(port, names, spelling) for port in component.requires)
     publishes = tuple(_published(port, names, spelling) for port in component.publishes)
-    known: dict[tuple[LinkedModule, str, str], Called] = {}
+    known: dict[tuple[LinkedModule, str, str], CalledMethod] = {}
     implements = tuple(
         _service(port, "other components call these.", port.interface.methods, names, known)
         for port in component.implements
@@ -77,7 +77,7 @@ def lower(component: LinkedComponent, spelling: Spelling) -> Ports:
         _service(port, "events that others publish.", can_be_published(port), names, known)
         for port in component.subscribes
     )
-    return Ports(requires, publishes, implements, subscribes)
+    return LoweredPorts(requires, publishes, implements, subscribes)
 
 
 def can_be_published(port: Port) -> list[Method]:
@@ -85,7 +85,7 @@ def can_be_published(port: Port) -> list[Method]:
     return [method for method in port.interface.methods if method.can_be_published]
 
 
-def _required(port: Port, names: Names, spelling: Spelling) -> Accessor:
+def _required(port: Port, names: NameAllocator, spelling: PortSpelling) -> Accessor:
     property_ = spelling.property.format(name=f"{port.name}Proxy")
     timeout = port.use.timeout
     return Accessor(
@@ -99,7 +99,7 @@ def _required(port: Port, names: Names, spelling: Spelling) -> Accessor:
     )
 
 
-def _published(port: Port, names: Names, spelling: Spelling) -> Accessor:
+def _published(port: Port, names: NameAllocator, spelling: PortSpelling) -> Accessor:
     methods = can_be_published(port)
     events = ", ".join(f"{spelling.called(m.name)}({', '.join(one.name for one in m.inputs)})" for m in methods)
     return Accessor(
@@ -113,13 +113,17 @@ def _published(port: Port, names: Names, spelling: Spelling) -> Accessor:
 
 
 def _service(
-    port: Port, about: str, methods: Sequence[Method], names: Names, known: dict[tuple[LinkedModule, str, str], Called]
+    port: Port,
+    about: str,
+    methods: Sequence[Method],
+    names: NameAllocator,
+    known: dict[tuple[LinkedModule, str, str], CalledMethod],
 ) -> Service:
     every, new = [], []
     for method in methods:
         key = (port.scope, port.interface.name, method.name)
         if key not in known:
-            known[key] = Called(port, method, names.take(f"{port.interface.name}_{method.name}"))
+            known[key] = CalledMethod(port, method, names.take(f"{port.interface.name}_{method.name}"))
             new.append(known[key])
         every.append(known[key])
     return Service(port, f"{port.name}: {about}", port.interface.name.lower(), tuple(every), tuple(new))

@@ -26,7 +26,7 @@ class Signature(msgspec.Struct, frozen=True):
     most: int | None
 
 
-class Method(msgspec.Struct, frozen=True):
+class SourceMethod(msgspec.Struct, frozen=True):
     """A method of the class: declared in its body, or (C++) defined outside of it.
 
     `first` and `end` are the lines from its first to behind its last, from 0, decorators with it. `signature` is None
@@ -42,14 +42,14 @@ class Method(msgspec.Struct, frozen=True):
     nested: bool = False
 
 
-class Import(msgspec.Struct, frozen=True):
+class ImportLine(msgspec.Struct, frozen=True):
     """What a line brings in, and the line that would bring just this."""
 
     key: str
     line: str
 
 
-class Code(msgspec.Struct, frozen=True):
+class SourceCode(msgspec.Struct, frozen=True):
     """A file. `members` stand in the class, `definitions` outside. `place` is that of the class's name, None where the
     file does not have the class; `body_end` the line before which its body ends, and `unit` one step of indentation.
     `bases` are the classes that it inherits from. `import_end` is the line behind the last import, or where one may
@@ -58,16 +58,16 @@ class Code(msgspec.Struct, frozen=True):
     path: str
     lines: list[str]
     faults: int
-    members: tuple[Method, ...] = ()
-    definitions: tuple[Method, ...] = ()
-    imports: tuple[Import, ...] = ()
+    members: tuple[SourceMethod, ...] = ()
+    definitions: tuple[SourceMethod, ...] = ()
+    imports: tuple[ImportLine, ...] = ()
     import_end: int = 0
     place: Span | None = None
     body_end: int = 0
     unit: str = "    "
     bases: tuple[str, ...] = ()
 
-    def text_of(self, method: Method) -> str:
+    def text_of(self, method: SourceMethod) -> str:
         return "".join(self.lines[method.first : method.end])
 
 

@@ -8,41 +8,41 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 import msgspec
 
 from robocomp_yaml.diag.suggest import suggest
-from robocomp_yaml.emit.specific.code import Code, Method, Signature
+from robocomp_yaml.emit.specific.code import Signature, SourceCode, SourceMethod
 
 
-class Lacking(msgspec.Struct, frozen=True):
+class MissingMethod(msgspec.Struct, frozen=True):
     """A method of a skeleton's file that the user's files do not have."""
 
-    skeleton: Code
-    method: Method
+    skeleton: SourceCode
+    method: SourceMethod
 
 
-class Outdated(msgspec.Struct, frozen=True):
+class OutdatedMethod(msgspec.Struct, frozen=True):
     """A method of the user that no longer fits; `wanted` is the skeleton's."""
 
-    code: Code
-    method: Method
-    skeleton: Code
-    wanted: Method
+    code: SourceCode
+    method: SourceMethod
+    skeleton: SourceCode
+    wanted: SourceMethod
 
 
-class Gone(msgspec.Struct, frozen=True):
+class ObsoleteMethod(msgspec.Struct, frozen=True):
     """A method that no skeleton has any more, at its places; `renamed` is what it may be called now."""
 
     name: str
-    places: tuple[tuple[Code, Method], ...]
+    places: tuple[tuple[SourceCode, SourceMethod], ...]
     renamed: str = ""
 
 
 class Comparison(msgspec.Struct):
-    lacking: list[Lacking] = []
-    outdated: list[Outdated] = []
-    gone: list[Gone] = []
+    missing: list[MissingMethod] = []
+    outdated: list[OutdatedMethod] = []
+    obsolete: list[ObsoleteMethod] = []
 
 
 def compare(
-    new: Sequence[Code], base: Mapping[str, Code], yours: Sequence[Code], bases: Collection[str] = ()
+    new: Sequence[SourceCode], base: Mapping[str, SourceCode], yours: Sequence[SourceCode], bases: Collection[str] = ()
 ) -> Comparison:
     """`new` is the skeleton of today and `base` that which the user's files came from, file by file, as far as it is
     known; `yours` are the user's files. `bases` are the classes that a skeleton's class inherits from, beside those in
@@ -59,22 +59,22 @@ def compare(
                 found = known.get(method.name, [])
                 defined = found or (bodies.get(method.name) if part == "definitions" else None)
                 if not defined and method.name not in elsewhere:
-                    result.lacking.append(Lacking(skeleton, method))
+                    result.missing.append(MissingMethod(skeleton, method))
                 if found and not any(_fits(mine, method, before.get(method.name)) for _, mine in found):
-                    result.outdated.append(Outdated(*found[0], skeleton, method))
-    result.gone = list(_gone(new, base, members, definitions, result.lacking))
+                    result.outdated.append(OutdatedMethod(*found[0], skeleton, method))
+    result.obsolete = list(_obsolete(new, base, members, definitions, result.missing))
     return result
 
 
-def _by_name(codes: Iterable[Code], part: str) -> dict[str, list[tuple[Code, Method]]]:
-    found: dict[str, list[tuple[Code, Method]]] = {}
+def _by_name(codes: Iterable[SourceCode], part: str) -> dict[str, list[tuple[SourceCode, SourceMethod]]]:
+    found: dict[str, list[tuple[SourceCode, SourceMethod]]] = {}
     for code in codes:
         for method in getattr(code, part):
             found.setdefault(method.name, []).append((code, method))
     return found
 
 
-def _inherited(new: Sequence[Code], yours: Sequence[Code], bases: Collection[str]) -> set[str]:
+def _inherited(new: Sequence[SourceCode], yours: Sequence[SourceCode], bases: Collection[str]) -> set[str]:
     """Methods that the class may have from a class of the user's own that it inherits from: those named anywhere."""
     expected = {*bases, *(base for code in new for base in code.bases)}
     if all(base in expected for code in yours for base in code.bases):
@@ -83,7 +83,7 @@ def _inherited(new: Sequence[Code], yours: Sequence[Code], bases: Collection[str
     return {method.name for code in new for method in (*code.members, *code.definitions)} & words
 
 
-def _fits(mine: Method, wanted: Method, before: Method | None) -> bool:
+def _fits(mine: SourceMethod, wanted: SourceMethod, before: SourceMethod | None) -> bool:
     """Whether a method does for what the skeleton has now. What the user wrote otherwise than `before` is trusted, but
     for the number of parameters."""
     is_, needs = mine.signature, wanted.signature
@@ -111,13 +111,13 @@ def _types(signature: Signature) -> tuple[object, ...]:
     return signature.parameters, signature.returns
 
 
-def _gone(
-    new: Sequence[Code],
-    base: Mapping[str, Code],
-    members: Mapping[str, list[tuple[Code, Method]]],
-    definitions: Mapping[str, list[tuple[Code, Method]]],
-    lacking: Sequence[Lacking],
-) -> Iterable[Gone]:
+def _obsolete(
+    new: Sequence[SourceCode],
+    base: Mapping[str, SourceCode],
+    members: Mapping[str, list[tuple[SourceCode, SourceMethod]]],
+    definitions: Mapping[str, list[tuple[SourceCode, SourceMethod]]],
+    lacking: Sequence[MissingMethod],
+) -> Iterable[ObsoleteMethod]:
     today = {method.name for code in new for method in (*code.members, *code.definitions)}
     before = {m.name: m for code in base.values() for m in (*code.definitions, *code.members)}
     fresh = {one.method.name: one.method for one in lacking if one.method.name not in before}
@@ -127,7 +127,7 @@ def _gone(
             continue
         alike = [other for other, its in fresh.items() if _same(method.signature, its.signature)]
         alike = [other for other in alike if other.partition("_")[0] == name.partition("_")[0]]
-        yield Gone(name, places, alike[0] if len(alike) == 1 else suggest(name, alike) or "")
+        yield ObsoleteMethod(name, places, alike[0] if len(alike) == 1 else suggest(name, alike) or "")
 
 
 def _same(one: Signature | None, other: Signature | None) -> bool:

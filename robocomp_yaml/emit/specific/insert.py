@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from robocomp_yaml.emit.specific.code import Code, Method
+from robocomp_yaml.emit.specific.code import SourceCode, SourceMethod
 
 
-def insert(code: Code, skeleton: Code, names: Collection[str]) -> str:
+def insert(code: SourceCode, skeleton: SourceCode, names: Collection[str]) -> str:
     """The text of `code` with the methods of the skeleton that are called so, each behind the one that precedes it
     there, and with the imports of the skeleton that it lacks."""
     known = {one.key for one in code.imports}
     imports = "".join(one.line for one in skeleton.imports if one.key not in known)
     pieces: list[tuple[int, str]] = [(code.import_end, imports)] if imports else []
     for part in ("members", "definitions"):
-        order: tuple[Method, ...] = getattr(skeleton, part)
-        mine: tuple[Method, ...] = getattr(code, part)
+        order: tuple[SourceMethod, ...] = getattr(skeleton, part)
+        mine: tuple[SourceMethod, ...] = getattr(code, part)
         ends = {method.name: method.end for method in mine if not method.nested}
         for n, method in enumerate(order):
             if method.name in names and method.name not in ends:
@@ -26,7 +26,7 @@ def insert(code: Code, skeleton: Code, names: Collection[str]) -> str:
     return _joined(code.lines, pieces)
 
 
-def lead(skeleton: Code, method: Method) -> str:
+def lead(skeleton: SourceCode, method: SourceMethod) -> str:
     """The comment above a method that is a title, with the blank line between."""
     row = method.first
     if row and not skeleton.lines[row - 1].strip():
@@ -37,7 +37,7 @@ def lead(skeleton: Code, method: Method) -> str:
     return "" if start == row else "".join(skeleton.lines[start : method.first])
 
 
-def _piece(code: Code, skeleton: Code, method: Method, alone: bool) -> str:
+def _piece(code: SourceCode, skeleton: SourceCode, method: SourceMethod, alone: bool) -> str:
     """The lines to put in, with the title above them where the file does not have it yet. `alone`: at the end of the
     class, where in C++ private members may stand."""
     title = lead(skeleton, method)

@@ -18,19 +18,19 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.layout import SOURCES
 from robocomp_yaml.emit.specific import entries, threeway
-from robocomp_yaml.emit.specific.code import Code, Import
+from robocomp_yaml.emit.specific.code import ImportLine, SourceCode
 from robocomp_yaml.emit.specific.compare import compare
 from robocomp_yaml.emit.specific.insert import insert
-from robocomp_yaml.emit.specific.own import Own
 from robocomp_yaml.emit.specific.reading import compiles, others, read
 from robocomp_yaml.emit.specific.threeway import Conflict
-from robocomp_yaml.transactions.places import Root
+from robocomp_yaml.emit.specific.user_file import UserFile
+from robocomp_yaml.transactions.output_root import Root
 from robocomp_yaml.transactions.plan import Merge
 
 _HINT = "nothing was written; make room by hand, or compile without --merge and paste what it names"
 
 
-class Result(msgspec.Struct, frozen=True):
+class MergeResult(msgspec.Struct, frozen=True):
     """`text` is the merge, and `base` what a later one starts from. With `reason`, there is none."""
 
     text: str
@@ -39,11 +39,11 @@ class Result(msgspec.Struct, frozen=True):
     reason: str = ""
 
 
-def merge_files(root: Root, files: Sequence[Own]) -> tuple[dict[str, Merge], list[Diagnostic]]:
+def merge_files(root: Root, files: Sequence[UserFile]) -> tuple[dict[str, Merge], list[Diagnostic]]:
     """The merges by path; with diagnostics, none of them is to be carried out."""
     merged: dict[str, Merge] = {}
     refusals: list[Diagnostic] = []
-    sides: list[Own] = []
+    sides: list[UserFile] = []
     for file in files:
         path = root.shown(file.path)
         if not file.is_text:
@@ -65,12 +65,12 @@ def merge_files(root: Root, files: Sequence[Own]) -> tuple[dict[str, Merge], lis
     return ({}, refusals) if refusals else (merged, [])
 
 
-def _is_dos(file: Own) -> bool:
+def _is_dos(file: UserFile) -> bool:
     """Whether all its lines end as on Windows."""
     return 0 < file.data.count(b"\n") == file.data.count(b"\r\n")
 
 
-def _refusals(path: str, result: Result) -> list[Diagnostic]:
+def _refusals(path: str, result: MergeResult) -> list[Diagnostic]:
     if not result.conflicts:
         return [codes.CONFLICT.at(Span(path), path=path, reason=result.reason, hint=_HINT)]
     return [
@@ -82,7 +82,9 @@ def _refusals(path: str, result: Result) -> list[Diagnostic]:
     ]  # fmt: skip
 
 
-def _merge(side: Own, besides: Sequence[Own], others: Sequence[Code], bases: Collection[str]) -> Result:
+def _merge(
+    side: UserFile, besides: Sequence[UserFile], others: Sequence[SourceCode], bases: Collection[str]
+) -> MergeResult:
     yours = read(side.path, side.yours)
     new = read(side.path, side.new)
     if yours is None or new is None:
@@ -94,17 +96,17 @@ def _merge(side: Own, besides: Sequence[Own], others: Sequence[Code], bases: Col
     lacking = judge.lacking(yours)
     goal_text = "".join(goal.lines)
     if goal_text == side.base and not lacking:
-        return Result(side.yours, goal_text)
+        return MergeResult(side.yours, goal_text)
     merged = threeway.Merged(side.yours) if side.base is None else threeway.merge(side.base, side.yours, goal_text)
     reason = ""
     for text in _candidates(side, merged, goal, judge):
         reason = judge.fault(text)
         if not reason:
-            return Result(text, goal_text)
-    return Result(side.yours, side.base or "", merged.conflicts, reason)
+            return MergeResult(text, goal_text)
+    return MergeResult(side.yours, side.base or "", merged.conflicts, reason)
 
 
-def _candidates(side: Own, merged: threeway.Merged, goal: Code, judge: _Judge) -> Iterator[str]:
+def _candidates(side: UserFile, merged: threeway.Merged, goal: SourceCode, judge: _Judge) -> Iterator[str]:
     if not merged.conflicts:
         yield merged.text
     texts = (side.yours,) if judge.touches_changed(merged.conflicts) else (merged.text, side.yours)
@@ -113,26 +115,26 @@ def _candidates(side: Own, merged: threeway.Merged, goal: Code, judge: _Judge) -
         yield insert(code, goal, judge.lacking(code))
 
 
-def _code(path: str, text: str) -> Code:
+def _code(path: str, text: str) -> SourceCode:
     """The code of a file in a language that is known."""
     code = read(path, text)
     assert code is not None
     return code
 
 
-def _merge_text(side: Own) -> Result:
+def _merge_text(side: UserFile) -> MergeResult:
     """A file that is no code."""
     if entries.is_entries(side.path):
-        return Result(entries.merge(side.base, side.yours, side.new), side.new)
+        return MergeResult(entries.merge(side.base, side.yours, side.new), side.new)
     if side.base is None:
-        return Result(side.yours, side.new)
+        return MergeResult(side.yours, side.new)
     merged = threeway.merge(side.base, side.yours, side.new)
     if merged.conflicts:
-        return Result(side.yours, side.base, merged.conflicts, "both changed the same lines")
-    return Result(merged.text, side.new)
+        return MergeResult(side.yours, side.base, merged.conflicts, "both changed the same lines")
+    return MergeResult(merged.text, side.new)
 
 
-def _with_what_is_gone(new: Code, old: Code, yours: Code) -> Code:
+def _with_what_is_gone(new: SourceCode, old: SourceCode, yours: SourceCode) -> SourceCode:
     """The new skeleton with those methods and imports of the old one that the user still has: a merge deletes none."""
     mine = {method.name for method in (*yours.members, *yours.definitions)}
     today = {method.name for method in (*new.members, *new.definitions)}
@@ -141,7 +143,7 @@ def _with_what_is_gone(new: Code, old: Code, yours: Code) -> Code:
     return _code(new.path, insert(_joined_imports(new, kept), replace(old, imports=kept), gone))
 
 
-def _joined_imports(code: Code, more: Sequence[Import]) -> Code:
+def _joined_imports(code: SourceCode, more: Sequence[ImportLine]) -> SourceCode:
     """The code with more names in those lines of it that import from the same module."""
     lines = list(code.lines)
     for n, line in enumerate(lines):
@@ -156,8 +158,8 @@ class _Judge:
     """Whether a text will do as the merge of a file."""
 
     def __init__(
-        self, side: Own, yours: Code, goal: Code, old: Code | None, elsewhere: Sequence[Code], bases: Collection[str],
-        untouched: Collection[str],
+        self, side: UserFile, yours: SourceCode, goal: SourceCode, old: SourceCode | None,
+        elsewhere: Sequence[SourceCode], bases: Collection[str], untouched: Collection[str],
     ) -> None:  # fmt: skip
         """`untouched` are those files of `elsewhere` that are not merged."""
         self.side, self.yours, self.goal, self.elsewhere, self.bases = side, yours, goal, elsewhere, bases
@@ -167,11 +169,11 @@ class _Judge:
         self.was_outdated = self._outdated(yours, old) - self.changed
         self.mine = Counter(_lines(side.yours)) - Counter(_lines(side.base or ""))
 
-    def lacking(self, code: Code) -> set[str]:
+    def lacking(self, code: SourceCode) -> set[str]:
         found = compare([self.goal], self.base, [code, *self.elsewhere], self.bases)
-        return {one.method.name for one in found.lacking}
+        return {one.method.name for one in found.missing}
 
-    def _outdated(self, code: Code, against: Code | None) -> set[str]:
+    def _outdated(self, code: SourceCode, against: SourceCode | None) -> set[str]:
         if against is None:
             return set()
         found = compare([against], self.base, [code, *self.elsewhere], self.bases)
@@ -199,13 +201,13 @@ class _Judge:
         return ""
 
 
-def _changed(old: Code, new: Code) -> set[str]:
+def _changed(old: SourceCode, new: SourceCode) -> set[str]:
     """Methods that are not called as they were."""
     before = {m.name: m.signature for m in (*old.members, *old.definitions)}
     return {m.name for m in (*new.members, *new.definitions) if before.get(m.name, m.signature) != m.signature}
 
 
-def _counts(codes: Sequence[Code]) -> Counter[str]:
+def _counts(codes: Sequence[SourceCode]) -> Counter[str]:
     """How often each method is declared, and how often defined."""
     declared = Counter(method.name for code in codes for method in code.members)
     return declared + Counter(f"{method.name}()" for code in codes for method in code.definitions)

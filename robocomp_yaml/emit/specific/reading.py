@@ -7,14 +7,14 @@ import os
 from collections.abc import Collection, Iterator
 
 from robocomp_yaml import languages
-from robocomp_yaml.emit.specific.code import CLASS, Code
+from robocomp_yaml.emit.specific.code import CLASS, SourceCode
 from robocomp_yaml.languages.record import MERGING, TargetLanguage
-from robocomp_yaml.transactions.places import Root
+from robocomp_yaml.transactions.output_root import Root
 
 _LARGEST = 1_000_000  # bytes; a larger file is data, not the user's code
 
 
-def read(path: str, text: str) -> Code | None:
+def read(path: str, text: str) -> SourceCode | None:
     """The code of a file; None where it is in no language that is known here."""
     language = _merged(path)
     return language.part("code").read(path, text) if language else None
@@ -30,7 +30,7 @@ def comment_mark(path: str) -> str:
     return language.comment if language else "#"
 
 
-def compiles(code: Code) -> bool:
+def compiles(code: SourceCode) -> bool:
     """Whether its language takes it, as far as its reader can tell beyond the syntax tree."""
     language = _merged(code.path)
     return language is None or bool(language.part("code").compiles(code))
@@ -66,7 +66,7 @@ def code_in(root: Root, folder: str) -> Iterator[tuple[str, bytes]]:
                 yield path, found.data
 
 
-def others(root: Root, known: Collection[str]) -> list[Code]:
+def others(root: Root, known: Collection[str]) -> list[SourceCode]:
     """The code of other files beside these that speaks of the class, or of what it may inherit from."""
     found = []
     for folder in sorted({path.rpartition("/")[0] for path in known}):

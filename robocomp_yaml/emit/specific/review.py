@@ -12,9 +12,9 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.layout import SOURCES
 from robocomp_yaml.emit.specific import entries, reading
-from robocomp_yaml.emit.specific.own import Own
+from robocomp_yaml.emit.specific.user_file import UserFile
 from robocomp_yaml.transactions.manifest import BASE
-from robocomp_yaml.transactions.places import Root
+from robocomp_yaml.transactions.output_root import Root
 from robocomp_yaml.transactions.plan import ONCE, Merge, Merges, RootPlan
 
 
@@ -40,7 +40,7 @@ def review(plans: Iterable[RootPlan], *, merge: bool = False) -> Review:
             result.diagnostics += _not_merged(alone, root)
         if all(file.is_settled for file in files):
             continue
-        from robocomp_yaml.emit.specific import telling  # most runs need neither
+        from robocomp_yaml.emit.specific import reporting  # most runs need neither
         from robocomp_yaml.emit.specific.merge import merge_files
 
         if merge:
@@ -55,11 +55,11 @@ def review(plans: Iterable[RootPlan], *, merge: bool = False) -> Review:
         for folder in {file.path.rpartition("/")[0] for file in files if reading.is_code(file.path)}:
             result.names[root.shown(folder)] = reading.names(root, folder)
             result.contents.update((root.shown(path), data) for path, data in reading.code_in(root, folder))
-        result.diagnostics += telling.tell(root, files, root.shown(plan.owner))
+        result.diagnostics += reporting.report(root, files, root.shown(plan.owner))
     return result
 
 
-def _not_merged(files: Iterable[Own], root: Root) -> Iterator[Diagnostic]:
+def _not_merged(files: Iterable[UserFile], root: Root) -> Iterator[Diagnostic]:
     """What would be merged, in languages that are not."""
     for file in files:
         language = reading.unmerged(file.path)
@@ -73,7 +73,7 @@ def _not_merged(files: Iterable[Own], root: Root) -> Iterator[Diagnostic]:
             )
 
 
-def _own(plan: RootPlan, root: Root, every: bool, seen: Review) -> Iterator[Own]:
+def _own(plan: RootPlan, root: Root, every: bool, seen: Review) -> Iterator[UserFile]:
     """The user's files that there are skeletons for; unless `every`, only those that are looked into."""
     for file in plan.files:
         is_read = file.path.startswith(f"{SOURCES}/") or entries.is_entries(file.path)
@@ -84,7 +84,7 @@ def _own(plan: RootPlan, root: Root, every: bool, seen: Review) -> Iterator[Own]
         if found.problem or found.data is None:
             continue
         yours = _text(found.data)
-        own = Own(
+        own = UserFile(
             file.path, file.text, found.data, yours or "", is_text=yours is not None, is_link=not found.mode
         )  # fmt: skip
         if not own.is_settled:
@@ -97,7 +97,7 @@ def _own(plan: RootPlan, root: Root, every: bool, seen: Review) -> Iterator[Own]
         yield own
 
 
-def _after(file: Own, merge: Merge | None) -> Own:
+def _after(file: UserFile, merge: Merge | None) -> UserFile:
     return replace(file, data=merge.text, yours=merge.text.decode(), base=merge.base.decode()) if merge else file
 
 

@@ -12,10 +12,10 @@ from tree_sitter import Language, Node, Parser
 
 from robocomp_yaml.emit.specific.code import (
     CLASS,
-    Code,
-    Import,
-    Method,
+    ImportLine,
     Signature,
+    SourceCode,
+    SourceMethod,
     below,
     faults,
     field,
@@ -36,30 +36,30 @@ def _parser() -> Parser:
     return Parser(Language(tree_sitter_cpp.language()))
 
 
-def read(path: str, source: str) -> Code:
+def read(path: str, source: str) -> SourceCode:
     root = _parser().parse(_QT.sub(_instead, source.encode())).root_node
     lines = lines_of(source)
     imports, import_end = [], 0
     for node in root.children:
         if node.type == "preproc_include":
             line = " ".join(text(node).split())
-            imports.append(Import(line.partition("include")[2].strip(), f"{line}\n"))
+            imports.append(ImportLine(line.partition("include")[2].strip(), f"{line}\n"))
             import_end = node.start_point[0] + 1
     definitions = tuple(_definitions(root, lines))
     class_ = next(_classes(root), None)
     if class_ is None:
-        return Code(path, lines, faults(root), (), definitions, tuple(imports), import_end)
+        return SourceCode(path, lines, faults(root), (), definitions, tuple(imports), import_end)
     body = class_.child_by_field_name("body")
     assert body is not None
     clause = next((node for node in class_.children if node.type == "base_class_clause"), None)
     bases = [text(node) for node in clause.named_children if node.type != "access_specifier"] if clause else []
-    return Code(
+    return SourceCode(
         path, lines, faults(root), tuple(_members(body, lines)), definitions, tuple(imports), import_end,
         place(field(class_, "name"), lines), body.end_point[0], bases=tuple(bases),
     )  # fmt: skip
 
 
-def compiles(code: Code) -> bool:
+def compiles(code: SourceCode) -> bool:
     """Its syntax tree alone tells."""
     return True
 
@@ -84,21 +84,21 @@ def _classes(root: Node) -> Iterator[Node]:
                 yield node
 
 
-def _members(body: Node, lines: list[str]) -> Iterator[Method]:
+def _members(body: Node, lines: list[str]) -> Iterator[SourceMethod]:
     for node, nested in below(body, _is_condition):
         if node.type in ("field_declaration", "function_definition", "declaration"):
             if found := _method(node, lines, nested, has_body=node.type == "function_definition"):
                 yield found
 
 
-def _definitions(root: Node, lines: list[str]) -> Iterator[Method]:
+def _definitions(root: Node, lines: list[str]) -> Iterator[SourceMethod]:
     for node, nested in below(root, _is_scope):
         found = _method(node, lines, nested) if node.type == "function_definition" else None
         if found and found.name.startswith(f"{CLASS}::"):
             yield replace(found, name=found.name.removeprefix(f"{CLASS}::"))
 
 
-def _method(node: Node, lines: list[str], nested: bool, *, has_body: bool = True) -> Method | None:
+def _method(node: Node, lines: list[str], nested: bool, *, has_body: bool = True) -> SourceMethod | None:
     """The function that a declaration is about; None where it is about none."""
     declarator, around = node.child_by_field_name("declarator"), ""
     while declarator is not None and declarator.type in ("reference_declarator", "pointer_declarator"):
@@ -128,7 +128,7 @@ def _method(node: Node, lines: list[str], nested: bool, *, has_body: bool = True
         len(typed),
     )
     whole = "".join(text(name).split())
-    return Method(whole, place(last, lines), first, node.end_point[0] + 1, signature, has_body, nested)
+    return SourceMethod(whole, place(last, lines), first, node.end_point[0] + 1, signature, has_body, nested)
 
 
 def _type(parameter: Node) -> str:

@@ -9,8 +9,8 @@ import msgspec
 from robocomp_yaml.emit.lowering.kinds import Builders, pattern_count
 from robocomp_yaml.emit.lowering.parameters import (
     ConstraintView,
-    Spelling,
     Types,
+    TypeSpelling,
     about_enum,
     about_member,
     declared,
@@ -133,7 +133,7 @@ def _constraints(parameters: Parameters) -> list[ConstraintView]:
     ]
 
 
-_SPELLING = Spelling(
+_SPELLING = TypeSpelling(
     basic={
         "bool": "bool", "int": "int", "long": "long long", "float": "float", "double": "double",
         "string": "std::string",

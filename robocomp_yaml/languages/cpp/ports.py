@@ -8,7 +8,7 @@ from __future__ import annotations
 import msgspec
 
 from robocomp_yaml.emit.lowering import ports as lowering
-from robocomp_yaml.emit.lowering.names import Names
+from robocomp_yaml.emit.lowering.names import NameAllocator
 from robocomp_yaml.emit.lowering.types import scoped
 from robocomp_yaml.languages.cpp.methods import MethodView, OperationView, call, method_view, operation_view
 from robocomp_yaml.languages.cpp.names import PORTS, names, proxy, qualified
@@ -75,19 +75,19 @@ def _accessor(accessor: lowering.Accessor, summary: str, function: str, argument
     )
 
 
-def _implemented(service: lowering.Service, servants: Names) -> ServiceView:
+def _implemented(service: lowering.Service, servants: NameAllocator) -> ServiceView:
     words = (service.port.name, service.identity, service.port.interface.name)
     arguments = ", ".join(map(quoted, words))
     return _served(service, servants, "Servant", arguments, ("services.implement", f"{{{arguments}}}"))
 
 
-def _subscribed(service: lowering.Service, servants: Names) -> ServiceView:
+def _subscribed(service: lowering.Service, servants: NameAllocator) -> ServiceView:
     arguments = f"{quoted(service.port.name)}, {quoted(service.port.interface.name)}"
     return _served(service, servants, "Subscriber", arguments, ("topics.subscribe", f"services, {arguments}"))
 
 
 def _served(
-    service: lowering.Service, servants: Names, suffix: str, arguments: str, function: tuple[str, str]
+    service: lowering.Service, servants: NameAllocator, suffix: str, arguments: str, function: tuple[str, str]
 ) -> ServiceView:
     port, calls = service.port, {called.method.name: called.name for called in service.methods}
     servant = servants.take(f"{port.name}{suffix}")

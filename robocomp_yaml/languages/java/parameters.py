@@ -8,10 +8,10 @@ import msgspec
 
 from robocomp_yaml.emit.lowering import parameters as lowering
 from robocomp_yaml.emit.lowering.kinds import Builders
-from robocomp_yaml.emit.lowering.names import Names
+from robocomp_yaml.emit.lowering.names import NameAllocator
 from robocomp_yaml.emit.lowering.parameters import (
-    Spelling,
     Types,
+    TypeSpelling,
     about_enum,
     about_member,
     declared,
@@ -131,7 +131,7 @@ def _ended(items: Iterator[str], last: str = "") -> list[str]:
     return [f"{item}{last if number == len(every) else ','}" for number, item in enumerate(every, 1)]
 
 
-_SPELLING = Spelling(
+_SPELLING = TypeSpelling(
     basic={
         "bool": "boolean", "int": "int", "long": "long", "float": "float", "double": "double", "string": "String",
     },
@@ -150,9 +150,9 @@ class _Types(Types):
     """The classes of all enums and records that the parameters use, with names that do not clash."""
 
     def __init__(self, root: RecordType) -> None:
-        super().__init__(root, Names(TYPES), _SPELLING)
+        super().__init__(root, NameAllocator(TYPES), _SPELLING)
         self.root = root
-        functions = Names(METHODS)
+        functions = NameAllocator(METHODS)
         self.functions = {path: functions.take(f"kindOf{self.of[path]}") for path, _ in self.records}
         self.constants = {enum.name: _constants(enum) for enum in self.enums}
 
@@ -221,7 +221,7 @@ class _Types(Types):
         return f"v{depth} -> {self.read(type_, f'v{depth}', group, depth + 1)}"
 
     def getters(self) -> Iterator[GetterView]:
-        names = Names(METHODS)
+        names = NameAllocator(METHODS)
         getters = {member.name: names.take(LANGUAGE.in_code(member.code_name)) for member in self.root.members}
         for member in self.root.members:
             group = inside(".", member.code_name)
@@ -239,5 +239,5 @@ class _Types(Types):
 
 def _constants(enum: EnumType) -> dict[str, str]:
     """The names in code of an enum's names."""
-    names = Names(TYPES)  # it would hide the type in the enum itself
+    names = NameAllocator(TYPES)  # it would hide the type in the enum itself
     return {name: names.take(LANGUAGE.in_code(name)) for name in enum.names}

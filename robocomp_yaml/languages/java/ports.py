@@ -5,7 +5,7 @@ from __future__ import annotations
 import msgspec
 
 from robocomp_yaml.emit.lowering import ports as lowering
-from robocomp_yaml.emit.lowering.names import Names
+from robocomp_yaml.emit.lowering.names import NameAllocator
 from robocomp_yaml.emit.lowering.types import found, results
 from robocomp_yaml.languages.java.names import PORTS, ice_name, parameter, proxy, qualified
 from robocomp_yaml.languages.java.text import IN, comment, declaration, literal, one_line
@@ -58,7 +58,7 @@ class Ports:
     """All ports of a component."""
 
     def __init__(self, component: LinkedComponent) -> None:
-        lowered, servants = lowering.lower(component, PORTS), Names(("Services",))
+        lowered, servants = lowering.lower(component, PORTS), NameAllocator(("Services",))
         self.requires = [_required(accessor) for accessor in lowered.requires]
         self.publishes = [_published(accessor) for accessor in lowered.publishes]
         self.implements = [_service(one, servants, "Servant", one.identity) for one in lowered.implements]
@@ -86,7 +86,7 @@ def _accessor(accessor: lowering.Accessor, made: str, summary: str) -> AccessorV
     )
 
 
-def _service(service: lowering.Service, servants: Names, suffix: str, identity: str) -> ServiceView:
+def _service(service: lowering.Service, servants: NameAllocator, suffix: str, identity: str) -> ServiceView:
     port, calls = service.port, {called.method.name: called.name for called in service.methods}
     words = (port.name, identity, port.interface.name)
     return ServiceView(
@@ -113,7 +113,7 @@ def _operation(method: Method, port: Port, calls: str) -> OperationView:
     )
 
 
-def _method(called: lowering.Called) -> MethodView:
+def _method(called: lowering.CalledMethod) -> MethodView:
     method, port = called.method, called.port
     returns = result_type(method, port)
     typed = [f"{type_name(member.type, port.scope)} {parameter(member.name)}" for member in method.inputs]
@@ -136,7 +136,7 @@ def _home(ref: TypeRef, scope: LinkedModule) -> tuple[LinkedModule, str]:
     return home, definition.name
 
 
-def _stub(called: lowering.Called, returns: str) -> list[str]:
+def _stub(called: lowering.CalledMethod, returns: str) -> list[str]:
     """What a method does until the user writes it."""
     method, scope = called.method, called.port.scope
     hidden = "this." if any(member.name == "log" for member in method.inputs) else ""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from robocomp_yaml.emit.lowering.ports import Spelling
+from robocomp_yaml.emit.lowering.ports import PortSpelling
 from robocomp_yaml.semantics.slice_names import FORGOTTEN
 
 # What Ice 3.7's mapping puts an underscore before. What it forgets is escaped when the generated component loads its
@@ -62,7 +62,7 @@ def parameters(names: Iterable[str], modules: Iterable[str]) -> Iterator[str]:
         yield f"_{name}" if name in hidden else python_name(name)
 
 
-PORTS = Spelling(
+PORTS = PortSpelling(
     taken=WORKER_ATTRIBUTES,
     published=("{name}_proxy", "{name}_pubproxy"),
     called=proxy_method,

@@ -6,11 +6,11 @@ from collections.abc import Iterable, Iterator
 
 import msgspec
 
-from robocomp_yaml.emit.lowering.names import Names
+from robocomp_yaml.emit.lowering.names import NameAllocator
 from robocomp_yaml.emit.lowering.parameters import (
     ConstraintView,
-    Spelling,
     Types,
+    TypeSpelling,
     about_enum,
     about_member,
     declared,
@@ -121,7 +121,7 @@ def _imports(views: list[RecordView], enums: bool, spellings: bool, constraints:
     yield f"from generated.runtime.semantics import {', '.join(name for name, used in modules.items() if used)}"
 
 
-_SPELLING = Spelling(
+_SPELLING = TypeSpelling(
     basic={"bool": "bool", "int": "int", "long": "int", "float": "float", "double": "float", "string": "str"},
     listing="tuple[{}, ...]",
     mapping="Mapping[str, {}]",
@@ -134,7 +134,8 @@ class _Types(Types):
 
     def __init__(self, root: RecordType) -> None:
         members = {LANGUAGE.in_code(member.code_name) for _, record in records(root)[0] for member in record.members}
-        super().__init__(root, Names((*_TAKEN, *members)), _SPELLING)  # a class's members hide what else is called so
+        # a class's members hide what else is called so
+        super().__init__(root, NameAllocator((*_TAKEN, *members)), _SPELLING)
 
     def enum(self, enum: EnumType) -> EnumView:
         names = ", ".join(map(literal, enum.names))

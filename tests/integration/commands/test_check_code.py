@@ -62,10 +62,10 @@ def test_only_of_what_is_asked(compiled: Path, rcyaml: Rcyaml) -> None:
 
 
 def test_code_is_read_only_where_it_has_to_be(compiled: Path, rcyaml: Rcyaml) -> None:
-    for name in [name for name in sys.modules if name.startswith("robocomp_yaml.emit.specific.telling")]:
+    for name in [name for name in sys.modules if name.startswith("robocomp_yaml.emit.specific.reporting")]:
         del sys.modules[name]
     assert rcyaml("check").stdout == "3 documents: nothing wrong\n"
-    assert "robocomp_yaml.emit.specific.telling" not in sys.modules
+    assert "robocomp_yaml.emit.specific.reporting" not in sys.modules
 
 
 def test_nothing_is_said_before_the_first_compile(rcyaml: Rcyaml, tmp_path: Path) -> None:
@@ -77,7 +77,7 @@ def test_what_a_compile_has_looked_at_is_not_looked_at_again(
     compiled: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch
 ) -> None:  # fmt: skip
     looked: list[str] = []
-    monkeypatch.setattr("robocomp_yaml.emit.specific.written.of_written", lambda *_: looked.append("looked") or ())
+    monkeypatch.setattr("robocomp_yaml.emit.specific.existing_code.check", lambda *_: looked.append("looked") or ())
     (compiled / "py/generated/component.py").unlink()  # what rcyaml writes says nothing of the user's code
     rcyaml("check")
     assert looked == []

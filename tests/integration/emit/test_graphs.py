@@ -19,11 +19,11 @@ from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.graphs import picture as parts
 from robocomp_yaml.emit.graphs.forms import draw
-from robocomp_yaml.emit.graphs.geometry import LABEL, Block, Geometry, geometry_of
+from robocomp_yaml.emit.graphs.geometry import LABEL, Geometry, Rectangle, geometry_of
 from robocomp_yaml.emit.graphs.grid import layers
 from robocomp_yaml.emit.graphs.measure import shortened, width
 from robocomp_yaml.emit.graphs.of_network import picture_of
-from robocomp_yaml.emit.graphs.picture import Box, Line, Node, Picture
+from robocomp_yaml.emit.graphs.picture import Box, Picture, PictureLine, PictureNode
 from robocomp_yaml.network.network import Connection, Network, Process
 
 Golden = Callable[[str, Mapping[str, str]], None]
@@ -115,13 +115,13 @@ def pictures(draw_: st.DrawFn) -> Picture:
         title = draw_(st.text(st.characters(codec="utf-8"), min_size=1, max_size=60))
         box = draw_(st.sampled_from(["", *(box.name for box in made.boxes)]))
         serves = tuple((f"Interface{i}", 10000 + i) for i in range(draw_(st.integers(0, 9))))
-        made.nodes[name] = Node(name, title, draw_(kinds), box, serves=serves)
+        made.nodes[name] = PictureNode(name, title, draw_(kinds), box, serves=serves)
     ends = st.tuples(st.sampled_from(names), st.sampled_from(names))
     labels, line_kinds = st.sampled_from(["", "Laser", "JointMotor: JointMotors"]), st.sampled_from([
         parts.USES, parts.PUBLISHES, parts.SUBSCRIBES, parts.AFTER,
     ])  # fmt: skip
     for source, target in draw_(st.lists(ends, max_size=50)):
-        made.lines.append(Line(source, target, draw_(labels), draw_(line_kinds)))
+        made.lines.append(PictureLine(source, target, draw_(labels), draw_(line_kinds)))
     return made
 
 
@@ -144,7 +144,9 @@ def check(made: Geometry) -> None:
         assert not overlap(one, other)
     for one, other in combinations(made.hosts.values(), 2):
         assert not overlap(one, other)
-    labels = [Block(x + 5, y - 6 - LABEL, width(net.label, LABEL), LABEL) for net, (x, y) in made.labels if net.label]
+    labels = [
+        Rectangle(x + 5, y - 6 - LABEL, width(net.label, LABEL), LABEL) for net, (x, y) in made.labels if net.label
+    ]
     for label in labels:
         assert not any(overlap(label, node) for node in nodes)
     for one, other in combinations(labels, 2):
@@ -153,7 +155,7 @@ def check(made: Geometry) -> None:
     for way in made.ways:
         for (x1, y1), (x2, y2) in zip(way.points, way.points[1:], strict=False):
             assert x1 == x2 or y1 == y2
-            segment = Block(min(x1, x2), min(y1, y2), abs(x1 - x2), abs(y1 - y2))
+            segment = Rectangle(min(x1, x2), min(y1, y2), abs(x1 - x2), abs(y1 - y2))
             assert not any(overlap(segment, node, 0.5) for node in nodes)
             assert segment.x >= 0 and segment.x + segment.width <= made.width
             assert segment.y >= 0 and segment.y + segment.height <= made.height
@@ -164,7 +166,7 @@ def check(made: Geometry) -> None:
             assert net is other or min(last, end) - max(first, begin) < 0.5
 
 
-def overlap(one: Block, other: Block, room: float = 0.0) -> bool:
+def overlap(one: Rectangle, other: Rectangle, room: float = 0.0) -> bool:
     return (one.x + one.width > other.x + room and other.x + other.width > one.x + room
             and one.y + one.height > other.y + room and other.y + other.height > one.y + room)  # fmt: skip
 

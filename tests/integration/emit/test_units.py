@@ -15,13 +15,13 @@ from test_exports import one, systemd_words
 
 from conftest import write_tree
 from robocomp_yaml.emit.exports import Unwritable, export, noted
-from robocomp_yaml.emit.exports.systemd import Unit, folder, quoted
+from robocomp_yaml.emit.exports.systemd import UnitFile, folder, quoted
 from robocomp_yaml.emit.xml_text import element
 
 
 @pytest.mark.parametrize("value", ["a\nb", "a\rb", "a\0b", "\x1b[0m", "a\x85b", "a\u2029b", "a\tb", "a\\"])
 def test_a_line_is_one_line(value: str) -> None:
-    unit = Unit()
+    unit = UnitFile()
     for write in (lambda: unit.put("Key", value), lambda: unit.comment(value), lambda: unit.put(value, "x\\")):
         with pytest.raises(Unwritable):
             write()

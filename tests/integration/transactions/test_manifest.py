@@ -7,16 +7,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from robocomp_yaml.transactions import manifest
-from robocomp_yaml.transactions.manifest import Entry, Manifest
+from robocomp_yaml.transactions.manifest import Manifest, ManifestEntry
 
-entries = st.builds(Entry, st.text(), st.lists(st.text()).map(tuple), st.booleans())
+entries = st.builds(ManifestEntry, st.text(), st.lists(st.text()).map(tuple), st.booleans())
 
 
 def test_it_reads_well_and_compares_well() -> None:
     held = Manifest(
         {
-            "src/é.py": Entry("ab", ("speech.cdsl.yaml",), once=True),
-            "generated/main.py": Entry("cd", ("../x/a.idsl.yaml", "b.idsl.yaml")),
+            "src/é.py": ManifestEntry("ab", ("speech.cdsl.yaml",), once=True),
+            "generated/main.py": ManifestEntry("cd", ("../x/a.idsl.yaml", "b.idsl.yaml")),
         }
     )
     assert (
@@ -34,7 +34,7 @@ def test_it_reads_well_and_compares_well() -> None:
 
 
 @given(st.dictionaries(st.text(st.characters(exclude_categories=["Cs"])), entries))
-def test_it_is_read_back_as_it_was(files: dict[str, Entry]) -> None:
+def test_it_is_read_back_as_it_was(files: dict[str, ManifestEntry]) -> None:
     assert manifest.read(Manifest(files).text().encode("utf-8", "surrogatepass")) == Manifest(files)
 
 

@@ -24,7 +24,7 @@ def _in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
     monkeypatch.chdir(tmp_path)
 
 
-def run() -> stamp.Stamp | None:
+def run() -> stamp.RunStamp | None:
     """A run that read two documents, one through a link, looked for a third, and wrote a program and a once-file."""
     Path("docs/far").mkdir(parents=True)
     Path("docs/a.idsl.yaml").write_text("a")

@@ -18,7 +18,7 @@ def _in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
     monkeypatch.chdir(tmp_path)
 
 
-def numbers(linked: dict[str, LinkedComponent], assigned: ports.Ports) -> dict[str, int]:
+def numbers(linked: dict[str, LinkedComponent], assigned: ports.PortTable) -> dict[str, int]:
     return {
         f"{folder}.{name}": assigned.endpoint(one, name).port
         for folder, one in linked.items()

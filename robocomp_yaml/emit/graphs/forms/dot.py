@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from robocomp_yaml.emit.graphs import picture as parts
-from robocomp_yaml.emit.graphs.picture import Line, Node, Picture
+from robocomp_yaml.emit.graphs.picture import Picture, PictureLine, PictureNode
 
 _RED = "#c62828"
 _SHAPES = {
@@ -35,7 +35,7 @@ def draw(picture: Picture) -> str:
     return "\n".join([*lines, "}"]) + "\n"
 
 
-def _node(node: Node) -> str:
+def _node(node: PictureNode) -> str:
     more = f', color="{_RED}", penwidth=2, tooltip={_quoted(*_told(node))}' if node.faults else ""
     more += "" if node.enabled else ', fontcolor="#9aa0a6"'
     return f"{_quoted(node.name)} [label={_quoted(*node.texts())}, {_SHAPES[node.kind]}{more}];"
@@ -50,7 +50,7 @@ def _lines(picture: Picture) -> Iterator[str]:
         yield f"{_quoted(line.source)} -> {_quoted(line.target)}" + (f" [{', '.join(words)}]" if words else "") + ";"
 
 
-def _told(part: Node | Line) -> list[str]:
+def _told(part: PictureNode | PictureLine) -> list[str]:
     return [fault.text for fault in part.faults]
 
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 from robocomp_yaml.emit.graphs import picture as parts
-from robocomp_yaml.emit.graphs.picture import Node, Picture
+from robocomp_yaml.emit.graphs.picture import Picture, PictureNode
 
 _SHAPES = {
     parts.COMPONENT: ("(", ")"), parts.PROGRAM: ("[", "]"), parts.ICESTORM: ("[(", ")]"),
@@ -28,7 +28,7 @@ def draw(picture: Picture) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _node(node: Node, numbers: dict[str, str]) -> str:
+def _node(node: PictureNode, numbers: dict[str, str]) -> str:
     begin, end = _SHAPES[node.kind]
     return f"{numbers[node.name]}{begin}{_quoted(*node.texts())}{end}"
 

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from xml.sax.saxutils import escape
 
 from robocomp_yaml.emit.graphs import picture as parts
-from robocomp_yaml.emit.graphs.geometry import LINE_HEIGHT, SMALL, Block, Geometry, Point, Way, geometry_of
+from robocomp_yaml.emit.graphs.geometry import LINE_HEIGHT, SMALL, EdgePath, Geometry, Point, Rectangle, geometry_of
 from robocomp_yaml.emit.graphs.measure import shortened, width
-from robocomp_yaml.emit.graphs.picture import Fault, Node, Picture
+from robocomp_yaml.emit.graphs.picture import Picture, PictureFault, PictureNode
 from robocomp_yaml.emit.graphs.routes import Net
 from robocomp_yaml.emit.xml_text import IMPOSSIBLE
 
@@ -79,12 +79,12 @@ def _count(picture: Picture) -> str:
     return ", ".join(f"{count} {kind}{'s' if count > 1 else ''}" for count, kind in counts if count)
 
 
-def _host(block: Block) -> Iterator[str]:
+def _host(block: Rectangle) -> Iterator[str]:
     yield f'<rect class="host" {_place(block)} rx="8"/>'
     yield f'<text class="hostname" x="{block.x + 10:g}" y="{block.y + 17:g}">{_text(block.texts[0])}</text>'
 
 
-def _node(node: Node, block: Block) -> Iterator[str]:
+def _node(node: PictureNode, block: Rectangle) -> Iterator[str]:
     corner = block.height / 2 if node.kind == parts.TOPIC else {parts.PROGRAM: 2}.get(node.kind, 8)
     off = "" if node.enabled else ' class="off"'
     tooltip = "\n".join([*node.texts(), *(fault.text for fault in node.faults)])
@@ -97,14 +97,14 @@ def _node(node: Node, block: Block) -> Iterator[str]:
     yield "</g>"
 
 
-def _way(way: Way, colors: dict[str, int]) -> str:
+def _way(way: EdgePath, colors: dict[str, int]) -> str:
     style = f"{_color(way.net, colors, 'c')}{_fault(way.branch.faults)}"
     title = f"{way.branch.source} {way.net.kind} {way.net.label or way.net.target}"
     title = "\n".join([title, *(fault.text for fault in way.branch.faults)])
     return f'<path class="line {style}" d="{_path(way.points)}"><title>{_text(title)}</title></path>'
 
 
-def _tips(way: Way, colors: dict[str, int]) -> Iterator[str]:
+def _tips(way: EdgePath, colors: dict[str, int]) -> Iterator[str]:
     """The arrow's head: at the target, or where things come from it, at the source."""
     x, y = way.points[0] if way.net.kind == parts.SUBSCRIBES else way.points[-1]
     back = 7 if way.net.kind == parts.SUBSCRIBES else -7
@@ -150,11 +150,11 @@ def _problems(picture: Picture, geometry: Geometry) -> Iterator[str]:
         yield f'<text class="told {style}" x="{_MARGIN:g}" y="{y:g}"><title>{_text(told)}</title>{_text(line)}</text>'
 
 
-def _fault(faults: tuple[Fault, ...]) -> str:
+def _fault(faults: tuple[PictureFault, ...]) -> str:
     return " wrong" if any(fault.is_error for fault in faults) else " warned" if faults else ""
 
 
-def _place(block: Block) -> str:
+def _place(block: Rectangle) -> str:
     return f'x="{block.x:g}" y="{block.y:g}" width="{block.width:g}" height="{block.height:g}"'
 
 

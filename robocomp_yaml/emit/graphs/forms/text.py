@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from robocomp_yaml.emit.graphs import picture as parts
-from robocomp_yaml.emit.graphs.picture import Line, Node, Picture
+from robocomp_yaml.emit.graphs.picture import Picture, PictureLine, PictureNode
 
 _ARROWS = {parts.USES: "->", parts.PUBLISHES: "=>", parts.SUBSCRIBES: "<=", parts.AFTER: ".."}
 
@@ -28,7 +28,7 @@ def draw(picture: Picture) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _node(picture: Picture, node: Node) -> Iterator[str]:
+def _node(picture: Picture, node: PictureNode) -> Iterator[str]:
     serves = ", ".join(node.served())
     about = ", ".join([*node.about, *(f"in {group}" for group in node.groups), *([] if node.enabled else ["off"])])
     mark = " !" if node.faults else ""
@@ -38,7 +38,7 @@ def _node(picture: Picture, node: Node) -> Iterator[str]:
             yield f"  {_ARROWS[line.kind]} {_target(picture, line)}{' !' if line.faults else ''}"
 
 
-def _target(picture: Picture, line: Line) -> str:
+def _target(picture: Picture, line: PictureLine) -> str:
     target = picture.nodes[line.target]
     if line.kind == parts.AFTER:
         return f"after {target.title}"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from robocomp_yaml.emit.specific.code import Code
+from robocomp_yaml.emit.specific.code import SourceCode
 from robocomp_yaml.emit.specific.reading import read
 
 PYTHON = '''"""Mine."""
@@ -68,7 +68,7 @@ inline bool SpecificWorker::Speech_say(const std::string& text, RoboCompSpeech::
 """
 
 
-def code(path: str, text: str) -> Code:
+def code(path: str, text: str) -> SourceCode:
     found = read(path, text)
     assert found is not None
     return found

@@ -16,17 +16,17 @@ def has_code(program: Program) -> bool:
     return any(_is_written(program.components[real]) for real in program.asked_components())
 
 
-def of_written(program: Program, diagnostics: Sequence[Diagnostic], linker: Linker) -> Iterator[Diagnostic]:
+def check(program: Program, diagnostics: Sequence[Diagnostic], linker: Linker) -> Iterator[Diagnostic]:
     """The diagnostics about the user's own files, of components that have some; `diagnostics` are those of the
     documents."""
     from robocomp_yaml.emit.build import build
-    from robocomp_yaml.emit.options import Options
+    from robocomp_yaml.emit.options import EmitOptions
     from robocomp_yaml.emit.ports import assign
     from robocomp_yaml.emit.specific.review import review
     from robocomp_yaml.transactions.plan import RootPlan
 
     languages = {program.components[real].component.language.name for real in program.asked_components()}
-    options = Options(
+    options = EmitOptions(
         None, (), frozenset({*languages, "config"}), linker.workspace_of, lambda linked: assign([linked], program.disk),
         only=_is_written,
     )  # fmt: skip

@@ -12,22 +12,22 @@ from msgspec.structs import replace
 from robocomp_yaml.diag.codes import emitting as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.transactions.manifest import Entry
-from robocomp_yaml.transactions.places import Root
+from robocomp_yaml.transactions.manifest import ManifestEntry
+from robocomp_yaml.transactions.output_root import Root
 from robocomp_yaml.transactions.plan import FilePlan, RootPlan
 
 
-class Wanted(msgspec.Struct, frozen=True):
+class DesiredFile(msgspec.Struct, frozen=True):
     plan: FilePlan
     owners: tuple[str, ...]
 
 
-class WantedRoot(msgspec.Struct, frozen=True):
+class DesiredRoot(msgspec.Struct, frozen=True):
     """All plans for one root. `owners` says of each owner whether its plan was partial; `contested` are the paths that
     two of them want with different contents."""
 
     root: Root
-    files: Mapping[str, Wanted] = {}
+    files: Mapping[str, DesiredFile] = {}
     owners: Mapping[str, bool] = {}
     contested: Mapping[tuple[str, str], Sequence[str]] = {}
 
@@ -45,7 +45,7 @@ class WantedRoot(msgspec.Struct, frozen=True):
                 hint=codes.APART,
             )
 
-    def holders(self, path: str, entry: Entry | None) -> tuple[str, ...]:
+    def holders(self, path: str, entry: ManifestEntry | None) -> tuple[str, ...]:
         """The documents that hold on to a file: those that want it now, and of its earlier owners those that were not
         asked (not planned, or only in part) and still exist."""
         wanted = self.files.get(path)
@@ -69,7 +69,7 @@ class WantedRoot(msgspec.Struct, frozen=True):
         return False
 
 
-def by_root(plans: Iterable[RootPlan], others: Iterable[str] = ()) -> list[WantedRoot]:
+def by_root(plans: Iterable[RootPlan], others: Iterable[str] = ()) -> list[DesiredRoot]:
     """One for each root, sorted; `others` are roots to look at though nothing is planned there."""
     roots: dict[str, tuple[Root, list[RootPlan]]] = {}
     root_at = functools.cache(Root)
@@ -81,8 +81,8 @@ def by_root(plans: Iterable[RootPlan], others: Iterable[str] = ()) -> list[Wante
     return [_together(*roots[real]) for real in sorted(roots)]
 
 
-def _together(root: Root, plans: Iterable[RootPlan]) -> WantedRoot:
-    files: dict[str, Wanted] = {}
+def _together(root: Root, plans: Iterable[RootPlan]) -> DesiredRoot:
+    files: dict[str, DesiredFile] = {}
     owners: dict[str, bool] = {}
     contested: dict[tuple[str, str], list[str]] = {}
     for plan in plans:
@@ -90,7 +90,7 @@ def _together(root: Root, plans: Iterable[RootPlan]) -> WantedRoot:
         for file in plan.files:
             first = files.get(file.path)
             if first is None:
-                files[file.path] = Wanted(file, (plan.owner,))
+                files[file.path] = DesiredFile(file, (plan.owner,))
                 continue
             # The same text may come from several documents.
             sources = tuple(dict.fromkeys((*first.plan.sources, *file.sources)))
@@ -100,5 +100,5 @@ def _together(root: Root, plans: Iterable[RootPlan]) -> WantedRoot:
                 contested.setdefault((first.owners[0], plan.owner), []).append(file.path)
             elif plan.owner not in holders:
                 holders = (*holders, plan.owner)
-            files[file.path] = Wanted(joined, holders)
-    return WantedRoot(root, files, owners, contested)
+            files[file.path] = DesiredFile(joined, holders)
+    return DesiredRoot(root, files, owners, contested)

@@ -11,15 +11,15 @@ from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.emit.specific import entries
-from robocomp_yaml.emit.specific.code import CLASS, Code, Method
-from robocomp_yaml.emit.specific.compare import Comparison, Lacking, compare
+from robocomp_yaml.emit.specific.code import CLASS, SourceCode, SourceMethod
+from robocomp_yaml.emit.specific.compare import Comparison, MissingMethod, compare
 from robocomp_yaml.emit.specific.insert import lead
-from robocomp_yaml.emit.specific.own import Own
 from robocomp_yaml.emit.specific.reading import comment_mark, is_code, others, read
-from robocomp_yaml.transactions.places import Root
+from robocomp_yaml.emit.specific.user_file import UserFile
+from robocomp_yaml.transactions.output_root import Root
 
 
-def tell(root: Root, files: Sequence[Own], document: str) -> Iterator[Diagnostic]:
+def report(root: Root, files: Sequence[UserFile], document: str) -> Iterator[Diagnostic]:
     """All that is to be said of the files of the component that a document describes."""
     merge = f"paste what follows, or let `{typed('rcyaml', 'compile', '--merge', document)}` put it in"
     code = [file for file in files if file.is_text and is_code(file.path)]
@@ -33,12 +33,12 @@ def tell(root: Root, files: Sequence[Own], document: str) -> Iterator[Diagnostic
                 yield codes.CONFIG_LACKS.at(Span(path), path=path, keys=", ".join(keys), more=more, hint=merge)
 
 
-def _about_class(root: Root, files: Sequence[Own], merge: str) -> Iterator[Diagnostic]:
+def _about_class(root: Root, files: Sequence[UserFile], merge: str) -> Iterator[Diagnostic]:
     new = [code for file in files if (code := read(file.path, file.new))]
     base = {file.path: code for file in files if file.base and (code := read(file.path, file.base))}
     yours = [code for file in files if (code := read(file.path, file.yours))]
     found = compare(new, base, yours)
-    if found.lacking or not any(code.place for code in yours):
+    if found.missing or not any(code.place for code in yours):
         # Parts of the class may stand in other files.
         yours += others(root, {file.path for file in files})
         found = compare(new, base, yours)
@@ -48,10 +48,10 @@ def _about_class(root: Root, files: Sequence[Own], merge: str) -> Iterator[Diagn
         where = next((code for code in yours if code.path in homes), yours[0])
         yield codes.NO_CLASS.at(Span(root.shown(where.path)), name=CLASS, path=root.shown(where.path))
         return
-    if found.lacking:
-        names = list(dict.fromkeys(one.method.name for one in found.lacking))
+    if found.missing:
+        names = list(dict.fromkeys(one.method.name for one in found.missing))
         yield codes.LACKING.at(
-            _span(root, home, home.place), name=CLASS, methods=", ".join(names), more=_paste(found.lacking, yours),
+            _span(root, home, home.place), name=CLASS, methods=", ".join(names), more=_paste(found.missing, yours),
             hint=merge,
         )  # fmt: skip
     yield from _about_methods(root, found)
@@ -63,19 +63,19 @@ def _about_methods(root: Root, found: Comparison) -> Iterator[Diagnostic]:
             _span(root, one.code, one.method.place), name=one.method.name, more=_head(one.skeleton, one.wanted),
             hint="it must begin like this now",
         )  # fmt: skip
-    for gone in found.gone:
-        first, *rest = (_span(root, code, method.place) for code, method in gone.places)
+    for method in found.obsolete:
+        first, *rest = (_span(root, code, one.place) for code, one in method.places)
         yield codes.GONE.at(
-            first, name=gone.name, related=[Related("it stands here too", place) for place in rest],
-            hint=f"was it renamed to '{gone.renamed}'?" if gone.renamed else "remove it, or keep it as your own",
+            first, name=method.name, related=[Related("it stands here too", place) for place in rest],
+            hint=f"was it renamed to '{method.renamed}'?" if method.renamed else "remove it, or keep it as your own",
         )  # fmt: skip
 
 
-def _span(root: Root, code: Code, word: Span) -> Span:
+def _span(root: Root, code: SourceCode, word: Span) -> Span:
     return replace(word, file=root.shown(code.path))
 
 
-def _paste(lacking: Sequence[Lacking], yours: Sequence[Code]) -> str:
+def _paste(lacking: Sequence[MissingMethod], yours: Sequence[SourceCode]) -> str:
     """The text to paste, file by file."""
     parts: list[str] = []
     skeletons = list({one.skeleton.path: one.skeleton for one in lacking}.values())
@@ -94,7 +94,7 @@ def _paste(lacking: Sequence[Lacking], yours: Sequence[Code]) -> str:
     return "".join(parts).rstrip("\n")
 
 
-def _head(skeleton: Code, method: Method) -> str:
+def _head(skeleton: SourceCode, method: SourceMethod) -> str:
     """A method as far as its body."""
     lines = skeleton.lines[method.first : method.end]
     for n, line in enumerate(lines):

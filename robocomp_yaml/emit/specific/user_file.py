@@ -5,7 +5,7 @@ from __future__ import annotations
 import msgspec
 
 
-class Own(msgspec.Struct, frozen=True):
+class UserFile(msgspec.Struct, frozen=True):
     """A file of the user that a plan has a skeleton for: `new` is the skeleton of today. `yours` is '' where the file
     is no UTF-8 text; `base` is None where there is none, or none is needed. A link is not written through."""
 

@@ -16,7 +16,7 @@ from robocomp_yaml.link.workspace import root_above
 from robocomp_yaml.source.inside import stays_inside
 
 
-class Fences:
+class AllowedFolders:
     def __init__(self, paths: Sequence[str], output: str | None) -> None:
         self.folders = [output] if output is not None else list(dict.fromkeys(_around(paths)))
 
