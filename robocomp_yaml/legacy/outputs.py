@@ -63,7 +63,7 @@ class OutputRoot(msgspec.Struct):
             recover(made.root.real)
         except (OSError, WriteFailed) as error:
             made.problem = str(error)
-        found = made.root.look(MEMORY)
+        found = made.root.status(MEMORY)
         made.remembered = found.data
         try:
             known = json.loads(found.data or b"{}").get("files", {})
@@ -74,13 +74,13 @@ class OutputRoot(msgspec.Struct):
 
     def is_ours(self, path: str) -> bool:
         """Whether a file is as an earlier run wrote it."""
-        found = self.root.look(path)
+        found = self.root.status(path)
         return found.data is not None and self.memory.get(path) == digest(found.data)
 
     def add(self, path: str, text: str, *, force: bool = False, sources: tuple[str, ...] = ()) -> Output:
         output = Output(path, text, sources=sources)
         self.outputs.append(output)
-        found, new = self.root.look(path), text.encode()
+        found, new = self.root.status(path), text.encode()
         if found.problem or self.problem:
             output.state, output.problem = FAILED, found.problem or self.problem
         elif not found.exists:
@@ -126,7 +126,7 @@ class OutputRoot(msgspec.Struct):
                     return
 
     def _step(self, output: Output) -> FileStep:
-        found = self.root.look(output.path)
+        found = self.root.status(output.path)
         before = None if output.state == CREATED else found.data
         mode = None if output.state == CREATED else found.mode or None
         return FileStep(output.path, before, output.text.encode(), mode=mode, rights=rights_of(output.sources))

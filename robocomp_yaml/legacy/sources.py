@@ -16,7 +16,7 @@ from robocomp_yaml.legacy.rules import Formats, Rules
 from robocomp_yaml.link.workspace import root_above
 from robocomp_yaml.source.discover import documents_below, kind_of
 from robocomp_yaml.transactions import manifest
-from robocomp_yaml.transactions.output_root import contents, in_words
+from robocomp_yaml.transactions.output_root import contents, reason_of
 
 _SKIPPED = frozenset(("node_modules", "__pycache__"))
 
@@ -89,7 +89,7 @@ def _below(folder: str, said: list[Diagnostic], known: Formats) -> Iterator[str]
     """Links to folders are followed, but no folder is entered twice. What `compile` wrote is no source."""
 
     def closed(error: OSError) -> None:
-        said.append(file_codes.UNREADABLE.at(Span(str(error.filename)), reason=in_words(error)))
+        said.append(file_codes.UNREADABLE.at(Span(str(error.filename)), reason=reason_of(error)))
 
     entered: set[tuple[int, int]] = set()
     compiled: set[str] = set()

@@ -1,4 +1,4 @@
-"""What several plans want below one output root, taken together: one text for each path, with its owners."""
+"""The files that several plans have below one output root: one text for each path, with its owners."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ class DesiredFile(msgspec.Struct, frozen=True):
 
 
 class DesiredRoot(msgspec.Struct, frozen=True):
-    """All plans for one root. `owners` says of each owner whether its plan was partial; `contested` are the paths that
-    two of them want with different contents."""
+    """All plans of one root. `owners` maps each owner to whether its plan is partial. `contested` are the paths for
+    which two owners have different contents."""
 
     root: Root
     files: Mapping[str, DesiredFile] = {}
@@ -32,7 +32,7 @@ class DesiredRoot(msgspec.Struct, frozen=True):
     contested: Mapping[tuple[str, str], Sequence[str]] = {}
 
     def diagnostics(self) -> Iterator[Diagnostic]:
-        """One for each two documents that want the same files with different contents, whatever the number."""
+        """One diagnostic for each two documents that have different contents for the same files."""
         for (first, second), paths in self.contested.items():
             documents = [self.root.shown(owner) for owner in (first, second)]
             more = f" and {len(paths) - 1} more" if len(paths) > 1 else ""
@@ -46,10 +46,10 @@ class DesiredRoot(msgspec.Struct, frozen=True):
             )
 
     def holders(self, path: str, entry: ManifestEntry | None) -> tuple[str, ...]:
-        """The documents that hold on to a file: those that want it now, and of its earlier owners those that were not
-        asked (not planned, or only in part) and still exist."""
-        wanted = self.files.get(path)
-        holders = set(wanted.owners) if wanted else set()
+        """The owners of a file: the documents that plan it now, and its earlier owners that still exist and were not
+        planned, or only in part."""
+        desired = self.files.get(path)
+        holders = set(desired.owners) if desired else set()
         for owner in entry.owners if entry else ():
             partial = self.owners.get(owner)
             if partial or (partial is None and self._exists(owner)):
@@ -57,20 +57,20 @@ class DesiredRoot(msgspec.Struct, frozen=True):
         return tuple(sorted(holders))
 
     def _exists(self, owner: str) -> bool:
-        # A root that is a link has two parents: its own and that of the link.
+        # A root that is a link has two parents: that of the target and that of the link.
         for root in (os.path.abspath(self.root.path), self.root.real):
             try:
                 os.lstat(os.path.normpath(os.path.join(root, owner)))
             except (FileNotFoundError, NotADirectoryError):
                 continue
             except OSError:
-                pass  # a folder that nobody may look into is no sign that a document in it is gone
+                pass  # if the folder cannot be searched, the document in it may still exist
             return True
         return False
 
 
 def by_root(plans: Iterable[RootPlan], others: Iterable[str] = ()) -> list[DesiredRoot]:
-    """One for each root, sorted; `others` are roots to look at though nothing is planned there."""
+    """The plans of each root, sorted by path; `others` are further roots, for which nothing is planned."""
     roots: dict[str, tuple[Root, list[RootPlan]]] = {}
     root_at = functools.cache(Root)
     for path in others:
@@ -78,10 +78,10 @@ def by_root(plans: Iterable[RootPlan], others: Iterable[str] = ()) -> list[Desir
     for plan in plans:
         root = root_at(plan.root)
         roots.setdefault(root.real, (root, []))[1].append(plan)
-    return [_together(*roots[real]) for real in sorted(roots)]
+    return [_joined(*roots[real]) for real in sorted(roots)]
 
 
-def _together(root: Root, plans: Iterable[RootPlan]) -> DesiredRoot:
+def _joined(root: Root, plans: Iterable[RootPlan]) -> DesiredRoot:
     files: dict[str, DesiredFile] = {}
     owners: dict[str, bool] = {}
     contested: dict[tuple[str, str], list[str]] = {}
@@ -92,7 +92,7 @@ def _together(root: Root, plans: Iterable[RootPlan]) -> DesiredRoot:
             if first is None:
                 files[file.path] = DesiredFile(file, (plan.owner,))
                 continue
-            # The same text may come from several documents.
+            # Several documents may have the same file.
             sources = tuple(dict.fromkeys((*first.plan.sources, *file.sources)))
             joined = first.plan if sources == first.plan.sources else replace(first.plan, sources=sources)
             holders = first.owners

@@ -1,8 +1,8 @@
-"""The stamp of a whole run: what it read, found missing and left on the disk, so that the same run need not be made.
+"""The stamp of a run: what it read, what was missing and what it wrote, so that the same run can be skipped.
 
-A stamp is trusted only as far as contents go: every file of the user is hashed again, no time of change is looked
-at. Whatever cannot be made sure of makes a stamp stale, and a stale stamp costs nothing but the run. Little is
-imported, for this is what a run with nothing to do consists of.
+A stamp compares contents: every file of the user is hashed again, and modification times are ignored. A stamp that
+cannot be verified is stale, which costs only another run. The module imports little, because a run with nothing to do
+needs only this module.
 """
 
 from __future__ import annotations
@@ -31,13 +31,13 @@ _DATA = ("schemas", "templates", "migrate")
 
 
 class RunStamp(msgspec.Struct, frozen=True):
-    """All paths are as the run used them, relative to its working folder or absolute.
+    """All paths are as the run used them: relative to its working folder, or absolute.
 
-    `inputs`: of each file read, its real path and its digest with who may read it. `states` and `listed`: what else it
-    asked, as `source.disk.Disk` remembers it. `names`: all names in folders. `walked`: of each folder, what `walked`
-    finds below it. `outputs`: of each file written, its digest and who may read and run it. `present`: files whose
-    contents are the user's. `replay`: what the run had to say, in the caller's form. `plugins`: of those that
-    its workspaces name, what tells one build from another, '' where it is not installed.
+    `inputs`: for each file read, its real path, its digest and who may read it. `states` and `listed`: what else the
+    run read of the disk, as `source.disk.Disk` records it. `names`: all names in folders. `walked`: for each folder,
+    what `walked` returns. `outputs`: for each file written, its digest and who may read and execute it. `present`: the
+    user's files, which must exist. `replay`: the result of the run, in the caller's form. `plugins`: the identity of
+    the build of each plug-in that the workspaces name, '' if it is not installed.
     """
 
     tool: str
@@ -53,7 +53,7 @@ class RunStamp(msgspec.Struct, frozen=True):
 
 
 def key(arguments: Iterable[str]) -> str:
-    """What tells one kind of run from another: arguments, working folder and search path."""
+    """The name of the stamp of a run with these arguments, in this working folder and with this search path."""
     return digest(json.dumps([list(arguments), os.getcwd(), os.environ.get("RCYAML_PATH", "")]).encode())
 
 
@@ -69,8 +69,8 @@ def take(
     replay: Mapping[str, object],
     plugins: Iterable[str] = (),
 ) -> RunStamp | None:
-    """The stamp of a run that is done; None where one of its files has gone already. `inputs` are the bytes that were
-    read, `outputs` those that were meant to be written: the disk may have changed since."""
+    """The stamp of a run that has ended; None if one of its files was deleted since. `inputs` are the bytes that were
+    read, `outputs` those that were written: the disk may have changed since."""
     try:
         return RunStamp(
             tool(),
@@ -82,7 +82,7 @@ def take(
             dict(listed),
             dict(names),
             dict(walked),
-            {path: (digest(data), _may(os.lstat(path))) for path, data in outputs.items()},
+            {path: (digest(data), _permissions(os.lstat(path))) for path, data in outputs.items()},
             sorted(present),
             dict(replay),
             _builds(plugins),
@@ -92,7 +92,7 @@ def take(
 
 
 def is_current(stamp: RunStamp) -> bool:
-    """Whether the run would read, find and leave the same again."""
+    """Whether the run would read and write the same again."""
     try:
         return (
             all(os.path.lexists(path) for path in stamp.present)
@@ -104,7 +104,7 @@ def is_current(stamp: RunStamp) -> bool:
 
 
 def reads_the_same(stamp: RunStamp) -> bool:
-    """Whether the run would read and find the same again, whatever became of what it left."""
+    """Whether the run would read the same again, whatever happened to the files that it wrote."""
     try:
         return (
             all(state_of(path) == state for path, state in stamp.states.items())
@@ -121,7 +121,7 @@ def reads_the_same(stamp: RunStamp) -> bool:
 
 
 def load(folder: str, name: str) -> RunStamp | None:
-    """The stamp that a run with this key left below a folder, or None."""
+    """The stamp of this name below a folder; None if it does not exist or cannot be read."""
     try:
         with open(_file(folder, name), "rb", opener=regular) as file:
             return msgspec.convert(json.load(file), RunStamp)
@@ -130,7 +130,7 @@ def load(folder: str, name: str) -> RunStamp | None:
 
 
 def save(folder: str, name: str, stamp: RunStamp) -> None:
-    """Keeps a stamp. Where that cannot be done, the next run simply is made again."""
+    """Saves a stamp below a folder. If that fails, the next run is not skipped."""
     path = _file(folder, name)
     if not stays_inside(folder or ".", os.path.join(FOLDER, f"{name}.json")):
         return
@@ -138,42 +138,42 @@ def save(folder: str, name: str, stamp: RunStamp) -> None:
         os.makedirs(os.path.dirname(path), exist_ok=True)
         _ignored_by_git(os.path.dirname(path))
         whole_file.put(path, json.dumps(asdict(stamp), separators=(",", ":")).encode())
-        _forget_old(os.path.dirname(path))
+        _remove_old(os.path.dirname(path))
 
 
 def tool() -> str:
-    """What tells one rcyaml from another: its version, what its installer recorded (the hashes of all files, which tell
-    two builds of one version apart wherever they are), and size and times of each of its files, which tell what was
-    changed since, or in a checkout."""
+    """The identity of this rcyaml: its version, the RECORD of its installer (with the hashes of all files, which differ
+    between two builds of one version), and size and times of each file, which detect later changes and those in a
+    checkout."""
     package = os.path.dirname(os.path.abspath(robocomp_yaml.__file__))
-    place = os.path.dirname(package)
+    folder = os.path.dirname(package)
     tops = [package]
     if not os.path.isdir(os.path.join(package, "_data")):
-        tops += (os.path.join(place, name) for name in _DATA)
-    parts = [robocomp_yaml.__version__, *_records(place)]
+        tops += (os.path.join(folder, name) for name in _DATA)
+    parts = [robocomp_yaml.__version__, *_records(folder)]
     for top in tops:
-        parts += sorted(states(top, len(place)))
+        parts += sorted(states(top, len(folder)))
     return digest("\n".join(parts).encode(errors="surrogateescape"))
 
 
 def _builds(plugins: Iterable[str]) -> dict[str, str]:
     if not plugins:
         return {}
-    from robocomp_yaml.plugins.finding import identity  # most workspaces name none
+    from robocomp_yaml.plugins.finding import identity  # most workspaces have no plug-ins
 
     return {name: identity(name) for name in plugins}
 
 
-def _records(place: str) -> Iterator[str]:
-    """Beside an installed package stands its RECORD; beside a checkout, and where a distribution has none, nothing."""
-    for name in sorted(os.listdir(place)):
+def _records(folder: str) -> Iterator[str]:
+    """The RECORD beside an installed package; none in a checkout, and in distributions without RECORD."""
+    for name in sorted(os.listdir(folder)):
         if name.startswith("rcyaml-") and name.endswith(".dist-info"):
             with contextlib.suppress(OSError):
-                yield f"{name} {_state(os.path.join(place, name, 'RECORD'))}"
+                yield f"{name} {_state(os.path.join(folder, name, 'RECORD'))}"
 
 
 def _real_paths(paths: Iterable[str]) -> Iterator[str]:
-    """Real paths; each folder is resolved once."""
+    """The real path of each path; a folder is resolved once."""
     real_folder = functools.cache(os.path.realpath)
     for path in paths:
         folder, name = os.path.split(path)
@@ -181,24 +181,24 @@ def _real_paths(paths: Iterable[str]) -> Iterator[str]:
 
 
 def walked(folder: str) -> list[str]:
-    """The documents below a folder, and the folders below it that something was compiled to."""
+    """The documents below a folder, and the output roots below it."""
     roots: list[str] = []
     return [*documents_below(folder, roots), *roots]
 
 
-def _is_as_written(path: str, hash_: str, may: str) -> bool:
+def _is_as_written(path: str, hash_: str, permissions: str) -> bool:
     if os.path.islink(path):
         return False
     data, status = whole(path)
-    return _may(status) == may and digest(data) == hash_
+    return _permissions(status) == permissions and digest(data) == hash_
 
 
-def _may(status: os.stat_result) -> str:
+def _permissions(status: os.stat_result) -> str:
     return f"{_readers(status) | status.st_mode & stat.S_IXUSR:o}"
 
 
 def _readers(status: os.stat_result) -> int:
-    """Whether others than the owner may read it."""
+    """The permissions of group and others to read a file."""
     return status.st_mode & (stat.S_IRGRP | stat.S_IROTH)
 
 
@@ -216,7 +216,7 @@ def _ignored_by_git(folder: str) -> None:
         file.write("*\n")
 
 
-def _forget_old(folder: str) -> None:
+def _remove_old(folder: str) -> None:
     stamps = [entry for entry in os.scandir(folder) if entry.name.endswith(".json")]
     for entry in sorted(stamps, key=lambda entry: entry.stat().st_mtime, reverse=True)[_KEPT:]:
         os.unlink(entry.path)

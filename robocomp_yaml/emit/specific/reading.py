@@ -61,7 +61,7 @@ def code_in(root: Root, folder: str) -> Iterator[tuple[str, bytes]]:
     """Each file of a folder that is code by its name, with its contents."""
     for path in (f"{folder}/{name}" for name in names(root, folder)):
         if is_code(path):
-            found = root.look(path)
+            found = root.status(path)
             if not found.problem and found.data is not None and len(found.data) <= _LARGEST:
                 yield path, found.data
 

@@ -30,7 +30,7 @@ def report(root: Root, files: Sequence[UserFile], document: str) -> Iterator[Dia
             if keys := entries.lacking(file.base, file.yours, file.new):
                 path = root.shown(file.path)
                 more = entries.paste(file.new, keys)
-                yield codes.CONFIG_LACKS.at(Span(path), path=path, keys=", ".join(keys), more=more, hint=merge)
+                yield codes.MISSING_PROPERTIES.at(Span(path), path=path, keys=", ".join(keys), more=more, hint=merge)
 
 
 def _about_class(root: Root, files: Sequence[UserFile], merge: str) -> Iterator[Diagnostic]:
@@ -50,7 +50,7 @@ def _about_class(root: Root, files: Sequence[UserFile], merge: str) -> Iterator[
         return
     if found.missing:
         names = list(dict.fromkeys(one.method.name for one in found.missing))
-        yield codes.LACKING.at(
+        yield codes.MISSING_METHODS.at(
             _span(root, home, home.place), name=CLASS, methods=", ".join(names), more=_paste(found.missing, yours),
             hint=merge,
         )  # fmt: skip
@@ -65,7 +65,7 @@ def _about_methods(root: Root, found: Comparison) -> Iterator[Diagnostic]:
         )  # fmt: skip
     for method in found.obsolete:
         first, *rest = (_span(root, code, one.place) for code, one in method.places)
-        yield codes.GONE.at(
+        yield codes.OBSOLETE.at(
             first, name=method.name, related=[Related("it stands here too", place) for place in rest],
             hint=f"was it renamed to '{method.renamed}'?" if method.renamed else "remove it, or keep it as your own",
         )  # fmt: skip

@@ -79,7 +79,7 @@ def _own(plan: RootPlan, root: Root, every: bool, seen: Review) -> Iterator[User
         is_read = file.path.startswith(f"{SOURCES}/") or entries.is_entries(file.path)
         if file.policy != ONCE or not (is_read or every):
             continue
-        found, path = root.look(file.path), root.shown(file.path)
+        found, path = root.status(file.path), root.shown(file.path)
         seen.contents[path] = found.data if found.data is not None else file.text.encode()
         if found.problem or found.data is None:
             continue
@@ -88,7 +88,7 @@ def _own(plan: RootPlan, root: Root, every: bool, seen: Review) -> Iterator[User
             file.path, file.text, found.data, yours or "", is_text=yours is not None, is_link=not found.mode
         )  # fmt: skip
         if not own.is_settled:
-            base, where = root.look(f"{BASE}/{file.path}"), root.shown(f"{BASE}/{file.path}")
+            base, where = root.status(f"{BASE}/{file.path}"), root.shown(f"{BASE}/{file.path}")
             if base.data is None:
                 seen.absent.add(where)
             else:
