@@ -162,7 +162,7 @@ class _Commit(msgspec.Struct):
         locks.enter_context(locked(self.root))
 
     def verify(self) -> None:
-        """Raises WriteFailed if the disk changed since the plan was made, or if a folder became a link to outside."""
+        """Raises WriteFailed if the disk changed since the plan, or a folder became a link to outside."""
         if load(self.root)[0] is not None:
             raise WriteFailed(self.root, "", "another run was interrupted in the meantime: run the command again")
         root = Root(self.root)
@@ -174,7 +174,9 @@ class _Commit(msgspec.Struct):
             if (status.data if status.exists else None) != step.before or (
                 step.orig and os.path.lexists(os.path.join(self.root, step.orig))
             ):
-                raise WriteFailed(self.root, step.path, "it was changed while rcyaml was running: run the command again")
+                raise WriteFailed(
+                    self.root, step.path, "it was changed while rcyaml was running: run the command again"
+                )
 
     def stage(self) -> None:
         self.at = JOURNAL

@@ -21,7 +21,7 @@ JOURNAL = f"{STATE}/journal.json"
 JOURNAL_DONE = f"{STATE}/journal.done"
 _STAGED = r"\.rcyaml-[0-9]+-[0-9]+\.(new|old)"
 PART = "~"
-"""The suffix of a copy that is not complete yet."""
+"""The suffix of an incomplete copy."""
 
 
 class Mark(msgspec.Struct, frozen=True):

@@ -73,7 +73,9 @@ class Root:
             return PathStatus(exists=True, problem=f"it is a link to {os.readlink(full)}", culprit=path, outside=True)
         try:
             if not stat.S_ISREG(os.stat(full).st_mode):
-                return PathStatus(exists=True, problem="it is a link to something that is not a regular file", culprit=path)
+                return PathStatus(
+                    exists=True, problem="it is a link to something that is not a regular file", culprit=path
+                )
             return PathStatus(exists=True, data=contents(full) if read else None)
         except FileNotFoundError:
             return PathStatus(exists=True, data=b"" if read else None)

@@ -1,4 +1,4 @@
-"""Plans: the files to write below some folders, each with its text and its policy. Pure data, which `writer` applies."""
+"""Plans: the files to write below some folders, with text and policy. Pure data, which `writer` applies."""
 
 from __future__ import annotations
 
@@ -17,8 +17,9 @@ ANYBODY = 0o066
 class FilePlan(msgspec.Struct, frozen=True):
     """One file below an output root. `path` is relative, with '/'. `policy` ALWAYS: a generated file, rewritten when it
     changes. ONCE: written if it is missing, then the user's. `sources` are the documents that the file is made of: who
-    cannot read one of them cannot read the file. `secrets` are the keys of its properties that are never shown. `stated_in`, for a property file, is the path of the user's document that the file is generated from, into
-    which properties have to be moved that would be lost."""
+    cannot read one of them cannot read the file. `secrets` are the keys of its properties that are never shown.
+    `stated_in`, for a property file, is the path of the user's document from which the file is generated. Properties
+    that would be lost have to be moved to that document."""
 
     path: str
     text: str

@@ -1,4 +1,4 @@
-"""Source code as far as a merge looks into it: the methods of the specific class, imports, and faults of syntax."""
+"""Source code as a merge sees it: methods of the specific class, imports, and syntax errors."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ CLASS = "SpecificWorker"
 
 
 class Signature(msgspec.Struct, frozen=True):
-    """`parameters` and `returns` with blanks made alike; `names` are those of the parameters. A call with `least` to
-    `most` arguments fits; `most` is None where there is no limit."""
+    """`parameters` and `returns` have normalized blanks; `names` are those of the parameters. A call has at least
+    `least` and at most `most` arguments; `most` is None if there is no limit."""
 
     parameters: tuple[str, ...]
     names: tuple[str, ...]
@@ -27,10 +27,10 @@ class Signature(msgspec.Struct, frozen=True):
 
 
 class SourceMethod(msgspec.Struct, frozen=True):
-    """A method of the class: declared in its body, or (C++) defined outside of it.
+    """A method of the class: declared in its body, or (C++) defined outside.
 
-    `first` and `end` are the lines from its first to behind its last, from 0, decorators with it. `signature` is None
-    where the class only gives something else this name. `nested` when it stands under a condition.
+    `first` is its first line, with decorators, and `end` the line after its last; both count from 0. `signature` is
+    None if the name is only assigned. `nested`: the method is inside a condition.
     """
 
     name: str
@@ -43,17 +43,17 @@ class SourceMethod(msgspec.Struct, frozen=True):
 
 
 class ImportLine(msgspec.Struct, frozen=True):
-    """What a line brings in, and the line that would bring just this."""
+    """One imported name, and the line that imports only this name."""
 
     key: str
     line: str
 
 
 class SourceCode(msgspec.Struct, frozen=True):
-    """A file. `members` stand in the class, `definitions` outside. `place` is that of the class's name, None where the
-    file does not have the class; `body_end` the line before which its body ends, and `unit` one step of indentation.
-    `bases` are the classes that it inherits from. `import_end` is the line behind the last import, or where one may
-    be put."""
+    """A file. `faults` is the number of syntax errors. `members` are in the class, `definitions` outside. `place` is the
+    location of the class's name, None if the file does not contain the class. `body_end` is the line before which
+    the class's body ends, and `unit` one step of indentation. `bases` are the base classes. `import_end` is the line
+    after the last import, or the line before which an import can be inserted."""
 
     path: str
     lines: list[str]
@@ -68,40 +68,42 @@ class SourceCode(msgspec.Struct, frozen=True):
     bases: tuple[str, ...] = ()
 
     def text_of(self, method: SourceMethod) -> str:
+        """The lines of a method."""
         return "".join(self.lines[method.first : method.end])
 
 
 def lines_of(text: str) -> list[str]:
-    """The lines with their ends; only a line feed ends one, as for compilers."""
+    """The lines with their ends. Only a line feed ends a line, as for compilers."""
     lines = [f"{line}\n" for line in text.split("\n")]
     last = lines.pop()[:-1]
     return [*lines, last] if last else lines
 
 
 def place(node: Node, lines: list[str]) -> Span:
-    """Where a node of one line stands; the path is left empty."""
+    """The location of a node of one line, without the path."""
     row, start = node.start_point
     column = len(lines[row].encode()[:start].decode(errors="replace")) + 1
     return Span("", row + 1, column, row + 1, column + len(text(node)))
 
 
 def text(node: Node) -> str:
+    """The text of a node."""
     return (node.text or b"").decode(errors="replace")
 
 
 def plain(node: Node | None) -> str:
-    """A node's text without comments and needless blanks."""
+    """The text of a node without comments, with single blanks; '' for None."""
     return " ".join(words(node)) if node else ""
 
 
 def field(node: Node, name: str) -> Node:
-    """A part of a node by its name; the node itself where it has none."""
+    """The field of a node with this name; the node itself if it has no such field."""
     found = node.child_by_field_name(name)
     return found if found is not None else node
 
 
 def words(node: Node, without: Collection[Node | None] = ()) -> Iterator[str]:
-    """The tokens below a node."""
+    """The tokens below a node, except those of the nodes in `without`."""
     todo = [node]
     while todo:
         current = todo.pop()
@@ -113,7 +115,8 @@ def words(node: Node, without: Collection[Node | None] = ()) -> Iterator[str]:
 
 
 def below(root: Node, enters: Callable[[Node], bool]) -> Iterator[tuple[Node, bool]]:
-    """The nodes below one, in order; of those to be entered, what is in them instead, which is nested then."""
+    """The nodes below a node, in order, each with whether it is nested. A node that `enters` accepts is replaced by its
+    children, which are nested."""
     todo = [(child, False) for child in reversed(root.children)]
     while todo:
         node, nested = todo.pop()
@@ -124,7 +127,7 @@ def below(root: Node, enters: Callable[[Node], bool]) -> Iterator[tuple[Node, bo
 
 
 def faults(root: Node) -> int:
-    """How many places of a tree are no proper syntax."""
+    """The number of syntax errors in a tree."""
     count, todo = 0, [root] if root.has_error else []
     while todo:
         node = todo.pop()

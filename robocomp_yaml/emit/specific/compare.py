@@ -1,4 +1,4 @@
-"""What the user's class lacks of a new skeleton, what of it is outdated, and what nobody calls any more."""
+"""Compares the user's class with a new skeleton: missing, outdated and obsolete methods."""
 
 from __future__ import annotations
 
@@ -12,26 +12,26 @@ from robocomp_yaml.emit.specific.code import Signature, SourceCode, SourceMethod
 
 
 class MissingMethod(msgspec.Struct, frozen=True):
-    """A method of a skeleton's file that the user's files do not have."""
+    """A method of a skeleton that the user's files lack."""
 
     skeleton: SourceCode
     method: SourceMethod
 
 
 class OutdatedMethod(msgspec.Struct, frozen=True):
-    """A method of the user that no longer fits; `wanted` is the skeleton's."""
+    """A method of the user that does not match its interface any more; `expected` is that of the skeleton."""
 
     code: SourceCode
     method: SourceMethod
     skeleton: SourceCode
-    wanted: SourceMethod
+    expected: SourceMethod
 
 
 class ObsoleteMethod(msgspec.Struct, frozen=True):
-    """A method that no skeleton has any more, at its places; `renamed` is what it may be called now."""
+    """A method that no skeleton has any more, with its occurrences; `renamed` is its probable new name."""
 
     name: str
-    places: tuple[tuple[SourceCode, SourceMethod], ...]
+    occurrences: tuple[tuple[SourceCode, SourceMethod], ...]
     renamed: str = ""
 
 
@@ -44,9 +44,9 @@ class Comparison(msgspec.Struct):
 def compare(
     new: Sequence[SourceCode], base: Mapping[str, SourceCode], yours: Sequence[SourceCode], bases: Collection[str] = ()
 ) -> Comparison:
-    """`new` is the skeleton of today and `base` that which the user's files came from, file by file, as far as it is
-    known; `yours` are the user's files. `bases` are the classes that a skeleton's class inherits from, beside those in
-    `new`."""
+    """Compares the user's files, `yours`, with the new skeleton. `base` are the skeletons that the user's files were
+    written from, as far as they are known, by path. `bases` are the base classes of the skeleton's class, in addition
+    to those in `new`."""
     result = Comparison()
     members, definitions = _by_name(yours, "members"), _by_name(yours, "definitions")
     bodies = {name: [pair for pair in found if pair[1].has_body] for name, found in members.items()}
@@ -75,7 +75,7 @@ def _by_name(codes: Iterable[SourceCode], part: str) -> dict[str, list[tuple[Sou
 
 
 def _inherited(new: Sequence[SourceCode], yours: Sequence[SourceCode], bases: Collection[str]) -> set[str]:
-    """Methods that the class may have from a class of the user's own that it inherits from: those named anywhere."""
+    """The methods that the class may inherit from a class of the user: those whose names occur anywhere."""
     expected = {*bases, *(base for code in new for base in code.bases)}
     if all(base in expected for code in yours for base in code.bases):
         return set()
@@ -83,10 +83,10 @@ def _inherited(new: Sequence[SourceCode], yours: Sequence[SourceCode], bases: Co
     return {method.name for code in new for method in (*code.members, *code.definitions)} & words
 
 
-def _fits(mine: SourceMethod, wanted: SourceMethod, before: SourceMethod | None) -> bool:
-    """Whether a method does for what the skeleton has now. What the user wrote otherwise than `before` is trusted, but
-    for the number of parameters."""
-    is_, needs = mine.signature, wanted.signature
+def _fits(mine: SourceMethod, expected: SourceMethod, before: SourceMethod | None) -> bool:
+    """Whether a method matches that of the new skeleton. Parameters that the user changed since the skeleton `before`
+    are accepted, but their number must match."""
+    is_, needs = mine.signature, expected.signature
     if is_ is None or needs is None or _types(is_) == _types(needs):
         return True
     count = len(needs.parameters)
@@ -101,7 +101,7 @@ def _fits(mine: SourceMethod, wanted: SourceMethod, before: SourceMethod | None)
 
 
 def _differ(old: str, now: str) -> bool:
-    """Whether a parameter or result changed; that it got a type, or lost it, is no change."""
+    """Whether a parameter or result changed. An added or removed type is no change."""
     if not old or not now or (" : " in old) != (" : " in now):
         return old.partition(" ")[0] != now.partition(" ")[0] and bool(old and now)
     return old != now
@@ -122,12 +122,12 @@ def _obsolete(
     before = {m.name: m for code in base.values() for m in (*code.definitions, *code.members)}
     fresh = {one.method.name: one.method for one in lacking if one.method.name not in before}
     for name, method in before.items():
-        places = (*members.get(name, ()), *definitions.get(name, ()))
-        if name in today or not places:
+        occurrences = (*members.get(name, ()), *definitions.get(name, ()))
+        if name in today or not occurrences:
             continue
         alike = [other for other, its in fresh.items() if _same(method.signature, its.signature)]
         alike = [other for other in alike if other.partition("_")[0] == name.partition("_")[0]]
-        yield ObsoleteMethod(name, places, alike[0] if len(alike) == 1 else suggest(name, alike) or "")
+        yield ObsoleteMethod(name, occurrences, alike[0] if len(alike) == 1 else suggest(name, alike) or "")
 
 
 def _same(one: Signature | None, other: Signature | None) -> bool:

@@ -1,4 +1,4 @@
-"""`etc/config`, as far as a merge looks into it: keys that a component needs, each with its comment."""
+"""The merge of `etc/config`: the properties that a component needs, each with its comment."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ _NEEDED = (
 )
 
 
-def is_entries(path: str) -> bool:
+def is_config(path: str) -> bool:
     return path == CONFIG
 
 
 def lacking(base: str | None, yours: str, new: str) -> list[str]:
-    """The keys without which the component will not start: those that it did not need before, and that no spelling of
-    is there. None where it is not known what it needed before."""
+    """The keys without which the component does not start: those that it did not need before, and that the file has in
+    no spelling. Empty if `base`, the file as it was written, is unknown."""
     if base is None:
         return []
     known = {*_keys(yours), *_keys(base)}
@@ -27,7 +27,7 @@ def lacking(base: str | None, yours: str, new: str) -> list[str]:
 
 
 def paste(new: str, keys: list[str]) -> str:
-    """The lines of these entries, with the comments above them."""
+    """The lines of these properties, with the comments above them."""
     lines = new.split("\n")
     parts: list[str] = []
     for entry in properties.read(new).entries:
@@ -40,8 +40,8 @@ def paste(new: str, keys: list[str]) -> str:
 
 
 def merge(base: str | None, yours: str, new: str) -> str:
-    """The user's file with what it lacks at its end. What else is new in it are ports and addresses as they would be
-    chosen now: not a reason to change those that are in use."""
+    """The user's file, with missing properties added at its end. Other differences are default ports and addresses,
+    which do not replace those in use."""
     keys = lacking(base, yours, new)
     if not keys:
         return yours
@@ -54,7 +54,7 @@ def _keys(text: str) -> dict[str, str]:
 
 
 def spellings(key: str) -> set[str]:
-    """The other names under which the run time looks for a property."""
+    """The other names under which the run time looks a property up."""
     found = re.fullmatch(_NEEDED, key)
     if found is None:
         return set()

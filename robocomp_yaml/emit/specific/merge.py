@@ -1,8 +1,8 @@
-"""A user's file brought up to a new skeleton; or why that cannot be done without harm.
+"""Merges a user's file with a new skeleton, or reports why that is not possible without harm.
 
-First the three-way merge. Where that conflicts, or makes something of it that will not do, the user's side is taken and
-what is lacking is put in. Whatever comes out is looked at before it is believed: every line of the user is there, it is
-no worse syntax than before, and no method is lacking, there twice or outdated.
+First the three-way merge. If it has conflicts, or its result is rejected, the missing methods are inserted into the
+user's version. Every result is checked before it is accepted: it has every line of the user, no more syntax errors than
+before, and no missing, duplicate or outdated method.
 """
 
 from __future__ import annotations
@@ -27,11 +27,11 @@ from robocomp_yaml.emit.specific.user_file import UserFile
 from robocomp_yaml.transactions.output_root import Root
 from robocomp_yaml.transactions.plan import Merge
 
-_HINT = "nothing was written; make room by hand, or compile without --merge and paste what it names"
+_HINT = "nothing was written; include the change in your lines, or compile without --merge and paste what it reports"
 
 
 class MergeResult(msgspec.Struct, frozen=True):
-    """`text` is the merge, and `base` what a later one starts from. With `reason`, there is none."""
+    """`text` is the merge, and `base` what a later merge starts from. `reason`: why there is no merge, else ''."""
 
     text: str
     base: str
@@ -40,7 +40,7 @@ class MergeResult(msgspec.Struct, frozen=True):
 
 
 def merge_files(root: Root, files: Sequence[UserFile]) -> tuple[dict[str, Merge], list[Diagnostic]]:
-    """The merges by path; with diagnostics, none of them is to be carried out."""
+    """The merges by path, or diagnostics if a file cannot be merged: then there is no merge at all."""
     merged: dict[str, Merge] = {}
     refusals: list[Diagnostic] = []
     sides: list[UserFile] = []
@@ -48,8 +48,8 @@ def merge_files(root: Root, files: Sequence[UserFile]) -> tuple[dict[str, Merge]
         path = root.shown(file.path)
         if not file.is_text:
             refusals.append(codes.CONFLICT.at(Span(path), path=path, reason="it is not UTF-8 text"))
-        elif file.is_link and not file.is_settled:
-            reason = "it is a link: merge what it leads to by hand"
+        elif file.is_link and not file.is_up_to_date:
+            reason = "it is a link: merge its target by hand"
             refusals.append(codes.CONFLICT.at(Span(path), path=path, reason=reason))
         else:
             sides.append(replace(file, yours=file.yours.replace("\r\n", "\n")) if _is_dos(file) else file)
@@ -66,7 +66,7 @@ def merge_files(root: Root, files: Sequence[UserFile]) -> tuple[dict[str, Merge]
 
 
 def _is_dos(file: UserFile) -> bool:
-    """Whether all its lines end as on Windows."""
+    """Whether all lines end with CR LF."""
     return 0 < file.data.count(b"\n") == file.data.count(b"\r\n")
 
 
@@ -76,7 +76,7 @@ def _refusals(path: str, result: MergeResult) -> list[Diagnostic]:
     return [
         codes.CONFLICT.at(
             Span(path, conflict.first + 1, 1, max(conflict.end, conflict.first + 1) + 1, 1),
-            path=path, reason="you and rcyaml changed the same lines", hint=_HINT, more=conflict.text,
+            path=path, reason="you and the new skeleton changed the same lines", hint=_HINT, more=conflict.text,
         )
         for conflict in result.conflicts
     ]  # fmt: skip
@@ -90,7 +90,7 @@ def _merge(
     if yours is None or new is None:
         return _merge_text(side)
     old = None if side.base is None else read(side.path, side.base)
-    goal = new if old is None else _with_what_is_gone(new, old, yours)
+    goal = new if old is None else _with_obsolete(new, old, yours)
     elsewhere = [*others, *(code for one in besides if (code := read(one.path, one.yours)))]
     judge = _Judge(side, yours, goal, old, elsewhere, bases, {code.path for code in others})
     lacking = judge.lacking(yours)
@@ -116,26 +116,26 @@ def _candidates(side: UserFile, merged: threeway.Merged, goal: SourceCode, judge
 
 
 def _code(path: str, text: str) -> SourceCode:
-    """The code of a file in a language that is known."""
+    """The code of a file whose language has merging."""
     code = read(path, text)
     assert code is not None
     return code
 
 
 def _merge_text(side: UserFile) -> MergeResult:
-    """A file that is no code."""
-    if entries.is_entries(side.path):
+    """The merge of a file that is not code."""
+    if entries.is_config(side.path):
         return MergeResult(entries.merge(side.base, side.yours, side.new), side.new)
     if side.base is None:
         return MergeResult(side.yours, side.new)
     merged = threeway.merge(side.base, side.yours, side.new)
     if merged.conflicts:
-        return MergeResult(side.yours, side.base, merged.conflicts, "both changed the same lines")
+        return MergeResult(side.yours, side.base, merged.conflicts, "you and the new skeleton changed the same lines")
     return MergeResult(merged.text, side.new)
 
 
-def _with_what_is_gone(new: SourceCode, old: SourceCode, yours: SourceCode) -> SourceCode:
-    """The new skeleton with those methods and imports of the old one that the user still has: a merge deletes none."""
+def _with_obsolete(new: SourceCode, old: SourceCode, yours: SourceCode) -> SourceCode:
+    """The new skeleton, with the obsolete methods and imports that the user's file still has: a merge deletes none."""
     mine = {method.name for method in (*yours.members, *yours.definitions)}
     today = {method.name for method in (*new.members, *new.definitions)}
     gone = {method.name for method in (*old.members, *old.definitions)} & mine - today
@@ -144,24 +144,24 @@ def _with_what_is_gone(new: SourceCode, old: SourceCode, yours: SourceCode) -> S
 
 
 def _joined_imports(code: SourceCode, more: Sequence[ImportLine]) -> SourceCode:
-    """The code with more names in those lines of it that import from the same module."""
+    """The code with further imported names in its lines that import from the same modules."""
     lines = list(code.lines)
     for n, line in enumerate(lines):
         head, word, names = line.rstrip().partition(" import ")
         if word and head.startswith("from "):
-            wanted = [one.line.rstrip().partition(word)[2] for one in more if one.line.startswith(f"{head}{word}")]
-            lines[n] = f"{head}{word}{', '.join(sorted({*names.split(', '), *wanted}))}\n"
+            added = [one.line.rstrip().partition(word)[2] for one in more if one.line.startswith(f"{head}{word}")]
+            lines[n] = f"{head}{word}{', '.join(sorted({*names.split(', '), *added}))}\n"
     return _code(code.path, "".join(lines))
 
 
 class _Judge:
-    """Whether a text will do as the merge of a file."""
+    """Decides whether a text is acceptable as the merge of a file."""
 
     def __init__(
         self, side: UserFile, yours: SourceCode, goal: SourceCode, old: SourceCode | None,
         elsewhere: Sequence[SourceCode], bases: Collection[str], untouched: Collection[str],
     ) -> None:  # fmt: skip
-        """`untouched` are those files of `elsewhere` that are not merged."""
+        """`elsewhere` is the code of the user's other files, and `untouched` are those of them that are not merged."""
         self.side, self.yours, self.goal, self.elsewhere, self.bases = side, yours, goal, elsewhere, bases
         self.untouched = untouched
         self.base = {} if old is None else {side.path: old}
@@ -180,35 +180,35 @@ class _Judge:
         return {one.method.name for one in found.outdated if one.code.path in (code.path, *self.untouched)}
 
     def touches_changed(self, conflicts: Sequence[Conflict]) -> bool:
-        """Whether lines that both sides changed belong to a method that is called otherwise now."""
+        """Whether lines of a conflict belong to a method whose signature changed."""
         methods = [m for m in (*self.yours.members, *self.yours.definitions) if m.name in self.changed]
         return any(one.first < m.end and m.first < max(one.end, one.first + 1) for m in methods for one in conflicts)
 
     def fault(self, text: str) -> str:
-        """What is wrong with a text, '' where nothing is."""
+        """The reason why a text is rejected, '' if it is accepted."""
         code = _code(self.side.path, text)
         if lost := self.mine - Counter(_lines(text)):
-            return f"it would lose your line '{next(iter(lost)).strip()}'"
+            return f"the merge would lose your line '{next(iter(lost)).strip()}'"
         if code.faults > self.yours.faults or (compiles(self.yours) and not compiles(code)):
-            return "the result would be no proper code"
+            return "the result would have syntax errors"
         if lacking := self.lacking(code):
-            return f"there is no place for {', '.join(sorted(lacking))}"
+            return f"{', '.join(sorted(lacking))} cannot be inserted"
         mine, now = _counts([self.yours, *self.elsewhere]), _counts([code, *self.elsewhere])
         if twice := {name for name, count in now.items() if count > max(1, mine[name])}:
-            return f"{', '.join(sorted(twice))} would stand there twice"
+            return f"{', '.join(sorted(twice))} would be defined twice"
         if outdated := self._outdated(code, self.goal if self.base else None) - self.was_outdated:
-            return f"{', '.join(sorted(outdated))} changed on both sides"
+            return f"you and the new skeleton changed {', '.join(sorted(outdated))}"
         return ""
 
 
 def _changed(old: SourceCode, new: SourceCode) -> set[str]:
-    """Methods that are not called as they were."""
+    """The methods whose signatures changed."""
     before = {m.name: m.signature for m in (*old.members, *old.definitions)}
     return {m.name for m in (*new.members, *new.definitions) if before.get(m.name, m.signature) != m.signature}
 
 
 def _counts(codes: Sequence[SourceCode]) -> Counter[str]:
-    """How often each method is declared, and how often defined."""
+    """The number of declarations and of definitions of each method."""
     declared = Counter(method.name for code in codes for method in code.members)
     return declared + Counter(f"{method.name}()" for code in codes for method in code.definitions)
 

@@ -1,4 +1,4 @@
-"""Diagnostics about the user's class: what it lacks, with the text to paste, and what of it is out of date."""
+"""Diagnostics about the user's class: missing methods, with the text to paste, and outdated and obsolete methods."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ from robocomp_yaml.transactions.output_root import Root
 
 
 def report(root: Root, files: Sequence[UserFile], document: str) -> Iterator[Diagnostic]:
-    """All that is to be said of the files of the component that a document describes."""
-    merge = f"paste what follows, or let `{typed('rcyaml', 'compile', '--merge', document)}` put it in"
+    """The diagnostics about the user's files of the component of a document."""
+    merge = f"paste the following, or insert it with `{typed('rcyaml', 'compile', '--merge', document)}`"
     code = [file for file in files if file.is_text and is_code(file.path)]
-    if any(not file.is_settled for file in code):
+    if any(not file.is_up_to_date for file in code):
         yield from _about_class(root, code, merge)
     for file in files:
-        if entries.is_entries(file.path) and file.is_text and not file.is_settled:
+        if entries.is_config(file.path) and file.is_text and not file.is_up_to_date:
             if keys := entries.lacking(file.base, file.yours, file.new):
                 path = root.shown(file.path)
                 more = entries.paste(file.new, keys)
@@ -39,7 +39,7 @@ def _about_class(root: Root, files: Sequence[UserFile], merge: str) -> Iterator[
     yours = [code for file in files if (code := read(file.path, file.yours))]
     found = compare(new, base, yours)
     if found.missing or not any(code.place for code in yours):
-        # Parts of the class may stand in other files.
+        # Other files may contain parts of the class.
         yours += others(root, {file.path for file in files})
         found = compare(new, base, yours)
     home = next((code for code in yours if code.place), None)
@@ -60,13 +60,13 @@ def _about_class(root: Root, files: Sequence[UserFile], merge: str) -> Iterator[
 def _about_methods(root: Root, found: Comparison) -> Iterator[Diagnostic]:
     for one in found.outdated:
         yield codes.OUTDATED.at(
-            _span(root, one.code, one.method.place), name=one.method.name, more=_head(one.skeleton, one.wanted),
-            hint="it must begin like this now",
+            _span(root, one.code, one.method.place), name=one.method.name, more=_head(one.skeleton, one.expected),
+            hint="it must begin as follows",
         )  # fmt: skip
     for method in found.obsolete:
-        first, *rest = (_span(root, code, one.place) for code, one in method.places)
+        first, *rest = (_span(root, code, one.place) for code, one in method.occurrences)
         yield codes.OBSOLETE.at(
-            first, name=method.name, related=[Related("it stands here too", place) for place in rest],
+            first, name=method.name, related=[Related("also here", place) for place in rest],
             hint=f"was it renamed to '{method.renamed}'?" if method.renamed else "remove it, or keep it as your own",
         )  # fmt: skip
 
@@ -95,7 +95,7 @@ def _paste(lacking: Sequence[MissingMethod], yours: Sequence[SourceCode]) -> str
 
 
 def _head(skeleton: SourceCode, method: SourceMethod) -> str:
-    """A method as far as its body."""
+    """The lines of a method before its body."""
     lines = skeleton.lines[method.first : method.end]
     for n, line in enumerate(lines):
         if line.rstrip().endswith((":", ";")) or (n and line.strip() == "{"):

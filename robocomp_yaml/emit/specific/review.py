@@ -1,4 +1,4 @@
-"""What becomes of the user's own files where a component changes: the diagnostics about them, and their merges."""
+"""Reviews the user's files after a component changed: diagnostics about them, and merges."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from robocomp_yaml.transactions.plan import ONCE, Merge, Merges, RootPlan
 
 
 class Review(msgspec.Struct):
-    """`contents` and `absent` are what it read and looked for in vain, `names` what it saw in folders."""
+    """`contents` are the files that the review read, `absent` the paths that do not exist, `names` those in folders."""
 
     diagnostics: list[Diagnostic] = []
     merges: Merges = msgspec.field(default_factory=Merges)
@@ -29,18 +29,18 @@ class Review(msgspec.Struct):
 
 
 def review(plans: Iterable[RootPlan], *, merge: bool = False) -> Review:
-    """Looks at the files that are there; only where one of them is not as it would be written is it understood."""
+    """Reviews the user's files of all plans. Only components with a file that is not up to date are parsed."""
     result = Review()
     for plan in plans:
         root = Root(plan.root)
-        files = list(_own(plan, root, merge, result))
+        files = list(_user_files(plan, root, merge, result))
         if merge:
-            alone = [file for file in files if reading.unmerged(file.path)]
-            files = [file for file in files if file not in alone]
-            result.diagnostics += _not_merged(alone, root)
-        if all(file.is_settled for file in files):
+            unmerged = [file for file in files if reading.unmerged(file.path)]
+            files = [file for file in files if file not in unmerged]
+            result.diagnostics += _not_merged(unmerged, root)
+        if all(file.is_up_to_date for file in files):
             continue
-        from robocomp_yaml.emit.specific import reporting  # most runs need neither
+        from robocomp_yaml.emit.specific import reporting  # most runs need neither of them
         from robocomp_yaml.emit.specific.merge import merge_files
 
         if merge:
@@ -51,7 +51,7 @@ def review(plans: Iterable[RootPlan], *, merge: bool = False) -> Review:
                 continue
             result.merges.files.update({(root.real, path): one for path, one in merged.items()})
             files = [_after(file, merged.get(file.path)) for file in files]
-        # Parts of the class that it is about may stand in any file beside it.
+        # Any file beside it may contain parts of the class.
         for folder in {file.path.rpartition("/")[0] for file in files if reading.is_code(file.path)}:
             result.names[root.shown(folder)] = reading.names(root, folder)
             result.contents.update((root.shown(path), data) for path, data in reading.code_in(root, folder))
@@ -60,41 +60,42 @@ def review(plans: Iterable[RootPlan], *, merge: bool = False) -> Review:
 
 
 def _not_merged(files: Iterable[UserFile], root: Root) -> Iterator[Diagnostic]:
-    """What would be merged, in languages that are not."""
+    """Warnings about files in languages without merging."""
     for file in files:
         language = reading.unmerged(file.path)
-        if language and not file.is_settled and file.base != file.new:
+        if language and not file.is_up_to_date and file.base != file.new:
             path = root.shown(file.path)
             yield codes.NOT_MERGED.at(
                 Span(path),
                 path=path,
                 language=language.title,
-                hint="put in by hand what its build names; an empty folder to compile into (-o) shows a new skeleton",
+                hint="edit it by hand, as the errors of its build require; a compile into an empty folder (-o) shows the new "
+                "skeleton",
             )
 
 
-def _own(plan: RootPlan, root: Root, every: bool, seen: Review) -> Iterator[UserFile]:
-    """The user's files that there are skeletons for; unless `every`, only those that are looked into."""
+def _user_files(plan: RootPlan, root: Root, every: bool, seen: Review) -> Iterator[UserFile]:
+    """The user's files with skeletons; unless `every`, only code and `etc/config`."""
     for file in plan.files:
-        is_read = file.path.startswith(f"{SOURCES}/") or entries.is_entries(file.path)
+        is_read = file.path.startswith(f"{SOURCES}/") or entries.is_config(file.path)
         if file.policy != ONCE or not (is_read or every):
             continue
-        found, path = root.status(file.path), root.shown(file.path)
-        seen.contents[path] = found.data if found.data is not None else file.text.encode()
-        if found.problem or found.data is None:
+        status, path = root.status(file.path), root.shown(file.path)
+        seen.contents[path] = status.data if status.data is not None else file.text.encode()
+        if status.problem or status.data is None:
             continue
-        yours = _text(found.data)
-        own = UserFile(
-            file.path, file.text, found.data, yours or "", is_text=yours is not None, is_link=not found.mode
+        yours = _text(status.data)
+        user_file = UserFile(
+            file.path, file.text, status.data, yours or "", is_text=yours is not None, is_link=not status.mode
         )  # fmt: skip
-        if not own.is_settled:
+        if not user_file.is_up_to_date:
             base, where = root.status(f"{BASE}/{file.path}"), root.shown(f"{BASE}/{file.path}")
             if base.data is None:
                 seen.absent.add(where)
             else:
                 seen.contents[where] = base.data
-                own = replace(own, base=_text(base.data))
-        yield own
+                user_file = replace(user_file, base=_text(base.data))
+        yield user_file
 
 
 def _after(file: UserFile, merge: Merge | None) -> UserFile:

@@ -1,4 +1,4 @@
-"""A file of the user beside the skeleton that a plan has for it."""
+"""A file of the user, with the skeletons for it."""
 
 from __future__ import annotations
 
@@ -6,8 +6,9 @@ import msgspec
 
 
 class UserFile(msgspec.Struct, frozen=True):
-    """A file of the user that a plan has a skeleton for: `new` is the skeleton of today. `yours` is '' where the file
-    is no UTF-8 text; `base` is None where there is none, or none is needed. A link is not written through."""
+    """A file of the user for which a plan has a skeleton: `new` is the new skeleton, `base` the one that the file was
+    written from (None if it is unknown or not needed). `yours` is the text of the file, '' if it is not UTF-8. A link
+    is never written to."""
 
     path: str
     new: str
@@ -18,6 +19,6 @@ class UserFile(msgspec.Struct, frozen=True):
     is_link: bool = False
 
     @property
-    def is_settled(self) -> bool:
-        """Whether it is what would be written today."""
+    def is_up_to_date(self) -> bool:
+        """Whether the file is the new skeleton."""
         return self.data == self.new.encode()
