@@ -25,8 +25,8 @@ PART = "~"
 
 
 class Mark(msgspec.Struct, frozen=True):
-    """One file of a commit. Paths are relative to the root, '' if there is no such file. `hash` is the digest of the new
-    content. `created`: the path did not exist before."""
+    """One file of a commit. Paths are relative to the root, '' for none. `hash` is the digest of the new content, ''
+    if the file is deleted. `created`: the path did not exist before."""
 
     path: str
     new: str

@@ -1,6 +1,6 @@
-"""Where everything of a picture stands, in pixels: nodes, hosts, and the ways of lines.
+"""The geometry of a picture, in pixels: nodes, hosts, and the paths of lines.
 
-Nothing overlaps by construction: each row and column, and each channel and gap between, is as large as what it holds.
+Nothing overlaps, by construction: rows, columns, channels and gaps are as large as their contents.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ from robocomp_yaml.emit.graphs.picture import Picture, PictureNode
 from robocomp_yaml.emit.graphs.routes import Net, NetBranch, Routes, outgoing, routes_of
 
 TITLE, SMALL, LABEL = 13.0, 11.0, 10.0
-"""Sizes of text."""
+"""Font sizes."""
 WIDEST = 230.0
-"""As wide may a text in a node be; longer ones are shortened."""
+"""The largest width of a text in a node; longer texts are shortened."""
 MOST_SERVED = 6
 LINE_HEIGHT = 15.0
 STEP = 8.0
-"""From one track to the next."""
+"""The distance of two tracks."""
 
 _PAD = 12.0
 _LABEL_BAND, _HOST_TITLE, _HEAD = 18.0, 26.0, 44.0
@@ -30,7 +30,7 @@ Point = tuple[float, float]
 
 
 class Rectangle(msgspec.Struct):
-    """A rectangle, and the lines of text in it."""
+    """A rectangle with lines of text."""
 
     x: float
     y: float
@@ -40,11 +40,12 @@ class Rectangle(msgspec.Struct):
 
     @property
     def middle(self) -> float:
+        """The x coordinate of the centre."""
         return self.x + self.width / 2
 
 
 class EdgePath(msgspec.Struct):
-    """A net's way from one source: its corners from the source to the target."""
+    """The path of a branch of a net: its corners, from the source to the target."""
 
     net: Net
     branch: NetBranch
@@ -52,24 +53,25 @@ class EdgePath(msgspec.Struct):
 
 
 class Geometry(msgspec.Struct):
-    """`labels` are the nets' ports, above their targets."""
+    """`labels` are the points above the targets at which nets end."""
 
     width: float = 0.0
     height: float = 0.0
     nodes: dict[str, Rectangle] = {}
     hosts: dict[str, Rectangle] = {}
-    ways: list[EdgePath] = []
+    paths: list[EdgePath] = []
     labels: list[tuple[Net, Point]] = []
 
 
 def geometry_of(picture: Picture) -> Geometry:
+    """The geometry of a picture."""
     grid = grid_of(picture)
     routes = routes_of(picture, grid)
     return _Placer(picture, grid, routes).place()
 
 
 def texts_of(node: PictureNode) -> list[str]:
-    """The lines of a node: its name, what it is, and what it serves."""
+    """The lines of text of a node: its title, what it is, and what it serves."""
     served = node.served()
     if len(served) > MOST_SERVED:
         served = [*served[: MOST_SERVED - 1], f"and {len(served) - MOST_SERVED + 1} more"]
@@ -93,7 +95,7 @@ class _Placer:
     def place(self) -> Geometry:
         for name, node in self.picture.nodes.items():
             self.made.nodes[name] = self.block(node)
-        self.rule()
+        self.measure()
         for name, block in self.made.nodes.items():
             row, column = self.grid.cells[name]
             block.x = _even(self.columns[column] + (self.column_width[column] - block.width) / 2)
@@ -108,13 +110,13 @@ class _Placer:
         texts = texts_of(node)
         widest = max([width(texts[0], TITLE, bold=True), *(width(text, SMALL) for text in texts[1:])])
         coming = self.incoming.get(node.name, [])
-        ports = sum(map(_slot, coming)) * (2 if len(coming) == 1 else 1)  # a single one comes in the middle
+        ports = sum(map(_slot, coming)) * (2 if len(coming) == 1 else 1)  # a single net ends in the middle
         exits = STEP * (len(self.leaving.get(node.name, ())) + 1)
         size = max(widest + 2 * _PAD, ports + _PAD, exits, 90.0)
         return Rectangle(0, 0, _even(size + STEP), LINE_HEIGHT * len(texts) + 14, texts)
 
-    def rule(self) -> None:
-        """Where rows and columns begin, behind channels and gaps that are as wide as their tracks need."""
+    def measure(self) -> None:
+        """Computes where rows and columns begin, behind channels and gaps that have room for their tracks."""
         grid, cells = self.grid, self.grid.cells
         self.column_width = [0.0] * grid.columns
         row_height = [0.0] * grid.rows
@@ -165,10 +167,10 @@ class _Placer:
                     x = self.track_x(branch.gap, net)
                     points += [(x, points[-1][1]), (x, self.track_y(row, net))]
                 points += [(port[0], points[-1][1]), port]
-                self.made.ways.append(EdgePath(net, branch, points))
+                self.made.paths.append(EdgePath(net, branch, points))
 
     def ports(self) -> dict[Net, Point]:
-        """Where each net reaches its target: side by side on its upper edge, from where they come."""
+        """The point at which each net ends: side by side on the upper edge of its target, in the order of sources."""
         found: dict[Net, Point] = {}
         for name, nets in self.incoming.items():
             block = self.made.nodes[name]
@@ -183,19 +185,19 @@ class _Placer:
         return sum(columns) / len(columns)
 
     def exits(self, ports: dict[Net, Point]) -> dict[NetBranch, Point]:
-        """Where each net leaves a source: side by side on its lower edge, half a step beside the ports of others, but
-        for one that goes straight down."""
-        found: dict[NetBranch, Point] = {}
+        """The point at which each branch begins: side by side on the lower edge of the source, half a step beside the
+        ports. A branch that goes straight down begins above its port."""
+        points: dict[NetBranch, Point] = {}
         for name, nets in self.leaving.items():
             block = self.made.nodes[name]
             x = _even(block.middle - STEP * (len(nets) - 1) / 2) + STEP / 2
             for net in sorted(nets, key=lambda net: ports[net][0]):
-                branch = next(branch for branch in net.branches if branch.source == name and branch not in found)
+                branch = next(branch for branch in net.branches if branch.source == name and branch not in points)
                 port = ports[net][0]
                 is_below = branch.gap is None and block.x + STEP < port < block.x + block.width - STEP
-                found[branch] = (port if is_below else x, block.y + block.height)
+                points[branch] = (port if is_below else x, block.y + block.height)
                 x += STEP
-        return found
+        return points
 
     def track_y(self, row: int, net: Net) -> float:
         top = self.rows[row] - self.channels[row]
@@ -209,9 +211,10 @@ class _Placer:
 
 
 def _slot(net: Net) -> float:
-    """The room of a net on the edge of its target, with its label."""
+    """The width of a net on the edge of its target, with its label."""
     return STEP * 2 + (width(net.label, LABEL) if net.label else 0.0)
 
 
 def _even(x: float) -> float:
+    """The multiple of STEP closest to x."""
     return STEP * round(x / STEP)

@@ -1,7 +1,7 @@
-"""Which cell of a grid each node stands in: a strip of columns for each host, rows by layers.
+"""Assigns each node to a cell of a grid. A host is a strip of columns; a layer is a row, or several.
 
-Hosts stand side by side as long as there is room, then in another band below. In a band all strips share their rows, so
-that lines go downwards; a layer with more nodes than its strip has columns takes several rows.
+Hosts are side by side as long as there is room, then in another band below. All strips of a band share their rows, so
+that lines go down. A layer with more nodes than its strip has columns needs several rows.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ _SWEEPS = 4
 
 
 class Area(msgspec.Struct, frozen=True):
-    """The cells of a host, its first and last row and column; `name` is '' for what is outside."""
+    """The cells of a host, by their first and last row and column; `name` is '' for the nodes outside."""
 
     name: str
     top: int
@@ -29,7 +29,7 @@ class Area(msgspec.Struct, frozen=True):
 
 
 class NodeGrid(msgspec.Struct):
-    """`cells` are (row, column) by node."""
+    """`cells` maps the name of a node to (row, column)."""
 
     cells: dict[str, tuple[int, int]] = {}
     areas: list[Area] = []
@@ -38,6 +38,7 @@ class NodeGrid(msgspec.Struct):
 
 
 def grid_of(picture: Picture) -> NodeGrid:
+    """The cells of all nodes and hosts of a picture."""
     needs: dict[str, list[str]] = {}
     for line in picture.lines:
         if line.source != line.target and line.target not in needs.setdefault(line.source, []):
@@ -47,13 +48,13 @@ def grid_of(picture: Picture) -> NodeGrid:
     columns = _columns(picture, strips)
     grid = NodeGrid()
     for band in _bands(strips, columns):
-        _place(picture, band, columns, level, grid)
+        _add_band(picture, band, columns, level, grid)
     _order(picture, grid)
     return grid
 
 
 def _columns(picture: Picture, strips: Sequence[str]) -> dict[str, int]:
-    """How many columns each strip has: by its share of the nodes."""
+    """The number of columns of each strip, in proportion to its nodes."""
     count = len(picture.nodes)
     room = max(1, min(MOST_COLUMNS, math.ceil(math.sqrt(1.6 * count))))
     shares = {name: len(picture.inside(name)) * room / max(count, 1) for name in strips}
@@ -66,13 +67,13 @@ def _bands(strips: Sequence[str], columns: Mapping[str, int]) -> list[list[str]]
     for name in strips:
         if not bands or columns[name] > room:
             bands.append([])
-            room = MOST_COLUMNS + 1  # what is outside may stand beside
+            room = MOST_COLUMNS + 1  # the nodes outside may be beside the hosts
         bands[-1].append(name)
         room -= columns[name]
     return bands
 
 
-def _place(
+def _add_band(
     picture: Picture, band: Sequence[str], columns: Mapping[str, int], level: Mapping[str, int], grid: NodeGrid
 ) -> None:
     top, left = grid.rows, 0
@@ -95,7 +96,7 @@ def _place(
 
 
 def _order(picture: Picture, grid: NodeGrid) -> None:
-    """Moves nodes within their rows, each below (and above) what it is connected to."""
+    """Moves nodes within their rows, so that they are close to the nodes that they are connected to."""
     near: dict[str, list[str]] = {}
     for line in picture.lines:
         near.setdefault(line.source, []).append(line.target)
@@ -106,11 +107,11 @@ def _order(picture: Picture, grid: NodeGrid) -> None:
     ordered = [rows[key] for key in sorted(rows)]
     for sweep in range(_SWEEPS):
         for members in ordered if sweep % 2 == 0 else reversed(ordered):
-            places = sorted(grid.cells[name][1] for name in members)
+            columns = sorted(grid.cells[name][1] for name in members)
             middle = {name: _middle(grid, near.get(name, ()), grid.cells[name][1]) for name in members}
             row = grid.cells[members[0]][0]
-            for name, place in zip(sorted(members, key=lambda name: (middle[name], name)), places, strict=True):
-                grid.cells[name] = (row, place)
+            for name, column in zip(sorted(members, key=lambda name: (middle[name], name)), columns, strict=True):
+                grid.cells[name] = (row, column)
 
 
 def _middle(grid: NodeGrid, others: Sequence[str], own: int) -> float:
@@ -118,8 +119,8 @@ def _middle(grid: NodeGrid, others: Sequence[str], own: int) -> float:
 
 
 def layers(nodes: Iterable[str], needs: Mapping[str, Sequence[str]]) -> dict[str, int]:
-    """The layer of each node, 0 the topmost. A line that closes a circle counts for nothing. What needs nothing stands
-    just below the lowest that needs it, and what is alone stands at the bottom."""
+    """The layer of each node, from 0 at the top. A line that closes a cycle is ignored. A node that needs nothing is
+    just below the lowest node that needs it; a node without lines is at the bottom."""
     names = list(nodes)
     depth = _depths(names, needs)
     height = max(depth.values(), default=0)
@@ -136,7 +137,7 @@ def layers(nodes: Iterable[str], needs: Mapping[str, Sequence[str]]) -> dict[str
 
 
 def _depths(names: Sequence[str], needs: Mapping[str, Sequence[str]]) -> dict[str, int]:
-    """How many others stand below each node, one below the other; found without recursion, for chains may be long."""
+    """The length of the longest path from each node downwards, without recursion, because paths may be long."""
     depth: dict[str, int] = {}
     for name in inner_first(names, lambda name: needs.get(name, ())):
         depth[name] = 1 + max((depth[other] for other in needs.get(name, ()) if other in depth), default=-1)

@@ -1,4 +1,4 @@
-"""The picture of a workspace without a deployment: its components, and which of them implement what others require."""
+"""The picture of a workspace without a deployment: its components, and those that implement what others require."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from robocomp_yaml.link.program import LinkedComponent, Port
 
 
 def picture_of(name: str, components: Iterable[LinkedComponent]) -> Picture:
-    """What nothing implements stands outside, and so do topics."""
+    """The picture of these components. Topics are outside, and so are interfaces that no component implements."""
     made = Picture(name)
     listed = list(components)
     serving: dict[str, list[str]] = {}
     names: dict[LinkedComponent, str] = {}
     for component in listed:
-        wanted = component.component.name
-        names[component] = wanted if wanted not in made.nodes else component.component.path
+        title = component.component.name
+        names[component] = title if title not in made.nodes else component.component.path
         node = PictureNode(
-            names[component], wanted, parts.COMPONENT, about=(component.component.language.name,),
+            names[component], title, parts.COMPONENT, about=(component.component.language.name,),
             serves=tuple((port.interface.name, 0) for port in component.implements),
         )  # fmt: skip
         made.nodes[node.name] = node
@@ -31,7 +31,7 @@ def picture_of(name: str, components: Iterable[LinkedComponent]) -> Picture:
             label = port.interface.name if port.name == port.interface.name else f"{port.name}: {port.interface.name}"
             targets = serving.get(_key(port), [])
             if not targets:
-                about = "nothing here implements it"
+                about = "no component here implements it"
                 made.nodes.setdefault(
                     _key(port), PictureNode(_key(port), port.interface.name, parts.OUTSIDE, about=(about,))
                 )
@@ -46,5 +46,5 @@ def picture_of(name: str, components: Iterable[LinkedComponent]) -> Picture:
 
 
 def _key(port: Port) -> str:
-    """An interface by its full name."""
+    """The full name of an interface."""
     return f"{port.scope.module.name}.{port.interface.name}"

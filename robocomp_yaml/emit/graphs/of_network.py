@@ -1,4 +1,4 @@
-"""The picture of a network, with its problems where they are."""
+"""The picture of a network, with diagnostics at their nodes and lines."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from robocomp_yaml.network.network import LOOPBACK, PROXY, Connection, Network, 
 
 
 def picture_of(network: Network, diagnostics: Sequence[Diagnostic] = ()) -> Picture:
-    """Hosts as boxes, each process with what it serves, and the connections: those of topics by way of the topic."""
+    """The picture of a network: hosts are boxes, processes and topics are nodes, connections are lines."""
     faults = _Faults(network, diagnostics)
     made = Picture(network.name)
     used = {process.host for process in network.processes.values()}
@@ -49,7 +49,7 @@ def _node(process: Process, faults: Sequence[PictureFault]) -> PictureNode:
 
 
 def _script(words: Sequence[str]) -> list[str]:
-    """What an interpreter runs is more telling than the interpreter."""
+    """The names of scripts among these words: they say more than the name of the interpreter."""
     return [os.path.basename(word) for word in words if word.endswith((".py", ".sh"))]
 
 
@@ -77,7 +77,7 @@ def _connect(made: Picture, network: Network, connection: Connection, faults: Se
 
 
 def _order(network: Network) -> Iterable[PictureLine]:
-    """What waits for something without being connected to it."""
+    """The lines of dependences without a connection."""
     connected = {(connection.source, connection.target) for connection in network.connections}
     for process in network.processes.values():
         for other in process.after:
@@ -86,7 +86,7 @@ def _order(network: Network) -> Iterable[PictureLine]:
 
 
 class _Faults:
-    """Which problem belongs to which process or connection: by the lines of the document."""
+    """Assigns diagnostics to processes and connections, by their locations in the document."""
 
     def __init__(self, network: Network, diagnostics: Sequence[Diagnostic]) -> None:
         self.of_process: dict[str, list[PictureFault]] = {}
@@ -116,7 +116,7 @@ class _Faults:
             self.rest.append(fault)
 
     def _owner(self, span: Span) -> str:
-        """The process whose entry a place is in."""
+        """The name of the process whose entry contains a location, '' for none."""
         starts = self._starts.get(span.file, [])
         at = bisect_right(starts, (span.line, chr(0x10FFFF)))
         return starts[at - 1][1] if at else ""

@@ -1,4 +1,4 @@
-"""What a picture of a network shows, whatever it is drawn with: boxes of hosts, nodes in them, and lines."""
+"""The content of a picture of a network, for all forms: boxes of hosts, nodes in them, and lines."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from collections.abc import Iterator
 import msgspec
 
 COMPONENT, PROGRAM, ICESTORM, TOPIC, OUTSIDE = "component", "program", "icestorm", "topic", "outside"
-_EVERYBODYS = "CommonBehavior"
+_EVERY_COMPONENT = "CommonBehavior"
 USES, PUBLISHES, SUBSCRIBES, AFTER = "uses", "publishes", "subscribes", "after"
 
 
 class PictureFault(msgspec.Struct, frozen=True):
-    """A problem, as the diagnostics say it."""
+    """A diagnostic that a picture shows."""
 
     code: str
     is_error: bool
@@ -24,15 +24,15 @@ class PictureFault(msgspec.Struct, frozen=True):
 
 
 class Box(msgspec.Struct, frozen=True):
-    """A host. `title` is what stands on it."""
+    """A host. `title` is its text in the picture."""
 
     name: str
     title: str
 
 
 class PictureNode(msgspec.Struct, frozen=True):
-    """`box` is the name of a box, '' for what is outside. `about` are short lines below the name. `serves` are
-    interfaces with their ports, 0 where none is known."""
+    """`box` is the name of a box, '' if the node is outside. `about` are short lines below the title. `serves` are
+    interfaces with their TCP ports, 0 if a port is unknown."""
 
     name: str
     title: str
@@ -45,18 +45,18 @@ class PictureNode(msgspec.Struct, frozen=True):
     faults: tuple[PictureFault, ...] = ()
 
     def served(self) -> list[str]:
-        """What it serves in words, but for what every component serves besides."""
-        own = [(name, port) for name, port in self.serves if name != _EVERYBODYS] or self.serves
+        """The interfaces that the node serves, with their ports, without those of every component."""
+        own = [(name, port) for name, port in self.serves if name != _EVERY_COMPONENT] or self.serves
         return [f"{name} {port}" if port else name for name, port in own]
 
     def texts(self) -> list[str]:
-        """Its lines of text, the title first."""
+        """The lines of text of the node, the title first."""
         return [self.title, *self.about, *self.served()]
 
 
 class PictureLine(msgspec.Struct, frozen=True):
-    """From `source`, which needs something, to `target`, which has it: `label` says what. Of a topic both who publishes
-    and who subscribes are sources; what flows, flows to the topic (PUBLISHES) or from it (SUBSCRIBES)."""
+    """A line from `source`, which needs what `label` names, to `target`, which serves it. A target may be a topic: its
+    publishers and subscribers are sources. Events flow to the topic (PUBLISHES) or from it (SUBSCRIBES)."""
 
     source: str
     target: str
@@ -66,7 +66,7 @@ class PictureLine(msgspec.Struct, frozen=True):
 
 
 class Picture(msgspec.Struct):
-    """`faults` are those that belong to nothing in the picture."""
+    """`faults` are those that belong to no node and no line."""
 
     name: str
     boxes: list[Box] = []
@@ -75,10 +75,11 @@ class Picture(msgspec.Struct):
     faults: tuple[PictureFault, ...] = ()
 
     def inside(self, box: str) -> list[PictureNode]:
+        """The nodes in a box; those outside for ''."""
         return [node for node in self.nodes.values() if node.box == box]
 
     def all_faults(self) -> Iterator[tuple[str, PictureFault]]:
-        """Each problem once, with the name of what has it."""
+        """Each diagnostic once, with the title of its node, the source of its line, or the name of the picture."""
         seen: set[PictureFault] = set()
         owners = [(node.title, node.faults) for node in self.nodes.values()]
         owners += [(line.source, line.faults) for line in self.lines]

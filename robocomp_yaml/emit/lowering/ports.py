@@ -1,4 +1,4 @@
-"""A component's ports: proxies that the worker has, and the methods that others call there."""
+"""Lowers ports: the proxies of the worker, and its methods that other components call."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from robocomp_yaml.model.interface import Method
 
 
 class PortSpelling(msgspec.Struct, frozen=True):
-    """How a language names them: `taken` are names that every worker has, `published` the candidates for the proxy of a
-    topic, with {name} for the port's in lower case; `called` is an operation as its caller spells it, and `property`
-    how a text sets off the name of one."""
+    """How a language spells names. `taken` are the names of every worker. `published` are the candidates for the proxy of
+    a topic, with {name} for the port's name in lower case. `called` makes the name of an operation for callers, and
+    `property` is the name of a property in documentation."""
 
     taken: frozenset[str]
     published: tuple[str, ...]
@@ -24,9 +24,9 @@ class PortSpelling(msgspec.Struct, frozen=True):
 
 
 class Accessor(msgspec.Struct, frozen=True):
-    """A proxy that the worker has as `name`. `about` is one sentence, `summary` less; `doc` what the document says.
-    `events` are what it publishes; `absent` is '' where the run time's default holds, `milliseconds` None where Ice's
-    does."""
+    """The proxy `name` of the worker. `about` is one sentence, `summary` a few words, and `doc` the documentation in the
+    document. `events` are those that it publishes. `absent` is '' for the default of the run time. `milliseconds` is
+    the time limit of calls, None for the default of Ice."""
 
     port: Port
     name: str
@@ -39,7 +39,7 @@ class Accessor(msgspec.Struct, frozen=True):
 
 
 class CalledMethod(msgspec.Struct, frozen=True):
-    """A method of the worker, `name`, which an operation of a port calls."""
+    """The method `name` of the worker, which an operation of a port calls."""
 
     port: Port
     method: Method
@@ -47,7 +47,7 @@ class CalledMethod(msgspec.Struct, frozen=True):
 
 
 class Service(msgspec.Struct, frozen=True):
-    """An implemented or subscribed port. `new` are those of its methods that no earlier port has brought."""
+    """An implemented or subscribed port. `new` are its methods that no earlier port has."""
 
     port: Port
     title: str
@@ -81,7 +81,7 @@ def lower(component: LinkedComponent, spelling: PortSpelling) -> LoweredPorts:
 
 
 def can_be_published(port: Port) -> list[Method]:
-    """What of an interface a topic carries."""
+    """The methods of an interface that a topic can carry."""
     return [method for method in port.interface.methods if method.can_be_published]
 
 

@@ -50,8 +50,8 @@ class ImportLine(msgspec.Struct, frozen=True):
 
 
 class SourceCode(msgspec.Struct, frozen=True):
-    """A file. `faults` is the number of syntax errors. `members` are in the class, `definitions` outside. `place` is the
-    location of the class's name, None if the file does not contain the class. `body_end` is the line before which
+    """A file. `faults` is the number of syntax errors. `members` are in the class, `definitions` outside. `place` is
+    the location of the class's name, None if the file does not contain the class. `body_end` is the line before which
     the class's body ends, and `unit` one step of indentation. `bases` are the base classes. `import_end` is the line
     after the last import, or the line before which an import can be inserted."""
 

@@ -19,7 +19,7 @@ from robocomp_yaml.transactions.plan import ONCE, Merge, Merges, RootPlan
 
 
 class Review(msgspec.Struct):
-    """`contents` are the files that the review read, `absent` the paths that do not exist, `names` those in folders."""
+    """`contents` are the files that were read, `absent` the paths that do not exist, `names` those in folders."""
 
     diagnostics: list[Diagnostic] = []
     merges: Merges = msgspec.field(default_factory=Merges)
@@ -69,8 +69,8 @@ def _not_merged(files: Iterable[UserFile], root: Root) -> Iterator[Diagnostic]:
                 Span(path),
                 path=path,
                 language=language.title,
-                hint="edit it by hand, as the errors of its build require; a compile into an empty folder (-o) shows the new "
-                "skeleton",
+                hint="edit it by hand, as the errors of its build require; "
+                "a compile into an empty folder (-o) shows the new skeleton",
             )
 
 

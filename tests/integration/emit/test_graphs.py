@@ -152,7 +152,7 @@ def check(made: Geometry) -> None:
     for one, other in combinations(labels, 2):
         assert not overlap(one, other)
     used: dict[tuple[str, float], list[tuple[float, float, object]]] = {}
-    for way in made.ways:
+    for way in made.paths:
         for (x1, y1), (x2, y2) in zip(way.points, way.points[1:], strict=False):
             assert x1 == x2 or y1 == y2
             segment = Rectangle(min(x1, x2), min(y1, y2), abs(x1 - x2), abs(y1 - y2))

@@ -36,7 +36,7 @@ def draw(picture: Picture) -> str:
 
 
 def _node(node: PictureNode) -> str:
-    more = f', color="{_RED}", penwidth=2, tooltip={_quoted(*_told(node))}' if node.faults else ""
+    more = f', color="{_RED}", penwidth=2, tooltip={_quoted(*_faults(node))}' if node.faults else ""
     more += "" if node.enabled else ', fontcolor="#9aa0a6"'
     return f"{_quoted(node.name)} [label={_quoted(*node.texts())}, {_SHAPES[node.kind]}{more}];"
 
@@ -46,11 +46,11 @@ def _lines(picture: Picture) -> Iterator[str]:
         label = line.label if line.kind == parts.USES else ""
         words = [f"label={_quoted(label)}"] if label else []
         words += [_LINES[line.kind]] if _LINES[line.kind] else []
-        words += [f'color="{_RED}"', f'fontcolor="{_RED}"', f"tooltip={_quoted(*_told(line))}"] if line.faults else []
+        words += [f'color="{_RED}"', f'fontcolor="{_RED}"', f"tooltip={_quoted(*_faults(line))}"] if line.faults else []
         yield f"{_quoted(line.source)} -> {_quoted(line.target)}" + (f" [{', '.join(words)}]" if words else "") + ";"
 
 
-def _told(part: PictureNode | PictureLine) -> list[str]:
+def _faults(part: PictureNode | PictureLine) -> list[str]:
     return [fault.text for fault in part.faults]
 
 

@@ -1,4 +1,4 @@
-"""The picture as SVG, for people: it stands alone, measures its own text, and suits light and dark pages."""
+"""The picture as SVG, for people. It needs no other file, and suits light and dark pages."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from robocomp_yaml.emit.xml_text import IMPOSSIBLE
 
 _ROUND = 4.0
 _COLORS = 6
-"""Lines of different targets have different colours, so that the eye can follow them."""
+"""The number of colours of lines: lines to different targets differ, so that they can be followed."""
 _MARGIN = 16.0
 
 _STYLE = """
@@ -50,8 +50,8 @@ text { fill: #e8eaed } .paper { fill: #1b1c1f } .about, .hostname { fill: #a9aeb
 def draw(picture: Picture) -> str:
     geometry = geometry_of(picture)
     colors = {name: number % _COLORS for number, name in enumerate(picture.nodes)}
-    told = list(_problems(picture, geometry))
-    height = geometry.height + len(told) * LINE_HEIGHT + (_MARGIN if told else 0)
+    problems = list(_problems(picture, geometry))
+    height = geometry.height + len(problems) * LINE_HEIGHT + (_MARGIN if problems else 0)
     wide = max(geometry.width, width(picture.name, 16, bold=True) + width(_count(picture), SMALL) + 4 * _MARGIN)
     lines = [
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {wide:.0f} {height:.0f}" width="{wide:.0f}" '
@@ -62,12 +62,12 @@ def draw(picture: Picture) -> str:
         f'<text class="about" x="{2 * _MARGIN + width(picture.name, 16, bold=True):.0f}" y="28">'
         f"{_text(_count(picture))}</text>",
         *(line for block in geometry.hosts.values() for line in _host(block)),
-        *(_way(way, colors) for way in geometry.ways),
-        *(line for way in geometry.ways for line in _tips(way, colors)),
+        *(_way(way, colors) for way in geometry.paths),
+        *(line for way in geometry.paths for line in _tips(way, colors)),
         *(f'<text class="label" x="{x + 5:g}" y="{y - 6:g}">{_text(net.label)}</text>'
           for net, (x, y) in geometry.labels if net.label),
         *(line for name, block in geometry.nodes.items() for line in _node(picture.nodes[name], block)),
-        *told, "</svg>",
+        *problems, "</svg>",
     ]  # fmt: skip
     return "\n".join(lines) + "\n"
 
@@ -105,7 +105,7 @@ def _way(way: EdgePath, colors: dict[str, int]) -> str:
 
 
 def _tips(way: EdgePath, colors: dict[str, int]) -> Iterator[str]:
-    """The arrow's head: at the target, or where things come from it, at the source."""
+    """The head of the arrow: at the target; at the source if events flow from the target."""
     x, y = way.points[0] if way.net.kind == parts.SUBSCRIBES else way.points[-1]
     back = 7 if way.net.kind == parts.SUBSCRIBES else -7
     style = f"{_color(way.net, colors, 't')}{_fault(way.branch.faults)}"
@@ -119,7 +119,7 @@ def _color(net: Net, colors: dict[str, int], prefix: str) -> str:
 
 
 def _path(points: list[Point]) -> str:
-    """A way with round corners; corners that are none are passed over."""
+    """The path with round corners; points on a straight line are omitted."""
     kept = [points[0]]
     for point, after in zip(points[1:], [*points[2:], None], strict=True):
         straight = after is not None and (kept[-1][0] == point[0] == after[0] or kept[-1][1] == point[1] == after[1])
@@ -133,7 +133,7 @@ def _path(points: list[Point]) -> str:
 
 
 def _towards(corner: Point, other: Point) -> Point:
-    """The point where a round corner begins."""
+    """The point at which a round corner begins."""
     wide, high = other[0] - corner[0], other[1] - corner[1]
     length = abs(wide) + abs(high)
     share = min(_ROUND, length / 2) / length
@@ -144,10 +144,10 @@ def _problems(picture: Picture, geometry: Geometry) -> Iterator[str]:
     room = max(geometry.width, 640.0) - 2 * _MARGIN
     for number, (owner, fault) in enumerate(picture.all_faults()):
         y = geometry.height + LINE_HEIGHT * (number + 1)
-        told = f"{fault.code} {owner}: {fault.message}"
+        text = f"{fault.code} {owner}: {fault.message}"
         style = "wrong" if fault.is_error else "warned"
-        line = shortened(told, SMALL, room)
-        yield f'<text class="told {style}" x="{_MARGIN:g}" y="{y:g}"><title>{_text(told)}</title>{_text(line)}</text>'
+        line = shortened(text, SMALL, room)
+        yield f'<text class="told {style}" x="{_MARGIN:g}" y="{y:g}"><title>{_text(text)}</title>{_text(line)}</text>'
 
 
 def _fault(faults: tuple[PictureFault, ...]) -> str:
@@ -159,5 +159,5 @@ def _place(block: Rectangle) -> str:
 
 
 def _text(text: str) -> str:
-    """A text as XML's; what XML cannot hold is left out."""
+    """A text, escaped for XML, without the characters that XML cannot contain."""
     return escape(IMPOSSIBLE.sub("", text.replace("\r", "")))

@@ -1,4 +1,4 @@
-"""The picture in words: each host with what runs there, and below each process what it is connected to."""
+"""The picture as text: each host with its processes, and each process with its connections."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ _ARROWS = {parts.USES: "->", parts.PUBLISHES: "=>", parts.SUBSCRIBES: "<=", part
 
 def draw(picture: Picture) -> str:
     lines = [picture.name]
-    places = [(box.name, box.title) for box in picture.boxes] + [("", "")]
-    for name, title in places:
+    sections = [(box.name, box.title) for box in picture.boxes] + [("", "")]
+    for name, title in sections:
         shown = [node for node in picture.inside(name) if node.kind not in (parts.TOPIC, parts.OUTSIDE)]
         if shown and title:
             lines.append(f"  {title}")
         indent = "    " if title else "  "
         for node in shown:
             lines += [f"{indent}{line}" for line in _node(picture, node)]
-    told = list(picture.all_faults())
-    if told:
+    faults = list(picture.all_faults())
+    if faults:
         lines.append("problems")
-    for owner, fault in told:
+    for owner, fault in faults:
         lines.append(f"  {owner}: {'error' if fault.is_error else 'warning'}[{fault.code}]: {fault.message}")
     return "\n".join(lines) + "\n"
 
