@@ -54,7 +54,7 @@ class Compilation:
             standalone=standalone,
         )
         self._built = build(analysis.program, analysis.diagnostics, options)
-        AllowedFolders(self._paths, output).keep_inside(self._built)
+        AllowedFolders(self._paths, output).restrict(self._built)
 
     @cached_property
     def outcome(self) -> Outcome:
@@ -131,7 +131,7 @@ class Compilation:
         found: dict[str, bytes] = {}
         fences = AllowedFolders(self._paths, None)
         for workspace in self._analysis.linker.workspaces.values():
-            if not fences.hold(workspace.root):
+            if not fences.contain(workspace.root):
                 continue
             try:
                 workspace_files.install(workspace.root, workspace.plugins)
@@ -196,7 +196,7 @@ def _outcome_of(
     by_path = {file.path: file for file in files}  # of roots in each other, both may have one
     program, read = analysis.program, analysis.linker.documents.read
     faulty = {os.path.realpath(one.span.file) for one in told if one.severity == ERROR}
-    left_out = {read[real].path: real in faulty for real in built.left_out & program.asked}
+    left_out = {read[real].path: real in faulty for real in built.skipped & program.asked}
     return Outcome(
         tuple(told), tuple(by_path.values()), program.documents, len(program.asked), dict(sorted(left_out.items()))
     )

@@ -1,4 +1,4 @@
-"""The first `etc/config` of a component: what its user will want to change, each with a word about it."""
+"""The first `etc/config` of a component: the properties that users change, each with a comment."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ from robocomp_yaml.transactions.plan import ONCE, FilePlan
 
 _ICE = (
     ("Ice.Warn.Connections", "0", "1: warn when a connection is lost."),
-    ("Ice.Trace.Network", "0", "1 to 3: say when connections open and close, and more."),
-    ("Ice.Trace.Protocol", "0", "1: show every message."),
-    ("Ice.MessageSizeMax", "20004800", "The largest message, in KiB."),
+    ("Ice.Trace.Network", "0", "1 to 3: log opened and closed connections, and more."),
+    ("Ice.Trace.Protocol", "0", "1: log every message."),
+    ("Ice.MessageSizeMax", "20004800", "The size limit of messages, in KiB."),
 )
 
 
 def plan(component: LinkedComponent, table: PortTable) -> FilePlan:
-    """`etc/config` of a component; `table` has the ports of its workspace."""
+    """The plan of a component's first `etc/config`; `table` has the ports of its workspace."""
     sections = (
         _head(component),
         _offers(component, table),
@@ -42,7 +42,7 @@ def plan(component: LinkedComponent, table: PortTable) -> FilePlan:
 
 
 def needed(linked: LinkedComponent) -> list[str]:
-    """The keys without which a component finds no other, or is not found itself."""
+    """The keys without which a component cannot reach others, or cannot be reached."""
     keys = [endpoints(name)[0] for name in ports.adapters(linked)]
     keys += [proxy(port.name)[0] for port in linked.requires]
     if linked.publishes or linked.subscribes:
@@ -50,47 +50,48 @@ def needed(linked: LinkedComponent) -> list[str]:
     return keys
 
 
-def connections(linked: LinkedComponent, table: PortTable, standing: Mapping[str, str]) -> dict[str, str]:
-    """The same with their values, as a first `etc/config` has them. Where no component is known that implements what
-    this one requires, what stands in its configuration already is more than a guess."""
-    values = read(plan(linked, table).text).values
-    found = {key: values[key] for key in needed(linked)}
+def connections(linked: LinkedComponent, table: PortTable, existing: Mapping[str, str]) -> dict[str, str]:
+    """The needed keys with the values of a first `etc/config`. A proxy of the existing configuration is kept if no
+    known component implements the interface."""
+    defaults = read(plan(linked, table).text).values
+    values = {key: defaults[key] for key in needed(linked)}
     for port in linked.requires:
         key = proxy(port.name)[0]
-        stands = stated(standing, key)
-        if stands is not None and not _others(linked, port, table):
-            found[key] = stands
-    return found
+        value = stated(existing, key)
+        if value is not None and not _others(linked, port, table):
+            values[key] = value
+    return values
 
 
 def stated(properties: Mapping[str, str], key: str) -> str | None:
-    """The value that a configuration gives a key under any of its spellings."""
+    """The value of a key in a configuration, under any of its spellings; None if it is not set."""
     return next((unquoted(properties[each]) for each in names(key) if properties.get(each)), None)
 
 
 def names(key: str) -> tuple[str, ...]:
+    """All spellings of a key, its own first."""
     return key, *sorted(spellings(key))
 
 
-def standing(folder: str) -> dict[str, str]:
-    """The properties of the `etc/config` in a component's folder; none where there is none."""
+def existing(folder: str) -> dict[str, str]:
+    """The properties of the `etc/config` in a component's folder; empty if it does not exist."""
     return dict(read(text(os.path.join(folder, CONFIG)) or "").values)
 
 
 def _others(linked: LinkedComponent, port: Port, table: PortTable) -> list[tuple[LinkedComponent, str]]:
-    """The other components that implement what one requires."""
-    here = ports.document(linked)
-    return [one for one in table.implementers.get(interface_key(port), ()) if ports.document(one[0]) != here]
+    """The other components that implement the interface of a required port, with the names of their ports."""
+    own = ports.document(linked)
+    return [one for one in table.implementers.get(interface_key(port), ()) if ports.document(one[0]) != own]
 
 
 def _head(linked: LinkedComponent) -> Iterator[str]:
     name = linked.component.name
-    yield f"# Configuration of {name}: one KEY=VALUE a line, as Ice reads it. rcyaml wrote it once; it is yours now."
+    yield f"# Configuration of {name}: one KEY=VALUE per line, as Ice reads it. rcyaml wrote it once; it is yours."
     yield f"# The command line overrides it: bin/{name} --period.compute=50 --Ice.Trace.Network=1"
 
 
 def _offers(linked: LinkedComponent, table: PortTable) -> Iterator[str]:
-    yield "# What it offers: where it listens."
+    yield "# Endpoints: where this component listens."
     docs = {port.name: port.interface.doc for port in linked.implements}
     for name in ports.adapters(linked):
         doc = docs.get(name, "State, period, properties and orderly stop of every component.")
@@ -100,30 +101,32 @@ def _offers(linked: LinkedComponent, table: PortTable) -> Iterator[str]:
 
 def _needs(linked: LinkedComponent, table: PortTable) -> Iterator[str]:
     if linked.requires:
-        yield "# What it needs: where the others listen."
+        yield "# Proxies: the addresses of other components."
     earlier: dict[tuple[str, str], int] = {}
     for port in linked.requires:
         key = interface_key(port)
         identity = port.interface.name.lower()
-        # A second proxy to an interface is for a second component that implements it, where there is one.
+        # The second proxy of an interface is for the second component that implements it, if there is one.
         count = earlier[key] = earlier.get(key, -1) + 1
-        found = _others(linked, port, table)
+        others = _others(linked, port, table)
         yield from _comment(port.name, port.interface.doc)
-        if found:
-            other, adapter = found[min(count, len(found) - 1)]
-            yield f"# {_implemented(linked, found, other)}"
+        if others:
+            other, adapter = others[min(count, len(others) - 1)]
+            yield f"# {_implemented(linked, others, other)}"
             endpoint = table.endpoint(other, adapter)
         else:
-            yield "# No component of this workspace implements it: set host and port of the one that does."
+            yield "# No component of this workspace implements it: set host and port of one that does."
             endpoint = IceEndpoint(default_port("", port.interface.name))
-        where = f"{endpoint.protocol} -h {endpoint.host or 'localhost'} -p {endpoint.port}"
-        yield entry_line(proxy(port.name)[0], f"{identity}:{where}")
+        address = f"{endpoint.protocol} -h {endpoint.host or 'localhost'} -p {endpoint.port}"
+        yield entry_line(proxy(port.name)[0], f"{identity}:{address}")
 
 
-def _implemented(linked: LinkedComponent, found: Sequence[tuple[LinkedComponent, str]], chosen: LinkedComponent) -> str:
-    here = os.path.dirname(linked.component.path) or "."
-    text = f"Implemented by {chosen.component.name} ({os.path.relpath(chosen.component.path, here)})"
-    also = [other.component.name for other, _ in found if other is not chosen]
+def _implemented(
+    linked: LinkedComponent, others: Sequence[tuple[LinkedComponent, str]], chosen: LinkedComponent
+) -> str:
+    folder = os.path.dirname(linked.component.path) or "."
+    text = f"Implemented by {chosen.component.name} ({os.path.relpath(chosen.component.path, folder)})"
+    also = [other.component.name for other, _ in others if other is not chosen]
     return f"{text}, also by {', '.join(also)}." if also else f"{text}."
 
 
@@ -134,7 +137,7 @@ def _topics(linked: LinkedComponent) -> Iterator[str]:
     yield entry_line(MANAGER[0], "IceStorm/TopicManager:default -p 9999")
     for port in linked.subscribes:
         yield from _comment(port.name, port.interface.doc)
-        yield "# Port 0: any free one; only IceStorm needs to know it."
+        yield "# Port 0: any free port, which only IceStorm has to know."
         yield entry_line(topic_endpoints(port.name)[0], "tcp -p 0")
 
 
@@ -151,7 +154,7 @@ def _middleware() -> Iterator[str]:
 
 
 def _comment(name: str, doc: str) -> Iterator[str]:
-    """The first paragraph of a doc text."""
+    """The first paragraph of a documentation text."""
     paragraph = doc.strip().partition("\n\n")[0].splitlines()
     if paragraph:
         yield f"# {name}: {paragraph[0].strip()}"

@@ -1,4 +1,4 @@
-"""What the components of a workspace share: the Slice of its interfaces, and the run time of each language."""
+"""The files that the components of a workspace share: the Slice of interfaces, and the run time of each language."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Slices = Callable[[Iterable[LinkedModule]], Iterator[FilePlan]]
 
 
 class Shared:
-    """Gathers, component by component, what is to be there for all of them. `slices` renders modules."""
+    """Collects the shared files, component by component. `slices` renders modules."""
 
     def __init__(self, options: EmitOptions, slices: Slices, disk: Disk) -> None:
         self._options, self._slices, self._disk = options, slices, disk
@@ -26,13 +26,13 @@ class Shared:
         self._modules: dict[LinkedModule, str] = {}
 
     def layout(self, linked: LinkedComponent, root: str) -> Layout:
-        """Where the parts of a component are whose folder is `root`."""
+        """The layout of the component in the folder `root`."""
         options = self._options
         if options.output is not None or options.standalone:
             return ALONE
         workspace = options.workspace_of(linked.component.path)
         modules = linked.modules()
-        if not all(self._is_of(workspace, one) and not _is_beside(workspace, one, self._disk) for one in modules):
+        if not all(self._is_of(workspace, one) and not _is_hidden(workspace, one, self._disk) for one in modules):
             return layout(linked, workspace, root, "", "")
         texts = {file.path: file.text for file in self._slices(linked.modules())}
         return layout(linked, workspace, root, workspace.slice_folder, fingerprint(texts))
@@ -41,20 +41,20 @@ class Shared:
         other = self._options.workspace_of(scope.module.path)
         return other.declared and os.path.realpath(other.root) == os.path.realpath(workspace.root)
 
-    def add(self, linked: LinkedComponent, place: Layout) -> None:
-        """What this component needs of it."""
+    def add(self, linked: LinkedComponent, layout: Layout) -> None:
+        """Adds the shared files that this component needs."""
         options, component = self._options, linked.component
         workspace = options.workspace_of(component.path)
-        if not place.has_own_slice and options.wants("slice"):
+        if not layout.has_own_slice and options.emits("slice"):
             self._modules.update(dict.fromkeys(linked.modules(), workspace.slice_folder))
         name = component.language.name
-        if not place.has_own_runtime and options.wants(name) and (workspace.root, name) not in self._runtimes:
+        if not layout.has_own_runtime and options.emits(name) and (workspace.root, name) not in self._runtimes:
             root = runtime_folder(workspace, component.language.target)
             owner = os.path.relpath(os.path.join(workspace.root, WORKSPACE_FILE), root)
             self._runtimes[workspace.root, name] = RootPlan(root, owner, runtime.files(name))
 
     def plans(self, planned: Set[tuple[str, str]]) -> Iterator[RootPlan]:
-        """All of it, but for what has a plan: `planned` are roots with owners."""
+        """The plans of the shared files, except those that are `planned`, as pairs of root and owner."""
         yield from self._runtimes.values()
         for scope, root in self._modules.items():
             owner = os.path.relpath(scope.module.path, root)
@@ -62,8 +62,8 @@ class Shared:
                 yield RootPlan(root, owner, tuple(self._slices([scope])), partial=True)
 
 
-def _is_beside(workspace: Workspace, scope: LinkedModule, disk: Disk) -> bool:
-    """Whether it stands in front of another document of its name, which others import, and which has the place."""
+def _is_hidden(workspace: Workspace, scope: LinkedModule, disk: Disk) -> bool:
+    """Whether imports of the workspace resolve the name of this module to another document."""
     name = os.path.basename(scope.module.path)
     for folder in workspace.interfaces:
         if disk.has_file(path := os.path.join(folder, name)):

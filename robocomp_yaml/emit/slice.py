@@ -1,7 +1,7 @@
-"""The Slice target: a module as the `.ice` file that a person would write.
+"""The Slice target: the `.ice` file of a module, in the style of a person.
 
-Two blanks of indentation, one blank line between definitions, definitions after those that they use and otherwise in
-the author's order. The text depends on the module and its imports alone.
+Indentation is two blanks, and definitions are separated by an empty line. A definition comes after those that it uses,
+else in the author's order. The text depends only on the module and its imports.
 """
 
 from __future__ import annotations
@@ -34,22 +34,23 @@ _STRING = re.compile(r'"(?:[^"\\]|\\.)*"')
 
 
 def file_name(linked: LinkedModule) -> str:
+    """The name of the file of a module."""
     return f"{linked.module.stem}.ice"
 
 
 def guard(linked: LinkedModule) -> str:
-    """The macro that keeps the file from being read twice. No identifier of Slice ends in an underscore."""
+    """The include guard of the file. No identifier of Slice ends with an underscore."""
     return f"ROBOCOMP{macro(linked.module.stem)}_ICE_"
 
 
 def text(linked: LinkedModule) -> str:
-    """The file's text. The module has passed every check."""
+    """The text of the file of a module without errors."""
     return "\n".join(_File(linked).lines()) + "\n"
 
 
 def in_order(linked: LinkedModule) -> list[Definition]:
-    """The module's definitions, each after those that it uses, else as the author ordered them. Interfaces come last,
-    and nothing uses them."""
+    """The definitions of a module, each after those that it uses, else in the author's order. Interfaces, which no
+    definition uses, are last."""
     module = linked.module
     own: dict[str, Definition] = {d.name: d for d in (*module.constants, *module.types, *module.exceptions)}
 
@@ -127,10 +128,10 @@ class _File:
             documented = bool(doc)
 
     def _tags(self, method: Method) -> list[tuple[str, str]]:
-        """What is said of parameters, result and, where anything is said at all, exceptions."""
+        """The tags for parameters and result, and for exceptions if the method has any documentation."""
         tags = [(f"@param {p.name}", described(p.doc, p.unit)) for p in (*method.inputs, *method.outputs)]
         tags.append(("@return", described(method.returns_doc, method.returns_unit)))
-        if (method.doc or any(said for _, said in tags)) and "@throws" not in method.doc:
+        if (method.doc or any(doc for _, doc in tags)) and "@throws" not in method.doc:
             for ref in method.throws:
                 found = self.linked.find(ref)
                 tags.append((f"@throws {self._type(ref)}", described(found[1].doc, "") if found else ""))
@@ -157,8 +158,8 @@ class _File:
         return f"{direction}{self._type(parameter.type, hidden)} {parameter.name}"
 
     def _type(self, ref: TypeRef, hidden: Collection[str] = ()) -> str:
-        """A type's name. `hidden` are names, in lower case, that mean something else where it is used. From the root
-        where its first word would be taken for something else."""
+        """The name of a type, absolute if its first word has another meaning: `hidden` are the names, in lower case,
+        that have another meaning at this position."""
         if ref.text not in self._names:
             self._names[ref.text] = self._name(ref)
         name, first_word = self._names[ref.text]
@@ -167,7 +168,7 @@ class _File:
         return f"::{name}" if "::" in name else f"::{self.module.name}::{name}"
 
     def _name(self, ref: TypeRef) -> tuple[str, str]:
-        """A type's name, and its first word in lower case ('' where that cannot be mistaken)."""
+        """The name of a type, and its first word in lower case ('' if that cannot have another meaning)."""
         if ref.is_basic:
             return ref.text, ""
         found = self.linked.find(ref)
@@ -180,7 +181,8 @@ class _File:
         return (f"::{name}", "") if first_word in self.own_names else (name, first_word)
 
     def _value(self, type_: TypeRef, value: Literal) -> str:
-        """Enumerators are named with their enum: a member, a type or a module may have an enumerator's name too."""
+        """A value in Slice. An enumerator is qualified with its enum, because other definitions may have the same
+        name."""
         return literal(value, type_.text) if type_.is_basic else f"{self._type(type_)}::{value.lexeme}"
 
 
@@ -208,7 +210,7 @@ def _enum(enum: Enum) -> Iterator[str]:
 
 
 def _has_underscores(line: str) -> bool:
-    """Whether a line has names with underscores, which Slice takes only when a file says so."""
+    """Whether a line has names with underscores, which Slice accepts only with a directive."""
     return not line.lstrip().startswith(("/*", "*")) and "_" in _STRING.sub("", line)
 
 
@@ -231,7 +233,7 @@ def literal(value: Literal, type_name: str) -> str:
 
 
 def quoted(text: str) -> str:
-    """A string literal; `??` is split, since the preprocessor knows trigraphs."""
+    """A string literal, in which `??` is split, because the preprocessor replaces trigraphs."""
     escaped = "".join(_ESCAPES.get(c) or (f"\\{ord(c):03o}" if ord(c) < 0x20 or ord(c) == 0x7F else c) for c in text)
     return '"' + escaped.replace("??", "?\\?") + '"'
 

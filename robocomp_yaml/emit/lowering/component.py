@@ -13,9 +13,9 @@ COMMON = "CommonBehavior.ice"
 
 
 class LoweredComponent(msgspec.Struct, frozen=True):
-    """`source` is the file name of the document, `doc` the name with the documentation, `period` in milliseconds. `files`
-    are the Slice files of all `modules`, `imported` those that the document imports. `is_common`: the Slice file of
-    CommonBehavior is that of rcyaml, not one of the user's."""
+    """`source` is the file name of the document, `doc` the name with the documentation, `period` in milliseconds.
+    `files` are the Slice files of all `modules`, `imported` those that the document imports. `is_common`: the Slice
+    file of CommonBehavior is that of rcyaml, not one of the user's."""
 
     source: str
     name: str

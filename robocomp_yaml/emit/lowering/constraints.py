@@ -27,10 +27,10 @@ _FUNCTIONS = {"len": "size", "abs": "absolute", "min": "least", "max": "most"}
 
 
 class Calls(msgspec.Struct, frozen=True):
-    """How a language spells the calls. `prefix` is the prefix of all functions. `value`, `text` and `sign` make literals
-    of a value, of a text and of an operator. `listing` is a list of values, `pairs` the rest of a comparison, `later` an
-    expression with lazy evaluation, and `parts` a list of these. `function` is a function of one variable, `member` the
-    access to a member. `variable` is the name of a variable, and the number of variables around it."""
+    """How a language spells the calls. `prefix` is the prefix of all functions. `value`, `text` and `sign` make
+    literals of a value, of a text and of an operator. `listing` is a list of values, `pairs` the rest of a comparison,
+    `later` an expression with lazy evaluation, and `parts` a list of these. `function` is a function of one variable,
+    `member` the access to a member. `variable` is the name of a variable, and the number of variables around it."""
 
     prefix: str
     value: Callable[[object], str]

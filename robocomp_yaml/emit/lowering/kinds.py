@@ -14,8 +14,8 @@ _LIMITS = {"at_least": "atLeast", "above": "above", "at_most": "atMost", "below"
 
 
 class Builders(msgspec.Struct, frozen=True):
-    """How a language spells the calls. `prefix` is the prefix of all functions. `text` makes a literal of a text, `value`
-    one of any plain data, `listed` a list of expressions, and `pattern` a matcher for a pattern."""
+    """How a language spells the calls. `prefix` is the prefix of all functions. `text` makes a literal of a text,
+    `value` one of any plain data, `listed` a list of expressions, and `pattern` a matcher for a pattern."""
 
     prefix: str
     text: Callable[[str], str]
@@ -24,8 +24,8 @@ class Builders(msgspec.Struct, frozen=True):
     pattern: Callable[[str], str]
 
     def kind(self, type_: Type, functions: Mapping[str, str], group: str | None = None) -> str:
-        """The expression for a type. `functions` maps records to the functions that build their types; `group` is the path
-        of a group."""
+        """The expression for a type. `functions` maps records to the functions that build their types; `group` is the
+        path of a group."""
         match type_:
             case BasicType():
                 return self._plain(type_)

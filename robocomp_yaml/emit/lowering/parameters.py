@@ -16,9 +16,9 @@ ROOT = "."
 
 
 class TypeSpelling(msgspec.Struct, frozen=True):
-    """How a language spells types. `basic` maps the names of basic types; `listing` and `mapping` have {} for the type of
-    the elements, `own` for the name of a generated class. `boxed` are basic types as elements, if they differ. `path`
-    is a path of a parameter in documentation."""
+    """How a language spells types. `basic` maps the names of basic types; `listing` and `mapping` have {} for the type
+    of the elements, `own` for the name of a generated class. `boxed` are basic types as elements, if they differ.
+    `path` is a path of a parameter in documentation."""
 
     basic: Mapping[str, str]
     listing: str

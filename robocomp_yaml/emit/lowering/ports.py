@@ -13,8 +13,8 @@ from robocomp_yaml.model.interface import Method
 
 
 class PortSpelling(msgspec.Struct, frozen=True):
-    """How a language spells names. `taken` are the names of every worker. `published` are the candidates for the proxy of
-    a topic, with {name} for the port's name in lower case. `called` makes the name of an operation for callers, and
+    """How a language spells names. `taken` are the names of every worker. `published` are the candidates for the proxy
+    of a topic, with {name} for the port's name in lower case. `called` makes the name of an operation for callers, and
     `property` is the name of a property in documentation."""
 
     taken: frozenset[str]
@@ -24,9 +24,9 @@ class PortSpelling(msgspec.Struct, frozen=True):
 
 
 class Accessor(msgspec.Struct, frozen=True):
-    """The proxy `name` of the worker. `about` is one sentence, `summary` a few words, and `doc` the documentation in the
-    document. `events` are those that it publishes. `absent` is '' for the default of the run time. `milliseconds` is
-    the time limit of calls, None for the default of Ice."""
+    """The proxy `name` of the worker. `about` is one sentence, `summary` a few words, and `doc` the documentation in
+    the document. `events` are those that it publishes. `absent` is '' for the default of the run time. `milliseconds`
+    is the time limit of calls, None for the default of Ice."""
 
     port: Port
     name: str
