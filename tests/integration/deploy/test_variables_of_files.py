@@ -82,7 +82,7 @@ def test_what_a_form_cannot_say() -> None:
         export(network_of("~/token"), "compose")
     with noted() as notes:
         export(network_of("/token"), "rcmanager")
-    assert [str(one) for one in notes] == ["RCManager gives its commands no variables: TOKEN, OTHER"]
+    assert [str(one) for one in notes] == ["RCManager sets no variables for its commands: TOKEN, OTHER"]
 
 
 def test_it_is_read_here_alike(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

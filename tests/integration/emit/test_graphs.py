@@ -1,4 +1,4 @@
-"""Pictures of networks: what is in them, every form, and an SVG in which nothing overlaps."""
+"""Pictures of networks: their content, all forms, and an SVG in which nothing overlaps."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ FORMS = {"text": "txt", "dot": "dot", "mermaid": "mmd", "json": "json", "svg": "
 
 
 def faulty() -> tuple[Network, list[Diagnostic]]:
-    """Two processes in a document, an error in the first, which the second shares, and one at a connection."""
+    """Two processes of a document, with an error that both have, and one at a connection."""
     network = Network("Two", "/two.ddsl.yaml", "/f", dict(large(1, 1).hosts))
     for line, name in ((3, "a"), (6, "b")):
         span = Span("two.ddsl.yaml", line, 3)
@@ -55,7 +55,7 @@ def test_golden(golden: Golden, form: str) -> None:
     })  # fmt: skip
 
 
-def test_problems_are_where_they_belong() -> None:
+def test_diagnostics_are_at_their_nodes_and_lines() -> None:
     made = picture_of(*faulty())
     codes = {name: [fault.code for fault in node.faults] for name, node in made.nodes.items()}
     assert codes == {"a": ["RC0101", "RC0105"], "b": ["RC0101"]}
@@ -65,7 +65,7 @@ def test_problems_are_where_they_belong() -> None:
     assert [fault.code for _, fault in made.all_faults()] == ["RC0101", "RC0105", "RC0204"]
 
 
-def test_a_topic_stands_between_those_who_use_it() -> None:
+def test_a_topic_is_between_publishers_and_subscribers() -> None:
     made = picture_of(speaking())
     topic = made.nodes["storm/robot1/SpeechEvents"]
     assert (topic.kind, topic.box) == (parts.TOPIC, "onboard")
@@ -75,14 +75,14 @@ def test_a_topic_stands_between_those_who_use_it() -> None:
     assert made.nodes["camera:tcp -h 10.0.0.9 -p 10100"].kind == parts.OUTSIDE
 
 
-def test_what_waits_without_a_connection_has_a_line() -> None:
+def test_a_dependence_without_a_connection_is_a_line() -> None:
     network = speaking()
     network.connections.clear()
     lines = {(line.source, line.target) for line in picture_of(network).lines if line.kind == parts.AFTER}
     assert lines == {("mouth", "motors"), ("mouth", "storm"), ("speech", "mouth"), ("speech", "storm")}
 
 
-def test_layers_go_down_and_circles_do_no_harm() -> None:
+def test_layers_with_and_without_cycles() -> None:
     assert layers("abcd", {"a": ["b"], "b": ["c"]}) == {"a": 0, "b": 1, "c": 2, "d": 2}
     found = layers("abc", {"a": ["b"], "b": ["c"], "c": ["a"]})
     assert sorted(found.values()) == [0, 1, 2]
@@ -173,6 +173,6 @@ def overlap(one: Rectangle, other: Rectangle, room: float = 0.0) -> bool:
 
 @pytest.mark.skipif(shutil.which("dot") is None, reason="Graphviz is not installed")
 @pytest.mark.parametrize("network", [speaking(), large(30)], ids=["head", "large"])
-def test_graphviz_takes_it(network: Network) -> None:
+def test_graphviz_accepts_it(network: Network) -> None:
     done = subprocess.run(["dot", "-Tsvg"], input=draw(picture_of(network), "dot"), capture_output=True, text=True)
     assert done.returncode == 0 and not done.stderr, done.stderr

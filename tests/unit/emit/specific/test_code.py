@@ -1,4 +1,4 @@
-"""What is read of the user's code."""
+"""Reading the user's code."""
 
 from __future__ import annotations
 
@@ -127,11 +127,11 @@ def test_any_text_can_be_read(path: str, text: str) -> None:
     assert "".join(code(path, text).lines) == text
 
 
-def test_faults_are_counted() -> None:
+def test_syntax_errors_are_counted() -> None:
     assert code("a.py", "def f(:\n    pass\n").faults
     assert code("a.cpp", "void f( {\n").faults
     assert code("a.cpp", "void f() {}\n").faults == 0
 
 
-def test_other_files_are_no_code() -> None:
+def test_other_files_are_not_code() -> None:
     assert read("CMakeLists.txt", "project(x)\n") is None
