@@ -177,7 +177,7 @@ def _unresolved(document: Module | Component, cause: str, state: _State) -> Diag
         document.span,
         name=document.name,
         related=related if cause != document.path else (),
-        hint=f"`{typed('rcyaml', 'check', document.path)}` reports the errors: fix them first",
+        hint=f"`{typed('rcyaml', 'check', document.path)}` reports the cause: fix that first",
     )
     # If the cause is reported as an error, this is only a consequence.
     return diagnostic if cause in state.lowered else diagnostic.as_severity(NOTE)

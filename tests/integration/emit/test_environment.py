@@ -55,7 +55,7 @@ def test_pkg_config_versions(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.Mo
     versions = (">=3.9, <4", "3.10", ">3.10.1", "==3.10.1.0")
     libraries = [{"pkg-config": "own", "version": version} for version in versions]
     assert warnings_of(rcyaml, tmp_path, [*libraries, {"pkg-config": "lost-module"}]) == [
-        "the pkg-config module own >3.10.1 is not installed here: it is there as 3.10.1",
+        "the pkg-config module own >3.10.1 is not installed here: version 3.10.1 is installed",
         "the pkg-config module lost-module is not installed here",
     ]
 
@@ -66,13 +66,13 @@ def test_pip_versions(rcyaml: Run, tmp_path: Path, language: str) -> None:
     libraries = [{"pip": "Click"}, *versions, {"pip": "no-such-thing"}]
     found = warnings_of(rcyaml, tmp_path, libraries, language)
     assert len(found) == 2
-    assert found[0].startswith("the Python package click <2 is not installed here: it is there as ")
+    assert found[0].startswith("the Python package click <2 is not installed here: version ")
     assert found[1] == "the Python package no-such-thing is not installed here"
 
 
 def test_missing_programs_are_reported(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(environment.shutil, "which", lambda name: None)
     assert warnings_of(rcyaml, tmp_path, [{"cmake": "A"}, {"pkg-config": "b"}]) == [
-        "the CMake package A is not installed here: CMake, which would find it, is missing too",
-        "the pkg-config module b is not installed here: pkg-config, which would know it, is missing too",
+        "the CMake package A is not installed here: CMake, which would find it, is missing, too",
+        "the pkg-config module b is not installed here: pkg-config, which would find it, is missing, too",
     ]

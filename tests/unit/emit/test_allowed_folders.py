@@ -29,7 +29,8 @@ def test_a_component_elsewhere_must_be_named(args: list[str], rcyaml: Run, tmp_p
     told = refused(result)
     if "-o" not in args:
         assert result.exit_code == 1
-        assert told == [("arm/arm.cdsl.yaml", "if that is meant: `rcyaml compile arm/arm.cdsl.yaml`, or -o DIR")]
+        hint = "to write there, run `rcyaml compile arm/arm.cdsl.yaml`, or set the output folder with -o DIR"
+        assert told == [("arm/arm.cdsl.yaml", hint)]
         assert rcyaml("compile", "arm/arm.cdsl.yaml").exit_code == 0
         assert (tmp_path / "arm/generated").is_dir()
     else:

@@ -44,24 +44,24 @@ def test_the_content_of_a_config() -> None:
     assert (
         plan.text
         == f"""\
-# Configuration of SpeechComp: one KEY=VALUE a line, as Ice reads it. rcyaml wrote it once; it is yours now.
+# Configuration of SpeechComp: one KEY=VALUE per line, as Ice reads it. rcyaml wrote it once; it is yours.
 # The command line overrides it: bin/SpeechComp --period.compute=50 --Ice.Trace.Network=1
 
-# What it offers: where it listens.
+# Endpoints: where this component listens.
 # Speech: Says things,
 # aloud.
 Speech.Endpoints=tcp -p {speech}
 # CommonBehavior: State, period, properties and orderly stop of every component.
 CommonBehavior.Endpoints=tcp -p {behavior}
 
-# What it needs: where the others listen.
+# Proxies: the addresses of other components.
 # Implemented by MouthComp (../mouth/mouth.cdsl.yaml).
 MouthProxy=mouth:tcp -h localhost -p {mouth}
 
 # Topics: IceStorm carries them, and its topic manager must be running.
 TopicManager.Proxy=IceStorm/TopicManager:default -p 9999
 # Heard: What was heard.
-# Port 0: any free one; only IceStorm needs to know it.
+# Port 0: any free port, which only IceStorm has to know.
 HeardTopic.Endpoints=tcp -p 0
 
 # Milliseconds from one call of compute() to the next.
@@ -70,11 +70,11 @@ period.compute=50
 # Ice, the middleware.
 # 1: warn when a connection is lost.
 Ice.Warn.Connections=0
-# 1 to 3: say when connections open and close, and more.
+# 1 to 3: log opened and closed connections, and more.
 Ice.Trace.Network=0
-# 1: show every message.
+# 1: log every message.
 Ice.Trace.Protocol=0
-# The largest message, in KiB.
+# The size limit of messages, in KiB.
 Ice.MessageSizeMax=20004800
 """
     )
