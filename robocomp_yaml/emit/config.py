@@ -91,7 +91,7 @@ def _head(linked: LinkedComponent) -> Iterator[str]:
 
 
 def _offers(linked: LinkedComponent, table: PortTable) -> Iterator[str]:
-    yield "# Endpoints: where this component listens."
+    yield "# The addresses on which this component listens."
     docs = {port.name: port.interface.doc for port in linked.implements}
     for name in ports.adapters(linked):
         doc = docs.get(name, "State, period, properties and orderly stop of every component.")
@@ -101,7 +101,7 @@ def _offers(linked: LinkedComponent, table: PortTable) -> Iterator[str]:
 
 def _needs(linked: LinkedComponent, table: PortTable) -> Iterator[str]:
     if linked.requires:
-        yield "# Proxies: the addresses of other components."
+        yield "# The addresses of the components that it requires."
     earlier: dict[tuple[str, str], int] = {}
     for port in linked.requires:
         key = interface_key(port)

@@ -47,14 +47,14 @@ def test_the_content_of_a_config() -> None:
 # Configuration of SpeechComp: one KEY=VALUE per line, as Ice reads it. rcyaml wrote it once; it is yours.
 # The command line overrides it: bin/SpeechComp --period.compute=50 --Ice.Trace.Network=1
 
-# Endpoints: where this component listens.
+# The addresses on which this component listens.
 # Speech: Says things,
 # aloud.
 Speech.Endpoints=tcp -p {speech}
 # CommonBehavior: State, period, properties and orderly stop of every component.
 CommonBehavior.Endpoints=tcp -p {behavior}
 
-# Proxies: the addresses of other components.
+# The addresses of the components that it requires.
 # Implemented by MouthComp (../mouth/mouth.cdsl.yaml).
 MouthProxy=mouth:tcp -h localhost -p {mouth}
 
