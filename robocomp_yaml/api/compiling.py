@@ -160,7 +160,7 @@ class Compilation:
         there = ours | {os.path.normpath(path) for path in once}  # since this run
         there |= {folder for path in there for folder in _above(path)}
         states = disk.states | dict.fromkeys((*own.absent, *changes.journals), NOTHING)
-        return stamp.take(
+        return stamp.create(
             inputs={path: raw for path, raw in {**disk.contents, **own.contents}.items() if path not in ours},
             states={path: state for path, state in states.items() if os.path.normpath(path) not in there},
             listed=disk.listed,

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from robocomp_yaml.emit import ports
 from robocomp_yaml.emit.layout import CONFIG
 from robocomp_yaml.emit.ports import PortTable, interface_key
-from robocomp_yaml.emit.specific.entries import spellings
+from robocomp_yaml.emit.specific.config_merge import spellings
 from robocomp_yaml.link.program import LinkedComponent, Port
 from robocomp_yaml.network.port_numbers import default_port
 from robocomp_yaml.parameters.defaults import period
@@ -29,13 +29,15 @@ _ICE = (
 
 def plan(component: LinkedComponent, table: PortTable) -> FilePlan:
     """The plan of a component's first `etc/config`; `table` has the ports of its workspace."""
+    compute = period(component.parameters.parameters)
+    ice = [line for key, value, doc in _ICE for line in (f"# {doc}", entry_line(key, value))]
     sections = (
         _head(component),
-        _offers(component, table),
-        _needs(component, table),
+        _endpoints(component, table),
+        _proxies(component, table),
         _topics(component),
-        _worker(component),
-        _middleware(),
+        ["# Milliseconds from one call of compute() to the next.", entry_line("period.compute", str(compute))],
+        ["# Ice, the middleware.", *ice],
     )
     text = "\n".join("".join(f"{line}\n" for line in section) for section in map(list, sections) if section)
     return FilePlan(CONFIG, text, ONCE)
@@ -90,7 +92,7 @@ def _head(linked: LinkedComponent) -> Iterator[str]:
     yield f"# The command line overrides it: bin/{name} --period.compute=50 --Ice.Trace.Network=1"
 
 
-def _offers(linked: LinkedComponent, table: PortTable) -> Iterator[str]:
+def _endpoints(linked: LinkedComponent, table: PortTable) -> Iterator[str]:
     yield "# The addresses on which this component listens."
     docs = {port.name: port.interface.doc for port in linked.implements}
     for name in ports.adapters(linked):
@@ -99,7 +101,7 @@ def _offers(linked: LinkedComponent, table: PortTable) -> Iterator[str]:
         yield entry_line(endpoints(name)[0], f"tcp -p {table.endpoint(linked, name).port}")
 
 
-def _needs(linked: LinkedComponent, table: PortTable) -> Iterator[str]:
+def _proxies(linked: LinkedComponent, table: PortTable) -> Iterator[str]:
     if linked.requires:
         yield "# The addresses of the components that it requires."
     earlier: dict[tuple[str, str], int] = {}
@@ -139,18 +141,6 @@ def _topics(linked: LinkedComponent) -> Iterator[str]:
         yield from _comment(port.name, port.interface.doc)
         yield "# Port 0: any free port, which only IceStorm has to know."
         yield entry_line(topic_endpoints(port.name)[0], "tcp -p 0")
-
-
-def _worker(linked: LinkedComponent) -> Iterator[str]:
-    yield "# Milliseconds from one call of compute() to the next."
-    yield entry_line("period.compute", str(period(linked.parameters.parameters)))
-
-
-def _middleware() -> Iterator[str]:
-    yield "# Ice, the middleware."
-    for key, value, doc in _ICE:
-        yield f"# {doc}"
-        yield entry_line(key, value)
 
 
 def _comment(name: str, doc: str) -> Iterator[str]:

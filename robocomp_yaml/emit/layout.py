@@ -12,9 +12,7 @@ from collections.abc import Mapping
 
 import msgspec
 
-from robocomp_yaml.emit import runtime
 from robocomp_yaml.languages.record import TargetLanguage
-from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.link.workspace import Workspace
 from robocomp_yaml.source.digest import digest
 
@@ -50,18 +48,6 @@ def is_settings(path: str) -> bool:
     return os.path.basename(os.path.dirname(path)) == SETTINGS
 
 
-def layout(linked: LinkedComponent, workspace: Workspace, root: str, slices: str, made_for: str) -> Layout:
-    """The layout of the component in the folder `root`. `slices` is the shared folder with the Slice of all its
-    modules, which has the fingerprint `made_for`; '' if the component needs its own Slice."""
-    target = linked.component.language.target
-    if not (workspace.declared and target.runtime and runtime.has_common(linked)):
-        return ALONE
-    shared = runtime_folder(workspace, target)
-    if not slices:
-        return Layout(SLICE, _from(root, shared))
-    return Layout(_from(root, slices), _from(root, shared), made_for)
-
-
 def runtime_folder(workspace: Workspace, target: TargetLanguage) -> str:
     """The folder of the run time of a language that the components of a workspace share."""
     return os.path.normpath(os.path.join(workspace.runtime_folder, target.name, target.runtime_root))
@@ -75,7 +61,3 @@ def fingerprint(texts: Mapping[str, str]) -> str:
 def stated(fingerprint: str) -> str:
     """The sentence in generated code that names the Slice for which it was generated."""
     return f"{STATED} {fingerprint}."
-
-
-def _from(root: str, folder: str) -> str:
-    return os.path.relpath(folder, root or ".").replace(os.sep, "/")

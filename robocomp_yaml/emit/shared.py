@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Set
 
 from robocomp_yaml.emit import runtime
-from robocomp_yaml.emit.layout import ALONE, Layout, fingerprint, layout, runtime_folder
+from robocomp_yaml.emit.layout import ALONE, Layout, fingerprint, runtime_folder
 from robocomp_yaml.emit.options import EmitOptions
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule
 from robocomp_yaml.link.workspace import Workspace
@@ -27,15 +27,18 @@ class Shared:
 
     def layout(self, linked: LinkedComponent, root: str) -> Layout:
         """The layout of the component in the folder `root`."""
-        options = self._options
+        options, target = self._options, linked.component.language.target
         if options.output is not None or options.standalone:
             return ALONE
         workspace = options.workspace_of(linked.component.path)
+        if not (workspace.declared and target.runtime and runtime.has_common(linked)):
+            return ALONE
+        shared_runtime = os.path.relpath(runtime_folder(workspace, target), root or ".")
         modules = linked.modules()
         if not all(self._is_of(workspace, one) and not _is_hidden(workspace, one, self._disk) for one in modules):
-            return layout(linked, workspace, root, "", "")
-        texts = {file.path: file.text for file in self._slices(linked.modules())}
-        return layout(linked, workspace, root, workspace.slice_folder, fingerprint(texts))
+            return Layout(runtime=shared_runtime)
+        texts = {file.path: file.text for file in self._slices(modules)}
+        return Layout(os.path.relpath(workspace.slice_folder, root or "."), shared_runtime, fingerprint(texts))
 
     def _is_of(self, workspace: Workspace, scope: LinkedModule) -> bool:
         other = self._options.workspace_of(scope.module.path)

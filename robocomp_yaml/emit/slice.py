@@ -14,19 +14,7 @@ from robocomp_yaml.emit.slice_comment import WIDTH, comment, described
 from robocomp_yaml.link.numbers import arrives, compiles, is_integer_literal
 from robocomp_yaml.link.program import Definition, LinkedModule
 from robocomp_yaml.link.references import macro, types_of
-from robocomp_yaml.model.interface import (
-    Constant,
-    Enum,
-    ExceptionType,
-    Interface,
-    Literal,
-    Map,
-    Member,
-    Method,
-    Sequence,
-    Struct,
-    TypeRef,
-)
+from robocomp_yaml.model import interface as model
 
 IN = "  "
 
@@ -90,33 +78,33 @@ class _File:
         yield "};"
 
     def _definition(self, definition: Definition) -> Iterator[str]:
-        unit = definition.unit if isinstance(definition, Constant) else ""
+        unit = definition.unit if isinstance(definition, model.Constant) else ""
         yield from comment(definition.doc, IN, unit=unit)
         match definition:
-            case Constant():
+            case model.Constant():
                 value = self._value(definition.type, definition.value)
                 yield f"{IN}const {self._type(definition.type)} {definition.name} = {value};"
-            case Struct():
+            case model.Struct():
                 yield from _braced(f"struct {definition.name}", self._members(definition))
-            case ExceptionType():
+            case model.ExceptionType():
                 yield from _braced(f"exception {definition.name}", self._members(definition))
-            case Enum():
+            case model.Enum():
                 yield from _enum(definition)
-            case Sequence():
+            case model.Sequence():
                 yield f"{IN}sequence<{self._type(definition.element)}> {definition.name};"
-            case Map():
+            case model.Map():
                 key, value = self._type(definition.key), self._type(definition.value)
                 yield f"{IN}dictionary<{key}, {value}> {definition.name};"
-            case Interface():
+            case model.Interface():
                 yield from _braced(f"interface {definition.name}", self._methods(definition))
 
-    def _members(self, definition: Struct | ExceptionType) -> Iterator[str]:
+    def _members(self, definition: model.Struct | model.ExceptionType) -> Iterator[str]:
         for member in definition.members:
             yield from comment(member.doc, IN * 2, unit=member.unit)
             default = f" = {self._value(member.type, member.default)}" if member.default is not None else ""
             yield f"{IN * 2}{self._type(member.type)} {member.name}{default};"
 
-    def _methods(self, interface: Interface) -> Iterator[str]:
+    def _methods(self, interface: model.Interface) -> Iterator[str]:
         hidden = {method.name.lower() for method in interface.methods}
         documented = False
         for number, method in enumerate(interface.methods):
@@ -127,7 +115,7 @@ class _File:
             yield from self._method(method, hidden)
             documented = bool(doc)
 
-    def _tags(self, method: Method) -> list[tuple[str, str]]:
+    def _tags(self, method: model.Method) -> list[tuple[str, str]]:
         """The tags for parameters and result, and for exceptions if the method has any documentation."""
         tags = [(f"@param {p.name}", described(p.doc, p.unit)) for p in (*method.inputs, *method.outputs)]
         tags.append(("@return", described(method.returns_doc, method.returns_unit)))
@@ -137,7 +125,7 @@ class _File:
                 tags.append((f"@throws {self._type(ref)}", described(found[1].doc, "") if found else ""))
         return tags
 
-    def _method(self, method: Method, hidden: set[str]) -> Iterator[str]:
+    def _method(self, method: model.Method, hidden: set[str]) -> Iterator[str]:
         returns = self._type(method.returns, hidden) if method.returns else "void"
         head = f"{IN * 2}{'idempotent ' if method.idempotent else ''}{returns} {method.name}("
         parameters = [self._parameter(parameter, "", hidden) for parameter in method.inputs]
@@ -154,10 +142,10 @@ class _File:
             yield f"{IN * 3}throws"
             yield from _listed(throws, IN * 4, ";")
 
-    def _parameter(self, parameter: Member, direction: str, hidden: set[str]) -> str:
+    def _parameter(self, parameter: model.Member, direction: str, hidden: set[str]) -> str:
         return f"{direction}{self._type(parameter.type, hidden)} {parameter.name}"
 
-    def _type(self, ref: TypeRef, hidden: Collection[str] = ()) -> str:
+    def _type(self, ref: model.TypeRef, hidden: Collection[str] = ()) -> str:
         """The name of a type, absolute if its first word has another meaning: `hidden` are the names, in lower case,
         that have another meaning at this position."""
         if ref.text not in self._names:
@@ -167,7 +155,7 @@ class _File:
             return name
         return f"::{name}" if "::" in name else f"::{self.module.name}::{name}"
 
-    def _name(self, ref: TypeRef) -> tuple[str, str]:
+    def _name(self, ref: model.TypeRef) -> tuple[str, str]:
         """The name of a type, and its first word in lower case ('' if that cannot have another meaning)."""
         if ref.is_basic:
             return ref.text, ""
@@ -180,7 +168,7 @@ class _File:
         name, first_word = f"{scope.module.name}::{definition.name}", scope.module.name.lower()
         return (f"::{name}", "") if first_word in self.own_names else (name, first_word)
 
-    def _value(self, type_: TypeRef, value: Literal) -> str:
+    def _value(self, type_: model.TypeRef, value: model.Literal) -> str:
         """A value in Slice. An enumerator is qualified with its enum, because other definitions may have the same
         name."""
         return literal(value, type_.text) if type_.is_basic else f"{self._type(type_)}::{value.lexeme}"
@@ -196,7 +184,7 @@ def _braced(head: str, body: Iterable[str]) -> Iterator[str]:
     yield from (f"{IN}{head}", f"{IN}{{", *lines, f"{IN}}};") if lines else (f"{IN}{head} {{}};",)
 
 
-def _enum(enum: Enum) -> Iterator[str]:
+def _enum(enum: model.Enum) -> Iterator[str]:
     names = [e.name if e.value is None else f"{e.name} = {e.value}" for e in enum.enumerators]
     line = f"{IN}enum {enum.name} {{ {', '.join(names)} }};"
     if len(line) <= WIDTH and not any(e.doc for e in enum.enumerators):
@@ -219,7 +207,7 @@ _REAL = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?\Z"
 _ESCAPES = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t", "\r": "\\r"}
 
 
-def literal(value: Literal, type_name: str) -> str:
+def literal(value: model.Literal, type_name: str) -> str:
     """The literal of a basic type."""
     match type_name:
         case "string":
@@ -238,7 +226,7 @@ def quoted(text: str) -> str:
     return '"' + escaped.replace("??", "?\\?") + '"'
 
 
-def _real(value: Literal, type_name: str) -> str:
+def _real(value: model.Literal, type_name: str) -> str:
     number = float(value.value)
     if re.match(_INTEGER, value.lexeme):
         return value.lexeme if is_integer_literal(number) else f"{value.lexeme}.0"

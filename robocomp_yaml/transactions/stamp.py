@@ -57,7 +57,7 @@ def key(arguments: Iterable[str]) -> str:
     return digest(json.dumps([list(arguments), os.getcwd(), os.environ.get("RCYAML_PATH", "")]).encode())
 
 
-def take(
+def create(
     *,
     inputs: Mapping[str, bytes],
     states: Mapping[str, str],

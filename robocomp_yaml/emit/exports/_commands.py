@@ -20,7 +20,7 @@ _READ_FILES = (
     'n=$(printf "\\n."); n=${n%.}; r=$(printf "\\r"); '
     'while [ "$1" != -- ]; do f=$2; case $f in "~/"*) f=${HOME:?}/${f#"~/"};; esac; '
     'v=$([ -f "$f" ] && cat -- "$f" && echo .) && [ "$(tr -d "\\000" <"$f" | wc -c)" -eq "$(wc -c <"$f")" ] || '
-    '{ echo "the variable $1 is the text of $f, which cannot be read, or holds a NUL" >&2; exit 1; }; '
+    '{ echo "the variable $1 is the text of $f, which cannot be read, or contains a NUL" >&2; exit 1; }; '
     'v=${v%.}; case $v in *"$r$n") v=${v%"$r$n"};; *"$n") v=${v%"$n"};; esac; '
     'export "$1=$v"; shift 2; done; shift; exec "$@"'
 )

@@ -136,7 +136,7 @@ class UnitFile:
         """Raises Unwritable if the line has a control character, or ends with a backslash, which continues it."""
         found = OF_NO_LINE.search(line)
         if found:
-            raise Unwritable(f"a line of a unit cannot hold U+{ord(found[0]):04X}")
+            raise Unwritable(f"a line of a unit cannot contain U+{ord(found[0]):04X}")
         if line.endswith("\\"):
             raise Unwritable("a line of a unit cannot end with a backslash")
         self._lines.append(line)

@@ -34,7 +34,7 @@ class SourceMethod(msgspec.Struct, frozen=True):
     """
 
     name: str
-    place: Span
+    location: Span
     first: int
     end: int
     signature: Signature | None
@@ -50,7 +50,7 @@ class ImportLine(msgspec.Struct, frozen=True):
 
 
 class SourceCode(msgspec.Struct, frozen=True):
-    """A file. `faults` is the number of syntax errors. `members` are in the class, `definitions` outside. `place` is
+    """A file. `faults` is the number of syntax errors. `members` are in the class, `definitions` outside. `location` is
     the location of the class's name, None if the file does not contain the class. `body_end` is the line before which
     the class's body ends, and `unit` one step of indentation. `bases` are the base classes. `import_end` is the line
     after the last import, or the line before which an import can be inserted."""
@@ -62,7 +62,7 @@ class SourceCode(msgspec.Struct, frozen=True):
     definitions: tuple[SourceMethod, ...] = ()
     imports: tuple[ImportLine, ...] = ()
     import_end: int = 0
-    place: Span | None = None
+    location: Span | None = None
     body_end: int = 0
     unit: str = "    "
     bases: tuple[str, ...] = ()
@@ -79,7 +79,7 @@ def lines_of(text: str) -> list[str]:
     return [*lines, last] if last else lines
 
 
-def place(node: Node, lines: list[str]) -> Span:
+def location(node: Node, lines: list[str]) -> Span:
     """The location of a node of one line, without the path."""
     row, start = node.start_point
     column = len(lines[row].encode()[:start].decode(errors="replace")) + 1

@@ -20,7 +20,7 @@ def insert(code: SourceCode, skeleton: SourceCode, names: Collection[str]) -> st
         for n, method in enumerate(order):
             if method.name in names and method.name not in ends:
                 before = next((ends[other.name] for other in reversed(order[:n]) if other.name in ends), None)
-                at = before if before is not None else code.body_end if code.place else len(code.lines)
+                at = before if before is not None else code.body_end if code.location else len(code.lines)
                 ends[method.name] = at
                 pieces.append((at, _piece(code, skeleton, method, alone=before is None)))
     return _joined(code.lines, pieces)

@@ -17,7 +17,7 @@ from robocomp_yaml.diag.codes import specific as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.layout import SOURCES
-from robocomp_yaml.emit.specific import entries, threeway
+from robocomp_yaml.emit.specific import config_merge, threeway
 from robocomp_yaml.emit.specific.code import ImportLine, SourceCode
 from robocomp_yaml.emit.specific.compare import compare
 from robocomp_yaml.emit.specific.insert import insert
@@ -124,8 +124,8 @@ def _code(path: str, text: str) -> SourceCode:
 
 def _merge_text(side: UserFile) -> MergeResult:
     """The merge of a file that is not code."""
-    if entries.is_config(side.path):
-        return MergeResult(entries.merge(side.base, side.yours, side.new), side.new)
+    if config_merge.is_config(side.path):
+        return MergeResult(config_merge.merge(side.base, side.yours, side.new), side.new)
     if side.base is None:
         return MergeResult(side.yours, side.new)
     merged = threeway.merge(side.base, side.yours, side.new)

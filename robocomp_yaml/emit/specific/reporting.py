@@ -10,7 +10,7 @@ from robocomp_yaml.diag.codes import specific as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
-from robocomp_yaml.emit.specific import entries
+from robocomp_yaml.emit.specific import config_merge
 from robocomp_yaml.emit.specific.code import CLASS, SourceCode, SourceMethod
 from robocomp_yaml.emit.specific.compare import Comparison, MissingMethod, compare
 from robocomp_yaml.emit.specific.insert import lead
@@ -26,10 +26,10 @@ def report(root: Root, files: Sequence[UserFile], document: str) -> Iterator[Dia
     if any(not file.is_up_to_date for file in code):
         yield from _about_class(root, code, merge)
     for file in files:
-        if entries.is_config(file.path) and file.is_text and not file.is_up_to_date:
-            if keys := entries.lacking(file.base, file.yours, file.new):
+        if config_merge.is_config(file.path) and file.is_text and not file.is_up_to_date:
+            if keys := config_merge.missing(file.base, file.yours, file.new):
                 path = root.shown(file.path)
-                more = entries.paste(file.new, keys)
+                more = config_merge.paste(file.new, keys)
                 yield codes.MISSING_PROPERTIES.at(Span(path), path=path, keys=", ".join(keys), more=more, hint=merge)
 
 
@@ -38,20 +38,20 @@ def _about_class(root: Root, files: Sequence[UserFile], merge: str) -> Iterator[
     base = {file.path: code for file in files if file.base and (code := read(file.path, file.base))}
     yours = [code for file in files if (code := read(file.path, file.yours))]
     found = compare(new, base, yours)
-    if found.missing or not any(code.place for code in yours):
+    if found.missing or not any(code.location for code in yours):
         # Other files may contain parts of the class.
         yours += others(root, {file.path for file in files})
         found = compare(new, base, yours)
-    home = next((code for code in yours if code.place), None)
-    if home is None or home.place is None:
-        homes = {code.path for code in new if code.place}
+    home = next((code for code in yours if code.location), None)
+    if home is None or home.location is None:
+        homes = {code.path for code in new if code.location}
         where = next((code for code in yours if code.path in homes), yours[0])
         yield codes.NO_CLASS.at(Span(root.shown(where.path)), name=CLASS, path=root.shown(where.path))
         return
     if found.missing:
         names = list(dict.fromkeys(one.method.name for one in found.missing))
         yield codes.MISSING_METHODS.at(
-            _span(root, home, home.place), name=CLASS, methods=", ".join(names), more=_paste(found.missing, yours),
+            _span(root, home, home.location), name=CLASS, methods=", ".join(names), more=_paste(found.missing, yours),
             hint=merge,
         )  # fmt: skip
     yield from _about_methods(root, found)
@@ -60,13 +60,13 @@ def _about_class(root: Root, files: Sequence[UserFile], merge: str) -> Iterator[
 def _about_methods(root: Root, found: Comparison) -> Iterator[Diagnostic]:
     for one in found.outdated:
         yield codes.OUTDATED.at(
-            _span(root, one.code, one.method.place), name=one.method.name, more=_head(one.skeleton, one.expected),
+            _span(root, one.code, one.method.location), name=one.method.name, more=_head(one.skeleton, one.expected),
             hint="it must begin as follows",
         )  # fmt: skip
     for method in found.obsolete:
-        first, *rest = (_span(root, code, one.place) for code, one in method.occurrences)
+        first, *rest = (_span(root, code, one.location) for code, one in method.occurrences)
         yield codes.OBSOLETE.at(
-            first, name=method.name, related=[Related("also here", place) for place in rest],
+            first, name=method.name, related=[Related("also here", location) for location in rest],
             hint=f"was it renamed to '{method.renamed}'?" if method.renamed else "remove it, or keep it as your own",
         )  # fmt: skip
 

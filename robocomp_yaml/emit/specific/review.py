@@ -11,7 +11,7 @@ from robocomp_yaml.diag.codes import languages as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.layout import SOURCES
-from robocomp_yaml.emit.specific import entries, reading
+from robocomp_yaml.emit.specific import config_merge, reading
 from robocomp_yaml.emit.specific.user_file import UserFile
 from robocomp_yaml.transactions.manifest import BASE
 from robocomp_yaml.transactions.output_root import Root
@@ -77,7 +77,7 @@ def _not_merged(files: Iterable[UserFile], root: Root) -> Iterator[Diagnostic]:
 def _user_files(plan: RootPlan, root: Root, every: bool, seen: Review) -> Iterator[UserFile]:
     """The user's files with skeletons; unless `every`, only code and `etc/config`."""
     for file in plan.files:
-        is_read = file.path.startswith(f"{SOURCES}/") or entries.is_config(file.path)
+        is_read = file.path.startswith(f"{SOURCES}/") or config_merge.is_config(file.path)
         if file.policy != ONCE or not (is_read or every):
             continue
         status, path = root.status(file.path), root.shown(file.path)

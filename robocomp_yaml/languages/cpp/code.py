@@ -20,7 +20,7 @@ from robocomp_yaml.emit.specific.code import (
     faults,
     field,
     lines_of,
-    place,
+    location,
     plain,
     text,
     words,
@@ -55,7 +55,7 @@ def read(path: str, source: str) -> SourceCode:
     bases = [text(node) for node in clause.named_children if node.type != "access_specifier"] if clause else []
     return SourceCode(
         path, lines, faults(root), tuple(_members(body, lines)), definitions, tuple(imports), import_end,
-        place(field(class_, "name"), lines), body.end_point[0], bases=tuple(bases),
+        location(field(class_, "name"), lines), body.end_point[0], bases=tuple(bases),
     )  # fmt: skip
 
 
@@ -128,7 +128,7 @@ def _method(node: Node, lines: list[str], nested: bool, *, has_body: bool = True
         len(typed),
     )
     whole = "".join(text(name).split())
-    return SourceMethod(whole, place(last, lines), first, node.end_point[0] + 1, signature, has_body, nested)
+    return SourceMethod(whole, location(last, lines), first, node.end_point[0] + 1, signature, has_body, nested)
 
 
 def _type(parameter: Node) -> str:

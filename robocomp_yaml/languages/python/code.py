@@ -20,7 +20,7 @@ from robocomp_yaml.emit.specific.code import (
     faults,
     field,
     lines_of,
-    place,
+    location,
     plain,
     text,
 )
@@ -45,7 +45,7 @@ def read(path: str, source: str) -> SourceCode:
     bases = found.child_by_field_name("superclasses")
     return SourceCode(
         path, lines, faults(root), members, (), tuple(imports), import_end,
-        place(field(found, "name"), lines),
+        location(field(found, "name"), lines),
         _last_line(body),
         _indent(body, lines) or "    ",
         tuple(text(base) for base in bases.named_children) if bases else (),
@@ -83,7 +83,7 @@ def _members(body: Node, lines: list[str]) -> Iterator[SourceMethod]:
             name = field(inner, "name")
             first = _with_comments(node.start_point[0], lines)
             yield SourceMethod(
-                text(name), place(name, lines), first, _last_line(node), _signature(inner), nested=nested
+                text(name), location(name, lines), first, _last_line(node), _signature(inner), nested=nested
             )
         elif node.type == "expression_statement":
             yield from _assigned(node, lines)
@@ -95,7 +95,7 @@ def _assigned(statement: Node, lines: list[str]) -> Iterator[SourceMethod]:
         name = node.child_by_field_name("left") if node.type == "assignment" else None
         if name is not None and name.type == "identifier":
             row = statement.start_point[0]
-            yield SourceMethod(text(name), place(name, lines), row, _last_line(statement), None)
+            yield SourceMethod(text(name), location(name, lines), row, _last_line(statement), None)
 
 
 def _signature(function: Node) -> Signature:

@@ -60,7 +60,9 @@ def test_no_name_breaks_an_element(name: str) -> None:
         (line,) = element(name, {name: "x\x1b"})
     made = ElementTree.fromstring(line)
     assert list(made.attrib.values()) == ["x\ufffd"] and len(notes) == 3
-    assert any("U+001B" in str(note) for note in notes) and any(f"'{name}' is not a legal name" in str(note) for note in notes)
+    assert any("U+001B" in str(note) for note in notes) and any(
+        f"'{name}' is not a legal name" in str(note) for note in notes
+    )
 
 
 def test_what_a_form_cannot_express_is_reported(rcyaml: Callable[..., Result], tmp_path: Path) -> None:

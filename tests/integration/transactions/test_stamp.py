@@ -34,7 +34,7 @@ def run() -> stamp.RunStamp | None:
     Path("out/bin/run").write_text("#!")
     Path("out/bin/run").chmod(0o755)
     Path("out/mine").write_text("mine")
-    return stamp.take(
+    return stamp.create(
         inputs={"docs/a.idsl.yaml": b"a", "docs/b.idsl.yaml": b"b", "docs/far/real.idsl.yaml": b"b"},
         states={"docs/c.idsl.yaml": NOTHING, "elsewhere/c.idsl.yaml": NOTHING, "docs": FOLDER},
         listed={"docs/far": ["real.idsl.yaml"], "nowhere": []},
@@ -183,7 +183,7 @@ def test_the_stamp_has_what_was_read_not_what_is_there_now() -> None:
     taken = run()
     assert taken is not None
     Path("docs/a.idsl.yaml").write_text("a changed")
-    late = stamp.take(
+    late = stamp.create(
         inputs={"docs/a.idsl.yaml": b"a"}, states={}, listed={}, names={}, walked={}, outputs={}, present=[], replay={}
     )
     assert late is not None and not stamp.is_current(late)

@@ -32,7 +32,7 @@ text { font-family: Helvetica, Arial, 'Liberation Sans', sans-serif; fill: #2021
 .label { font-size: 10px; fill: #3c4043 }
 .line.warned { stroke: #e37400 } .node.warned { stroke: #e37400; stroke-width: 2.4 }
 .line.wrong { stroke: #d93025; stroke-width: 2.2 } .node.wrong { stroke: #d93025; stroke-width: 2.4 }
-.tip.wrong, .told.wrong { fill: #d93025 } .tip.warned, .told.warned { fill: #b35c00 } .told { font-size: 11px }
+.tip.wrong, .problem.wrong { fill: #d93025 } .tip.warned, .problem.warned { fill: #b35c00 } .problem { font-size: 11px }
 @media (prefers-color-scheme: dark) {
 text { fill: #e8eaed } .paper { fill: #1b1c1f } .about, .hostname { fill: #a9aeb4 } .label { fill: #c8ccd0 }
 .host { fill: #232529; stroke: #4b4f55 } .component { fill: #20304f } .program { fill: #30353a }
@@ -41,8 +41,8 @@ text { fill: #e8eaed } .paper { fill: #1b1c1f } .about, .hostname { fill: #a9aeb
 .c5 { stroke: #c9c95a } .t0 { fill: #7fa8e6 } .t1 { fill: #6fc29b } .t2 { fill: #dba36a } .t3 { fill: #a9b4bd }
 .t4 { fill: #4fc3cc } .t5 { fill: #c9c95a } .publishes, .subscribes { stroke: #b98be3 }
 .tpublishes, .tsubscribes { fill: #b98be3 } .line.wrong, .node.wrong { stroke: #f28b82 }
-.tip.wrong, .told.wrong { fill: #f28b82 } .line.warned, .node.warned { stroke: #fbae5c }
-.tip.warned, .told.warned { fill: #fbae5c }
+.tip.wrong, .problem.wrong { fill: #f28b82 } .line.warned, .node.warned { stroke: #fbae5c }
+.tip.warned, .problem.warned { fill: #fbae5c }
 }
 """
 
@@ -147,7 +147,8 @@ def _problems(picture: Picture, geometry: Geometry) -> Iterator[str]:
         text = f"{fault.code} {owner}: {fault.message}"
         style = "wrong" if fault.is_error else "warned"
         line = shortened(text, SMALL, room)
-        yield f'<text class="told {style}" x="{_MARGIN:g}" y="{y:g}"><title>{_text(text)}</title>{_text(line)}</text>'
+        position = f'x="{_MARGIN:g}" y="{y:g}"'
+        yield f'<text class="problem {style}" {position}><title>{_text(text)}</title>{_text(line)}</text>'
 
 
 def _fault(faults: tuple[PictureFault, ...]) -> str:

@@ -78,7 +78,7 @@ def test_a_python_class() -> None:
     found = code("src/specificworker.py", PYTHON)
     say, wait, stop, sing = found.members
     assert [m.name for m in found.members] == ["Speech_say", "Speech_wait", "Speech_stop", "Speech_sing"]
-    assert found.place and (found.place.line, found.place.column, found.place.end_column) == (9, 11, 25)
+    assert found.location and (found.location.line, found.location.column, found.location.end_column) == (9, 11, 25)
     assert found.bases == ("GenericWorker", "mixins.Speaker")
     assert say.signature and say.signature.parameters == ("text : str", "loud = False")
     assert (say.signature.least, say.signature.most, say.signature.returns) == (2, None, "bool"), "voice is required"
@@ -106,7 +106,7 @@ def test_a_cpp_class() -> None:
         "done",
     ]
     _, say, wait, inlined, list_, shout, _ = found.members
-    assert found.place and found.place.line == 9 and found.lines[found.body_end] == "};\n"
+    assert found.location and found.location.line == 9 and found.lines[found.body_end] == "};\n"
     assert found.bases == ("GenericWorker", "mine::Speaker")
     assert say.signature and say.signature.names == ("text", "", "times")
     assert say.signature.parameters == ("const std :: string &", "RoboCompSpeech :: Voices", "int")
@@ -114,7 +114,7 @@ def test_a_cpp_class() -> None:
     assert wait.signature and wait.signature.returns == "std :: vector < int >"
     assert list_.signature and list_.signature.returns == "std :: vector < int >&"
     assert (say.has_body, inlined.has_body, shout.nested) == (False, True, True)
-    assert [(m.name, m.place.line) for m in found.definitions] == [("Speech_say", 31)]
+    assert [(m.name, m.location.line) for m in found.definitions] == [("Speech_say", 31)]
     assert found.import_end == 3 and found.faults == 0
 
 

@@ -17,7 +17,7 @@ def is_config(path: str) -> bool:
     return path == CONFIG
 
 
-def lacking(base: str | None, yours: str, new: str) -> list[str]:
+def missing(base: str | None, yours: str, new: str) -> list[str]:
     """The keys without which the component does not start: those that it did not need before, and that the file has in
     no spelling. Empty if `base`, the file as it was written, is unknown."""
     if base is None:
@@ -42,7 +42,7 @@ def paste(new: str, keys: list[str]) -> str:
 def merge(base: str | None, yours: str, new: str) -> str:
     """The user's file, with missing properties added at its end. Other differences are default ports and addresses,
     which do not replace those in use."""
-    keys = lacking(base, yours, new)
+    keys = missing(base, yours, new)
     if not keys:
         return yours
     ended = yours if not yours or yours.endswith("\n") else f"{yours}\n"
