@@ -14,7 +14,7 @@ from robocomp_yaml import secrets
 from robocomp_yaml.diag.render.json import dumps
 from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.migrated import MEMORY
-from robocomp_yaml.transactions.atomic import Batch, FileStep, WriteFailed, carry_out, recover
+from robocomp_yaml.transactions.atomic import FileStep, WriteFailed, carry_out, recover
 from robocomp_yaml.transactions.changes import unified
 from robocomp_yaml.transactions.output_root import Root
 from robocomp_yaml.transactions.plan import rights_of
@@ -114,7 +114,7 @@ class OutputRoot(msgspec.Struct):
             if not steps:
                 return
             try:
-                carry_out([Batch(self.root.real, tuple(steps))])
+                carry_out({self.root.real: steps})
                 return
             except WriteFailed as failed:
                 folder = failed.path.rpartition("/")[0]

@@ -8,7 +8,7 @@ import fcntl
 import itertools
 import os
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import msgspec
 
@@ -49,16 +49,10 @@ class FileStep(msgspec.Struct, frozen=True):
     rights: int = ANYBODY
 
 
-class Batch(msgspec.Struct, frozen=True):
-    """The changes below one root (a folder without symbolic links in its path)."""
-
-    root: str
-    steps: tuple[FileStep, ...]
-
-
-def carry_out(batches: Sequence[Batch]) -> None:
-    """Makes all changes. Raises WriteFailed if one cannot be made; then nothing is changed."""
-    running = [_Commit(batch) for batch in sorted(batches, key=lambda batch: batch.root)]
+def carry_out(steps: Mapping[str, Sequence[FileStep]]) -> None:
+    """Makes all changes: the steps of each root, which is a folder without symbolic links in its path. Raises
+    WriteFailed if a change cannot be made; then nothing is changed."""
+    running = [_Commit(root, steps[root]) for root in sorted(steps)]
     _make_room_for_locks(len(running))
     with contextlib.ExitStack() as locks:
         busy: _Commit | None = None
@@ -140,18 +134,15 @@ _numbers = itertools.count()  # shared by all commits: two roots may have a fold
 
 
 class _Commit(msgspec.Struct):
-    """The commit of one batch, phase by phase. `at` is the path of the current step, for errors; `made` are the folders
+    """The commit of one root, phase by phase. `at` is the path of the current step, for errors; `made` are the folders
     created for the journal; `under_way`: the journal exists."""
 
-    batch: Batch
+    root: str
+    steps: Sequence[FileStep]
     journal: Journal = Journal(())
     at: str = ""
     made: list[str] = []
     under_way: bool = False
-
-    @property
-    def root(self) -> str:
-        return self.batch.root
 
     def open(self, locks: contextlib.ExitStack) -> None:
         if not stays_inside(self.root, STATE):
@@ -166,7 +157,7 @@ class _Commit(msgspec.Struct):
         if load(self.root)[0] is not None:
             raise WriteFailed(self.root, "", "another run was interrupted in the meantime: run the command again")
         root = Root(self.root)
-        for step in self.batch.steps:
+        for step in self.steps:
             self.at = step.path
             status = root.status(step.path)
             if status.problem:
@@ -181,17 +172,17 @@ class _Commit(msgspec.Struct):
     def stage(self) -> None:
         self.at = JOURNAL
         folders: dict[str, None] = {}
-        for step in self.batch.steps:
+        for step in self.steps:
             if step.after is not None:
                 folders.update(dict.fromkeys(_missing_folders(self.root, step.path)))
-        marks = tuple(_mark(step, next(_numbers)) for step in self.batch.steps)
+        marks = tuple(_mark(step, next(_numbers)) for step in self.steps)
         self.journal = Journal(marks, tuple(folders))
         self.under_way = True
         self.journal.save(self.root)
         for folder in folders:
             self.at = folder
             os.mkdir(os.path.join(self.root, folder))
-        for step, mark in zip(self.batch.steps, marks, strict=True):
+        for step, mark in zip(self.steps, marks, strict=True):
             self.at = step.path
             if step.after is not None:
                 default = limited(0o777 if step.executable else 0o666, step.rights)
@@ -201,7 +192,7 @@ class _Commit(msgspec.Struct):
                 _second_name(os.path.join(self.root, step.path), os.path.join(self.root, mark.old))
 
     def apply(self) -> None:
-        for step, mark in zip(self.batch.steps, self.journal.marks, strict=True):
+        for step, mark in zip(self.steps, self.journal.marks, strict=True):
             self.at = mark.path
             target = os.path.join(self.root, mark.path)
             if mark.orig:

@@ -43,9 +43,8 @@ def prepare(
 def commit(prepared: Changes) -> Changes:
     """Applies the changes of all roots that are not refused, and returns what was applied. If one change fails, none is
     applied, and all roots are refused."""
-    batches = [atomic.Batch(root.real, root.steps) for root in prepared.roots if root.steps]
     try:
-        atomic.carry_out(batches)
+        atomic.carry_out({root.real: root.steps for root in prepared.roots if root.steps})
     except atomic.WriteFailed as failure:
         shown = next((root.root for root in prepared.roots if root.real == failure.root), failure.root)
         path = os.path.normpath(os.path.join(shown, failure.path))
