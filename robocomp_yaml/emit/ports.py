@@ -95,14 +95,10 @@ def clashes(components: Iterable[LinkedComponent], disk: Disk) -> list[Diagnosti
                 if not host or not endpoint.host or host == endpoint.host:
                     diagnostics.append(
                         codes.PORT_CLASH.at(
-                            span,
-                            port=endpoint.port,
-                            name=who,
-                            other=other,
-                            hint="set another port for one of them",
+                            span, port=endpoint.port, name=who, other=other, hint="set another port for one of them",
                             related=[Related("the same port", location)],
                         )
-                    )
+                    )  # fmt: skip
                     break
             others.append((endpoint.host, who, span))
     return diagnostics

@@ -42,12 +42,9 @@ class Change(msgspec.Struct, frozen=True):
         """A unified diff for `patch`, '' if nothing changes. Bytes that are not UTF-8 are kept as surrogates. If the
         file consists of `properties`, secrets are hidden."""
         before, after = ((data or b"").decode("utf-8", "surrogateescape") for data in (self.before, self.after))
-        text = unified(
-            before,
-            after,
-            os.devnull if self.before is None else f"a/{self.path}",
-            os.devnull if self.after is None else f"b/{self.path}",
-        )
+        old_name = os.devnull if self.before is None else f"a/{self.path}"
+        new_name = os.devnull if self.after is None else f"b/{self.path}"
+        text = unified(before, after, old_name, new_name)
         if not properties or not text:
             return text
         old, new, *lines = text.split("\n")

@@ -120,23 +120,15 @@ class _RootPlanner:
             return False
         try:
             self.old = manifest.read(status.data)
-        except manifest.Unusable as unusable:
-            self.diagnostics.append(
-                codes.BAD_MANIFEST.at(
-                    Span(self.root.shown(manifest.PATH)),
-                    reason=str(unusable),
-                    hint="update rcyaml"
-                    if isinstance(unusable, manifest.Newer)
-                    else "restore it from version control, or delete it",
-                )
-            )
+        except manifest.Unusable as error:
+            span = Span(self.root.shown(manifest.PATH))
+            is_newer = isinstance(error, manifest.Newer)
+            hint = "update rcyaml" if is_newer else "restore it from version control, or delete it"
+            self.diagnostics.append(codes.BAD_MANIFEST.at(span, reason=str(error), hint=hint))
             return False
         if any(os.path.lexists(f"{self.root.real}/{name}") for name in (JOURNAL, JOURNAL_DONE)):
-            self.diagnostics.append(
-                codes.INTERRUPTED.at(
-                    Span(self.root.shown(JOURNAL)), what="the next `rcyaml compile` rolls its changes back"
-                )
-            )
+            what = "the next `rcyaml compile` recovers the folder"
+            self.diagnostics.append(codes.INTERRUPTED.at(Span(self.root.shown(JOURNAL)), what=what))
         return True
 
     def _once(self, plan: FilePlan, entry: ManifestEntry | None) -> None:
@@ -226,12 +218,11 @@ class _RootPlanner:
             hint = f"`{adopt}` overwrites it, and keeps your file as .orig"
             return codes.NOT_GENERATED.at(span, path=plan.path, hint=hint)
         keys = ", ".join(lost(self._base(plan.path), data, text) or ["your changes"])
-        return codes.CHANGED_CONFIG.at(
-            span,
-            path=plan.path,
-            hint=f"move {keys} to {self.root.shown(plan.stated_in)}; then `{adopt}` overwrites "
-            "the file, and keeps your version as .orig",
+        hint = (
+            f"move {keys} to {self.root.shown(plan.stated_in)}; then `{adopt}` overwrites the file, and keeps your "
+            "version as .orig"
         )
+        return codes.CHANGED_CONFIG.at(span, path=plan.path, hint=hint)
 
     def _not_planned(self, path: str, entry: ManifestEntry) -> None:
         """A file of the manifest that is not planned: it stays as long as one of its owners exists."""
@@ -296,9 +287,8 @@ class _RootPlanner:
             self.diagnostics.append(code.at(Span(self.root.shown(path)), path=path, reason=status.problem))
 
     def _warn_edited(self, path: str, what: str) -> None:
-        self.diagnostics.append(
-            codes.EDITED.at(Span(self.root.shown(path)), path=path, what=what, hint=codes.USERS_FOLDERS)
-        )
+        span = Span(self.root.shown(path))
+        self.diagnostics.append(codes.EDITED.at(span, path=path, what=what, hint=codes.USERS_FOLDERS))
 
     def _keep_base(self, plan: FilePlan, text: bytes) -> None:
         """Keeps the generated text, which a later merge starts from."""

@@ -67,6 +67,11 @@ class SourceCode(msgspec.Struct, frozen=True):
     unit: str = "    "
     bases: tuple[str, ...] = ()
 
+    @property
+    def methods(self) -> tuple[SourceMethod, ...]:
+        """The declarations and definitions of methods."""
+        return (*self.members, *self.definitions)
+
     def text_of(self, method: SourceMethod) -> str:
         """The lines of a method."""
         return "".join(self.lines[method.first : method.end])

@@ -80,7 +80,7 @@ def _inherited(new: Sequence[SourceCode], yours: Sequence[SourceCode], bases: Co
     if all(base in expected for code in yours for base in code.bases):
         return set()
     words = {word for code in yours for line in code.lines for word in re.findall(r"\w+", line)}
-    return {method.name for code in new for method in (*code.members, *code.definitions)} & words
+    return {method.name for code in new for method in code.methods} & words
 
 
 def _fits(mine: SourceMethod, expected: SourceMethod, before: SourceMethod | None) -> bool:
@@ -118,7 +118,7 @@ def _obsolete(
     definitions: Mapping[str, list[tuple[SourceCode, SourceMethod]]],
     lacking: Sequence[MissingMethod],
 ) -> Iterable[ObsoleteMethod]:
-    today = {method.name for code in new for method in (*code.members, *code.definitions)}
+    today = {method.name for code in new for method in code.methods}
     before = {m.name: m for code in base.values() for m in (*code.definitions, *code.members)}
     fresh = {one.method.name: one.method for one in lacking if one.method.name not in before}
     for name, method in before.items():

@@ -136,9 +136,9 @@ def _merge_text(side: UserFile) -> MergeResult:
 
 def _with_obsolete(new: SourceCode, old: SourceCode, yours: SourceCode) -> SourceCode:
     """The new skeleton, with the obsolete methods and imports that the user's file still has: a merge deletes none."""
-    mine = {method.name for method in (*yours.members, *yours.definitions)}
-    today = {method.name for method in (*new.members, *new.definitions)}
-    gone = {method.name for method in (*old.members, *old.definitions)} & mine - today
+    mine = {method.name for method in yours.methods}
+    today = {method.name for method in new.methods}
+    gone = {method.name for method in old.methods} & mine - today
     kept = tuple(one for one in old.imports if one in yours.imports)
     return _code(new.path, insert(_joined_imports(new, kept), replace(old, imports=kept), gone))
 
@@ -181,7 +181,7 @@ class _Judge:
 
     def touches_changed(self, conflicts: Sequence[Conflict]) -> bool:
         """Whether lines of a conflict belong to a method whose signature changed."""
-        methods = [m for m in (*self.yours.members, *self.yours.definitions) if m.name in self.changed]
+        methods = [m for m in self.yours.methods if m.name in self.changed]
         return any(one.first < m.end and m.first < max(one.end, one.first + 1) for m in methods for one in conflicts)
 
     def fault(self, text: str) -> str:
@@ -203,8 +203,8 @@ class _Judge:
 
 def _changed(old: SourceCode, new: SourceCode) -> set[str]:
     """The methods whose signatures changed."""
-    before = {m.name: m.signature for m in (*old.members, *old.definitions)}
-    return {m.name for m in (*new.members, *new.definitions) if before.get(m.name, m.signature) != m.signature}
+    before = {m.name: m.signature for m in old.methods}
+    return {m.name for m in new.methods if before.get(m.name, m.signature) != m.signature}
 
 
 def _counts(codes: Sequence[SourceCode]) -> Counter[str]:

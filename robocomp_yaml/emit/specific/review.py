@@ -65,13 +65,11 @@ def _not_merged(files: Iterable[UserFile], root: Root) -> Iterator[Diagnostic]:
         language = reading.unmerged(file.path)
         if language and not file.is_up_to_date and file.base != file.new:
             path = root.shown(file.path)
-            yield codes.NOT_MERGED.at(
-                Span(path),
-                path=path,
-                language=language.title,
-                hint="edit it by hand, as the errors of its build require; "
-                "a compile into an empty folder (-o) shows the new skeleton",
+            hint = (
+                "edit it by hand, as the errors of its build require; "
+                "a compile into an empty folder (-o) shows the new skeleton"
             )
+            yield codes.NOT_MERGED.at(Span(path), path=path, language=language.title, hint=hint)
 
 
 def _user_files(plan: RootPlan, root: Root, every: bool, seen: Review) -> Iterator[UserFile]:
