@@ -43,8 +43,8 @@ def in_order(linked: LinkedModule) -> list[Definition]:
     own: dict[str, Definition] = {d.name: d for d in (*module.constants, *module.types, *module.exceptions)}
 
     def used(name: str) -> list[str]:
-        found = (linked.find(ref) for ref in types_of(own[name]) if not ref.is_basic)
-        return [other[1].name for other in found if other and other[0] is linked and other[1].name in own]
+        definitions = (linked.find(ref) for ref in types_of(own[name]) if not ref.is_basic)
+        return [other[1].name for other in definitions if other and other[0] is linked and other[1].name in own]
 
     return [*(own[name] for name in inner_first(own, used)), *module.all_interfaces]
 
@@ -121,8 +121,8 @@ class _File:
         tags.append(("@return", described(method.returns_doc, method.returns_unit)))
         if (method.doc or any(doc for _, doc in tags)) and "@throws" not in method.doc:
             for ref in method.throws:
-                found = self.linked.find(ref)
-                tags.append((f"@throws {self._type(ref)}", described(found[1].doc, "") if found else ""))
+                definition = self.linked.find(ref)
+                tags.append((f"@throws {self._type(ref)}", described(definition[1].doc, "") if definition else ""))
         return tags
 
     def _method(self, method: model.Method, hidden: set[str]) -> Iterator[str]:
@@ -159,10 +159,10 @@ class _File:
         """The name of a type, and its first word in lower case ('' if that cannot have another meaning)."""
         if ref.is_basic:
             return ref.text, ""
-        found = self.linked.find(ref)
-        if found is None:
+        resolved = self.linked.find(ref)
+        if resolved is None:
             return ref.text.replace(".", "::"), ""
-        scope, definition = found
+        scope, definition = resolved
         if scope is self.linked:
             return definition.name, definition.name.lower()
         name, first_word = f"{scope.module.name}::{definition.name}", scope.module.name.lower()

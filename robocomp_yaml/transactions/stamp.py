@@ -108,9 +108,9 @@ def reads_the_same(stamp: RunStamp) -> bool:
     try:
         return (
             all(state_of(path) == state for path, state in stamp.states.items())
-            and all(documents_in(names_in(folder)) == found for folder, found in stamp.listed.items())
-            and all(names_in(folder) == found for folder, found in stamp.names.items())
-            and all(walked(folder) == found for folder, found in stamp.walked.items())
+            and all(documents_in(names_in(folder)) == recorded for folder, recorded in stamp.listed.items())
+            and all(names_in(folder) == recorded for folder, recorded in stamp.names.items())
+            and all(walked(folder) == recorded for folder, recorded in stamp.walked.items())
             and list(_real_paths(stamp.inputs)) == [real for real, _ in stamp.inputs.values()]
             and all(_state(path) == state for path, (_, state) in stamp.inputs.items())
             and stamp.tool == tool()

@@ -134,9 +134,9 @@ class UnitFile:
 
     def _add(self, line: str) -> None:
         """Raises Unwritable if the line has a control character, or ends with a backslash, which continues it."""
-        found = OF_NO_LINE.search(line)
-        if found:
-            raise Unwritable(f"a line of a unit cannot contain U+{ord(found[0]):04X}")
+        match = OF_NO_LINE.search(line)
+        if match:
+            raise Unwritable(f"a line of a unit cannot contain U+{ord(match[0]):04X}")
         if line.endswith("\\"):
             raise Unwritable("a line of a unit cannot end with a backslash")
         self._lines.append(line)
@@ -151,8 +151,8 @@ def quoted(word: str, *, doubled: str = "") -> str:
     return f'"{escaped}"'
 
 
-def _escape(found: re.Match[str]) -> str:
-    number = ord(found[0])
+def _escape(match: re.Match[str]) -> str:
+    number = ord(match[0])
     if not number:
         raise Unwritable("an argument or variable cannot contain a NUL")
     return f"\\x{number:02x}" if number < 0x80 else f"\\u{number:04x}"

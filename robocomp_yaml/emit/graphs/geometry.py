@@ -171,14 +171,14 @@ class _Placer:
 
     def ports(self) -> dict[Net, Point]:
         """The point at which each net ends: side by side on the upper edge of its target, in the order of sources."""
-        found: dict[Net, Point] = {}
+        points: dict[Net, Point] = {}
         for name, nets in self.incoming.items():
             block = self.made.nodes[name]
             x = block.x + (block.width - sum(map(_slot, nets))) / 2 if len(nets) > 1 else block.middle - STEP
             for net in sorted(nets, key=self.origin):
-                found[net] = (_even(x + STEP), block.y)
+                points[net] = (_even(x + STEP), block.y)
                 x += _slot(net)
-        return found
+        return points
 
     def origin(self, net: Net) -> float:
         columns = [self.grid.cells[branch.source][1] for branch in net.branches]

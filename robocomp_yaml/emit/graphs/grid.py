@@ -128,12 +128,12 @@ def layers(nodes: Iterable[str], needs: Mapping[str, Sequence[str]]) -> dict[str
     for name in names:
         for other in needs.get(name, ()):
             users.setdefault(other, []).append(name)
-    found = {name: height - depth[name] for name in names}
-    for name in sorted(names, key=lambda name: found[name]):
-        below = [found[user] for user in users.get(name, ()) if found[user] < found[name]]
+    layer = {name: height - depth[name] for name in names}
+    for name in sorted(names, key=lambda name: layer[name]):
+        below = [layer[user] for user in users.get(name, ()) if layer[user] < layer[name]]
         if below and not needs.get(name):
-            found[name] = max(below) + 1
-    return found
+            layer[name] = max(below) + 1
+    return layer
 
 
 def _depths(names: Sequence[str], needs: Mapping[str, Sequence[str]]) -> dict[str, int]:

@@ -101,8 +101,8 @@ def _tracks(runs: dict[int, dict[Net, list[float]]]) -> tuple[dict[Run, int], di
 
 def outgoing(nets: Iterable[Net]) -> dict[str, list[Net]]:
     """The nets that leave each node."""
-    found: dict[str, list[Net]] = {}
+    by_source: dict[str, list[Net]] = {}
     for net in nets:
         for branch in net.branches:
-            found.setdefault(branch.source, []).append(net)
-    return found
+            by_source.setdefault(branch.source, []).append(net)
+    return by_source

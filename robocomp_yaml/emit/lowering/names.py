@@ -11,7 +11,7 @@ class NameAllocator:
     def __init__(self, taken: Iterable[str] = ()) -> None:
         self._taken = set(taken)
 
-    def take(self, *candidates: str) -> str:
+    def allocate(self, *candidates: str) -> str:
         """Allocates the first candidate that is free, else the last one with underscores, and returns it."""
         name = next((name for name in candidates if name not in self._taken), candidates[-1])
         while name in self._taken:

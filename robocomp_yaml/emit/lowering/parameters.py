@@ -42,11 +42,11 @@ class Types:
     def __init__(self, root: RecordType, names: NameAllocator, spelling: TypeSpelling) -> None:
         self.records, self.enums = records(root)
         self.spelling = spelling
-        self.of = {enum.name: names.take(enum.name) for enum in self.enums}
-        self.of |= {path: names.take(path) for path, record in self.records if not record.is_group}
+        self.of = {enum.name: names.allocate(enum.name) for enum in self.enums}
+        self.of |= {path: names.allocate(path) for path, record in self.records if not record.is_group}
         for path, record in self.records:
             if record.is_group:
-                self.of[path] = "Values" if path == ROOT else names.take(f"{capitals(path[1:])}Group")
+                self.of[path] = "Values" if path == ROOT else names.allocate(f"{capitals(path[1:])}Group")
 
     def spelled(self, type_: Type, group: str | None = None, *, boxed: bool = False) -> str:
         """The type in code; `group` is the path of a group, `boxed` is set for the type of elements."""
@@ -72,7 +72,7 @@ class Types:
             for inner in member.type.members:
                 yield from self.setters(inner, names, in_code, f"{path}.")
         elif member.editable:
-            yield names.take(f"set{capitals(in_code[1:])}"), member, path
+            yield names.allocate(f"set{capitals(in_code[1:])}"), member, path
 
     def about_record(self, path: str, record: RecordType) -> str:
         """The documentation of a record."""

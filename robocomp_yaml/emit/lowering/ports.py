@@ -90,7 +90,7 @@ def _required(port: Port, names: NameAllocator, spelling: PortSpelling) -> Acces
     timeout = port.use.timeout
     return Accessor(
         port=port,
-        name=names.take(f"{port.name.lower()}_proxy"),
+        name=names.allocate(f"{port.name.lower()}_proxy"),
         about=f"{port.name}, at the address that the property {property_} gives.",
         summary=f"calls {port.name}",
         doc=port.use.doc or port.interface.doc,
@@ -104,7 +104,7 @@ def _published(port: Port, names: NameAllocator, spelling: PortSpelling) -> Acce
     events = ", ".join(f"{spelling.called(m.name)}({', '.join(one.name for one in m.inputs)})" for m in methods)
     return Accessor(
         port=port,
-        name=names.take(*(candidate.format(name=port.name.lower()) for candidate in spelling.published)),
+        name=names.allocate(*(candidate.format(name=port.name.lower()) for candidate in spelling.published)),
         about=f"Publishes {port.name}: {events}.",
         summary=f"publishes {port.name}",
         doc=port.use.doc or port.interface.doc,
@@ -123,7 +123,7 @@ def _service(
     for method in methods:
         key = (port.scope, port.interface.name, method.name)
         if key not in known:
-            known[key] = CalledMethod(port, method, names.take(f"{port.interface.name}_{method.name}"))
+            known[key] = CalledMethod(port, method, names.allocate(f"{port.interface.name}_{method.name}"))
             new.append(known[key])
         every.append(known[key])
     return Service(port, f"{port.name}: {about}", port.interface.name.lower(), tuple(every), tuple(new))

@@ -6,7 +6,7 @@ from robocomp_yaml.link.program import Definition, LinkedModule
 from robocomp_yaml.model.interface import Method, TypeRef
 
 
-def found(ref: TypeRef, scope: LinkedModule) -> tuple[LinkedModule, Definition]:
+def resolve(ref: TypeRef, scope: LinkedModule) -> tuple[LinkedModule, Definition]:
     """The definition of a type, and its module. Raises LookupError if the type is unknown, which no component has that
     is compiled."""
     definition = scope.find(ref)
@@ -17,7 +17,7 @@ def found(ref: TypeRef, scope: LinkedModule) -> tuple[LinkedModule, Definition]:
 
 def scoped(ref: TypeRef, scope: LinkedModule) -> tuple[str, str]:
     """The names of a type's module and of the type."""
-    home, definition = found(ref, scope)
+    home, definition = resolve(ref, scope)
     return home.module.name, definition.name
 
 

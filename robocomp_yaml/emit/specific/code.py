@@ -103,8 +103,8 @@ def plain(node: Node | None) -> str:
 
 def field(node: Node, name: str) -> Node:
     """The field of a node with this name; the node itself if it has no such field."""
-    found = node.child_by_field_name(name)
-    return found if found is not None else node
+    child = node.child_by_field_name(name)
+    return child if child is not None else node
 
 
 def words(node: Node, without: Collection[Node | None] = ()) -> Iterator[str]:

@@ -49,29 +49,29 @@ def compare(
     to those in `new`."""
     result = Comparison()
     members, definitions = _by_name(yours, "members"), _by_name(yours, "definitions")
-    bodies = {name: [pair for pair in found if pair[1].has_body] for name, found in members.items()}
+    bodies = {name: [pair for pair in pairs if pair[1].has_body] for name, pairs in members.items()}
     elsewhere = _inherited(new, yours, bases)
     for skeleton in new:
         older = base.get(skeleton.path)
         for part, known in (("members", members), ("definitions", definitions)):
             before = {method.name: method for method in getattr(older, part, ())}
             for method in getattr(skeleton, part):
-                found = known.get(method.name, [])
-                defined = found or (bodies.get(method.name) if part == "definitions" else None)
+                mine = known.get(method.name, [])
+                defined = mine or (bodies.get(method.name) if part == "definitions" else None)
                 if not defined and method.name not in elsewhere:
                     result.missing.append(MissingMethod(skeleton, method))
-                if found and not any(_fits(mine, method, before.get(method.name)) for _, mine in found):
-                    result.outdated.append(OutdatedMethod(*found[0], skeleton, method))
+                if mine and not any(_fits(one, method, before.get(method.name)) for _, one in mine):
+                    result.outdated.append(OutdatedMethod(*mine[0], skeleton, method))
     result.obsolete = list(_obsolete(new, base, members, definitions, result.missing))
     return result
 
 
 def _by_name(codes: Iterable[SourceCode], part: str) -> dict[str, list[tuple[SourceCode, SourceMethod]]]:
-    found: dict[str, list[tuple[SourceCode, SourceMethod]]] = {}
+    by_name: dict[str, list[tuple[SourceCode, SourceMethod]]] = {}
     for code in codes:
         for method in getattr(code, part):
-            found.setdefault(method.name, []).append((code, method))
-    return found
+            by_name.setdefault(method.name, []).append((code, method))
+    return by_name
 
 
 def _inherited(new: Sequence[SourceCode], yours: Sequence[SourceCode], bases: Collection[str]) -> set[str]:

@@ -55,10 +55,10 @@ def _keys(text: str) -> dict[str, str]:
 
 def spellings(key: str) -> set[str]:
     """The other names under which the run time looks a property up."""
-    found = re.fullmatch(_NEEDED, key)
-    if found is None:
+    match = re.fullmatch(_NEEDED, key)
+    if match is None:
         return set()
-    if found["manager"]:
+    if match["manager"]:
         return {*connections.MANAGER} - {key}
     names = {"topic": connections.topic_endpoints, "adapter": connections.endpoints, "proxy": connections.proxy}
-    return {name for what, of in names.items() if found[what] for name in of(found[what])} - {key}
+    return {name for what, of in names.items() if match[what] for name in of(match[what])} - {key}

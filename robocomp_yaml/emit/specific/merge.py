@@ -170,14 +170,14 @@ class _Judge:
         self.mine = Counter(_lines(side.yours)) - Counter(_lines(side.base or ""))
 
     def lacking(self, code: SourceCode) -> set[str]:
-        found = compare([self.goal], self.base, [code, *self.elsewhere], self.bases)
-        return {one.method.name for one in found.missing}
+        comparison = compare([self.goal], self.base, [code, *self.elsewhere], self.bases)
+        return {one.method.name for one in comparison.missing}
 
     def _outdated(self, code: SourceCode, against: SourceCode | None) -> set[str]:
         if against is None:
             return set()
-        found = compare([against], self.base, [code, *self.elsewhere], self.bases)
-        return {one.method.name for one in found.outdated if one.code.path in (code.path, *self.untouched)}
+        comparison = compare([against], self.base, [code, *self.elsewhere], self.bases)
+        return {one.method.name for one in comparison.outdated if one.code.path in (code.path, *self.untouched)}
 
     def touches_changed(self, conflicts: Sequence[Conflict]) -> bool:
         """Whether lines of a conflict belong to a method whose signature changed."""

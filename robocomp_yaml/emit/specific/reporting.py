@@ -37,33 +37,32 @@ def _about_class(root: Root, files: Sequence[UserFile], merge: str) -> Iterator[
     new = [code for file in files if (code := read(file.path, file.new))]
     base = {file.path: code for file in files if file.base and (code := read(file.path, file.base))}
     yours = [code for file in files if (code := read(file.path, file.yours))]
-    found = compare(new, base, yours)
-    if found.missing or not any(code.location for code in yours):
+    comparison = compare(new, base, yours)
+    if comparison.missing or not any(code.location for code in yours):
         # Other files may contain parts of the class.
         yours += others(root, {file.path for file in files})
-        found = compare(new, base, yours)
+        comparison = compare(new, base, yours)
     home = next((code for code in yours if code.location), None)
     if home is None or home.location is None:
         homes = {code.path for code in new if code.location}
         where = next((code for code in yours if code.path in homes), yours[0])
         yield codes.NO_CLASS.at(Span(root.shown(where.path)), name=CLASS, path=root.shown(where.path))
         return
-    if found.missing:
-        names = list(dict.fromkeys(one.method.name for one in found.missing))
-        yield codes.MISSING_METHODS.at(
-            _span(root, home, home.location), name=CLASS, methods=", ".join(names), more=_paste(found.missing, yours),
-            hint=merge,
-        )  # fmt: skip
-    yield from _about_methods(root, found)
+    if comparison.missing:
+        names = list(dict.fromkeys(one.method.name for one in comparison.missing))
+        more = _paste(comparison.missing, yours)
+        span = _span(root, home, home.location)
+        yield codes.MISSING_METHODS.at(span, name=CLASS, methods=", ".join(names), more=more, hint=merge)
+    yield from _about_methods(root, comparison)
 
 
-def _about_methods(root: Root, found: Comparison) -> Iterator[Diagnostic]:
-    for one in found.outdated:
+def _about_methods(root: Root, comparison: Comparison) -> Iterator[Diagnostic]:
+    for one in comparison.outdated:
         yield codes.OUTDATED.at(
             _span(root, one.code, one.method.location), name=one.method.name, more=_head(one.skeleton, one.expected),
             hint="it must begin as follows",
         )  # fmt: skip
-    for method in found.obsolete:
+    for method in comparison.obsolete:
         first, *rest = (_span(root, code, one.location) for code, one in method.occurrences)
         yield codes.OBSOLETE.at(
             first, name=method.name, related=[Related("also here", location) for location in rest],

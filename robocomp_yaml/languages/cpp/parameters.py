@@ -158,9 +158,9 @@ class _Types(Types):
         taken = names(_TYPES_TAKEN)
         super().__init__(root, taken, _SPELLING)
         self.root = root
-        self.functions = {path: taken.take(f"kindOf{self.of[path]}") for path, _ in self.records}
+        self.functions = {path: taken.allocate(f"kindOf{self.of[path]}") for path, _ in self.records}
         self.enumerators = {enum.name: _enumerators(enum) for enum in self.enums}
-        self.tables = {enum.name: taken.take(f"namesOf{self.of[enum.name]}") for enum in self.enums}
+        self.tables = {enum.name: taken.allocate(f"namesOf{self.of[enum.name]}") for enum in self.enums}
 
     def enum(self, enum: EnumType) -> EnumView:
         return EnumView(
@@ -217,7 +217,7 @@ class _Types(Types):
 
     def getters(self) -> Iterator[GetterView]:
         taken = names(_METHODS_TAKEN)
-        getters = {member.name: taken.take(LANGUAGE.in_code(member.code_name)) for member in self.root.members}
+        getters = {member.name: taken.allocate(LANGUAGE.in_code(member.code_name)) for member in self.root.members}
         for member in self.root.members:
             group = inside(".", member.code_name)
             name, made = getters[member.name], self.member_type(member, group)
@@ -244,7 +244,7 @@ class _Types(Types):
 def _enumerators(enum: EnumType) -> dict[str, str]:
     """The names in code of an enum's names."""
     taken = names()
-    return {name: taken.take(LANGUAGE.in_code(name)) for name in enum.names}
+    return {name: taken.allocate(LANGUAGE.in_code(name)) for name in enum.names}
 
 
 def _setter(name: str, type_: str, path: str) -> str:

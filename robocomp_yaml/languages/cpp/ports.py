@@ -90,7 +90,7 @@ def _served(
     service: lowering.Service, servants: NameAllocator, suffix: str, arguments: str, function: tuple[str, str]
 ) -> ServiceView:
     port, calls = service.port, {called.method.name: called.name for called in service.methods}
-    servant = servants.take(f"{port.name}{suffix}")
+    servant = servants.allocate(f"{port.name}{suffix}")
     if any(method.name == servant for method in port.interface.methods):
         servant += "_"
     return ServiceView(

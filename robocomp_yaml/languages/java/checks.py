@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable, Iterator
 
 from robocomp_yaml.diag.codes import languages as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
-from robocomp_yaml.emit.lowering.types import found, results
+from robocomp_yaml.emit.lowering.types import resolve, results
 from robocomp_yaml.languages.java import LANGUAGE
 from robocomp_yaml.languages.java.names import PACKAGE
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
@@ -70,7 +70,7 @@ def _hiding(
 def _is_hidden(ref: TypeRef, member: Member, scope: LinkedModule) -> bool:
     if ref.is_basic:
         return False
-    home, definition = found(ref, scope)
+    home, definition = resolve(ref, scope)
     if home.module.name != scope.module.name:
         return member.name == PACKAGE
     is_class = not isinstance(definition, Sequence | Map)

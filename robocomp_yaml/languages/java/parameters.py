@@ -153,7 +153,7 @@ class _Types(Types):
         super().__init__(root, NameAllocator(TYPES), _SPELLING)
         self.root = root
         functions = NameAllocator(METHODS)
-        self.functions = {path: functions.take(f"kindOf{self.of[path]}") for path, _ in self.records}
+        self.functions = {path: functions.allocate(f"kindOf{self.of[path]}") for path, _ in self.records}
         self.constants = {enum.name: _constants(enum) for enum in self.enums}
 
     def enum(self, enum: EnumType) -> EnumView:
@@ -222,7 +222,7 @@ class _Types(Types):
 
     def getters(self) -> Iterator[GetterView]:
         names = NameAllocator(METHODS)
-        getters = {member.name: names.take(LANGUAGE.in_code(member.code_name)) for member in self.root.members}
+        getters = {member.name: names.allocate(LANGUAGE.in_code(member.code_name)) for member in self.root.members}
         for member in self.root.members:
             group = inside(".", member.code_name)
             yield GetterView(
@@ -240,4 +240,4 @@ class _Types(Types):
 def _constants(enum: EnumType) -> dict[str, str]:
     """The names in code of an enum's names."""
     names = NameAllocator(TYPES)  # it would hide the type in the enum itself
-    return {name: names.take(LANGUAGE.in_code(name)) for name in enum.names}
+    return {name: names.allocate(LANGUAGE.in_code(name)) for name in enum.names}

@@ -6,7 +6,7 @@ import msgspec
 
 from robocomp_yaml.emit.lowering import ports as lowering
 from robocomp_yaml.emit.lowering.names import NameAllocator
-from robocomp_yaml.emit.lowering.types import found, results
+from robocomp_yaml.emit.lowering.types import resolve, results
 from robocomp_yaml.languages.java.names import PORTS, ice_name, parameter, proxy, qualified
 from robocomp_yaml.languages.java.text import IN, comment, declaration, literal, one_line
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
@@ -91,7 +91,7 @@ def _service(service: lowering.Service, servants: NameAllocator, suffix: str, id
     words = (port.name, identity, port.interface.name)
     return ServiceView(
         title=one_line(service.title),
-        servant=servants.take(f"{port.name}{suffix}"),
+        servant=servants.allocate(f"{port.name}{suffix}"),
         base=qualified(port.scope, port.interface.name),
         arguments=", ".join(map(literal, words)),
         operations=[_operation(method, port, calls.get(method.name, "")) for method in port.interface.methods],
@@ -132,7 +132,7 @@ def _throws(method: Method, port: Port) -> str:
 
 
 def _home(ref: TypeRef, scope: LinkedModule) -> tuple[LinkedModule, str]:
-    home, definition = found(ref, scope)
+    home, definition = resolve(ref, scope)
     return home, definition.name
 
 
@@ -175,7 +175,7 @@ def type_name(ref: TypeRef, scope: LinkedModule, *, boxed: bool = False) -> str:
     """The type of a value; `boxed` where a map holds it."""
     if ref.is_basic:
         return (_BOXED if boxed else _BASIC)[ref.text]
-    home, definition = found(ref, scope)
+    home, definition = resolve(ref, scope)
     match definition:
         case Sequence(element=element):
             return f"{type_name(element, home)}[]"
@@ -197,7 +197,7 @@ def zero(ref: TypeRef, scope: LinkedModule) -> str:
     """The plainest value: zero, empty, the first enumerator, a struct of its defaults."""
     if ref.is_basic:
         return _ZEROS.get(ref.text, "0")
-    home, definition = found(ref, scope)
+    home, definition = resolve(ref, scope)
     match definition:
         case Sequence():
             of = type_name(ref, scope)

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 import msgspec
 
 from robocomp_yaml.emit.lowering import ports as lowering
-from robocomp_yaml.emit.lowering.types import found, results
+from robocomp_yaml.emit.lowering.types import resolve, results
 from robocomp_yaml.languages.python.names import PORTS, ice_name, module_variable, parameters
 from robocomp_yaml.languages.python.text import about, docstring, one_line, signature
 from robocomp_yaml.languages.python.types import hint, qualified, result_hint, zero
@@ -116,7 +116,7 @@ def _method(called: lowering.CalledMethod, modules: Sequence[str]) -> MethodView
 
 
 def _home(ref: TypeRef, scope: LinkedModule) -> tuple[LinkedModule, str]:
-    home, definition = found(ref, scope)
+    home, definition = resolve(ref, scope)
     return home, definition.name
 
 

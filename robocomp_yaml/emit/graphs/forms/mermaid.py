@@ -56,5 +56,5 @@ def _faults(picture: Picture, numbers: dict[str, str]) -> Iterator[str]:
 
 def _quoted(*lines: str) -> str:
     """Lines of text in quotes. Characters with a meaning in Mermaid or HTML are escaped."""
-    escaped = [re.sub(r"[\"#&<>\\`;]", lambda found: f"#{ord(found[0])};", " ".join(line.split())) for line in lines]
+    escaped = [re.sub(r"[\"#&<>\\`;]", lambda match: f"#{ord(match[0])};", " ".join(line.split())) for line in lines]
     return '"' + "<br>".join(escaped) + '"'
