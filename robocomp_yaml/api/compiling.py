@@ -14,10 +14,10 @@ from robocomp_yaml.api.outcome import File, Outcome
 from robocomp_yaml.diag.codes.files import PLUGIN_FAILED
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, has_errors, in_order
 from robocomp_yaml.diag.hidden import Hidden
+from robocomp_yaml.emit.allowed_folders import AllowedFolders
 from robocomp_yaml.emit.build import Build, build
-from robocomp_yaml.emit.fences import Fences
 from robocomp_yaml.emit.layout import is_settings
-from robocomp_yaml.emit.options import Options
+from robocomp_yaml.emit.options import EmitOptions
 from robocomp_yaml.emit.specific.review import Review, review
 from robocomp_yaml.link import workspace_files
 from robocomp_yaml.pipeline import Analysis
@@ -119,7 +119,7 @@ class Compilation:
         schemas: dict[str, bytes] = {}
         fences = Fences(self._arguments.paths, None)
         for workspace in self._analysis.linker.workspaces.values():
-            if not fences.hold(workspace.root):
+            if not fences.contain(workspace.root):
                 continue
             try:
                 workspace_files.install(workspace.root, workspace.plugins)

@@ -19,7 +19,7 @@ def ports(analysis: Analysis) -> Callable[[LinkedComponent], Ports]:
     workspace, the ports are those of the components of this run."""
     known: dict[str, Ports] = {}
 
-    def of(linked: LinkedComponent) -> Ports:
+    def of(linked: LinkedComponent) -> PortTable:
         workspace = analysis.linker.workspace_of(linked.component.path)
         key = workspace.root if workspace.declared else ""
         if key not in known:

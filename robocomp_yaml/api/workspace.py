@@ -176,7 +176,7 @@ class Workspace:
         analysis = self.analysis
         if analysis.program.components:
             from robocomp_yaml.emit import ports
-            from robocomp_yaml.emit.specific import written
+            from robocomp_yaml.emit.specific import existing_code
 
             yield from ports.clashes(analysis.program.components.values(), analysis.disk)
             if written.has_code(analysis.program):
@@ -186,7 +186,7 @@ class Workspace:
                 if kept is not None:
                     yield from kept
                 else:
-                    yield from written.of_written(analysis.program, analysis.diagnostics, analysis.linker)
+                    yield from existing_code.check(analysis.program, analysis.diagnostics, analysis.linker)
         if analysis.networks:
             from robocomp_yaml.check.networks import check_environment
 

@@ -9,7 +9,7 @@ from itertools import islice
 import msgspec
 
 from robocomp_yaml.diag.terminal import typed
-from robocomp_yaml.emit.component import places
+from robocomp_yaml.emit.component import source_folders
 from robocomp_yaml.emit.layout import GENERATED, SLICE, SOURCES, runtime_folder
 from robocomp_yaml.emit.slice import file_name
 from robocomp_yaml.languages.record import TargetLanguage
@@ -81,6 +81,7 @@ def _sources(linked: LinkedComponent, workspace: Workspace, folder: str) -> Iter
         if source.kind not in component.language.target.has:
             continue
         heads = ("", "classes", "Classes") if source.is_class else ("",)
-        below = [os.path.join(folder, place, head) for place in places(linked, workspace, folder) for head in heads]
+        places = source_folders(linked, workspace, folder)
+        below = [os.path.join(folder, place, head) for place in places for head in heads]
         paths = (os.path.normpath(os.path.join(place, source.path)) for place in below)
         yield from islice(filter(os.path.exists, paths), 1)

@@ -48,7 +48,7 @@ def conflicts(output: str, files: Mapping[str, str]) -> list[Diagnostic]:
     found = {path: _read(os.path.join(output, path)) for path in files}
     hint = "or it was edited since; move it away, or export to another folder"
     return [
-        emitting.NOT_OURS.at(Span(os.path.join(output, path)), path=path, hint=hint)
+        emitting.NOT_GENERATED.at(Span(os.path.join(output, path)), path=path, hint=hint)
         for path, data in found.items()
         if data is not None and data != _bytes(files[path]) and digest(data) != written.get(path)
     ]

@@ -14,9 +14,9 @@ from robocomp_yaml import secrets
 from robocomp_yaml.diag.render.json import dumps
 from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.migrated import MEMORY
-from robocomp_yaml.transactions.atomic import Batch, Step, WriteFailed, carry_out, recover
+from robocomp_yaml.transactions.atomic import FileStep, WriteFailed, carry_out, recover
 from robocomp_yaml.transactions.changes import unified
-from robocomp_yaml.transactions.places import Root
+from robocomp_yaml.transactions.output_root import Root
 from robocomp_yaml.transactions.plan import rights_of
 
 CREATED, CHANGED, UNCHANGED, EDITED, TAKEN, FAILED = "created", "changed", "unchanged", "edited", "taken", "failed"
@@ -111,11 +111,11 @@ class OutputRoot(msgspec.Struct):
             steps = [self._step(output) for output in pending]
             memory = self._memory()
             if memory is not None and memory != self.remembered:
-                steps.append(Step(MEMORY, self.remembered, memory))
+                steps.append(FileStep(MEMORY, self.remembered, memory))
             if not steps:
                 return
             try:
-                carry_out([Batch(self.root.real, tuple(steps))])
+                carry_out({self.root.real: steps})
                 return
             except WriteFailed as failed:
                 folder = failed.path.rpartition("/")[0]

@@ -17,7 +17,7 @@ from robocomp_yaml.legacy.rules import Formats, Rules
 from robocomp_yaml.link.workspace import root_above
 from robocomp_yaml.source.discover import documents_below, kind_of
 from robocomp_yaml.transactions import manifest
-from robocomp_yaml.transactions.places import contents, in_words
+from robocomp_yaml.transactions.output_root import contents, reason_of
 
 _SKIPPED = frozenset(("node_modules", "__pycache__"))
 

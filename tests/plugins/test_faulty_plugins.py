@@ -230,7 +230,7 @@ def test_a_picture_that_fails(rcyaml: Run, site: Path, tmp_path: Path) -> None:
     installed(site, "acme", {"graphs/odd": "mod"}, {"mod.py": "def draw(picture):\n    return picture\n"})
     workspace(tmp_path, "acme", **NETWORK)
     done = rcyaml("graph", "--as", "odd")
-    assert done.returncode == 1 and "it gives no text" in done.stderr
+    assert done.returncode == 1 and "it returns no text" in done.stderr
 
 
 @pytest.mark.parametrize(

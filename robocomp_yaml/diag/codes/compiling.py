@@ -1,4 +1,4 @@
-"""RC61xx: what keeps a document from being compiled."""
+"""RC61xx: documents that cannot be compiled."""
 
 from __future__ import annotations
 

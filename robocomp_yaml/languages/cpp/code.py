@@ -12,15 +12,15 @@ from tree_sitter import Language, Node, Parser
 
 from robocomp_yaml.emit.specific.code import (
     CLASS,
-    Code,
-    Import,
-    Method,
+    ImportLine,
     Signature,
+    SourceCode,
+    SourceMethod,
     below,
     faults,
     field,
     lines_of,
-    place,
+    location,
     plain,
     text,
     words,
@@ -43,19 +43,19 @@ def read(path: str, source: str) -> Code:
     for node in root.children:
         if node.type == "preproc_include":
             line = " ".join(text(node).split())
-            imports.append(Import(line.partition("include")[2].strip(), f"{line}\n"))
+            imports.append(ImportLine(line.partition("include")[2].strip(), f"{line}\n"))
             import_end = node.start_point[0] + 1
     definitions = tuple(_definitions(root, lines))
     class_ = next(_classes(root), None)
     if class_ is None:
-        return Code(path, lines, faults(root), (), definitions, tuple(imports), import_end)
+        return SourceCode(path, lines, faults(root), (), definitions, tuple(imports), import_end)
     body = class_.child_by_field_name("body")
     assert body is not None
     clause = next((node for node in class_.children if node.type == "base_class_clause"), None)
     bases = [text(node) for node in clause.named_children if node.type != "access_specifier"] if clause else []
-    return Code(
+    return SourceCode(
         path, lines, faults(root), tuple(_members(body, lines)), definitions, tuple(imports), import_end,
-        place(field(class_, "name"), lines), body.end_point[0], bases=tuple(bases),
+        location(field(class_, "name"), lines), body.end_point[0], bases=tuple(bases),
     )  # fmt: skip
 
 
@@ -84,14 +84,14 @@ def _classes(root: Node) -> Iterator[Node]:
                 yield node
 
 
-def _members(body: Node, lines: list[str]) -> Iterator[Method]:
+def _members(body: Node, lines: list[str]) -> Iterator[SourceMethod]:
     for node, nested in below(body, _is_condition):
         if node.type in ("field_declaration", "function_definition", "declaration"):
             if found := _method(node, lines, nested, has_body=node.type == "function_definition"):
                 yield found
 
 
-def _definitions(root: Node, lines: list[str]) -> Iterator[Method]:
+def _definitions(root: Node, lines: list[str]) -> Iterator[SourceMethod]:
     for node, nested in below(root, _is_scope):
         found = _method(node, lines, nested) if node.type == "function_definition" else None
         if found and found.name.startswith(f"{CLASS}::"):
@@ -128,7 +128,7 @@ def _method(node: Node, lines: list[str], nested: bool, *, has_body: bool = True
         len(typed),
     )
     whole = "".join(text(name).split())
-    return Method(whole, place(last, lines), first, node.end_point[0] + 1, signature, has_body, nested)
+    return SourceMethod(whole, location(last, lines), first, node.end_point[0] + 1, signature, has_body, nested)
 
 
 def _type(parameter: Node) -> str:

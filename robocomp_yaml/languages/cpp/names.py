@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from robocomp_yaml.emit.lowering.names import Names
-from robocomp_yaml.emit.lowering.ports import Spelling
+from robocomp_yaml.emit.lowering.names import NameAllocator
+from robocomp_yaml.emit.lowering.ports import PortSpelling
 from robocomp_yaml.languages.cpp import KEYWORDS
 from robocomp_yaml.languages.cpp.macros import EVER
 from robocomp_yaml.link.program import LinkedModule
@@ -42,7 +42,7 @@ def parameter(name: str) -> str:
     return f"{name}_" if name in _KEYWORDS else name
 
 
-PORTS = Spelling(
+PORTS = PortSpelling(
     taken=frozenset(("parameters",)) | _KEYWORDS,
     published=("{name}_pubproxy",),
     called=ice_name,

@@ -9,8 +9,8 @@ import msgspec
 from robocomp_yaml.emit.lowering.kinds import Builders, pattern_count
 from robocomp_yaml.emit.lowering.parameters import (
     ConstraintView,
-    Spelling,
     Types,
+    TypeSpelling,
     about_enum,
     about_member,
     declared,
@@ -121,7 +121,7 @@ def texts(parameters: Parameters, component: str, source: str) -> dict[str, str]
     return {f"parameters.{suffix}": render(f"cpp/parameters.{suffix}.j2", view) for suffix in ("h", "cpp")}
 
 
-_SPELLING = Spelling(
+_SPELLING = TypeSpelling(
     basic={
         "bool": "bool", "int": "int", "long": "long long", "float": "float", "double": "double",
         "string": "std::string",
@@ -146,9 +146,9 @@ class _Types(Types):
         taken = names(_TYPES_TAKEN)
         super().__init__(root, taken, _SPELLING)
         self.root = root
-        self.functions = {path: taken.take(f"kindOf{self.of[path]}") for path, _ in self.records}
+        self.functions = {path: taken.allocate(f"kindOf{self.of[path]}") for path, _ in self.records}
         self.enumerators = {enum.name: _enumerators(enum) for enum in self.enums}
-        self.tables = {enum.name: taken.take(f"namesOf{self.of[enum.name]}") for enum in self.enums}
+        self.tables = {enum.name: taken.allocate(f"namesOf{self.of[enum.name]}") for enum in self.enums}
 
     def enum(self, enum: EnumType) -> EnumView:
         return EnumView(
@@ -205,7 +205,7 @@ class _Types(Types):
 
     def getters(self) -> Iterator[GetterView]:
         taken = names(_METHODS_TAKEN)
-        getters = {member.name: taken.take(LANGUAGE.in_code(member.code_name)) for member in self.root.members}
+        getters = {member.name: taken.allocate(LANGUAGE.in_code(member.code_name)) for member in self.root.members}
         for member in self.root.members:
             group = inside(".", member.code_name)
             name, made = getters[member.name], self.member_type(member, group)
@@ -232,7 +232,7 @@ class _Types(Types):
 def _enumerators(enum: EnumType) -> dict[str, str]:
     """The name in code of each name of an enum."""
     taken = names()
-    return {name: taken.take(LANGUAGE.in_code(name)) for name in enum.names}
+    return {name: taken.allocate(LANGUAGE.in_code(name)) for name in enum.names}
 
 
 def _setter(name: str, type_: str, path: str) -> str:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import msgspec
 
 from robocomp_yaml.emit.lowering import ports as lowering
-from robocomp_yaml.emit.lowering.names import Names
+from robocomp_yaml.emit.lowering.names import NameAllocator
 from robocomp_yaml.emit.lowering.types import scoped
 from robocomp_yaml.languages._shared.text import IN, declaration
 from robocomp_yaml.languages._shared.views import PortViews
@@ -105,7 +105,7 @@ def _accessor(accessor: lowering.Accessor, summary: str, function: str, argument
     )
 
 
-def _implemented(service: lowering.Service, servants: Names) -> ServiceView:
+def _implemented(service: lowering.Service, servants: NameAllocator) -> ServiceView:
     words = (service.port.name, service.identity, service.port.interface.name)
     arguments = ", ".join(map(literal, words))
     return _served(service, servants, "Servant", arguments, ("services.implement", f"{{{arguments}}}"))
@@ -117,10 +117,10 @@ def _subscribed(service: lowering.Service, servants: Names) -> ServiceView:
 
 
 def _served(
-    service: lowering.Service, servants: Names, suffix: str, arguments: str, function: tuple[str, str]
+    service: lowering.Service, servants: NameAllocator, suffix: str, arguments: str, function: tuple[str, str]
 ) -> ServiceView:
     port, calls = service.port, {called.method.name: called.name for called in service.methods}
-    servant = servants.take(f"{port.name}{suffix}")
+    servant = servants.allocate(f"{port.name}{suffix}")
     if any(method.name == servant for method in port.interface.methods):
         servant += "_"
     return ServiceView(

@@ -66,7 +66,7 @@ def _hiding(
 def _is_hidden(ref: TypeRef, member: Member, scope: LinkedModule) -> bool:
     if ref.is_basic:
         return False
-    home, definition = found(ref, scope)
+    home, definition = resolve(ref, scope)
     if home.module.name != scope.module.name:
         return member.name == PACKAGE
     is_class = not isinstance(definition, Sequence | Map)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from robocomp_yaml.emit.lowering.ports import Spelling
+from robocomp_yaml.emit.lowering.ports import PortSpelling
 from robocomp_yaml.languages.java import KEYWORDS, OBJECT_METHODS
 from robocomp_yaml.link.program import LinkedModule
 
@@ -45,4 +45,4 @@ def proxy(scope: LinkedModule, interface: str) -> str:
     return f"{PACKAGE}.{ice_name(scope.module.name)}.{interface}Prx"
 
 
-PORTS = Spelling(taken=_WORKER, published=("{name}_pubproxy",), called=ice_name)
+PORTS = PortSpelling(taken=_WORKER, published=("{name}_pubproxy",), called=ice_name)

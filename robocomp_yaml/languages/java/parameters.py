@@ -7,11 +7,12 @@ from collections.abc import Iterator
 import msgspec
 
 from robocomp_yaml.emit.lowering.kinds import Builders
-from robocomp_yaml.emit.lowering.names import Names
+from robocomp_yaml.emit.lowering.names import NameAllocator
 from robocomp_yaml.emit.lowering.parameters import (
     ConstraintView,
     Spelling,
     Types,
+    TypeSpelling,
     about_enum,
     about_member,
     declared,
@@ -133,7 +134,7 @@ class _Types(Types):
     """The classes of all enums and records that the parameters use, with names that do not clash."""
 
     def __init__(self, root: RecordType) -> None:
-        super().__init__(root, Names(TYPES), _SPELLING)
+        super().__init__(root, NameAllocator(TYPES), _SPELLING)
         self.root = root
         functions = Names(METHODS)
         self.functions = {path: functions.take(f"kindOf{self.of[path]}") for path, _ in self.records}
@@ -194,8 +195,8 @@ class _Types(Types):
         return f"v{depth} -> {self.read(type_, f'v{depth}', group, depth + 1)}"
 
     def getters(self) -> Iterator[GetterView]:
-        names = Names(METHODS)
-        getters = {member.name: names.take(LANGUAGE.in_code(member.code_name)) for member in self.root.members}
+        names = NameAllocator(METHODS)
+        getters = {member.name: names.allocate(LANGUAGE.in_code(member.code_name)) for member in self.root.members}
         for member in self.root.members:
             group = inside(".", member.code_name)
             yield GetterView(

@@ -89,12 +89,12 @@ def _accessor(accessor: lowering.Accessor, made: str, summary: str) -> AccessorV
     )
 
 
-def _service(service: lowering.Service, servants: Names, suffix: str, identity: str) -> ServiceView:
+def _service(service: lowering.Service, servants: NameAllocator, suffix: str, identity: str) -> ServiceView:
     port, calls = service.port, {called.method.name: called.name for called in service.methods}
     words = (port.name, identity, port.interface.name)
     return ServiceView(
         title=one_line(service.title),
-        servant=servants.take(f"{port.name}{suffix}"),
+        servant=servants.allocate(f"{port.name}{suffix}"),
         base=qualified(port.scope, port.interface.name),
         arguments=", ".join(map(literal, words)),
         operations=[_operation(method, port, calls.get(method.name, "")) for method in port.interface.methods],
@@ -116,7 +116,7 @@ def _operation(method: Method, port: Port, calls: str) -> OperationView:
     )
 
 
-def _method(called: lowering.Called) -> MethodView:
+def _method(called: lowering.CalledMethod) -> MethodView:
     method, port = called.method, called.port
     returns = result_type(method, port)
     typed = [f"{type_name(member.type, port.scope)} {parameter(member.name)}" for member in method.inputs]
@@ -173,7 +173,7 @@ def type_name(ref: TypeRef, scope: LinkedModule, *, boxed: bool = False) -> str:
     """The type of a value; `boxed` where a map holds it."""
     if ref.is_basic:
         return (_BOXED if boxed else _BASIC)[ref.text]
-    home, definition = found(ref, scope)
+    home, definition = resolve(ref, scope)
     match definition:
         case Sequence(element=element):
             return f"{type_name(element, home)}[]"
@@ -195,7 +195,7 @@ def zero(ref: TypeRef, scope: LinkedModule) -> str:
     """The default value: zero, empty, the first enumerator, a struct of its defaults."""
     if ref.is_basic:
         return _ZEROS.get(ref.text, "0")
-    home, definition = found(ref, scope)
+    home, definition = resolve(ref, scope)
     match definition:
         case Sequence():
             of = type_name(ref, scope)

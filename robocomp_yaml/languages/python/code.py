@@ -12,15 +12,15 @@ from tree_sitter import Language, Node, Parser
 
 from robocomp_yaml.emit.specific.code import (
     CLASS,
-    Code,
-    Import,
-    Method,
+    ImportLine,
     Signature,
+    SourceCode,
+    SourceMethod,
     below,
     faults,
     field,
     lines_of,
-    place,
+    location,
     plain,
     text,
 )
@@ -31,7 +31,7 @@ def _parser() -> Parser:
     return Parser(Language(tree_sitter_python.language()))
 
 
-def read(path: str, source: str) -> Code:
+def read(path: str, source: str) -> SourceCode:
     root = _parser().parse(source.encode()).root_node
     lines = lines_of(source)
     imports = list(_imports(root))
@@ -39,13 +39,13 @@ def read(path: str, source: str) -> Code:
     import_end = tops[-1].end_point[0] + 1 if tops else _behind_docstring(root)
     found = next((node for node in _classes(root) if text(field(node, "name")) == CLASS), None)
     if found is None:
-        return Code(path, lines, faults(root), imports=tuple(imports), import_end=import_end)
+        return SourceCode(path, lines, faults(root), imports=tuple(imports), import_end=import_end)
     body = field(found, "body")
     members = tuple(_members(body, lines))
     bases = found.child_by_field_name("superclasses")
-    return Code(
+    return SourceCode(
         path, lines, faults(root), members, (), tuple(imports), import_end,
-        place(field(found, "name"), lines),
+        location(field(found, "name"), lines),
         _last_line(body),
         _indent(body, lines) or "    ",
         tuple(text(base) for base in bases.named_children) if bases else (),
@@ -76,24 +76,26 @@ def _classes(root: Node) -> Iterator[Node]:
             yield inner
 
 
-def _members(body: Node, lines: list[str]) -> Iterator[Method]:
+def _members(body: Node, lines: list[str]) -> Iterator[SourceMethod]:
     for node, nested in below(body, _is_condition):
         inner = field(node, "definition") if node.type == "decorated_definition" else node
         if inner.type == "function_definition":
             name = field(inner, "name")
             first = _with_comments(node.start_point[0], lines)
-            yield Method(text(name), place(name, lines), first, _last_line(node), _signature(inner), nested=nested)
+            yield SourceMethod(
+                text(name), location(name, lines), first, _last_line(node), _signature(inner), nested=nested
+            )
         elif node.type == "expression_statement":
             yield from _assigned(node, lines)
 
 
-def _assigned(statement: Node, lines: list[str]) -> Iterator[Method]:
+def _assigned(statement: Node, lines: list[str]) -> Iterator[SourceMethod]:
     """`name = something` in the class."""
     for node in statement.children:
         name = node.child_by_field_name("left") if node.type == "assignment" else None
         if name is not None and name.type == "identifier":
             row = statement.start_point[0]
-            yield Method(text(name), place(name, lines), row, _last_line(statement), None)
+            yield SourceMethod(text(name), location(name, lines), row, _last_line(statement), None)
 
 
 def _signature(function: Node) -> Signature:
@@ -120,7 +122,7 @@ def _signature(function: Node) -> Signature:
     return Signature(tuple(parameters), tuple(names), returns, least, most if limited else None)
 
 
-def _imports(root: Node) -> Iterator[Import]:
+def _imports(root: Node) -> Iterator[ImportLine]:
     """The names that come from generated modules."""
     for node in root.children:
         module = node.child_by_field_name("module_name") if node.type == "import_from_statement" else None
@@ -128,7 +130,7 @@ def _imports(root: Node) -> Iterator[Import]:
             continue
         for name in node.children_by_field_name("name"):
             words = plain(name)
-            yield Import(f"{text(module)} {words}", f"from {text(module)} import {words}\n")
+            yield ImportLine(f"{text(module)} {words}", f"from {text(module)} import {words}\n")
 
 
 def _with_comments(row: int, lines: list[str]) -> int:

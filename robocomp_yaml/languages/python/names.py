@@ -57,7 +57,7 @@ def parameters(names: Iterable[str], modules: Iterable[str]) -> Iterator[str]:
         yield f"_{name}" if name in hidden else python_name(name)
 
 
-PORTS = Spelling(
+PORTS = PortSpelling(
     taken=WORKER_ATTRIBUTES,
     published=("{name}_proxy", "{name}_pubproxy"),
     called=proxy_method,

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 
 import msgspec
 
-from robocomp_yaml.emit.lowering.names import Names
+from robocomp_yaml.emit.lowering.names import NameAllocator
 from robocomp_yaml.emit.lowering.parameters import (
     ConstraintView,
-    Spelling,
     Types,
+    TypeSpelling,
     about_enum,
     about_member,
     declared,
@@ -110,7 +110,7 @@ def _imports(views: list[RecordView], enums: bool, spellings: bool, constraints:
     yield f"from generated.runtime.semantics import {', '.join(name for name, used in modules.items() if used)}"
 
 
-_SPELLING = Spelling(
+_SPELLING = TypeSpelling(
     basic={"bool": "bool", "int": "int", "long": "int", "float": "float", "double": "float", "string": "str"},
     listing="tuple[{}, ...]",
     mapping="Mapping[str, {}]",

@@ -96,7 +96,7 @@ def _served(service: lowering.Service, modules: Sequence[str]) -> ServedView:
     return ServedView(port.name, service.identity, topic, interface, service.title, every, new)
 
 
-def _method(called: lowering.Called, modules: Sequence[str]) -> MethodView:
+def _method(called: lowering.CalledMethod, modules: Sequence[str]) -> MethodView:
     port, method, name = called.port, called.method, called.name
     scope = port.scope
     names = list(parameters((member.name for member in method.inputs), modules))

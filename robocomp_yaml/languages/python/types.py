@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from robocomp_yaml.emit.lowering.types import found, results
+from robocomp_yaml.emit.lowering.types import resolve, results
 from robocomp_yaml.languages.python.names import module_variable, python_name
 from robocomp_yaml.link.program import LinkedModule
 from robocomp_yaml.model.interface import Enum, Map, Method, Sequence, TypeRef
@@ -24,7 +24,7 @@ def hint(ref: TypeRef, scope: LinkedModule) -> str:
     """The type hint for a value of this type, as `scope` names it."""
     if ref.is_basic:
         return _BASIC_HINTS[ref.text]
-    home, definition = found(ref, scope)
+    home, definition = resolve(ref, scope)
     match definition:
         case Sequence(element=element):
             return "bytes" if element.text == "byte" else f"list[{hint(element, home)}]"
@@ -44,7 +44,7 @@ def zero(ref: TypeRef, scope: LinkedModule) -> str:
     """An expression for the default value: zero, empty, the first enumerator, a struct of its defaults."""
     if ref.is_basic:
         return _ZEROS[_BASIC_HINTS[ref.text]]
-    home, definition = found(ref, scope)
+    home, definition = resolve(ref, scope)
     match definition:
         case Sequence(element=element):
             return 'b""' if element.text == "byte" else "[]"

@@ -67,7 +67,7 @@ def test_code_is_read_only_if_the_skeleton_has_changed(compiled: Path, rcyaml: R
     for name in [name for name in sys.modules if name.startswith("robocomp_yaml.emit.specific.telling")]:
         del sys.modules[name]
     assert rcyaml("check").stdout == "3 documents: nothing wrong\n"
-    assert "robocomp_yaml.emit.specific.telling" not in sys.modules
+    assert "robocomp_yaml.emit.specific.reporting" not in sys.modules
 
 
 def test_nothing_is_reported_before_the_first_compile(rcyaml: Rcyaml, tmp_path: Path) -> None:

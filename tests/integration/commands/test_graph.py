@@ -65,7 +65,7 @@ def test_components_without_a_deployment(rcyaml: Run, tmp_path: Path) -> None:
 
 def test_interfaces_without_an_implementation_are_shown(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {name: text for name, text in FILES.items() if not name.startswith("mouth/")})
-    assert "-> Mouth of Mouth (nothing here implements it)" in rcyaml("graph").output
+    assert "-> Mouth of Mouth (no component here implements it)" in rcyaml("graph").output
 
 
 @pytest.mark.usefixtures("robot")

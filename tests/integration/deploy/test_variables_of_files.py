@@ -83,7 +83,7 @@ def test_a_form_without_files_of_variables() -> None:
         export(network_of("~/token"), "compose")
     with noted() as notes:
         export(network_of("/token"), "rcmanager")
-    assert [str(one) for one in notes] == ["RCManager gives its commands no variables: TOKEN, OTHER"]
+    assert [str(one) for one in notes] == ["RCManager sets no variables for its commands: TOKEN, OTHER"]
 
 
 def test_the_local_engine_reads_it_alike(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

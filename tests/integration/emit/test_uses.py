@@ -1,4 +1,4 @@
-"""`uses:`: what the build and pip get of it, and what is refused."""
+"""`uses:`: the files for the build and for pip, and names that are rejected."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def test_pip_packages_become_requirements(rcyaml: Run, tmp_path: Path) -> None:
 
 @pytest.mark.skipif(shutil.which("cmake") is None or shutil.which("cc") is None, reason="CMake or cc is not installed")
 class TestCMake:
-    def test_what_is_there_is_found(self, rcyaml: Run, tmp_path: Path) -> None:
+    def test_installed_libraries_are_found(self, rcyaml: Run, tmp_path: Path) -> None:
         names = ("speech/own file.c", "shared/a.c", "shared/a.h", "classes/b/b.c")
         write_tree(tmp_path, {f"robot/{name}": "" for name in names})
         uses = "  sources: [own file.c, shared/a.c, shared/a.h]\n  classes: [b]\n  libraries: [{link: m}]\n"
@@ -70,7 +70,7 @@ class TestCMake:
         assert "/own file.c;" in said and "/shared/a.c;" in said and "/classes/b/b.c" in said and "a.h" not in said
         assert said.endswith("libm.so")
 
-    def test_all_that_is_missing_is_told_at_once(self, rcyaml: Run, tmp_path: Path) -> None:
+    def test_all_missing_libraries_are_reported_together(self, rcyaml: Run, tmp_path: Path) -> None:
         uses = (
             "  sources: [lost.cpp]\n  classes: [lostClass]\n"
             "  libraries: [{cmake: LostPackage}, {pkg-config: lost-module}, {link: lostlibrary}, {pip: numpy}]\n"
@@ -81,13 +81,13 @@ class TestCMake:
             assert f" {name}: " in said
         assert "numpy" not in said
 
-    def test_below_another_folder_sources_are_still_those_of_the_document(self, rcyaml: Run, tmp_path: Path) -> None:
+    def test_with_an_output_folder_sources_are_those_of_the_document(self, rcyaml: Run, tmp_path: Path) -> None:
         write_tree(tmp_path, {"robot/speech/own.c": "", "robot/shared/a.c": ""})
         compiled(rcyaml, tmp_path, CPP + "  sources: [own.c, shared/a.c]\n", "-o", "out")
         said = configured(tmp_path / "out/speech")
         assert said.startswith("exit 0 ") and "/own.c;" in said and "/shared/a.c" in said
 
-    def test_a_version_that_will_not_do(self, rcyaml: Run, tmp_path: Path) -> None:
+    def test_a_version_that_is_not_accepted(self, rcyaml: Run, tmp_path: Path) -> None:
         version = "set(PACKAGE_VERSION 3.10.1)\n"
         write_tree(tmp_path, {"cmake/OldConfig.cmake": "", "cmake/OldConfigVersion.cmake": version})
         uses = '  libraries: [{cmake: Old, version: ">=3.9, <4"}, {cmake: Old, version: ">3.10.1"}]\n'
@@ -101,7 +101,7 @@ class TestCMake:
 
 @pytest.mark.parametrize("key", ["cmake", "pkg-config", "link", "pip", "classes", "sources", "version"])
 @pytest.mark.parametrize("name", HOSTILE)
-def test_what_means_something_to_a_shell_is_refused(name: str, key: str, rcyaml: Run, tmp_path: Path) -> None:
+def test_names_with_a_meaning_in_a_shell_are_rejected(name: str, key: str, rcyaml: Run, tmp_path: Path) -> None:
     harmless = {"sources": ("a b", "../a", "@A@")}
     if name in harmless.get(key, ()):
         return

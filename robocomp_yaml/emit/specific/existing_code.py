@@ -1,4 +1,4 @@
-"""What a compile would say of the code that is there already, for `check`: nothing is planned that it does not need."""
+"""Diagnostics for `check` about the user's code that exists: those that a compile would report."""
 
 from __future__ import annotations
 
@@ -12,21 +12,20 @@ from robocomp_yaml.link.program import LinkedComponent, Program
 
 
 def has_code(program: Program) -> bool:
-    """Whether a component that the user asked for has files of the user's own."""
-    return any(_is_written(program.components[real]) for real in program.requested_components())
+    """Whether a requested component has files of the user."""
+    return any(_is_written(program.components[real]) for real in program.asked_components())
 
 
-def of_written(program: Program, diagnostics: Sequence[Diagnostic], linker: Linker) -> Iterator[Diagnostic]:
-    """The diagnostics about the user's own files, of components that have some; `diagnostics` are those of the
-    documents."""
+def check(program: Program, diagnostics: Sequence[Diagnostic], linker: Linker) -> Iterator[Diagnostic]:
+    """The diagnostics about the user's files of components; `diagnostics` are those of the documents."""
     from robocomp_yaml.emit.build import build
-    from robocomp_yaml.emit.options import Options
+    from robocomp_yaml.emit.options import EmitOptions
     from robocomp_yaml.emit.ports import assign
     from robocomp_yaml.emit.specific.review import review
     from robocomp_yaml.transactions.plan import RootPlan
 
-    languages = {program.components[real].component.language.name for real in program.requested_components()}
-    options = Options(
+    languages = {program.components[real].component.language.name for real in program.asked_components()}
+    options = EmitOptions(
         None, (), frozenset({*languages, "config"}), linker.workspace_of, lambda linked: assign([linked], program.disk),
         only=_is_written,
     )  # fmt: skip

@@ -1,4 +1,4 @@
-"""`etc/config`, as far as a merge looks into it: keys that a component needs, each with its comment."""
+"""The merge of `etc/config`: the properties that a component needs, each with its comment."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ _NEEDED = (
 )
 
 
-def is_entries(path: str) -> bool:
+def is_config(path: str) -> bool:
     return path == CONFIG
 
 
-def lacking(base: str | None, yours: str, new: str) -> list[str]:
-    """The keys without which the component will not start: those that it did not need before, and that no spelling of
-    is there. None where it is not known what it needed before."""
+def missing(base: str | None, yours: str, new: str) -> list[str]:
+    """The keys without which the component does not start: those that it did not need before, and that the file has in
+    no spelling. Empty if `base`, the file as it was written, is unknown."""
     if base is None:
         return []
     known = {*_keys(yours), *_keys(base)}
@@ -27,7 +27,7 @@ def lacking(base: str | None, yours: str, new: str) -> list[str]:
 
 
 def paste(new: str, keys: list[str]) -> str:
-    """The lines of these entries, with the comments above them."""
+    """The lines of these properties, with the comments above them."""
     lines = new.split("\n")
     parts: list[str] = []
     for entry in properties.read(new).entries:
@@ -40,9 +40,9 @@ def paste(new: str, keys: list[str]) -> str:
 
 
 def merge(base: str | None, yours: str, new: str) -> str:
-    """The user's file with what it lacks at its end. What else is new in it are ports and addresses as they would be
-    chosen now: not a reason to change those that are in use."""
-    keys = lacking(base, yours, new)
+    """The user's file, with missing properties added at its end. Other differences are default ports and addresses,
+    which do not replace those in use."""
+    keys = missing(base, yours, new)
     if not keys:
         return yours
     ended = yours if not yours or yours.endswith("\n") else f"{yours}\n"
@@ -54,11 +54,11 @@ def _keys(text: str) -> dict[str, str]:
 
 
 def spellings(key: str) -> set[str]:
-    """The other names under which the run time looks for a property."""
-    found = re.fullmatch(_NEEDED, key)
-    if found is None:
+    """The other names under which the run time looks a property up."""
+    match = re.fullmatch(_NEEDED, key)
+    if match is None:
         return set()
-    if found["manager"]:
+    if match["manager"]:
         return {*connections.MANAGER} - {key}
     names = {"topic": connections.topic_endpoints, "adapter": connections.endpoints, "proxy": connections.proxy}
-    return {name for what, of in names.items() if found[what] for name in of(found[what])} - {key}
+    return {name for what, of in names.items() if match[what] for name in of(match[what])} - {key}

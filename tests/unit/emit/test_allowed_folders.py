@@ -1,4 +1,4 @@
-"""`compile` writes where the user said, and in the workspace of that; a document alone can send it nowhere else."""
+"""`compile` writes to folders named on the command line and to their workspaces; a document cannot name others."""
 
 from __future__ import annotations
 
@@ -23,13 +23,14 @@ def refused(result: Result) -> list[tuple[str, str]]:
 
 
 @pytest.mark.parametrize("args", [["robot"], ["robot/r.ddsl.yaml", "-o", "out"]])
-def test_a_component_elsewhere_is_the_users_to_name(args: list[str], rcyaml: Run, tmp_path: Path) -> None:
+def test_a_component_elsewhere_must_be_named(args: list[str], rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"arm/arm.cdsl.yaml": ARM, "robot/r.ddsl.yaml": DEPLOYMENT, "robot/rcyaml.yaml": ""})
     result = rcyaml("compile", *args, "--format", "json")
     told = refused(result)
     if "-o" not in args:
         assert result.exit_code == 1
-        assert told == [("arm/arm.cdsl.yaml", "if that is meant: `rcyaml compile arm/arm.cdsl.yaml`, or -o DIR")]
+        hint = "to write there, run `rcyaml compile arm/arm.cdsl.yaml`, or set the output folder with -o DIR"
+        assert told == [("arm/arm.cdsl.yaml", hint)]
         assert rcyaml("compile", "arm/arm.cdsl.yaml").exit_code == 0
         assert (tmp_path / "arm/generated").is_dir()
     else:
@@ -51,14 +52,14 @@ INSIDE: dict[str, tuple[Tree, str]] = {
 
 
 @pytest.mark.parametrize("name", INSIDE)
-def test_a_component_in_sight_is_compiled(name: str, rcyaml: Run, tmp_path: Path) -> None:
+def test_a_component_below_the_working_folder_is_compiled(name: str, rcyaml: Run, tmp_path: Path) -> None:
     files, path = INSIDE[name]
     write_tree(tmp_path, files)
     assert rcyaml("compile", path).exit_code == 0
     assert (tmp_path / "arm/generated").is_dir()
 
 
-def test_a_workspace_that_is_a_link_is_inside_of_itself(rcyaml: Run, tmp_path: Path) -> None:
+def test_a_workspace_that_is_a_link_is_inside_itself(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(
         tmp_path,
         {"disk/rcyaml.yaml": "", "disk/M.idsl.yaml": MODULE, "disk/arm/arm.cdsl.yaml": ARM, "robot": "-> disk"},
