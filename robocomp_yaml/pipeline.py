@@ -33,9 +33,9 @@ from robocomp_yaml.link.program import Program
 from robocomp_yaml.link.workspace import Search
 from robocomp_yaml.network.networks import Derived, networks_of
 from robocomp_yaml.source.allowances import Allowance
-from robocomp_yaml.source.discover import WORKSPACE_FILE, Found, discover
+from robocomp_yaml.source.discover import WORKSPACE_FILE, DiscoveredDocuments, discover
 from robocomp_yaml.source.disk import Disk
-from robocomp_yaml.source.spelled import Texts, spelled
+from robocomp_yaml.source.spelled import DocumentTexts, spelled
 
 if TYPE_CHECKING:
     from robocomp_yaml.network.network import Network
@@ -47,10 +47,10 @@ class Analysis(msgspec.Struct, frozen=True):
 
     program: Program
     linker: Linker
-    found: Found
+    found: DiscoveredDocuments
     disk: Disk
     derived: Derived
-    texts: Texts
+    texts: DocumentTexts
     allowed: Allowed
     diagnostics: tuple[Diagnostic, ...] = ()
     used: frozenset[Allowance] = frozenset()
@@ -118,7 +118,7 @@ def analyse(
         said += check(program)
     said += of_networks(derived, program)
     said += secrets.check(program, linker.documents.read.values())
-    texts = Texts(disk.contents, linker.documents.trees())
+    texts = DocumentTexts(disk.contents, linker.documents.trees())
     allowed = Allowed.of(texts, program.plugins_of)
     analysis = Analysis(program, linker, found, disk, derived, texts, allowed)
     judged = analysis.judged([*said, *analysis.allowed.said])

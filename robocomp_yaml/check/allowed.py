@@ -12,7 +12,7 @@ from robocomp_yaml.diag.codes import row_of
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
 from robocomp_yaml.plugins import Plugins
 from robocomp_yaml.source.allowances import OURS, Allowance, allowances
-from robocomp_yaml.source.spelled import Text, Texts
+from robocomp_yaml.source.spelled import DocumentText, DocumentTexts
 
 _ABOUT_THEM = ("RC0060", "RC0061", "RC0062", "RC0063", "RC0064")
 
@@ -30,10 +30,10 @@ class Allowed(msgspec.Struct, frozen=True):
 
     by_file: Mapping[str, tuple[Allowance, ...]] = {}
     said: tuple[Diagnostic, ...] = ()
-    texts: Mapping[str, Text] = {}
+    texts: Mapping[str, DocumentText] = {}
 
     @classmethod
-    def of(cls, texts: Texts, plugins_of: Callable[[str], Plugins]) -> Allowed:
+    def of(cls, texts: DocumentTexts, plugins_of: Callable[[str], Plugins]) -> Allowed:
         """Those of the YAML documents among these files; `plugins_of` says which plug-ins count for one."""
         by_file, said, having = {}, [], {}
         for path, raw in texts.contents.items():

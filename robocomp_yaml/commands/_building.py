@@ -118,7 +118,7 @@ class _View:
 
     def _take_away(self) -> None:
         if self._drawn:
-            terminal.take_away(1)
+            terminal.erase(1)
             self._drawn = False
 
 

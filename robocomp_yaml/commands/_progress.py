@@ -55,7 +55,7 @@ class Progress:
     def pause(self) -> None:
         """Takes away what is drawn of the busy ones."""
         if self._drawn:
-            terminal.take_away(self._drawn)
+            terminal.erase(self._drawn)
             self._drawn = 0
 
     async def _tick(self) -> None:

@@ -21,7 +21,7 @@ from robocomp_yaml.network.port_numbers import COMMON_BEHAVIOR, RESERVED, defaul
 from robocomp_yaml.source import properties
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.ice_endpoint import IceEndpoint, parse_endpoint
-from robocomp_yaml.source.properties import Entry
+from robocomp_yaml.source.properties import IceProperty
 
 
 class Ports(msgspec.Struct):
@@ -127,7 +127,7 @@ def _given(values: LinkedValues) -> dict[str, str]:
     return {name: node.lexeme for name, node in given(values, "endpoints") if isinstance(node, Scalar)}
 
 
-def _written(linked: LinkedComponent, disk: Disk) -> Iterator[tuple[str, Entry]]:
+def _written(linked: LinkedComponent, disk: Disk) -> Iterator[tuple[str, IceProperty]]:
     """The endpoint properties of an `etc/config`, by adapter, in either dialect."""
     path = config_path(linked)
     raw = disk.read(path)[0] if disk.has_file(path) else None

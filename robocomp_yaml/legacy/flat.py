@@ -7,18 +7,18 @@ from lark.tree import Meta
 
 from robocomp_yaml.legacy.reading import Source
 from robocomp_yaml.source import properties
-from robocomp_yaml.source.properties import Entry, Line
+from robocomp_yaml.source.properties import IceProperty, PropertyLine
 
 
 class LineTree(Tree[Token]):
     """A line that says something: an `entry`, or one that Ice passes over (None). `rest` is all that stands behind its
     `=`, comment and all."""
 
-    def __init__(self, line: Line, start: int, rest: str) -> None:
+    def __init__(self, line: PropertyLine, start: int, rest: str) -> None:
         meta = Meta()  # type: ignore[no-untyped-call]
         meta.empty, meta.start_pos, meta.end_pos = False, start, line.stop
         super().__init__("invalid" if line.entry is None else "entry", [], meta)
-        self.entry: Entry | None = line.entry
+        self.entry: IceProperty | None = line.entry
         self.rest = rest
 
 

@@ -21,7 +21,7 @@ from robocomp_yaml.network.gates import Gates
 from robocomp_yaml.network.network import Connection
 from robocomp_yaml.network.order import Need
 from robocomp_yaml.network.targets import Targets
-from robocomp_yaml.source.ice_options import BLANKS, Refused
+from robocomp_yaml.source.ice_options import BLANKS, InvalidIceText
 from robocomp_yaml.source.ice_proxy import parse_proxy
 
 
@@ -251,7 +251,7 @@ def _faults(draft: Draft, pair: Pair) -> Iterator[Diagnostic]:
     """What Ice would refuse, and what it would pass over."""
     try:
         found = parse_proxy(pair.text)
-    except Refused as refused:
+    except InvalidIceText as refused:
         usual = f'a proxy is spelled as Ice has it: `"{pair.name.lower()}:tcp -h HOST -p PORT"`'
         yield codes.BAD_PROXY.at(
             ice_texts.place(draft, pair.span, pair.text, refused),

@@ -27,7 +27,7 @@ from robocomp_yaml.network.targets import Targets
 from robocomp_yaml.network.topics import Topics
 from robocomp_yaml.source.file_names import LONGEST_NAME, is_too_long, path_fault, shortened, size
 from robocomp_yaml.source.ice_endpoint import fixed_endpoint
-from robocomp_yaml.source.ice_options import LAST_PORT, Refused
+from robocomp_yaml.source.ice_options import LAST_PORT, InvalidIceText
 
 
 def derive(linked: LinkedDeployment, program: Program) -> tuple[Network, list[Diagnostic]]:
@@ -118,7 +118,7 @@ def endpoint_faults(drafts: Drafts) -> Iterator[Diagnostic]:
 def _of_text(draft: Draft, offer: Offer) -> Iterator[Diagnostic]:
     try:
         fixed_endpoint(offer.given)
-    except Refused as refused:
+    except InvalidIceText as refused:
         usual = f"write a protocol and a port from 1 to {LAST_PORT}, such as `tcp -p 10003`"
         yield codes.BAD_ENDPOINT.at(
             ice_texts.place(draft, offer.span, offer.given, refused),

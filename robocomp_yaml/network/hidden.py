@@ -8,7 +8,7 @@ from msgspec.structs import replace
 
 from robocomp_yaml import secrets
 from robocomp_yaml.network.network import ConfigFile, Network, Process
-from robocomp_yaml.source.hidden_properties import without_secret
+from robocomp_yaml.source.properties import without_secret
 
 
 def hidden(network: Network) -> Network:

@@ -1,6 +1,6 @@
-"""Which documents `rcyaml migrate` wrote: they say what other programs say already, so nobody here can rename it.
+"""Which documents `rcyaml migrate` wrote: other programs use the names in them, so that they cannot be renamed here.
 
-Where that counts the document says so itself, since what `migrate` remembers is not in every clone of a repository.
+If this matters for a document, its heading says so, because the memory of `migrate` is not in every clone.
 """
 
 from __future__ import annotations
@@ -13,12 +13,12 @@ from robocomp_yaml.source.disk import Disk
 
 MEMORY = ".rcyaml/migrated.json"  # at the root of what was migrated; digests by path
 MARK = "# Migrated: "
-HEADING = f"{MARK}other programs use these names too, so those that C++ takes are warnings here.\n"
-_HEAD = 4096  # bytes, in which the comments at a document's beginning stand
+HEADING = f"{MARK}other programs use these names, too. Therefore names that C++ reserves are only warnings.\n"
+_HEAD = 4096  # bytes at the beginning of a document that are searched for the heading
 
 
 def is_migrated(path: str, disk: Disk) -> bool:
-    """Whether a document came from a legacy file, edited since or not."""
+    """Whether `migrate` wrote the document, even if it was edited since."""
     return _says_so(disk.peek(path, _HEAD)) or _is_remembered(os.path.realpath(path), disk)
 
 

@@ -1,7 +1,7 @@
-"""Does a document have its kind's shape? The schemas are the only place that says so; here are the words for it.
+"""Validates documents against the schema of their kind, and translates the validator's errors to diagnostics.
 
-jsonschema-rs judges; each of its errors carries the place in the document and in the schema, from which one message in
-the user's words is made. A subschema's `errorMessage` (yaml-language-server shows it too) wins over generated words.
+Each error of jsonschema-rs contains its paths in the document and in the schema. The `errorMessage` of a subschema,
+which yaml-language-server shows, too, has precedence over a generated message.
 """
 
 from __future__ import annotations
@@ -39,26 +39,26 @@ _NO_NUL = "^[^\\u0000]*$"
 _LINE = "^[^\\u0000-\\u001f\\u007f-\\u009f\\u2028\\u2029]*$"
 _LINE_OF_ICE = "^[^\\u0000-\\u0008\\u000a-\\u001f\\u007f-\\u009f\\u2028\\u2029]*$"
 _NEVER = {whole: pattern(whole[1:-2].replace("[^", "[")) for whole in (_NO_NUL, _LINE, _LINE_OF_ICE)}
-"""The schemas' patterns of texts that cannot hold some characters, and these."""
+"""The schemas' patterns that exclude characters, each with a pattern that matches these characters."""
 
 _CALLED = {
     "\0": "a NUL", "\n": "a line break", "\r": "a carriage return", "\t": "a tab", "\x1b": "an escape character",
     "\u0085": "a line break", "\u2028": "a line break", "\u2029": "a line break",
 }  # fmt: skip
 _ENDS_A_LINE = "\n\v\f\r\x85\u2028\u2029"
-_AT_END = "; behind `|-` and `>-` the last line break does not count"
+_AT_END = "; `|-` and `>-` drop the last line break"
 _APPLICATORS = frozenset(("allOf", "anyOf", "oneOf", "then", "else", "if"))
 
 
 def new_schema(kind: str, more: tuple[TargetLanguage, ...] = ()) -> dict[str, Any]:
-    """The JSON Schema of a kind of document, 'idsl' or 'cdsl' for instance, to be changed as one likes."""
+    """The JSON Schema of a kind of document, for example 'idsl', as a copy that the caller may change."""
     loaded: dict[str, Any] = json.loads(schema_text(kind, more))
     return loaded
 
 
 @cache
 def schema(kind: str, more: tuple[TargetLanguage, ...] = ()) -> dict[str, Any]:
-    """The JSON Schema of a kind of document, which all share."""
+    """The JSON Schema of a kind of document, shared by all callers."""
     return new_schema(kind, more)
 
 
@@ -68,7 +68,7 @@ def _validator(kind: str, more: tuple[TargetLanguage, ...]) -> jsonschema_rs.Dra
 
 
 def validate(kind: str, root: Node, more: tuple[TargetLanguage, ...] = ()) -> list[Diagnostic]:
-    """All that the schema refuses, one diagnostic a cause. There may be `more` languages than the built-in ones."""
+    """All errors of shape in a document, one diagnostic for each cause. `more` are the languages of plug-ins."""
     if not isinstance(root, Mapping):
         return [codes.NOT_A_MAPPING.at(root.span, what=_what(root))]
     validator = _validator(kind, more)
@@ -77,10 +77,10 @@ def validate(kind: str, root: Node, more: tuple[TargetLanguage, ...] = ()) -> li
     explained: dict[tuple[object, ...], list[Diagnostic]] = {}
     for error in validator.iter_errors(root.data):
         place = tuple(error.instance_path)
-        said = list(_explain(schema(kind, more), root, place, list(error.schema_path), error.kind))
+        of_error = list(_explain(schema(kind, more), root, place, list(error.schema_path), error.kind))
         at_place = explained.setdefault(place, [])
-        # At one place, shape (`type`, `enum` …) is one cause; every missing or unknown key is a cause of its own.
-        at_place += [d for d in said if d.code in _KEY_CODES or all(o.code in _KEY_CODES for o in at_place)]
+        # Errors of type or value at one path have one cause; every missing or unknown key is a cause of its own.
+        at_place += [d for d in of_error if d.code in _KEY_CODES or all(o.code in _KEY_CODES for o in at_place)]
     return [d for at_place in explained.values() for d in _without_misspelled(at_place)]
 
 
@@ -88,7 +88,7 @@ _KEY_CODES = (codes.UNKNOWN_KEY.id, codes.MISSING_KEY.id, codes.WRONG_NAME.id)
 
 
 def _without_misspelled(diagnostics: list[Diagnostic]) -> list[Diagnostic]:
-    """A missing key whose misspelling stands there is one cause, not two."""
+    """Without missing keys that are present, but misspelled: these have one cause, not two."""
     meant = {d.fact("meant") for d in diagnostics if d.code == codes.UNKNOWN_KEY.id}
     return list(dict.fromkeys(d for d in diagnostics if d.code != codes.MISSING_KEY.id or d.fact("key") not in meant))
 
@@ -114,7 +114,7 @@ def _explain(
         case "required":
             yield codes.MISSING_KEY.at(_head(node, key), key=facts["property"], where=_where(place, root))
         case _:
-            # A key that may not be there is refused at its own place, and explained at that of the mapping around it.
+            # A forbidden key is reported at its own location, with the message of the mapping that contains it.
             forbidden = kind.name == "falseSchema"
             message = _own_message(whole, path[:-1] if forbidden else path)
             if kind.name == "pattern" and facts["pattern"] == NAME and isinstance(node, Scalar):
@@ -136,10 +136,10 @@ def _explain(
 
 
 def _fixes(keyword: str, facts: dict[str, Any], node: Node, around: Any) -> Iterable[Fix]:
-    """Quotes too many or too few, a single value for a list, and the second of two equal entries."""
+    """Fixes for superfluous or missing quotes, a single value for a list, and the second of two equal elements."""
     if keyword == "type" and isinstance(node, Scalar):
         if isinstance(around, dict) and "pattern" in around and not re.search(around["pattern"], node.lexeme):
-            return ()  # it would be text, and the wrong one
+            return ()  # in quotes the text would be invalid, too
         return retyped([type_ for type_ in facts["types"] if type_ != "null"], node.lexeme, node.data, node.span)
     if keyword == "uniqueItems" and isinstance(node, Sequence):
         data = [item.data for item in node.items]
@@ -148,11 +148,11 @@ def _fixes(keyword: str, facts: dict[str, Any], node: Node, around: Any) -> Iter
 
 
 def _impossible(rule: str, node: Scalar, place: Path[str | int], *, span: Span) -> Diagnostic:
-    """A text with a character that it cannot hold."""
+    """The diagnostic of a text with a character that is not allowed in it."""
     found = _NEVER[rule].search(node.lexeme)
     assert found is not None
     is_at_end = found[0] == "\n" and found.end() == len(node.lexeme)
-    hint = "it is one line of text" + (_AT_END if is_at_end else "") if found[0] in _ENDS_A_LINE else "leave it out"
+    hint = "write one line of text" + (_AT_END if is_at_end else "") if found[0] in _ENDS_A_LINE else "remove it"
     return codes.IMPOSSIBLE.at(
         span,
         key=_key_of(place),
@@ -179,7 +179,7 @@ def _unknown_key(
 
 
 def _find(root: Node, place: Path[str | int]) -> tuple[Node, Scalar | None]:
-    """The node at a place, and the key that it stands behind; what is nearest where the place is not exact."""
+    """The node at a path, and its key if it is the value of a mapping; the nearest node if the path does not exist."""
     node, key = root, None
     for step in place:
         if isinstance(node, Sequence) and isinstance(step, int) and step < len(node.items):
@@ -194,8 +194,8 @@ def _find(root: Node, place: Path[str | int]) -> tuple[Node, Scalar | None]:
 
 
 def _behind_empty(node: Node, step: str | int) -> tuple[Node, str | None]:
-    """The mapping that has a key, behind empty keys (the validator leaves those out of its places), and the key as
-    spelled (the validator gives one of digits as a number, `+1` and `01` alike)."""
+    """The mapping that has the key `step`, and the key as written. The validator's paths omit empty keys, and contain
+    keys of digits as numbers (`+1` and `01` alike)."""
     while isinstance(node, Mapping):
         if str(step) in node.entries:
             return node, str(step)
@@ -217,7 +217,7 @@ def _subschema(whole: dict[str, Any], path: list[str | int]) -> Any:
 
 
 def _own_message(whole: dict[str, Any], path: list[str | int]) -> str:
-    """The nearest `errorMessage` around the keyword that failed, at the same place of the document."""
+    """The nearest `errorMessage` around the keyword that failed, for the same path of the document; '' if absent."""
     for end in range(len(path) - 1, -1, -1):
         part = _subschema(whole, path[:end])
         if isinstance(part, dict) and "errorMessage" in part:
@@ -229,12 +229,12 @@ def _own_message(whole: dict[str, Any], path: list[str | int]) -> str:
 
 
 def _key_of(place: Path[str | int]) -> str:
-    """The nearest key above a place."""
+    """The last key in a path."""
     return next((step for step in reversed(place) if isinstance(step, str)), "the document")
 
 
 def _head(node: Node, key: Scalar | None) -> Span:
-    """Where a mapping that lacks something begins: its key, its first key, or itself."""
+    """The location of a mapping with a missing key: the mapping's key, its first key, or the mapping."""
     if key is not None:
         return key.span
     if isinstance(node, Mapping) and node.entries:
@@ -243,7 +243,7 @@ def _head(node: Node, key: Scalar | None) -> Span:
 
 
 def _span(node: Node, key: Scalar | None) -> Span:
-    """A value's own place; its key's where the value is empty or fills many lines."""
+    """A value's location; that of its key if the value is empty or has several lines."""
     span = node.span
     empty = isinstance(node, Scalar) and not node.lexeme and not node.quoted
     return key.span if key is not None and (empty or span.line != span.end_line) else span
@@ -251,7 +251,7 @@ def _span(node: Node, key: Scalar | None) -> Span:
 
 def _where(place: Path[str | int], root: Node | None, node: Node | None = None) -> str:
     names = [step for step in place if isinstance(step, str)]
-    return f"in '{names[-1]}'" if names else "at the top of the document"
+    return f"in '{names[-1]}'" if names else "at the top level of the document"
 
 
 def _what(node: Node) -> str:
@@ -268,7 +268,7 @@ def _what(node: Node) -> str:
 
 
 def _nearest(options: object, node: Node) -> Hint:
-    """The option that a word was meant to be, where one is near."""
+    """A hint at the option with the most similar spelling; none if no option is similar."""
     if not isinstance(options, list) or not isinstance(node, Scalar):
         return NO_HINT
     from robocomp_yaml.diag.suggest import did_you_mean
@@ -280,10 +280,10 @@ def _name_hint(name: str) -> Hint:
     cleaned = "".join(c if c.isascii() and (c.isalnum() or c == "_") else "_" for c in name).strip("_")
     if cleaned[:1].isdigit():
         cleaned = f"n{cleaned}"
-    said = "a name has letters, digits and underscores, and starts with no digit"
+    rule = "a name consists of letters, digits and underscores, and does not start with a digit"
     if not cleaned or len(cleaned) >= 60:
-        return Hint(said)
-    return Hint(f"{said}: for instance '{cleaned}'", name, cleaned)
+        return Hint(rule)
+    return Hint(f"{rule}: for example '{cleaned}'", name, cleaned)
 
 
 def _in_words(keyword: str, facts: dict[str, Any], node: Node, place: Path[str | int]) -> str:
@@ -306,6 +306,6 @@ def _in_words(keyword: str, facts: dict[str, Any], node: Node, place: Path[str |
         case "maxItems" | "maxProperties" | "maxLength":
             return f"{it} must have at most {facts['limit']}"
         case "uniqueItems":
-            return f"{it} holds the same entry twice"
+            return f"{it} contains the same element twice"
         case _:
-            return f"{it} has a form that cannot stand here"
+            return f"{it} has an invalid form"

@@ -17,7 +17,7 @@ from robocomp_yaml.parameters.writing.harmless import is_harmless
 from robocomp_yaml.parameters.writing.properties import properties
 from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source.ice_endpoint import parse_endpoints
-from robocomp_yaml.source.ice_options import Refused
+from robocomp_yaml.source.ice_options import InvalidIceText
 from robocomp_yaml.source.ice_proxy import parse_proxy
 from robocomp_yaml.source.tree import Mapping, Node, Scalar
 
@@ -64,7 +64,7 @@ def _texts_of_ice(linked: LinkedValues) -> Iterator[Diagnostic]:
         text = unquoted(node.lexeme)
         try:
             parse(text)
-        except Refused as refused:
+        except InvalidIceText as refused:
             told = BAD_ICE_TEXT.at(
                 node.span.inside(text, refused.start, refused.end),
                 what=what,

@@ -11,7 +11,7 @@ from click.testing import Result
 
 from conftest import Tree, write_tree
 from robocomp_yaml.source.allowances import allowances
-from robocomp_yaml.source.spelled import Text
+from robocomp_yaml.source.spelled import DocumentText
 
 Run = Callable[..., Result]
 Check = Callable[..., list[dict[str, object]]]
@@ -146,7 +146,7 @@ def test_an_error_is_no_matter_of_opinion(diagnostics: Check) -> None:
     text = f"{METHODS}      find: {{in: {{x: Quux}}}}  # rcyaml: allow RC1010 -- it comes\n"
     said = diagnostics({"Speech.idsl.yaml": text})
     assert codes(said) == [("RC1010", 5), ("RC0064", 5)]
-    assert said[1]["message"] == "no comment can allow RC1010: it is an error"
+    assert said[1]["message"] == "a comment cannot allow RC1010: it is an error"
 
 
 def test_a_document_that_cannot_be_read_has_no_comments(diagnostics: Check) -> None:
@@ -267,5 +267,5 @@ LINES = {
 
 @pytest.mark.parametrize(("text", "lines"), LINES.items(), ids=range(len(LINES)))
 def test_which_lines_a_comment_is_about(text: str, lines: tuple[int, int]) -> None:
-    (allowance,), said = allowances(Text("a.yaml", text))
+    (allowance,), said = allowances(DocumentText("a.yaml", text))
     assert (allowance.first, allowance.last) == lines and not said

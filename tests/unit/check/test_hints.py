@@ -26,7 +26,7 @@ def test_the_word_itself_is_no_suggestion() -> None:
 def test_what_stands_beside_it_is_none_either() -> None:
     assert str(did_you_mean("Amr", ["Arm", "Leg"])) == "did you mean 'Arm'?"
     assert str(did_you_mean("Amr", ["Arm", "Amor"], {"Arm"})) == "did you mean 'Amor'?"
-    assert str(did_you_mean("Amr", ["Arm"], {"Arm"})) == "'Arm' is there already"
+    assert str(did_you_mean("Amr", ["Arm"], {"Arm"})) == "'Arm' is already present"
     assert not did_you_mean("Leg", ["Arm"], {"Arm"})
     assert str(did_you_mean("Leg", ["Arm"], otherwise="there is Arm")) == "there is Arm"
 
@@ -47,13 +47,13 @@ def test_the_case_alone_leaves_one_meaning(word: str, known: list[str], open_: b
 
 
 @pytest.mark.parametrize(("files", "hint"), [
-    (component("imports: [Arm, Amr]\n"), "'Arm' is there already"),
+    (component("imports: [Arm, Amr]\n"), "'Arm' is already present"),
     (component("imports: [Amr]\n"), "did you mean 'Arm'?"),
     (component("imports: [Arm]\nrequires: [Arm, Arny]\n"), "did you mean 'Army' (Arm.idsl.yaml)?"),
     (component("imports: [Arm]\nrequires: [Arm, Army, Armmy]\n"), "'Army' is there already"),
     (component("imports: [Arm]\nrequires: [Arm]\nimplements: [Amr]\n"), "did you mean 'Arm' (Arm.idsl.yaml)?"),
     ({"Arm.idsl.yaml": IDSL.replace("Army: {}", "Leg: {methods: {go: {throws: [Stuck, Stuk]}}}")},
-     "'Stuck' is there already"),
+     "'Stuck' is already present"),
     ({"Arm.idsl.yaml": IDSL, "Leg.idsl.yaml": "module: RoboCompLeg\ntypes: {Pose: {struct: {x: int}}}\n"
       "interfaces: {Leg: {methods: {go: {throws: [Arm.Stuck]}}}}\n"}, "add Arm to `imports`"),
     ({"Leg.idsl.yaml": "module: RoboCompLeg\nimports: [Lge]\n"}, "put its document beside this one, or name its folder "

@@ -42,7 +42,7 @@ def test_nothing_is_wrong(text: str, others: dict[str, str]) -> None:
         (TWO + 'groups: {g: {components: [mouth], expose: {Mouth: muoth}}}\n', {}, 'RC4005', 'muoth', "the group 'g' names 'muoth', which is not there", "did you mean 'mouth'?"),
         (TWO + 'groups: {g: {components: [mouth], expose: {Speech: mouth}}}\n', {}, 'RC4010', 'mouth', "no member of the group 'g' serves 'Speech'", "'mouth' serves Mouth"),
         (TWO + 'groups: {g: {components: [mouth], expose: {Lips: mouth.Mouth, Other: mouth.Nothing}}}\n', {}, 'RC4010', 'mouth.Nothing', "no member of the group 'g' serves 'Other'", "'mouth.Nothing' serves Mouth"),
-        (TWO + 'groups: {g: {components: [mouth], expose: {Mouth: {member: mouth, allow: [moveTo, moveto]}}}}\n', {}, 'RC4012', 'moveto', "interface 'Mouth' has no method 'moveto'", "'moveTo' is there already"),
+        (TWO + 'groups: {g: {components: [mouth], expose: {Mouth: {member: mouth, allow: [moveTo, moveto]}}}}\n', {}, 'RC4012', 'moveto', "interface 'Mouth' has no method 'moveto'", "'moveTo' is already present"),
         (TWO + 'groups: {g: {components: [mouth], expose: {Mouth: {member: mouth, allow: [jump]}}}}\n', {}, 'RC4012', 'jump', "interface 'Mouth' has no method 'jump'", 'there are moveTo'),
         (TWO + 'groups: {g: {components: [muoth]}}\n', {}, 'RC4005', 'muoth', "the group 'g' names 'muoth', which is not there", "did you mean 'mouth'?"),
         (TWO + 'groups: {g: {components: [storm]}}\nservices: {storm: {icestorm: {}}}\n', {}, 'RC4005', 'storm', "the group 'g' names 'storm', which is not there", 'a service belongs to no group'),
@@ -101,7 +101,7 @@ def test_nothing_is_wrong(text: str, others: dict[str, str]) -> None:
         ('components: {m: {component: mouth, config: etc/config}}\n', {}, 'RC4103', 'etc/config', "there is no configuration 'etc/config': no mouth/etc/config and no etc/config", "there is no folder 'mouth/etc'"),
         ('components: {m: {component: mouth, config: ../speech/x.config.yaml}}\n', {'speech/x.config.yaml': 'component: speech.cdsl.yaml\n'}, 'RC4104', '../speech/x.config.yaml', 'these are the values of SpeechComp, and this is MouthComp', 'each component has values of its own: see `component:` in this document'),
         ('components: {m: {component: mouth, set: {period.compute: 0}}}\n', {}, 'RC3303', '0', 'period.compute is 0 ms, and must be at least 1 ms', ''),
-        ('components: {m: {component: mouth, set: {nothing: 0}}}\n', {}, 'RC3301', 'nothing', "there is no parameter 'nothing'", 'there can be: period'),
+        ('components: {m: {component: mouth, set: {nothing: 0}}}\n', {}, 'RC3301', 'nothing', "there is no parameter 'nothing'", 'known keys: period'),
         ('components: {m: {component: mouth, set: {period.compute: x}}}\n', {}, 'RC3302', 'x', "period.compute must be a whole number (ms), and is the text 'x'", ''),
     ],
 )  # fmt: skip
@@ -159,4 +159,4 @@ def test_what_a_group_exposes_already_is_not_meant_again() -> None:
     (found,) = wrong(
         TWO + "groups: {g: {components: [speech], as: speech, expose: {Speech: speech, Speach: speech}}}\n", {}
     )
-    assert (found.at, found.hint) == ("Speach", "'Speech' is there already")
+    assert (found.at, found.hint) == ("Speach", "'Speech' is already present")

@@ -15,7 +15,7 @@ CDSL = "component: Door\nlanguage: python\nstatemachine: door.scxml\n"
     ("body", "root", "code", "at", "message", "hint"),
     [
         ("<state id='a' initial='b' src='x'/>", '', 'RC2208', 'x', "<state> has no attribute 'src'", 'it has id, initial'),
-        ("<state id='a' ID='b'/>", '', 'RC2208', 'b', "<state> has no attribute 'ID'", "'id' is there already"),
+        ("<state id='a' ID='b'/>", '', 'RC2208', 'b', "<state> has no attribute 'ID'", "'id' is already present"),
         ("<state id='a'><sate/></state>", '', 'RC2207', '<sate', '<sate> cannot stand in <state>', 'did you mean <state>?'),
         ("<state id='a'><scxml/></state>", '', 'RC2207', '<scxml', '<scxml> cannot stand in <state>', 'it holds onentry, onexit, transition, state, parallel, history, datamodel, invoke, initial, final'),
         ("<state id='a'>hello there</state>", '', 'RC2214', '<state', "'hello' stands in <state>, where no text is meant", ''),

@@ -95,7 +95,7 @@ MISFITS = [
     ('g: 1', 'RC3302', '1', 'g must be a mapping of low, in, and is 1', ''),
     ('g: [1]', 'RC3302', '[1]', 'g must be a mapping of low, in, and is a list', ''),
     ('g: {in: {deep: x}}', 'RC3302', 'x', "g.in.deep must be a whole number, and is the text 'x'", ''),
-    ('g.low: 2', 'RC3301', 'g.low', 'there is no parameter \'["g.low"]\'', 'there can be: n, x, big, dbl, on, t, free, one, mode, few, ls, ll, m, motors, first, g, pin, password, keys, period'),
+    ('g.low: 2', 'RC3301', 'g.low', 'there is no parameter \'["g.low"]\'', 'known keys: n, x, big, dbl, on, t, free, one, mode, few, ls, ll, m, motors, first, g, pin, password, keys, period'),
     ('nn: 1', 'RC3301', 'nn', "there is no parameter 'nn'", "did you mean 'n'?"),
     ('N: 1', 'RC3301', 'N', "there is no parameter 'N'", "did you mean 'n'?"),
     ('pin: 1', 'RC3303', '1', 'pin is ***, and must be from 1000 to 9999', ''),
