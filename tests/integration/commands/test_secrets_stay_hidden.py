@@ -304,8 +304,9 @@ def test_what_stands_beside_them_is_shown(robot: Path, rcyaml: Callable[..., Any
     """A mask that hides too much hides the mistake."""
     (robot / CONFIG).write_text("component: ../speech.cdsl.yaml\nparameters: {wifi: canary, nam: 3, name: 7}\n")
     told = rcyaml("check", CONFIG).output
-    assert "2 │ parameters: {wifi: ***, nam: 3, name: 7}\n  │                         ^^^ 'name' is already present" in (
-        told
+    assert (
+        "2 │ parameters: {wifi: ***, nam: 3, name: 7}\n  │                         ^^^ 'name' is already present"
+        in (told)
     )
     assert "name must be text, and is 7" in told
 
