@@ -33,7 +33,7 @@ def test_the_network_answers(tmp_path: Path) -> None:
     assert not done.stderr and "warning" not in done.stdout.lower() and "\x1b" not in done.stdout
     parts = (
         "10 documents: nothing wrong\n", "ShellyHead: 3 processes as wanted\n", "$ python3 say.py 'speech:tcp -h 127.0.0.1",
-        "Speech.say('I am up and running') answers True\n", "speech   ready", "says 'running' with the mouth", "stopped\n",
+        "Speech.say('I am up and running') returns True\n", "speech   ready", "says 'running' with the mouth", "stopped\n",
     )  # fmt: skip
     places = [done.stdout.find(part) for part in parts]
     assert -1 not in places and places == sorted(places), done.stdout
@@ -63,4 +63,4 @@ def test_a_call_of_nobody_says_so(tmp_path: Path) -> None:
         )
     nobody = called("speech:tcp -h 127.0.0.1 -p 9", "Hello")
     assert nobody.returncode == 1
-    assert nobody.stderr == "say.py: nobody answers at 'speech:tcp -h 127.0.0.1 -p 9': Connection refused\n"
+    assert nobody.stderr == "say.py: no server answers at 'speech:tcp -h 127.0.0.1 -p 9': Connection refused\n"
