@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import msgspec
 from msgspec.structs import replace
 
-from robocomp_yaml.diag.codes import cdsl, compiling, idsl, machines
+from robocomp_yaml.diag.codes import cdsl, emitting, idsl, machines
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
@@ -188,7 +188,7 @@ def _usable_component(linked: LinkedComponent, state: _State, result: Build) -> 
 
 def _unresolved(document: Module | Component, cause: str, state: _State) -> Diagnostic:
     related = [Related("this document has errors, or imports what is not there", Span(cause))]
-    told = compiling.UNRESOLVED.at(
+    told = emitting.UNRESOLVED.at(
         document.span,
         name=document.name,
         related=related if cause != document.path else (),

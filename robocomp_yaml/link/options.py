@@ -9,7 +9,7 @@ import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml import resources
-from robocomp_yaml.diag.codes import options as codes
+from robocomp_yaml.diag.codes import cdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.model.build_interface import items, text
@@ -40,7 +40,7 @@ def expanded(component: Component) -> tuple[Component, list[Diagnostic]]:
             continue
         component = _with(component, option, meaning)
         if meaning.left:
-            diagnostics.append(codes.LEFT.at(option.span, name=option.name, left=meaning.left))
+            diagnostics.append(codes.OPTION_LEFT.at(option.span, name=option.name, left=meaning.left))
     return component, diagnostics
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import msgspec
 
-from robocomp_yaml.diag.codes import machine_order as codes
+from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic, Related
 from robocomp_yaml.diag.fix import removal
 from robocomp_yaml.link.program import Program

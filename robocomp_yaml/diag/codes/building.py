@@ -1,4 +1,4 @@
-"""RC8xxx: building. What compilers say of a component, and what keeps it from being built."""
+"""RC8xxx: building. Messages of compilers, and why a component is not built."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""RC7xxx: deploying. What keeps a network from starting, and what a user should know about one that runs.
+"""RC7xxx: deploying. Why a network does not start, and what to know about a running one.
 
-Up to RC7019 what holds for every engine and for the local one.
+The codes up to RC7019 are for all engines and for the local one.
 """
 
 from __future__ import annotations

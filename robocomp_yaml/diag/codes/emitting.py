@@ -1,4 +1,4 @@
-"""RC6xxx: emitting. What keeps a file from being written, and what a user should know about one that was."""
+"""RC60xx, RC61xx: emitting. Why a file or document is not written, and what to know about a file that was."""
 
 from __future__ import annotations
 
@@ -18,3 +18,4 @@ BAD_MANIFEST = _PAGE.code("RC6006")
 INTERRUPTED = _PAGE.code("RC6007")
 PORT_CLASH = _PAGE.code("RC6008")
 CHANGED = _PAGE.code("RC6010")
+UNRESOLVED = _PAGE.code("RC6101")

@@ -1,4 +1,4 @@
-"""RC702x: deploying with IceGrid. What keeps its registry and nodes from doing their work."""
+"""RC702x: deploying with IceGrid. Failures of its registry and nodes."""
 
 from __future__ import annotations
 

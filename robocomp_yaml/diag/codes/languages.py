@@ -1,4 +1,4 @@
-"""RC206x: what a component's language does not have."""
+"""RC206x: what a component's language does not support."""
 
 from __future__ import annotations
 

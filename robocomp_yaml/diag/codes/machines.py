@@ -1,4 +1,4 @@
-"""RC22xx: state machines, as SCXML or in the CDSL."""
+"""RC22xx: state machines, in SCXML or in a CDSL document."""
 
 from __future__ import annotations
 
@@ -43,3 +43,7 @@ INLINE_HISTORY = _PAGE.code("RC2234")
 FINAL_LEFT = _PAGE.code("RC2235")
 NO_PARENT = _PAGE.code("RC2236")
 METHOD_NAME = _PAGE.code("RC2237")
+DEAD_TRANSITION = _PAGE.code("RC2238")
+EVENT_TWICE = _PAGE.code("RC2239")
+HISTORY_TWICE = _PAGE.code("RC2240")
+HISTORY_WAITS = _PAGE.code("RC2241")

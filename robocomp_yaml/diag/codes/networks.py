@@ -1,4 +1,4 @@
-"""RC42xx to RC44xx: the network that a deployment comes to."""
+"""RC42xx to RC44xx: the network that is derived from a deployment."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""RC62xx: the user's own files of a component, which a compile leaves alone, and a merge brings up to date."""
+"""RC62xx: the user's files of a component, which `compile` does not change, and a merge updates."""
 
 from __future__ import annotations
 

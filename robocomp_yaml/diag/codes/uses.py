@@ -1,4 +1,4 @@
-"""RC23xx: `uses:`, what a component's own code needs."""
+"""RC23xx: `uses:`, the libraries and sources that a component's own code needs."""
 
 from __future__ import annotations
 
