@@ -56,9 +56,6 @@ Files = Mapping[str, str | bytes | Repeated | None]
 class PageEntry(msgspec.Struct, frozen=True):
     """The section of a page about one code."""
 
-    id: str
-    severity: str
-    message: str
     says: tuple[str, ...]
     why: str
     wrong: Files
@@ -83,7 +80,7 @@ class Page(msgspec.Struct, frozen=True):
         said = {kind: body for kind, _, _, body in _FENCE.findall(prose)}
         beside = {**_files(self._shared), **sections.get("Both beside", {})}
         return PageEntry(
-            id_, self.severities[id_], self.messages[id_], tuple(said.get("says", "").splitlines()),
+            tuple(said.get("says", "").splitlines()),
             "\n\n".join(" ".join(each.split("\n")) for each in _FENCE.sub("", prose).strip().split("\n\n")),
             _tree(sections["Wrong"], beside), _tree(sections["Right"], beside), parts[1] or COMMAND,
         )  # fmt: skip

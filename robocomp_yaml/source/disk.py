@@ -28,7 +28,7 @@ class Disk:
 
     def __init__(self, overlay: Mapping[str, bytes] | None = None) -> None:
         self._overlay = {os.path.realpath(path): text for path, text in (overlay or {}).items()}
-        self._folders = {folder for path in self._overlay for folder in _above(path)}
+        self._folders = {folder for path in self._overlay for folder in folders_above(path)}
         self.contents: dict[str, bytes] = {}
         self.states: dict[str, str] = {}
         self.listed: dict[str, list[str]] = {}
@@ -156,7 +156,8 @@ def _inside(folder: str, paths: Iterable[str]) -> Iterator[str]:
     return (os.path.basename(path) for path in paths if os.path.dirname(path) == folder != path)
 
 
-def _above(path: str) -> Iterator[str]:
+def folders_above(path: str) -> Iterator[str]:
+    """The folders that contain an absolute path, the innermost first."""
     while (folder := os.path.dirname(path)) != path:
         yield folder
         path = folder

@@ -9,7 +9,7 @@ import itertools
 import json
 import os
 
-from robocomp_yaml.source.disk import Disk
+from robocomp_yaml.source.disk import Disk, folders_above
 
 MEMORY = ".rcyaml/migrated.json"  # at the root of what was migrated; digests by path
 MARK = "# Migrated: "
@@ -28,8 +28,7 @@ def _says_so(head: bytes) -> bool:
 
 
 def _is_remembered(path: str, disk: Disk) -> bool:
-    folder = os.path.dirname(path)
-    while True:
+    for folder in folders_above(path):
         memory = os.path.join(folder, MEMORY)
         if disk.has_file(memory):
             try:
@@ -37,7 +36,4 @@ def _is_remembered(path: str, disk: Disk) -> bool:
                 return os.path.relpath(path, folder).replace(os.sep, "/") in remembered["files"]
             except (ValueError, LookupError, TypeError):
                 return False
-        parent = os.path.dirname(folder)
-        if parent == folder:
-            return False
-        folder = parent
+    return False

@@ -30,7 +30,7 @@ def test_no_code_stands_on_a_page_that_there_is_not() -> None:
 @pytest.mark.parametrize("row", table().values(), ids=lambda row: row.id)
 def test_an_entry_is_whole(row: Code) -> None:
     entry = row.entry
-    assert entry.severity in SEVERITIES
+    assert row.severity in SEVERITIES
     assert entry.why and entry.wrong and entry.right
     for message in row.messages:  # what a reader meets on the screen can be found: some words are the page's own
         assert re.search(r"\b[a-z]{2}", message), message

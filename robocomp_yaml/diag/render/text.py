@@ -73,7 +73,10 @@ def _snippet(
         return [*out, line(pad, " ", paint("=", "34", color), " ", label)] if label else out
     start = span.column - 1
     end = span.end_column - 1 if span.end_line == span.line else len(text.rstrip())
-    secret = lines.secrets(span) if hidden is None else parts(span.line, len(text), _of_file(hidden, span.file))
+    if hidden is None:
+        secret = lines.secrets(span)
+    else:
+        secret = parts(span.line, len(text), (place for place in hidden if place.file == span.file))
     text, start, end = hide(text, secret, start, max(start + 1, min(end, len(text))))
     text, start, end = _cut(text, start, end)
     marks = paint("^" * max(1, columns(_visible(text[start:end]))), f"1;{tint}", color)
@@ -99,10 +102,6 @@ def _cut(text: str, start: int, end: int) -> tuple[str, int, int]:
 def _visible(text: str) -> Shown:
     """A part of a document's line, with tabs as blanks, so that the marks below have the same width."""
     return shown(text.replace("\t", "    "))
-
-
-def _of_file(places: tuple[Span, ...], file: str) -> list[Span]:
-    return [place for place in places if place.file == file]
 
 
 class _Lines:
