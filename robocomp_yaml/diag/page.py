@@ -77,10 +77,10 @@ class Page(msgspec.Struct, frozen=True):
         sections = {name: _files(text) for name, text in zip(parts[::3], parts[2::3], strict=True)}
         if [*sections] not in (["Wrong", "Right"], ["Wrong", "Right", "Both beside"]):
             raise ValueError(f"{id_}: its examples are not 'Wrong', 'Right' and perhaps 'Both beside'")
-        said = {kind: body for kind, _, _, body in _FENCE.findall(prose)}
+        fences = {kind: body for kind, _, _, body in _FENCE.findall(prose)}
         beside = {**_files(self._shared), **sections.get("Both beside", {})}
         return PageEntry(
-            tuple(said.get("says", "").splitlines()),
+            tuple(fences.get("says", "").splitlines()),
             "\n\n".join(" ".join(each.split("\n")) for each in _FENCE.sub("", prose).strip().split("\n\n")),
             _tree(sections["Wrong"], beside), _tree(sections["Right"], beside), parts[1] or COMMAND,
         )  # fmt: skip
@@ -90,12 +90,12 @@ class Page(msgspec.Struct, frozen=True):
 def page(name: str) -> Page:
     """The page of this name, or the page with this text, of a plug-in. Raises ValueError if it is malformed."""
     text = name if "\n" in name else resources.text(f"diagnostics/{name}.md")
-    found = list(_ENTRY.finditer(text))
-    ends = [*(match.start() for match in found[1:]), len(text)]
-    texts = {match[1]: text[match.end() : end] for match, end in zip(found, ends, strict=True)}
-    shared = _SHARED.search(text, 0, found[0].start()) if found else None
+    matches = list(_ENTRY.finditer(text))
+    ends = [*(match.start() for match in matches[1:]), len(text)]
+    texts = {match[1]: text[match.end() : end] for match, end in zip(matches, ends, strict=True)}
+    shared = _SHARED.search(text, 0, matches[0].start()) if matches else None
     return Page(
-        {match[1]: match[2] for match in found}, {id_: _message(id_, part) for id_, part in texts.items()}, texts,
+        {match[1]: match[2] for match in matches}, {id_: _message(id_, part) for id_, part in texts.items()}, texts,
         shared[1] if shared else "",
     )  # fmt: skip
 

@@ -156,8 +156,8 @@ def _write(stream: TextIO, lines: Iterable[str]) -> None:
     stream.flush()
 
 
-def _escape(found: re.Match[str]) -> str:
-    c = found[0]
+def _escape(match: re.Match[str]) -> str:
+    c = match[0]
     if c in _LETTERS:
         return _LETTERS[c]
     code = ord(c)
@@ -168,16 +168,16 @@ def _escape(found: re.Match[str]) -> str:
     return f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"
 
 
-def _kept_tabs(found: re.Match[str]) -> str:
-    return "\t" if found[0] == "\t" else _escape(found)
+def _kept_tabs(match: re.Match[str]) -> str:
+    return "\t" if match[0] == "\t" else _escape(match)
 
 
-def _kept_lines(found: re.Match[str]) -> str:
-    return found[0] if found[0] in "\t\n" else _escape(found)
+def _kept_lines(match: re.Match[str]) -> str:
+    return match[0] if match[0] in "\t\n" else _escape(match)
 
 
-def _escape_json(found: re.Match[str]) -> str:
-    c = found[0]
+def _escape_json(match: re.Match[str]) -> str:
+    c = match[0]
     if c == "\n":  # between values; inside of them it is already escaped
         return c
     units = c.encode("utf-16-be", "surrogatepass")

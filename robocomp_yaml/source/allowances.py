@@ -64,10 +64,10 @@ def allowances(
 ) -> tuple[list[Allowance], list[Diagnostic]]:
     """The codes that the comments of a document suppress, and diagnostics about the comments; none if the document is
     not YAML. `more` are the codes of plug-ins; `whole`: no other codes exist, so that unknown codes are reported."""
-    found: list[Allowance] = []
-    said: list[Diagnostic] = []
+    allowed: list[Allowance] = []
+    diagnostics: list[Diagnostic] = []
     if text.tree is None:
-        return found, said
+        return allowed, diagnostics
     keys = (key for key, _ in pairs_below(text.tree))
     texts = [node for node in (*below(text.tree), *keys) if _is_long(node)]
     for comment in _COMMENT.finditer(text.text):
@@ -79,9 +79,11 @@ def allowances(
         first, last = _lines(text, comment, texts)
         if not whole:
             wrong = [one for one in wrong if one.code != codes.ALLOW_UNKNOWN.id]
-        found += [Allowance(word, span, first, last, text.span(*comment.span()), len(made) > 1) for word, span in made]
-        said += wrong
-    return found, said
+        allowed += [
+            Allowance(word, span, first, last, text.span(*comment.span()), len(made) > 1) for word, span in made
+        ]
+        diagnostics += wrong
+    return allowed, diagnostics
 
 
 def _read(
@@ -91,11 +93,11 @@ def _read(
     whole = text.span(*comment.span())
     parts = _PARTS.fullmatch(comment[0].rstrip())
     assert parts is not None  # each of its parts may be empty
-    said: list[Diagnostic] = []
+    diagnostics: list[Diagnostic] = []
     if parts["colon"] is None:
         at = comment.start() + parts.start("verb")
         colon = text.edit(comment.start() + comment[0].index("rcyaml") + len("rcyaml"), at, ": ")
-        said.append(
+        diagnostics.append(
             codes.ALLOW_MALFORMED.at(
                 whole,
                 problem="a ':' is missing after `rcyaml`",
@@ -110,13 +112,13 @@ def _read(
         problem = "this comment contains no instruction after `rcyaml:`"
         if parts["verb"]:
             problem = f"unknown comment `rcyaml: {parts['verb']}`"
-        return [], [*said, codes.ALLOW_MALFORMED.at(whole, problem=problem, hint=_FORM, fixes=fixes)]
+        return [], [*diagnostics, codes.ALLOW_MALFORMED.at(whole, problem=problem, hint=_FORM, fixes=fixes)]
     made: list[tuple[str, Span]] = []
     for word in _WORD.finditer(parts["codes"]):
         place = [comment.start() + parts.start("codes") + at for at in word.span()]
         if _CODE.fullmatch(word[0]) is None and word[0].upper() not in more:
             before = Fix("insert -- before it", (text.edit(place[0], place[0], "-- "),), True)
-            said.append(
+            diagnostics.append(
                 codes.ALLOW_MALFORMED.at(
                     text.span(*place),
                     problem=f"'{word[0]}' is not a code",
@@ -124,17 +126,18 @@ def _read(
                     fixes=[before] if made and parts["reason"] is None else [],
                 )
             )
-            return (made if parts["colon"] else []), said
+            return (made if parts["colon"] else []), diagnostics
         if word[0].upper() not in table() and word[0].upper() not in more:
-            said.append(codes.ALLOW_UNKNOWN.at(text.span(*place), name=word[0], hint="`rcyaml explain` lists them"))
+            span = text.span(*place)
+            diagnostics.append(codes.ALLOW_UNKNOWN.at(span, name=word[0], hint="`rcyaml explain` lists all codes"))
         elif parts["colon"]:
             made.append((word[0].upper(), text.span(*place)))
-    if not made and not said:
-        said.append(codes.ALLOW_MALFORMED.at(whole, problem="this comment allows no code", hint=_FORM))
+    if not made and not diagnostics:
+        diagnostics.append(codes.ALLOW_MALFORMED.at(whole, problem="this comment allows no code", hint=_FORM))
     elif made and not (parts["reason"] or "").strip():
         listed = ", ".join(code for code, _ in made)
-        said.append(codes.ALLOW_NO_REASON.at(whole, codes=listed, hint="write it after `--`"))
-    return made, said
+        diagnostics.append(codes.ALLOW_NO_REASON.at(whole, codes=listed, hint="write it after `--`"))
+    return made, diagnostics
 
 
 def _lines(text: DocumentText, comment: re.Match[str], texts: list[Node]) -> tuple[int, int]:

@@ -104,13 +104,13 @@ def documents_below(
     """Every document below a folder, sorted within each folder; links to folders are not followed. Folders that have a
     manifest are appended to `roots`; `on_error` is called for folders that cannot be read."""
     disk = disk or Disk()
-    found: list[str] = []
+    documents: list[str] = []
     for where, folders, names in disk.walk(folder, on_error):
         if roots is not None and ".rcyaml" in folders and os.path.isfile(os.path.join(where, MANIFEST)):
             roots.append(os.path.normpath(where))
         folders[:] = [name for name in folders if name not in _SKIPPED and not name.startswith(".")]
         for name in names:
             if name.endswith(".yaml") and kind_of(path := os.path.normpath(os.path.join(where, name)), disk):
-                found.append(path)
+                documents.append(path)
                 yield path
-    disk.walked[folder] = found
+    disk.walked[folder] = documents

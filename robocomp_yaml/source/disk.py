@@ -38,15 +38,15 @@ class Disk:
 
     def read(self, path: str, limit: int = MAX_DOCUMENT) -> tuple[bytes | None, list[Diagnostic]]:
         """The content of a file of at most `limit` bytes; None, with diagnostics, if it cannot be read."""
-        said: list[Diagnostic] = []
+        diagnostics: list[Diagnostic] = []
         raw = self._unsaved(path)
         if raw is None:
-            raw, said = read_bytes(self._on_disk(path), limit)
+            raw, diagnostics = read_bytes(self._on_disk(path), limit)
         if raw is not None:
             self.contents[path] = raw
         else:
             self.unreadable = True
-        return raw, said
+        return raw, diagnostics
 
     def peek(self, path: str, size: int) -> bytes:
         """The first `size` bytes of a file; none if it cannot be read. This request is not recorded."""
@@ -62,13 +62,13 @@ class Disk:
     def state(self, path: str) -> str:
         """The kind of a path: FILE, FOLDER, OTHER or NOTHING."""
         if self._overlay and (real := os.path.realpath(path)) in self._overlay:
-            found = FILE
+            kind = FILE
         elif self._overlay and real in self._folders:
-            found = FOLDER
+            kind = FOLDER
         else:
-            found = state_of(self._on_disk(path))
-        self.states[path] = found
-        return found
+            kind = state_of(self._on_disk(path))
+        self.states[path] = kind
+        return kind
 
     def has_file(self, path: str) -> bool:
         """Whether the path is a file (neither a folder nor a broken link)."""

@@ -41,18 +41,18 @@ def spelled_host(address: str) -> str:
 @lru_cache(4096)
 def parse_endpoints(text: str) -> tuple[IceEndpoint, ...]:
     """The endpoints of an object adapter. Raises InvalidIceText."""
-    found: list[IceEndpoint] = []
+    endpoints: list[IceEndpoint] = []
     end = 0
     while end < len(text):
         start = after_blanks(text, end)
-        if start == len(text) and not found:
+        if start == len(text) and not endpoints:
             break
         end = _next_colon(text, start)
         if start == end:
             raise InvalidIceText("an endpoint is missing at a colon", max(start - 1, 0), max(start, 1))
-        found.append(read_endpoint(text, start, end, for_adapter=True))
+        endpoints.append(read_endpoint(text, start, end, for_adapter=True))
         end += 1
-    return tuple(found)
+    return tuple(endpoints)
 
 
 def fixed_endpoint(text: str) -> IceEndpoint:

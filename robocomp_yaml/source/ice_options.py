@@ -278,8 +278,8 @@ def _number(option: Word, argument: Word | None, what: str, least: int, most: in
 
 
 def _is_in(text: str, least: int, most: int) -> bool:
-    found = _INT.match(text)
-    return bool(found) and len(text) < 300 and least <= int(text) <= most  # Python limits the digits of int()
+    is_short = len(text) < 300  # Python limits the digits of int()
+    return is_short and bool(_INT.match(text)) and least <= int(text) <= most
 
 
 def _timeout(option: Word, argument: Word | None) -> None:

@@ -128,8 +128,8 @@ def _adapter(text: str, at: int) -> str:
 
 
 def _until(text: str, at: int, end: re.Pattern[str]) -> int:
-    found = end.search(text, at)
-    return found.start() if found else len(text)
+    match = end.search(text, at)
+    return match.start() if match else len(text)
 
 
 def _word(text: str, start: int, end: re.Pattern[str]) -> Word:
@@ -148,7 +148,7 @@ def _word(text: str, start: int, end: re.Pattern[str]) -> Word:
 
 def _identity(word: Word) -> tuple[str, str]:
     """Category and name, which are separated by an unescaped slash."""
-    slashes = [found.start() for found in re.finditer(r"\\.|/", word.text, re.DOTALL) if found[0] == "/"]
+    slashes = [match.start() for match in re.finditer(r"\\.|/", word.text, re.DOTALL) if match[0] == "/"]
     if len(slashes) > 1:
         raise InvalidIceText("an identity is CATEGORY/NAME, with one slash", word.start, word.end)
     if not slashes:
@@ -162,19 +162,19 @@ def unescaped(word: Word, *, is_identity: bool = False) -> str:
     """The text of a word with Ice's escape sequences replaced. In an identity, `\\/` is a slash. Before any other
     character a backslash is literal. Raises InvalidIceText."""
 
-    def replaced(found: re.Match[str]) -> str:
-        if found["control"]:
-            raise InvalidIceText(f"{found[0]!r} is not a printable character", word.start, word.end)
-        if found["sign"]:
-            return _SIGNS[found["sign"]]
-        if found["slash"]:
-            return "/" if is_identity else found[0]
-        digits = found["hex"] or found["short"] or found["long"]
-        number = int(digits, 16) if digits else int(found["octal"] or "400", 8)
-        is_character = number < 256 if found["octal"] else number < 0xD800 or 0xDFFF < number < 0x110000
-        if found["wrong"] or not is_character:
-            raise InvalidIceText(f"'{found[0]}' is not a character", word.start, word.end)
-        is_byte = (found["octal"] or found["hex"]) and number > 127  # a byte of a UTF-8 sequence
+    def replaced(match: re.Match[str]) -> str:
+        if match["control"]:
+            raise InvalidIceText(f"{match[0]!r} is not a printable character", word.start, word.end)
+        if match["sign"]:
+            return _SIGNS[match["sign"]]
+        if match["slash"]:
+            return "/" if is_identity else match[0]
+        digits = match["hex"] or match["short"] or match["long"]
+        number = int(digits, 16) if digits else int(match["octal"] or "400", 8)
+        is_character = number < 256 if match["octal"] else number < 0xD800 or 0xDFFF < number < 0x110000
+        if match["wrong"] or not is_character:
+            raise InvalidIceText(f"'{match[0]}' is not a character", word.start, word.end)
+        is_byte = (match["octal"] or match["hex"]) and number > 127  # a byte of a UTF-8 sequence
         return chr(0xDC00 + number) if is_byte else chr(number)
 
     text = _ESCAPE.sub(replaced, word.text)

@@ -101,9 +101,9 @@ def _explain(
     match kind.name:
         case "additionalProperties":
             for unknown in facts["unexpected"]:
-                around, found = _behind_empty(node, unknown)
-                if found is not None and isinstance(around, Mapping):
-                    yield _unknown_key(whole, around, place, path, found)
+                around, name = _behind_empty(node, unknown)
+                if name is not None and isinstance(around, Mapping):
+                    yield _unknown_key(whole, around, place, path, name)
         case "propertyNames":
             name = facts["error"].instance
             around, _ = _behind_empty(node, name)
@@ -149,15 +149,15 @@ def _fixes(keyword: str, facts: dict[str, Any], node: Node, around: Any) -> Iter
 
 def _impossible(rule: str, node: Scalar, place: Path[str | int], *, span: Span) -> Diagnostic:
     """The diagnostic of a text with a character that is not allowed in it."""
-    found = _NEVER[rule].search(node.lexeme)
-    assert found is not None
-    is_at_end = found[0] == "\n" and found.end() == len(node.lexeme)
-    hint = "write one line of text" + (_AT_END if is_at_end else "") if found[0] in _ENDS_A_LINE else "remove it"
+    match = _NEVER[rule].search(node.lexeme)
+    assert match is not None
+    is_at_end = match[0] == "\n" and match.end() == len(node.lexeme)
+    hint = "write one line of text" + (_AT_END if is_at_end else "") if match[0] in _ENDS_A_LINE else "remove it"
     return codes.IMPOSSIBLE.at(
         span,
         key=_key_of(place),
-        what=_CALLED.get(found[0], "a control character"),
-        character=f"U+{ord(found[0]):04X}",
+        what=_CALLED.get(match[0], "a control character"),
+        character=f"U+{ord(match[0]):04X}",
         hint=hint,
     )
 

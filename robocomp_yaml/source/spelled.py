@@ -142,8 +142,7 @@ class DocumentText:
     def _where(self, start: int, begin: int, end: int, word: str) -> int | None:
         """The index of a word: at `start`, or where it occurs once in the text around it, or at the end of that text,
         as in a path."""
-        found = [match.start() for match in re.finditer(_whole(word), self.text[begin:end])]
-        places = [begin + at for at in found]
+        places = [begin + match.start() for match in re.finditer(_whole(word), self.text[begin:end])]
         if start in places or not places:
             return start if places else None
         is_last = self.text[places[-1] + len(word) : end].strip("'\" \t") == ""
@@ -167,22 +166,22 @@ class DocumentText:
         return [self.edit(*self._inner(node), node.lexeme.strip())]
 
     def _untagged(self, start: int, end: int) -> list[Edit]:
-        found = re.compile(r"(?:&\S+[ \t]+)?(!\S+)[ \t]+").match(self.text, start)
-        if found is None:
+        match = re.compile(r"(?:&\S+[ \t]+)?(!\S+)[ \t]+").match(self.text, start)
+        if match is None:
             return []
-        tag = self.edit(found.start(1), found.end(), "")
-        is_bare_text = found[1] == "!!str" and self.text[found.end() : found.end() + 1] not in ("'", '"', "|", ">")
-        quotes = self._around(found.end(), end, QUOTE) if is_bare_text else []
+        tag = self.edit(match.start(1), match.end(), "")
+        is_bare_text = match[1] == "!!str" and self.text[match.end() : match.end() + 1] not in ("'", '"', "|", ">")
+        quotes = self._around(match.end(), end, QUOTE) if is_bare_text else []
         return [tag, *quotes] if quotes or not is_bare_text else []
 
     def _without(self, start: int, end: int) -> list[Edit]:
         """Removes the element that begins at `start`; a comment after it stays."""
-        found = _entry(self.tree, start)
-        if found is None and self.tree is None and not self.text[start : start + 1].isspace():
+        entry = _entry(self.tree, start)
+        if entry is None and self.tree is None and not self.text[start : start + 1].isspace():
             return self._without_entry(start, end)
-        if found is None or self.text[start : start + 1] in "&*!":
+        if entry is None or self.text[start : start + 1] in "&*!":
             return []
-        at, nodes, is_flow = found
+        at, nodes, is_flow = entry
         end = nodes[at].end
         if is_flow:
             before = self.text[nodes[at - 1].end : start] if at else ""
@@ -198,11 +197,11 @@ class DocumentText:
         if not isinstance(root, MappingNode) or root.is_flow or not root.entries:
             return []
         new = name if _is_text(name) else quoted(name)
-        if (found := root.entries.get("imports")) is None:
+        if (imports := root.entries.get("imports")) is None:
             head = root.entries.get("language") or next(iter(root.entries.values()))
             at = self._end_of_line(max(end_of(head[1]), head[0].end + 1))
             return [self.edit(at, at, f"{self._line_end}imports: [{new}]")]
-        value = found[1]
+        value = imports[1]
         if isinstance(value, SequenceNode) and value.is_flow:
             at = value.items[-1].end if value.items else value.start + 1
             return [self.edit(at, at, f", {new}" if value.items else new)]
@@ -216,8 +215,8 @@ class DocumentText:
 
     @property
     def _line_end(self) -> str:
-        found = _LINE_END.search(self.text)
-        return found[0] if found else "\n"
+        match = _LINE_END.search(self.text)
+        return match[0] if match else "\n"
 
     def _end_of_line(self, index: int) -> int:
         rest = re.compile(r"[ \t]*(?:#[^\r\n]*)?(?=[\r\n]|\Z)").match(self.text, index)

@@ -160,8 +160,8 @@ def _may_be_deep(text: str) -> bool:
 
 def _brackets(text: str) -> int:
     """An upper bound of the depth of brackets: those that remain after the innermost pairs are removed a few times."""
-    for taken in range(4):
-        opened = text.count("[") + text.count("{") + taken
+    for removed in range(4):
+        opened = text.count("[") + text.count("{") + removed
         if opened <= MAX_DEPTH:
             break
         text = _INNERMOST.sub("", text)
@@ -238,8 +238,8 @@ def _quotes(span: Span, line: str, column: int, part: str) -> tuple[Fix, ...]:
         head, text = line[: column - 1], line[column - 1 :]
         if _BEFORE_A_VALUE.fullmatch(head) is None:
             return ()
-    elif part == "mapping values are not allowed" and (found := _DOC.match(line)) is not None:
-        head, text = found[1], line[found.end() :]
+    elif part == "mapping values are not allowed" and (doc := _DOC.match(line)) is not None:
+        head, text = doc[1], line[doc.end() :]
     else:
         return ()
     text = re.split(r"[ \t]#", text)[0].rstrip()

@@ -145,9 +145,9 @@ class _XmlReader:
     def _places(self) -> Iterator[tuple[str, Span]]:
         """The names and locations of the current tag's attributes, which expat does not provide."""
         at = self._lines[self.parser.CurrentLineNumber - 1] + self.parser.CurrentColumnNumber
-        found = _TAG.match(self.text, at)
-        while found and (found := _ATTRIBUTE.match(self.text, found.end())):
-            yield found[1], self._span(found.start(2) + 1, found.end(2) - 1)
+        match = _TAG.match(self.text, at)
+        while match and (match := _ATTRIBUTE.match(self.text, match.end())):
+            yield match[1], self._span(match.start(2) + 1, match.end(2) - 1)
 
     def _span(self, start: int, end: int) -> Span:
         first, last = bisect.bisect_right(self._lines, start), bisect.bisect_right(self._lines, end)

@@ -51,8 +51,8 @@ def single_quoted(text: str) -> str:
     return "'" + text.replace("'", "''") + "'" if text.isprintable() else quoted(text)
 
 
-def _escape(found: re.Match[str]) -> str:
-    return {"\n": "\\n", "\t": "\\t"}.get(found[0], f"\\u{ord(found[0]):04x}")
+def _escape(match: re.Match[str]) -> str:
+    return {"\n": "\\n", "\t": "\\t"}.get(match[0], f"\\u{ord(match[0]):04x}")
 
 
 def text_of(text: str, *, in_flow: bool = False) -> str:
@@ -79,8 +79,8 @@ def escaped(text: str) -> tuple[str, bool]:
     return _UNPRINTABLE.subn(_code, text)[0], bool(_UNPRINTABLE.search(text))
 
 
-def _code(found: re.Match[str]) -> str:
-    code = ord(found[0])
+def _code(match: re.Match[str]) -> str:
+    code = ord(match[0])
     return f"\\x{code:02X}" if code < 0x100 else f"\\u{code:04X}"
 
 
