@@ -40,8 +40,8 @@ class Allowance(msgspec.Struct, frozen=True):
     whole: Span
     others: bool = False
 
-    def covers(self, place: Span) -> bool:
-        return self.first <= place.line <= self.last
+    def covers(self, location: Span) -> bool:
+        return self.first <= location.line <= self.last
 
     def removal(self, text: DocumentText) -> Fix:
         """The fix that removes the code, or the whole comment if it names no other code."""

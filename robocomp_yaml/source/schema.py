@@ -76,12 +76,12 @@ def validate(kind: str, root: Node, more: tuple[TargetLanguage, ...] = ()) -> li
         return []
     explained: dict[tuple[object, ...], list[Diagnostic]] = {}
     for error in validator.iter_errors(root.data):
-        place = tuple(error.instance_path)
-        of_error = list(_explain(schema(kind, more), root, place, list(error.schema_path), error.kind))
-        at_place = explained.setdefault(place, [])
+        instance_path = tuple(error.instance_path)
+        of_error = list(_explain(schema(kind, more), root, instance_path, list(error.schema_path), error.kind))
+        at_path = explained.setdefault(instance_path, [])
         # Errors of type or value at one path have one cause; every missing or unknown key is a cause of its own.
-        at_place += [d for d in of_error if d.code in _KEY_CODES or all(o.code in _KEY_CODES for o in at_place)]
-    return [d for at_place in explained.values() for d in _without_misspelled(at_place)]
+        at_path += [d for d in of_error if d.code in _KEY_CODES or all(o.code in _KEY_CODES for o in at_path)]
+    return [d for at_path in explained.values() for d in _without_misspelled(at_path)]
 
 
 _KEY_CODES = (codes.UNKNOWN_KEY.id, codes.MISSING_KEY.id, codes.WRONG_NAME.id)
@@ -94,44 +94,44 @@ def _without_misspelled(diagnostics: list[Diagnostic]) -> list[Diagnostic]:
 
 
 def _explain(
-    whole: dict[str, Any], root: Node, place: Path[str | int], path: list[str | int], kind: Any
+    whole: dict[str, Any], root: Node, instance_path: Path[str | int], schema_path: list[str | int], kind: Any
 ) -> Iterator[Diagnostic]:
-    node, key = _find(root, place)
+    node, key = _find(root, instance_path)
     facts = kind.as_dict()
     match kind.name:
         case "additionalProperties":
             for unknown in facts["unexpected"]:
                 around, name = _behind_empty(node, unknown)
                 if name is not None and isinstance(around, Mapping):
-                    yield _unknown_key(whole, around, place, path, name)
+                    yield _unknown_key(whole, around, instance_path, schema_path, name)
         case "propertyNames":
             name = facts["error"].instance
             around, _ = _behind_empty(node, name)
             entry = around.entries.get(name) if isinstance(around, Mapping) else None
-            is_name = "A-Za-z_" in str(_subschema(whole, path))
-            hint = _name_hint(name) if is_name else _own_message(whole, path)
+            is_name = "A-Za-z_" in str(_subschema(whole, schema_path))
+            hint = _name_hint(name) if is_name else _own_message(whole, schema_path)
             yield codes.WRONG_NAME.at((entry[0] if entry else node).span, name=name, hint=hint)
         case "required":
-            yield codes.MISSING_KEY.at(_head(node, key), key=facts["property"], where=_where(place, root))
+            yield codes.MISSING_KEY.at(_head(node, key), key=facts["property"], where=_where(instance_path))
         case _:
             # A forbidden key is reported at its own location, with the message of the mapping that contains it.
             forbidden = kind.name == "falseSchema"
-            message = _own_message(whole, path[:-1] if forbidden else path)
+            message = _own_message(whole, schema_path[:-1] if forbidden else schema_path)
             if kind.name == "pattern" and facts["pattern"] == NAME and isinstance(node, Scalar):
                 yield codes.WRONG_NAME.at(node.span, name=node.lexeme, hint=_name_hint(node.lexeme))
                 return
             if kind.name == "pattern" and facts["pattern"] in _NEVER and isinstance(node, Scalar):
-                yield _impossible(facts["pattern"], node, place, span=_span(node, key))
+                yield _impossible(facts["pattern"], node, instance_path, span=_span(node, key))
                 return
-            problem = message or _in_words(kind.name, facts, node, place)
+            problem = message or _in_words(kind.name, facts, node, instance_path)
             span = key.span if forbidden and key else _span(node, key)
             yield codes.WRONG_SHAPE.at(
                 span,
                 problem=problem,
-                key=_key_of(place),
+                key=_key_of(instance_path) or "the document",
                 rule=kind.name,
                 hint=_nearest(facts.get("options"), node),
-                fixes=_fixes(kind.name, facts, node, _subschema(whole, path[:-1])),
+                fixes=_fixes(kind.name, facts, node, _subschema(whole, schema_path[:-1])),
             )
 
 
@@ -147,7 +147,7 @@ def _fixes(keyword: str, facts: dict[str, Any], node: Node, around: Any) -> Iter
     return ()
 
 
-def _impossible(rule: str, node: Scalar, place: Path[str | int], *, span: Span) -> Diagnostic:
+def _impossible(rule: str, node: Scalar, instance_path: Path[str | int], *, span: Span) -> Diagnostic:
     """The diagnostic of a text with a character that is not allowed in it."""
     match = _NEVER[rule].search(node.lexeme)
     assert match is not None
@@ -155,7 +155,7 @@ def _impossible(rule: str, node: Scalar, place: Path[str | int], *, span: Span) 
     hint = "write one line of text" + (_AT_END if is_at_end else "") if match[0] in _ENDS_A_LINE else "remove it"
     return codes.IMPOSSIBLE.at(
         span,
-        key=_key_of(place),
+        key=_key_of(instance_path) or "the document",
         what=_CALLED.get(match[0], "a control character"),
         character=f"U+{ord(match[0]):04X}",
         hint=hint,
@@ -163,25 +163,25 @@ def _impossible(rule: str, node: Scalar, place: Path[str | int], *, span: Span) 
 
 
 def _unknown_key(
-    whole: dict[str, Any], node: Mapping, place: Path[str | int], path: list[str | int], unknown: str
+    whole: dict[str, Any], node: Mapping, instance_path: Path[str | int], schema_path: list[str | int], unknown: str
 ) -> Diagnostic:
     from robocomp_yaml.diag.suggest import hint_for_key
 
     key = node.entries[unknown][0]
-    around = _subschema(whole, path[:-1])
+    around = _subschema(whole, schema_path[:-1])
     if not isinstance(around, dict):
         around = {}
     named = [p for p in around.get("patternProperties", {}) if not p.startswith("^x-")]
     if named and not around.get("properties"):
         return codes.WRONG_NAME.at(key.span, name=unknown, hint=_name_hint(unknown))
     hint = hint_for_key(unknown, around.get("properties", {}), node.entries)
-    return codes.UNKNOWN_KEY.at(key.span, key=unknown, where=_where(place, None, node), hint=hint)
+    return codes.UNKNOWN_KEY.at(key.span, key=unknown, where=_where(instance_path), hint=hint)
 
 
-def _find(root: Node, place: Path[str | int]) -> tuple[Node, Scalar | None]:
+def _find(root: Node, instance_path: Path[str | int]) -> tuple[Node, Scalar | None]:
     """The node at a path, and its key if it is the value of a mapping; the nearest node if the path does not exist."""
     node, key = root, None
-    for step in place:
+    for step in instance_path:
         if isinstance(node, Sequence) and isinstance(step, int) and step < len(node.items):
             key, node = None, node.items[step]
             continue
@@ -209,28 +209,28 @@ def _behind_empty(node: Node, step: str | int) -> tuple[Node, str | None]:
     return node, None
 
 
-def _subschema(whole: dict[str, Any], path: list[str | int]) -> Any:
+def _subschema(whole: dict[str, Any], schema_path: list[str | int]) -> Any:
     part: Any = whole
-    for step in path:
+    for step in schema_path:
         part = part[step] if isinstance(part, dict) else part[int(step)]
     return part
 
 
-def _own_message(whole: dict[str, Any], path: list[str | int]) -> str:
+def _own_message(whole: dict[str, Any], schema_path: list[str | int]) -> str:
     """The nearest `errorMessage` around the keyword that failed, for the same path of the document; '' if absent."""
-    for end in range(len(path) - 1, -1, -1):
-        part = _subschema(whole, path[:end])
+    for end in range(len(schema_path) - 1, -1, -1):
+        part = _subschema(whole, schema_path[:end])
         if isinstance(part, dict) and "errorMessage" in part:
             return str(part["errorMessage"])
-        step = path[end - 1] if end else ""
+        step = schema_path[end - 1] if end else ""
         if not (isinstance(step, int) or str(step).isdigit() or step in _APPLICATORS):
             return ""
     return ""
 
 
-def _key_of(place: Path[str | int]) -> str:
-    """The last key in a path."""
-    return next((step for step in reversed(place) if isinstance(step, str)), "the document")
+def _key_of(instance_path: Path[str | int]) -> str:
+    """The last key in a path; '' if it has none."""
+    return next((step for step in reversed(instance_path) if isinstance(step, str)), "")
 
 
 def _head(node: Node, key: Scalar | None) -> Span:
@@ -249,9 +249,9 @@ def _span(node: Node, key: Scalar | None) -> Span:
     return key.span if key is not None and (empty or span.line != span.end_line) else span
 
 
-def _where(place: Path[str | int], root: Node | None, node: Node | None = None) -> str:
-    names = [step for step in place if isinstance(step, str)]
-    return f"in '{names[-1]}'" if names else "at the top level of the document"
+def _where(instance_path: Path[str | int]) -> str:
+    key = _key_of(instance_path)
+    return f"in '{key}'" if key else "at the top level of the document"
 
 
 def _what(node: Node) -> str:
@@ -286,9 +286,9 @@ def _name_hint(name: str) -> Hint:
     return Hint(f"{rule}: for example '{cleaned}'", name, cleaned)
 
 
-def _in_words(keyword: str, facts: dict[str, Any], node: Node, place: Path[str | int]) -> str:
-    names = [step for step in place if isinstance(step, str)]
-    it = f"'{names[-1]}'" if names else "the document"
+def _in_words(keyword: str, facts: dict[str, Any], node: Node, instance_path: Path[str | int]) -> str:
+    key = _key_of(instance_path)
+    it = f"'{key}'" if key else "the document"
     match keyword:
         case "type":
             *most, last = [_IN_WORDS[t] for t in facts["types"] if t != "null"] or ["nothing"]
