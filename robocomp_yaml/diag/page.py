@@ -100,11 +100,6 @@ def page(name: str) -> Page:
     )  # fmt: skip
 
 
-def names() -> list[str]:
-    """The names of all pages."""
-    return [name.removesuffix(".md") for name in resources.names("diagnostics") if name.endswith(".md")]
-
-
 def _message(id_: str, text: str) -> str:
     head, fence, rest = text.partition("```message\n")
     if not fence or head.strip():
