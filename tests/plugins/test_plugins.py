@@ -109,7 +109,7 @@ def test_it_can_fail_a_run(rcyaml: Run, tmp_path: Path) -> None:
 def test_it_is_explained_where_it_counts(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {f"here/{path}": text for path, text in SPEECH.items()} | {"elsewhere/rcyaml.yaml": ""})
     explained = rcyaml("explain", "acme001", below="here").stdout
-    assert explained.startswith("ACME001 (warning): component NAME is called otherwise")
+    assert explained.startswith("ACME001 (warning): the name of component NAME does not follow")
     assert "Wrong:" in explained and "component: SpeechComp" in explained
     assert rcyaml("explain", below="here").stdout.splitlines()[-1].startswith("ACME001")
     assert "ACME001" not in rcyaml("explain", below="elsewhere").stdout
