@@ -33,9 +33,9 @@ from robocomp_yaml.link.program import Program
 from robocomp_yaml.link.workspace import Search
 from robocomp_yaml.network.networks import DerivedNetworks, networks_of
 from robocomp_yaml.source.allowances import Allowance
-from robocomp_yaml.source.discover import WORKSPACE_FILE, Found, discover
+from robocomp_yaml.source.discover import WORKSPACE_FILE, DiscoveredDocuments, discover
 from robocomp_yaml.source.disk import Disk
-from robocomp_yaml.source.spelled import Texts, spelled
+from robocomp_yaml.source.spelled import DocumentTexts, spelled
 
 if TYPE_CHECKING:
     from robocomp_yaml.network.network import Network

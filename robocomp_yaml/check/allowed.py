@@ -12,7 +12,7 @@ from robocomp_yaml.diag.codes import row_of
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
 from robocomp_yaml.plugins import Plugins
 from robocomp_yaml.source.allowances import OURS, Allowance, allowances
-from robocomp_yaml.source.spelled import Text, Texts
+from robocomp_yaml.source.spelled import DocumentText, DocumentTexts
 
 _ABOUT_ALLOWANCES = ("RC0060", "RC0061", "RC0062", "RC0063", "RC0064")
 

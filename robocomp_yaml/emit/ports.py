@@ -21,7 +21,7 @@ from robocomp_yaml.network.port_numbers import COMMON_BEHAVIOR, RESERVED, defaul
 from robocomp_yaml.source import properties
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.ice_endpoint import IceEndpoint, parse_endpoint
-from robocomp_yaml.source.properties import Entry
+from robocomp_yaml.source.properties import IceProperty
 
 
 class PortTable(msgspec.Struct):

@@ -25,7 +25,7 @@ from robocomp_yaml.network.order import AFTER, Dependence, optional, ordered
 from robocomp_yaml.network.topics import TopicConnections
 from robocomp_yaml.source.file_names import LONGEST_NAME, is_too_long, path_fault, shortened, size
 from robocomp_yaml.source.ice_endpoint import fixed_endpoint
-from robocomp_yaml.source.ice_options import LAST_PORT, Refused
+from robocomp_yaml.source.ice_options import LAST_PORT, InvalidIceText
 
 
 def derive(linked: LinkedDeployment, program: Program) -> tuple[Network, list[Diagnostic]]:

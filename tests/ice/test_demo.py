@@ -63,4 +63,4 @@ def test_a_call_of_nobody_says_so(tmp_path: Path) -> None:
         )
     nobody = called("speech:tcp -h 127.0.0.1 -p 9", "Hello")
     assert nobody.returncode == 1
-    assert nobody.stderr == "say.py: nobody answers at 'speech:tcp -h 127.0.0.1 -p 9': Connection refused\n"
+    assert nobody.stderr == "say.py: no server answers at 'speech:tcp -h 127.0.0.1 -p 9': Connection refused\n"

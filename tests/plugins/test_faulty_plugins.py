@@ -166,7 +166,7 @@ def test_one_that_is_not_installed(rcyaml: Run, site: Path, tmp_path: Path) -> N
 
 def test_one_that_is_none(rcyaml: Run, tmp_path: Path) -> None:
     workspace(tmp_path, "jinja2")
-    assert "'jinja2' is installed, and is no plug-in of rcyaml" in rcyaml("check").stdout
+    assert "'jinja2' is installed, and is not a plug-in of rcyaml" in rcyaml("check").stdout
 
 
 @pytest.mark.parametrize("text", ["plugins: acme", "plugins: {acme: 1}", "plugins: [../acme]", "plugins: [a, a]"])

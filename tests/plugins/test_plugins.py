@@ -55,7 +55,7 @@ def test_a_check_finds_something(rcyaml: Run, tmp_path: Path) -> None:
     (found,) = json.loads(done.stdout)["diagnostics"]
     assert (found["code"], found["severity"], done.returncode) == ("ACME001", "warning", 0)
     assert (found["file"], found["line"], found["column"]) == ("speech.cdsl.yaml", 1, 12)
-    assert found["message"] == "component Speech is called otherwise than Acme's components"
+    assert found["message"] == "the name of component Speech does not follow Acme's rule"
     assert found["facts"] == {"meant": "SpeechComp", "name": "Speech"}
     assert found["fixes"] == [
         {
@@ -109,7 +109,7 @@ def test_it_can_fail_a_run(rcyaml: Run, tmp_path: Path) -> None:
 def test_it_is_explained_where_it_counts(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {f"here/{path}": text for path, text in SPEECH.items()} | {"elsewhere/rcyaml.yaml": ""})
     explained = rcyaml("explain", "acme001", below="here").stdout
-    assert explained.startswith("ACME001 (warning): component NAME is called otherwise")
+    assert explained.startswith("ACME001 (warning): the name of component NAME does not follow")
     assert "Wrong:" in explained and "component: SpeechComp" in explained
     assert rcyaml("explain", below="here").stdout.splitlines()[-1].startswith("ACME001")
     assert "ACME001" not in rcyaml("explain", below="elsewhere").stdout
@@ -145,7 +145,7 @@ def test_an_export_refuses_in_the_documents_words(rcyaml: Run, tmp_path: Path) -
     write_tree(tmp_path, {**NETWORK, "net.ddsl.yaml": text})
     done = rcyaml("deploy", "export", "--as", "csv")
     assert done.returncode == 1
-    assert "a table has no place for an environment" in done.stderr and "net.ddsl.yaml:3" in done.stderr
+    assert "a table cannot express an environment" in done.stderr and "net.ddsl.yaml:3" in done.stderr
 
 
 def test_a_picture_is_drawn(rcyaml: Run, tmp_path: Path) -> None:
@@ -267,5 +267,5 @@ def test_what_was_told_is_told_again(tmp_path: Path, rcyaml: Run) -> None:
     first = rcyaml("compile").stdout
     again = rcyaml("compile")
     assert "0 files written" in again.stdout and again.returncode == 0
-    told = "warning[ACME001]: component Speech is called otherwise than Acme's components"
+    told = "warning[ACME001]: the name of component Speech does not follow Acme's rule"
     assert told in first and told in again.stdout

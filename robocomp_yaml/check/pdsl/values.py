@@ -17,7 +17,7 @@ from robocomp_yaml.parameters.writing.properties import properties
 from robocomp_yaml.parameters.writing.writable import is_surely_writable
 from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source.ice_endpoint import parse_endpoints
-from robocomp_yaml.source.ice_options import Refused
+from robocomp_yaml.source.ice_options import InvalidIceText
 from robocomp_yaml.source.ice_proxy import parse_proxy
 from robocomp_yaml.source.tree import Mapping, Node, Scalar
 

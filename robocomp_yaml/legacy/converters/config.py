@@ -76,7 +76,7 @@ def _protected(rest: str) -> tuple[str, str] | None:
 
 
 def _setting(
-    reader: Reader, node: Tree[Token], entry: properties.Entry, notes: Notes, dialect: str,
+    reader: Reader, node: Tree[Token], entry: properties.IceProperty, notes: Notes, dialect: str,
     protected: tuple[str, str] | None,
 ) -> Setting:  # fmt: skip
     raw, text = entry.value, entry.value

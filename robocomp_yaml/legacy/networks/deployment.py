@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 
 import msgspec
 
-from robocomp_yaml.diag.codes import managers as codes
+from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.digraph import reachable
 from robocomp_yaml.legacy.document import List, Map, Notes, Raw

@@ -11,7 +11,7 @@ from click.testing import Result
 
 from conftest import Tree, write_tree
 from robocomp_yaml.source.allowances import allowances
-from robocomp_yaml.source.spelled import Text
+from robocomp_yaml.source.spelled import DocumentText
 
 Run = Callable[..., Result]
 Check = Callable[..., list[dict[str, object]]]

@@ -116,9 +116,9 @@ DDSL = "deployment: Robot\ncomponents:\n  a: {program: /bin/true, env: {TOKEN: V
     ("value", "place", "told"),
     [
         ("{file: secrets/token}", "", ""), ("{file: '~/a b'}", "", ""), ("{env: X, x-why: y}", "", ""),
-        ("{file: a, env: X}", "3:40", "from one place"), ("{file: secrets/}", "3:47", "the path of a file"),
-        ('{file: "a\\nb"}', "3:47", "one line"), ("{path: a}", "3:41", "{env: NAME} or by {file: PATH}"),
-        ("{}", "3:40", "{env: NAME} or by {file: PATH}"), ("{file: [a]}", "3:47", "file"),
+        ("{file: a, env: X}", "3:40", "has one source"), ("{file: secrets/}", "3:47", "the path of a file"),
+        ('{file: "a\\nb"}', "3:47", "one line"), ("{path: a}", "3:41", "{env: NAME} or {file: PATH}"),
+        ("{}", "3:40", "{env: NAME} or {file: PATH}"), ("{file: [a]}", "3:47", "file"),
     ],
 )  # fmt: skip
 def test_documents(

@@ -26,7 +26,7 @@ def test_the_word_itself_is_not_suggested() -> None:
 def test_words_of_the_same_list_are_not_suggested() -> None:
     assert str(did_you_mean("Amr", ["Arm", "Leg"])) == "did you mean 'Arm'?"
     assert str(did_you_mean("Amr", ["Arm", "Amor"], {"Arm"})) == "did you mean 'Amor'?"
-    assert str(did_you_mean("Amr", ["Arm"], {"Arm"})) == "'Arm' is there already"
+    assert str(did_you_mean("Amr", ["Arm"], {"Arm"})) == "'Arm' is already present"
     assert not did_you_mean("Leg", ["Arm"], {"Arm"})
     assert str(did_you_mean("Leg", ["Arm"], otherwise="there is Arm")) == "there is Arm"
 
@@ -49,13 +49,13 @@ def test_a_fix_of_the_case_is_safe_if_only_one_word_matches(
 
 
 @pytest.mark.parametrize(("files", "hint"), [
-    (component("imports: [Arm, Amr]\n"), "'Arm' is there already"),
+    (component("imports: [Arm, Amr]\n"), "'Arm' is already present"),
     (component("imports: [Amr]\n"), "did you mean 'Arm'?"),
     (component("imports: [Arm]\nrequires: [Arm, Arny]\n"), "did you mean 'Army' (Arm.idsl.yaml)?"),
     (component("imports: [Arm]\nrequires: [Arm, Army, Armmy]\n"), "the list already has 'Army'"),
     (component("imports: [Arm]\nrequires: [Arm]\nimplements: [Amr]\n"), "did you mean 'Arm' (Arm.idsl.yaml)?"),
     ({"Arm.idsl.yaml": IDSL.replace("Army: {}", "Leg: {methods: {go: {throws: [Stuck, Stuk]}}}")},
-     "'Stuck' is there already"),
+     "'Stuck' is already present"),
     ({"Arm.idsl.yaml": IDSL, "Leg.idsl.yaml": "module: RoboCompLeg\ntypes: {Pose: {struct: {x: int}}}\n"
       "interfaces: {Leg: {methods: {go: {throws: [Arm.Stuck]}}}}\n"}, "add Arm to `imports`"),
     ({"Leg.idsl.yaml": "module: RoboCompLeg\nimports: [Lge]\n"}, "put its document beside this one, or list its folder "

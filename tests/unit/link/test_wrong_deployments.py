@@ -159,4 +159,4 @@ def test_hints_name_nothing_that_a_group_already_exposes() -> None:
     (found,) = wrong(
         TWO + "groups: {g: {components: [speech], as: speech, expose: {Speech: speech, Speach: speech}}}\n", {}
     )
-    assert (found.at, found.hint) == ("Speach", "'Speech' is there already")
+    assert (found.at, found.hint) == ("Speach", "'Speech' is already present")
