@@ -17,7 +17,7 @@ import msgspec
 
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
 from robocomp_yaml.diag.fix import Fix
-from robocomp_yaml.source.spelled import Text
+from robocomp_yaml.source.spelled import DocumentText
 
 MAX_CHECKS = 300  # checks of all documents
 
@@ -163,12 +163,12 @@ def _applied(fixes: list[Fix], contents: Mapping[str, bytes]) -> dict[str, bytes
     """The contents of the changed files. A byte order mark is kept."""
     made = {}
     by_file: dict[str, list[tuple[int, int, str]]] = {}
-    texts: dict[str, Text] = {}
+    texts: dict[str, DocumentText] = {}
     for fix in fixes:
         for edit in fix.edits:
             file, span = edit.span.file, edit.span
             if file not in texts:
-                texts[file] = Text(file, contents[file].decode("utf-8-sig"))
+                texts[file] = DocumentText(file, contents[file].decode("utf-8-sig"))
             start = texts[file].index(span.line, span.column)
             by_file.setdefault(file, []).append((start, texts[file].index(span.end_line, span.end_column), edit.text))
     for file, places in by_file.items():

@@ -30,7 +30,7 @@ from robocomp_yaml.diag.hidden import Hidden
 from robocomp_yaml.link.documents import Documents
 from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.link.workspace import Search
+from robocomp_yaml.link.workspace import ImportSearch
 from robocomp_yaml.network.networks import DerivedNetworks, networks_of
 from robocomp_yaml.source.allowances import Allowance
 from robocomp_yaml.source.discover import WORKSPACE_FILE, DiscoveredDocuments, discover
@@ -47,10 +47,10 @@ class Analysis(msgspec.Struct, frozen=True):
 
     program: Program
     linker: Linker
-    discovered: Found
+    discovered: DiscoveredDocuments
     disk: Disk
     derived: DerivedNetworks
-    texts: Texts
+    texts: DocumentTexts
     allowed: Allowances
     diagnostics: tuple[Diagnostic, ...] = ()
     used: frozenset[Allowance] = frozenset()
@@ -62,18 +62,20 @@ class Analysis(msgspec.Struct, frozen=True):
 
     def with_more(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
         """All diagnostics, with more from another pass, as users see them."""
-        return in_order([*self.diagnostics, *self.for_users(self.without_suppressed(diagnostics).told)])
+        return in_order([*self.diagnostics, *self.for_users(self.without_suppressed(diagnostics).reported)])
 
     def complete(self, diagnostics: Iterable[Diagnostic], *, environment: bool = False) -> list[Diagnostic]:
         """The same, if no pass follows. Then it is also known which comments suppress nothing, and these are reported
         for the requested documents."""
         more, read = self.without_suppressed(diagnostics), self.linker.documents.read
-        requested = [read[real].path for real in self.program.asked if real in read]
+        requested = [read[real].path for real in self.program.requested if real in read]
         files = {*requested, *(path for path in self.allowed.by_file if os.path.basename(path) == WORKSPACE_FILE)}
-        unused = self.allowed.in_vain(sorted(files), self.used | more.used, environment=environment)
-        return in_order([*self.diagnostics, *self.for_users((*more.told, *self.without_suppressed(unused).told))])
+        unused = self.allowed.unused(sorted(files), self.used | more.used, environment=environment)
+        return in_order(
+            [*self.diagnostics, *self.for_users((*more.reported, *self.without_suppressed(unused).reported))]
+        )
 
-    def without_suppressed(self, diagnostics: Iterable[Diagnostic]) -> Judged:
+    def without_suppressed(self, diagnostics: Iterable[Diagnostic]) -> AllowanceVerdict:
         """The diagnostics that no comment suppresses."""
         return self.allowed.judge(diagnostics, lambda file: self.linker.workspace_of(file).lint)
 
@@ -110,19 +112,19 @@ def analyse(
     with the path of each document that is read. `overlay` has contents by path that replace those on the disk."""
     disk = Disk(overlay)
     discovered = discover(list(paths), disk)
-    linker = Linker(Documents(disk, on_read or (lambda path: None)), Search(search_folders(include), disk))
+    linker = Linker(Documents(disk, on_read or (lambda path: None)), ImportSearch(search_folders(include), disk))
     program = linker.link(discovered.documents)
     derived = networks_of(program)
     diagnostics = [*discovered.diagnostics, *linker.documents.diagnostics, *linker.diagnostics]
     for check in checks(program, [one.plugins for one in linker.workspaces.values()]):
         diagnostics += check(program)
-    diagnostics += of_networks(derived, program)
+    diagnostics += check_networks(derived, program)
     diagnostics += secrets.check(program, linker.documents.read.values())
-    texts = Texts(disk.contents, linker.documents.trees())
-    allowed = Allowed.of(texts, program.plugins_of)
+    texts = DocumentTexts(disk.contents, linker.documents.trees())
+    allowed = Allowances.of(texts, program.plugins_of)
     analysis = Analysis(program, linker, discovered, disk, derived, texts, allowed)
-    judged = analysis.without_suppressed([*diagnostics, *analysis.allowed.said])
-    return replace(analysis, diagnostics=tuple(in_order(analysis.for_users(judged.told))), used=judged.used)
+    judged = analysis.without_suppressed([*diagnostics, *analysis.allowed.faults])
+    return replace(analysis, diagnostics=tuple(in_order(analysis.for_users(judged.reported))), used=judged.used)
 
 
 def _with_lint(diagnostics: Iterable[Diagnostic], linker: Linker) -> Iterator[Diagnostic]:

@@ -45,7 +45,7 @@ def units(analysis: Analysis, components: Iterable[LinkedComponent] | None = Non
 
 def _components(analysis: Analysis, documents: Iterable[str] = ()) -> list[LinkedComponent]:
     components = analysis.program.components
-    chosen = [os.path.realpath(path) for path in documents] or analysis.program.asked_components()
+    chosen = [os.path.realpath(path) for path in documents] or analysis.program.requested_components()
     linked = [components[real] for real in chosen if real in components]
     return sorted(linked, key=lambda linked: linked.component.path)
 

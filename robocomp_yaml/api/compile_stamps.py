@@ -54,6 +54,6 @@ def diagnostics_of_code(paths: Sequence[str], include: Sequence[str]) -> list[Di
     return [one for one in Outcome.of_data(kept.replay).diagnostics if one.code in of_code]
 
 
-def keep(new_stamp: stamp.Stamp, arguments: CompileArguments) -> None:
+def keep(new_stamp: stamp.RunStamp, arguments: CompileArguments) -> None:
     """Writes the stamp of a compile with these arguments."""
     stamp.save(*arguments.location(), new_stamp)

@@ -38,12 +38,12 @@ class Compilation:
     def __init__(self, analysis: Analysis, arguments: CompileArguments, *, adopt: bool, merge: bool) -> None:
         self._analysis, self._arguments, self._adopt, self._merge = analysis, arguments, adopt, merge
         self._output = arguments.output
-        options = Options(
+        options = EmitOptions(
             self._output, analysis.discovered.folders, frozenset(arguments.targets), analysis.linker.workspace_of,
             ports(analysis), standalone=arguments.standalone,
         )  # fmt: skip
         self._built = build(analysis.program, analysis.diagnostics, options)
-        Fences(arguments.paths, self._output).keep_inside(self._built)
+        AllowedFolders(arguments.paths, self._output).restrict(self._built)
 
     @cached_property
     def outcome(self) -> Outcome:
@@ -117,7 +117,7 @@ class Compilation:
         """Updates the schemas that editors use. Returns their contents by path. A workspace whose folder cannot be
         written is compiled all the same."""
         schemas: dict[str, bytes] = {}
-        fences = Fences(self._arguments.paths, None)
+        fences = AllowedFolders(self._arguments.paths, None)
         for workspace in self._analysis.linker.workspaces.values():
             if not fences.contain(workspace.root):
                 continue
@@ -133,7 +133,7 @@ class Compilation:
 
     def _stamp(
         self, own: Review, changes: Changes, schemas: dict[str, bytes], again: Outcome
-    ) -> stamp.Stamp | None:  # fmt: skip
+    ) -> stamp.RunStamp | None:  # fmt: skip
         """The stamp of this compile, also if it has errors; None if something could not be read: a change of that would
         be unnoticed."""
         disk = self._analysis.disk
@@ -148,7 +148,7 @@ class Compilation:
         created = generated | {os.path.normpath(path) for path in once}
         created |= {folder for path in created for folder in _above(path)}
         states = disk.states | dict.fromkeys((*own.absent, *changes.journals), NOTHING)
-        return stamp.take(
+        return stamp.create(
             inputs={path: raw for path, raw in {**disk.contents, **own.contents}.items() if path not in generated},
             states={path: state for path, state in states.items() if os.path.normpath(path) not in created},
             listed=disk.listed,
@@ -177,6 +177,6 @@ def _outcome_of(
             by_path[change.path] = File(root.root, change.path, change.action, change.orig, diff)
     program, read = analysis.program, analysis.linker.documents.read
     faulty = {os.path.realpath(one.span.file) for one in diagnostics if one.severity == ERROR}
-    left_out = {read[real].path: real in faulty for real in built.left_out & program.asked}
+    left_out = {read[real].path: real in faulty for real in built.skipped & program.requested}
     files, skipped = tuple(by_path.values()), dict(sorted(left_out.items()))
-    return Outcome(tuple(diagnostics), files, program.documents, len(program.asked), skipped)
+    return Outcome(tuple(diagnostics), files, program.documents, len(program.requested), skipped)

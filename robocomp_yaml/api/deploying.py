@@ -129,7 +129,7 @@ class Deployment:
         from robocomp_yaml.deploy import stale
 
         found = [one.as_severity(severity) for one in stale.diagnostics(self.network, self.stale(*names))]
-        shown = self._analysis.for_users(self._analysis.without_suppressed(found).told)
+        shown = self._analysis.for_users(self._analysis.without_suppressed(found).reported)
         self._diagnostics += shown
         return has_errors(shown)
 

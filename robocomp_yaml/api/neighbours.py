@@ -11,13 +11,13 @@ from robocomp_yaml.pipeline import Analysis
 from robocomp_yaml.source.discover import of_kind
 
 if TYPE_CHECKING:
-    from robocomp_yaml.emit.ports import Ports
+    from robocomp_yaml.emit.ports import PortTable
 
 
-def ports(analysis: Analysis) -> Callable[[LinkedComponent], Ports]:
+def ports(analysis: Analysis) -> Callable[[LinkedComponent], PortTable]:
     """A function that returns the ports of a component's workspace, which are assigned once. If a component is in no
     workspace, the ports are those of the components of this run."""
-    known: dict[str, Ports] = {}
+    known: dict[str, PortTable] = {}
 
     def of(linked: LinkedComponent) -> PortTable:
         workspace = analysis.linker.workspace_of(linked.component.path)

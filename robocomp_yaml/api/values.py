@@ -99,8 +99,8 @@ class Values:
             own = {layer.document.path for layer in linked.layers()}
             others = {one.document.path for one in self._analysis.program.values.values()} - own
             diagnostics = [one for one in diagnostics if one.span.file not in others]
-            if linked.parameters is not None and check.is_only_layer(linked):
-                diagnostics += check.of_document(linked, self._analysis.program, complete=True)
+            if linked.parameters is not None and check.is_only_a_layer(linked):
+                diagnostics += check.check_document(linked, self._analysis.program, complete=True)
         return in_order(self._analysis.redacted(diagnostics))
 
     @property

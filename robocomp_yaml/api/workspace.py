@@ -179,7 +179,7 @@ class Workspace:
             from robocomp_yaml.emit.specific import existing_code
 
             yield from ports.clashes(analysis.program.components.values(), analysis.disk)
-            if written.has_code(analysis.program):
+            if existing_code.has_code(analysis.program):
                 from robocomp_yaml.api import compile_stamps
 
                 kept = None if self._overlay else compile_stamps.diagnostics_of_code(self._paths, self._include)

@@ -44,7 +44,7 @@ class Unit(msgspec.Struct, frozen=True):
     @property
     def command(self) -> str:
         """The command that builds the component."""
-        return typed("rcyaml", "build", named_from_here(self.name, self.document))
+        return typed("rcyaml", "build", component_argument(self.name, self.document))
 
     def path(self, below: str) -> str:
         return os.path.normpath(os.path.join(self.folder, below))
@@ -63,7 +63,7 @@ def unit_of(linked: LinkedComponent, workspace: WorkspaceSettings) -> Unit:
     )  # fmt: skip
 
 
-def _slices(linked: LinkedComponent, workspace: Workspace, folder: str) -> Iterator[str]:
+def _slices(linked: LinkedComponent, workspace: WorkspaceSettings, folder: str) -> Iterator[str]:
     """The Slice files of a component: its own, or those that the workspace shares."""
     for module in linked.modules():
         name = file_name(module)
@@ -74,7 +74,7 @@ def _slices(linked: LinkedComponent, workspace: Workspace, folder: str) -> Itera
             yield os.path.normpath(os.path.join(workspace.slice_folder, name))
 
 
-def _sources(linked: LinkedComponent, workspace: Workspace, folder: str) -> Iterator[str]:
+def _sources(linked: LinkedComponent, workspace: WorkspaceSettings, folder: str) -> Iterator[str]:
     """The existing files and folders of the repository that are compiled with the component."""
     component = linked.component
     for source in component.sources:

@@ -57,7 +57,7 @@ def plugin_checks(
     plugin: Plugin, kinds: Mapping[str, object], used: Collection[str] = ()
 ) -> Iterator[tuple[str, Check]]:  # fmt: skip
     """The checks of a plug-in for documents of these kinds and components in the `used` languages, with their names."""
-    for (kind, name), module in plugin.pieces.items():
+    for (kind, name), module in plugin.modules.items():
         if kind == CHECKS and kinds.get(module.KIND):
             yield f"check '{name}'", module.check
         elif kind == LANGUAGES and kinds.get("idsl") and (name in used or module.LANGUAGE.warns_others):

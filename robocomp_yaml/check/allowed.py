@@ -30,10 +30,10 @@ class Allowances(msgspec.Struct, frozen=True):
 
     by_file: Mapping[str, tuple[Allowance, ...]] = {}
     faults: tuple[Diagnostic, ...] = ()
-    texts: Mapping[str, Text] = {}
+    texts: Mapping[str, DocumentText] = {}
 
     @classmethod
-    def of(cls, texts: Texts, plugins_of: Callable[[str], Plugins]) -> Allowances:
+    def of(cls, texts: DocumentTexts, plugins_of: Callable[[str], Plugins]) -> Allowances:
         """The allowances in the YAML documents of these files; `plugins_of` returns the plug-ins of a workspace."""
         by_file, faults, with_comments = {}, [], {}
         for path, raw in texts.contents.items():

@@ -12,7 +12,7 @@ from robocomp_yaml.network.networks import DerivedNetworks
 _FAMILY = "RC4"
 
 
-def check_networks(derived: Derived, program: Program) -> Iterator[Diagnostic]:
+def check_networks(derived: DerivedNetworks, program: Program) -> Iterator[Diagnostic]:
     """The diagnostics of deriving the networks, and of the checks."""
     if not derived.networks:
         return iter(())
@@ -25,7 +25,7 @@ def check_networks(derived: Derived, program: Program) -> Iterator[Diagnostic]:
     return one_per_cause([*derived.diagnostics, *found])
 
 
-def check_environment(derived: Derived, *, environment: bool) -> Iterator[Diagnostic]:
+def check_environment(derived: DerivedNetworks, *, environment: bool) -> Iterator[Diagnostic]:
     """Diagnostics that depend on this machine: missing executables and, with `environment`, programs and addresses."""
     from robocomp_yaml.check.ddsl import files, hosts
 

@@ -61,7 +61,7 @@ def _of_configurations(program: Program) -> Iterator[Diagnostic]:
             if path not in program.disk.contents or not _others_can_read(path):
                 continue
             reported.add(location)
-            names = set(declared(component.parameters.parameters.root)) if component is not None else set()
+            names = set(secret_names(component.parameters.parameters.root)) if component is not None else set()
             line = _line_of_secret(program.disk.contents[path].decode("utf-8", "replace"), names)
             if line:
                 file, hint = os.path.relpath(path), f"`{typed('chmod', '600', os.path.relpath(path))}`"

@@ -35,7 +35,7 @@ class LiveLines:
     def pause(self) -> None:
         """Removes the drawn lines."""
         if self.drawn:
-            terminal.take_away(self.drawn)
+            terminal.erase(self.drawn)
             self.drawn = 0
 
     def draw(self, lines: Collection[str]) -> None:

@@ -19,7 +19,7 @@ from robocomp_yaml.emit import exports
 from robocomp_yaml.network.network import ConfigFile, Network, Process
 from robocomp_yaml.plugins import Plugins
 from robocomp_yaml.source.digest import digest
-from robocomp_yaml.source.hidden_properties import without_secret
+from robocomp_yaml.source.properties import without_secret
 from robocomp_yaml.source.regular import regular
 
 RECORD = ".rcyaml/exports.json"

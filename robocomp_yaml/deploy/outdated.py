@@ -51,7 +51,7 @@ def _compile(linked: LinkedComponent) -> str:
     compile_ = f"`{typed('rcyaml', 'compile', component.path)}`"
     if not component.language.target.build:
         return compile_
-    return f"{compile_}, then `{typed('rcyaml', 'build', named_from_here(component.name, component.path))}`"
+    return f"{compile_}, then `{typed('rcyaml', 'build', component_argument(component.name, component.path))}`"
 
 
 def _changed(folder: str, component: LinkedComponent, texts: Callable[[LinkedModule], str]) -> list[LinkedModule]:

@@ -52,7 +52,7 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: EmitOpti
             plain = texts[linked]
             yield replace(plain, path=folder + plain.path) if folder else plain
 
-    requested = {program.modules[real]: real for real in program.asked & program.modules.keys()}
+    requested = {program.modules[real]: real for real in program.requested & program.modules.keys()}
     roots = {linked: options.output or options.workspace_of(linked.module.path).slice_folder for linked in requested}
 
     for linked in sorted(requested, key=lambda linked: linked.module.path):
@@ -105,7 +105,7 @@ def _unused(program: Program, state: _State, skipped: set[str]) -> set[str]:
     paths = {real: linked.document.path for real, linked in program.parameters.items() if linked.document}
     paths |= {real: linked.document.path for real, linked in program.values.items()}
     paths |= {real: linked.deployment.path for real, linked in program.deployments.items()}
-    unread = program.asked - program.modules.keys() - program.components.keys() - paths.keys()
+    unread = program.requested - program.modules.keys() - program.components.keys() - paths.keys()
     return unread | theirs | {real for real, path in paths.items() if path in state.faulty}
 
 
@@ -128,7 +128,7 @@ class _State(msgspec.Struct):
 
     def cause(self, linked: LinkedModule) -> str:
         """The document that keeps a module from being compiled: its own or an imported one, '' for none."""
-        for scope in inner_first([linked], lambda scope: [o for o in scope.imports if o not in self._causes]):
+        for scope in postorder([linked], lambda scope: [o for o in scope.imports if o not in self._causes]):
             if scope.module.path in self.faulty or scope.unresolved:
                 self._causes[scope] = scope.module.path
             else:
@@ -173,7 +173,7 @@ def _unusable(document: Module | Component, cause: str, state: _State, result: B
 
 def _unresolved(document: Module | Component, cause: str, state: _State) -> Diagnostic:
     related = [Related("this document has errors, or an unknown import", Span(cause))]
-    diagnostic = compiling.UNRESOLVED.at(
+    diagnostic = emitting.UNRESOLVED.at(
         document.span,
         name=document.name,
         related=related if cause != document.path else (),

@@ -17,7 +17,7 @@ from robocomp_yaml.emit.options import EmitOptions
 from robocomp_yaml.emit.ports import assign
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import WorkspaceSettings
-from robocomp_yaml.parameters.schema.json_schema import DOCUMENT, EFFECTIVE, document_schema
+from robocomp_yaml.parameters.json_schema import DOCUMENT, EFFECTIVE, document_schema
 from robocomp_yaml.parameters.specification.document import ValuesDocument
 from robocomp_yaml.plugins import LANGUAGES
 from robocomp_yaml.transactions.plan import FilePlan, RootPlan
@@ -88,7 +88,7 @@ def _blaming_plugin(linked: LinkedComponent, options: EmitOptions) -> AbstractCo
     return owner[0].guarded(f"language '{name}'") if owner else nullcontext()
 
 
-def source_folders(linked: LinkedComponent, workspace: Workspace, root: str) -> list[str]:
+def source_folders(linked: LinkedComponent, workspace: WorkspaceSettings, root: str) -> list[str]:
     """The folders in which files of the repository are searched, relative to `root`: that of the document, then that of
     the workspace."""
     folder = os.path.dirname(linked.component.path) or "."

@@ -38,7 +38,9 @@ class LibraryStatus(msgspec.Struct, frozen=True):
     why: str = ""
 
 
-def missing(components: Iterable[LinkedComponent], workspace_of: Callable[[str], Workspace]) -> Iterator[Diagnostic]:
+def missing(
+    components: Iterable[LinkedComponent], workspace_of: Callable[[str], WorkspaceSettings]
+) -> Iterator[Diagnostic]:
     """A warning for each file, folder and library that is missing, and for each library with another version."""
     components = list(components)
     native = {

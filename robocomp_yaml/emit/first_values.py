@@ -69,7 +69,7 @@ def _changed(folder: str, existing: Mapping[str, str], generated: str) -> dict[s
 def _values(parameters: Parameters, existing: Mapping[str, str]) -> dict[str, Any]:
     """The values of an `etc/config` that differ from the defaults."""
     kind = recording(parameters.root)
-    texts = Reader(existing, {each.path: each for each in parameters.spellings}, unresolved).read(kind)
+    texts = PropertyReader(existing, {each.path: each for each in parameters.spellings}, unresolved).read(kind)
     return _without_defaults(parameters.root, kind, texts)
 
 
@@ -78,14 +78,14 @@ def _is_toml(existing: Mapping[str, str]) -> bool:
     return any(key.startswith(("Endpoints.", "Proxies.")) and value[:1] == '"' for key, value in existing.items())
 
 
-def _without_defaults(record: RecordType, kind: composite.Recording, texts: Mapping[str, Any]) -> dict[str, Any]:
+def _without_defaults(record: RecordType, kind: composite.RecordKind, texts: Mapping[str, Any]) -> dict[str, Any]:
     """The values of these texts that match their types, and differ from the defaults."""
     kept: dict[str, Any] = {}
     for member in record.members:
         if member.name not in texts:
             continue
         inner, text = kind.members[member.name].kind, texts[member.name]
-        if isinstance(inner, composite.Recording) and isinstance(member.type, RecordType) and inner.is_group:
+        if isinstance(inner, composite.RecordKind) and isinstance(member.type, RecordType) and inner.is_group:
             kept[member.name] = _without_defaults(member.type, inner, text)
             continue
         conversion = Conversion(is_text=True)

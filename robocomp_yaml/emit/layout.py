@@ -13,7 +13,7 @@ from collections.abc import Mapping
 import msgspec
 
 from robocomp_yaml.languages.record import TargetLanguage
-from robocomp_yaml.link.workspace import Workspace
+from robocomp_yaml.link.workspace import WorkspaceSettings
 from robocomp_yaml.source.digest import digest
 
 SETTINGS = "etc"
@@ -48,7 +48,7 @@ def is_settings(path: str) -> bool:
     return os.path.basename(os.path.dirname(path)) == SETTINGS
 
 
-def runtime_folder(workspace: Workspace, target: TargetLanguage) -> str:
+def runtime_folder(workspace: WorkspaceSettings, target: TargetLanguage) -> str:
     """The folder of the run time of a language that the components of a workspace share."""
     return os.path.normpath(os.path.join(workspace.runtime_folder, target.name, target.runtime_root))
 

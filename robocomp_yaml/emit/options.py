@@ -24,7 +24,7 @@ class EmitOptions(msgspec.Struct):
     output: str | None
     below: Sequence[str]
     targets: frozenset[str]
-    workspace_of: Callable[[str], Workspace]
+    workspace_of: Callable[[str], WorkspaceSettings]
     ports: Callable[[LinkedComponent], PortTable]
     only: Callable[[LinkedComponent], bool] | None = None
     standalone: bool = False

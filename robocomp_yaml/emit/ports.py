@@ -119,13 +119,13 @@ def is_own(values: LinkedValues) -> bool:
 
 
 def _set_endpoints(values: LinkedValues) -> dict[str, str]:
-    from robocomp_yaml.parameters.writing.properties import given  # most components have no values document
+    from robocomp_yaml.parameters.writing.properties import merged_entries  # most components have no values document
     from robocomp_yaml.source.tree import Scalar
 
     return {name: node.lexeme for name, node in merged_entries(values, "endpoints") if isinstance(node, Scalar)}
 
 
-def _written(linked: LinkedComponent, disk: Disk) -> Iterator[tuple[str, Entry]]:
+def _written(linked: LinkedComponent, disk: Disk) -> Iterator[tuple[str, IceProperty]]:
     """The endpoint properties of an `etc/config` by adapter, in both dialects."""
     path = config_path(linked)
     raw = disk.read(path)[0] if disk.has_file(path) else None

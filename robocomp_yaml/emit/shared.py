@@ -65,7 +65,7 @@ class Shared:
                 yield RootPlan(root, owner, tuple(self._slices([scope])), partial=True)
 
 
-def _is_hidden(workspace: Workspace, scope: LinkedModule, disk: Disk) -> bool:
+def _is_hidden(workspace: WorkspaceSettings, scope: LinkedModule, disk: Disk) -> bool:
     """Whether imports of the workspace resolve the name of this module to another document."""
     name = os.path.basename(scope.module.path)
     for folder in workspace.interfaces:

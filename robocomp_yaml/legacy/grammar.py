@@ -107,7 +107,7 @@ class LineTree(Tree[Token]):
     """A line that is not blank: an `entry`, or one that Ice ignores (None). `rest` is the text after its `=`, with the
     comment."""
 
-    def __init__(self, line: properties.Line, start: int, rest: str) -> None:
+    def __init__(self, line: properties.PropertyLine, start: int, rest: str) -> None:
         meta = Meta()  # type: ignore[no-untyped-call]
         meta.empty, meta.start_pos, meta.end_pos = False, start, line.stop
         super().__init__("invalid" if line.entry is None else "entry", [], meta)

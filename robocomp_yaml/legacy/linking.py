@@ -26,7 +26,7 @@ class InterfaceFiles(msgspec.Struct, frozen=True):
     _listed: dict[str, dict[str, str]] = {}
 
     @classmethod
-    def of(cls, files: Iterable[Converted], search: Search) -> InterfaceFiles:
+    def of(cls, files: Iterable[Converted], search: ImportSearch) -> InterfaceFiles:
         interfaces = cls(search)
         for file in files:
             if file.rules is not None and file.rules.kind == INTERFACES:
@@ -62,7 +62,7 @@ def _imports(file: Converted) -> tuple[ImportDraft, ...]:
 
 
 def name_imports(
-    file: Converted, document: str, workspace: Workspace, interfaces: InterfaceFiles
+    file: Converted, document: str, workspace: WorkspaceSettings, interfaces: InterfaceFiles
 ) -> Iterable[Diagnostic]:
     """Resolve the imports of a file and write their names into its document; report imports that are unknown, or
     spelled in another case."""
@@ -76,7 +76,7 @@ def name_imports(
 
 
 def _name(
-    imported: ImportDraft, file: Converted, document: str, workspace: Workspace, interfaces: InterfaceFiles
+    imported: ImportDraft, file: Converted, document: str, workspace: WorkspaceSettings, interfaces: InterfaceFiles
 ) -> str | None:
     stem, beside = imported.stem, interfaces.beside(file)
     match, other_case = interfaces.search.find(stem, document, workspace)
@@ -109,7 +109,7 @@ def name_machine(file: Converted, documents: Mapping[str, str]) -> Iterable[Diag
 
 
 def not_searched(
-    file: Converted, workspace: Workspace, documents: Mapping[str, str], interfaces: InterfaceFiles
+    file: Converted, workspace: WorkspaceSettings, documents: Mapping[str, str], interfaces: InterfaceFiles
 ) -> Iterable[tuple[str, Diagnostic]]:
     """Report imports whose documents are written outside of the workspace's search path, each with its folder."""
     search_path = {os.path.dirname(documents[file.path]), *workspace.interfaces, *interfaces.search.extra}

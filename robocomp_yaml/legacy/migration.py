@@ -26,7 +26,7 @@ from robocomp_yaml.legacy.settings.plan import Corrections
 from robocomp_yaml.legacy.sources import LegacyFile, assign_documents, discover
 from robocomp_yaml.legacy.upgrade import upgrade
 from robocomp_yaml.link import workspace_files
-from robocomp_yaml.link.workspace import Search, above
+from robocomp_yaml.link.workspace import ImportSearch, above
 from robocomp_yaml.model.build_interface import build
 from robocomp_yaml.plugins import Plugins
 from robocomp_yaml.source import schema
@@ -129,7 +129,9 @@ def _link(
     run: MigrationRun, accepted: Sequence[LedgerEntry], documents: dict[str, str], known: workspaces.Workspaces,
     extra: Sequence[str],
 ) -> None:  # fmt: skip
-    interfaces = InterfaceFiles.of((entry.file for entry in run.entries if not entry.skipped), Search(tuple(extra)))
+    interfaces = InterfaceFiles.of(
+        (entry.file for entry in run.entries if not entry.skipped), ImportSearch(tuple(extra))
+    )
     for entry in accepted:
         document = documents[entry.file.path]
         entry.diagnostics += name_imports(entry.file, document, known.of(document), interfaces)

@@ -62,7 +62,7 @@ class OutputRoot(msgspec.Struct):
             recover(root.root.real)
         except (OSError, WriteFailed) as error:
             root.problem = str(error)
-        on_disk = root.root.look(MEMORY)
+        on_disk = root.root.status(MEMORY)
         root.remembered = on_disk.data
         try:
             digests = json.loads(on_disk.data or b"{}").get("files", {})
@@ -73,14 +73,14 @@ class OutputRoot(msgspec.Struct):
 
     def is_unchanged(self, path: str) -> bool:
         """Whether a file is as an earlier run wrote it."""
-        on_disk = self.root.look(path)
+        on_disk = self.root.status(path)
         return on_disk.data is not None and self.memory.get(path) == digest(on_disk.data)
 
     def add(self, path: str, text: str, *, force: bool = False, sources: tuple[str, ...] = ()) -> Output:
         """Plan a file, and return it with its state. `force` overwrites a file that a user edited."""
         output = Output(path, text, sources=sources)
         self.outputs.append(output)
-        on_disk, new = self.root.look(path), text.encode()
+        on_disk, new = self.root.status(path), text.encode()
         if on_disk.problem or self.problem:
             output.state, output.problem = FAILED, on_disk.problem or self.problem
         elif not on_disk.exists:
@@ -126,11 +126,11 @@ class OutputRoot(msgspec.Struct):
                     self.problem = failed.reason
                     return
 
-    def _step(self, output: Output) -> Step:
-        on_disk = self.root.look(output.path)
+    def _step(self, output: Output) -> FileStep:
+        on_disk = self.root.status(output.path)
         before = None if output.state == CREATED else on_disk.data
         mode = None if output.state == CREATED else on_disk.mode or None
-        return Step(output.path, before, output.text.encode(), mode=mode, rights=rights_of(output.sources))
+        return FileStep(output.path, before, output.text.encode(), mode=mode, rights=rights_of(output.sources))
 
     def _memory(self) -> bytes | None:
         """Return the new content of `migrated.json`; None where the file is not needed."""

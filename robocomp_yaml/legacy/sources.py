@@ -89,7 +89,7 @@ def _below(folder: str, diagnostics: list[Diagnostic], known: Formats) -> Iterat
     `compile` generated are skipped."""
 
     def report(error: OSError) -> None:
-        diagnostics.append(file_codes.UNREADABLE.at(Span(str(error.filename)), reason=in_words(error)))
+        diagnostics.append(file_codes.UNREADABLE.at(Span(str(error.filename)), reason=reason_of(error)))
 
     entered: set[tuple[int, int]] = set()
     compiled: set[str] = set()

@@ -24,14 +24,14 @@ class Workspaces(msgspec.Struct, frozen=True):
     new: list[str] = []
     _known: dict[str, WorkspaceSettings] = {}
 
-    def of(self, document: str) -> Workspace:
+    def of(self, document: str) -> WorkspaceSettings:
         """Return the workspace of a document, which may not exist yet."""
         folder = os.path.dirname(document) or "."
         if folder not in self._known:
             inside = [new for new in self.new if stays_inside(new, os.path.realpath(folder))]
             above = root_above(folder)
             if inside and (above is None or not stays_inside(max(inside, key=len), os.path.realpath(above))):
-                self._known[folder] = Workspace(max(inside, key=len), declared=True)
+                self._known[folder] = WorkspaceSettings(max(inside, key=len), declared=True)
             elif above is not None:
                 self._known[folder] = link_workspace.read(above)[0]
             else:

@@ -192,7 +192,7 @@ class Attachments(msgspec.Struct):
             if isinstance(document.model, ParameterDocument) and document.real not in self.tables.parameters:
                 parameters, faults = resolve(document.model)
                 self.diagnostics += faults
-                linked = LinkedParameters(parameters, document.model, broken=hides_types(faults))
+                linked = LinkedParameters(parameters, document.model, broken=leaves_types_unknown(faults))
                 self.tables.parameters[document.real] = linked
                 self.diagnostics += self._unclaimed(document.model)
         self._join_layers()
@@ -243,7 +243,7 @@ class Attachments(msgspec.Struct):
         elif isinstance(document, ParameterDocument):
             parameters, faults = resolve(document, period)
             self.diagnostics += faults
-            broken = hides_types(faults)
+            broken = leaves_types_unknown(faults)
             own = LinkedParameters(parameters, document, broken, component=component)
             tie(component, parameters=own, broken=component.broken or broken)
             self.tables.parameters.setdefault(reals[0], component.parameters)

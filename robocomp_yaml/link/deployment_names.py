@@ -63,7 +63,7 @@ class DeploymentNames(msgspec.Struct):
         def into(target: Target) -> Iterable[Target]:
             return direct.get(target, ()) if isinstance(target, LinkedGroup) and target is not group else ()
 
-        targets = list(reached(direct[group], into))
+        targets = list(reachable(direct[group], into))
         if group in targets:
             before = [group, *targets[: targets.index(group)]]
             if part.is_own and not any(isinstance(other, LinkedGroup) and other.broken for other in before):

@@ -199,7 +199,9 @@ class Linker(msgspec.Struct):
         for members in digraph.cyclic_components(graph):
             circles |= {(real, other) for real in members for other in graph[real] if other in members}
             first = min(members, key=lambda real: self.tables.modules[real].module.path)
-            circle = [self.tables.modules[real].module for real in (*digraph.circle(graph, members, first), first)]
+            circle = [
+                self.tables.modules[real].module for real in (*digraph.cycle_through(graph, members, first), first)
+            ]
             steps = [
                 Related(f"{one.stem} imports {next_.stem}", _import_of(one, next_).span)
                 for one, next_ in pairwise(circle)

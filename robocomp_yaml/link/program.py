@@ -61,7 +61,7 @@ class LinkedModule(msgspec.Struct, frozen=True, eq=False):
 
     def closure(self) -> list[LinkedModule]:
         """This module and all that it imports, directly or not, once each. Importers follow the modules they import."""
-        return list(inner_first([self], lambda scope: scope.imports))
+        return list(postorder([self], lambda scope: scope.imports))
 
 
 class Port(msgspec.Struct, frozen=True):

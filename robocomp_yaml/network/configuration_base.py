@@ -56,7 +56,7 @@ class ConfigurationBase(msgspec.Struct):
 
     def proxy_key(self, name: str) -> Scalar | None:
         """The property that replaces the usual property of a proxy."""
-        node = dict(given(self.values, "proxies")).get(name) if self.values is not None else None
+        node = dict(merged_entries(self.values, "proxies")).get(name) if self.values is not None else None
         key = node.get("key") if isinstance(node, Mapping) else None
         return key if isinstance(key, Scalar) else None
 

@@ -19,7 +19,7 @@ from robocomp_yaml.network.gates import Gates
 from robocomp_yaml.network.interface_comparison import InterfaceComparison, name_of
 from robocomp_yaml.network.network import Connection
 from robocomp_yaml.network.order import Dependence
-from robocomp_yaml.source.ice_options import BLANKS, Refused
+from robocomp_yaml.source.ice_options import BLANKS, InvalidIceText
 from robocomp_yaml.source.ice_proxy import parse_proxy
 
 
@@ -195,7 +195,7 @@ class Connections(msgspec.Struct):
 
     def _name(self, offer: Offer, draft: Draft) -> str:
         """The name of an offer in `connect:`; a member of a closed group is named by the group."""
-        for group in self.drafts.linked.closed_around(offer.owner.instance, draft.instance)[:1]:
+        for group in self.drafts.linked.closed_groups_of(offer.owner.instance, draft.instance)[:1]:
             for served in group.serves:
                 if self.drafts.of(served.instance) is offer.owner and served.adapter == offer.adapter:
                     return f"{group.name}.{served.name}"
@@ -244,7 +244,7 @@ def _faults(draft: Draft, pair: Pair) -> Iterator[Diagnostic]:
     """What Ice would reject, and what it would ignore."""
     try:
         found = parse_proxy(pair.text)
-    except Refused as refused:
+    except InvalidIceText as refused:
         usual = f'write it in the syntax of Ice: `"{pair.name.lower()}:tcp -h HOST -p PORT"`'
         yield text_fault(codes.BAD_PROXY, draft, pair.span, pair.text, refused, usual, text=pair.text)
         return
@@ -288,7 +288,7 @@ def named(drafts: Drafts, draft: Draft, pair: Pair) -> ConnectTarget | Diagnosti
         return None if instance.broken else _unknown(drafts, draft, pair)
     served: list[tuple[str, Offer]] = []
     for target in targets:
-        around = linked.closed_around(target, instance)
+        around = linked.closed_groups_of(target, instance)
         if isinstance(target, LinkedStorm):
             hint = "it is an IceStorm, which carries topics"
             return codes.NOT_SERVED.at(pair.span, target=pair.text, interface=pair.name, hint=hint)

@@ -12,7 +12,8 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedStorm
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.model.deployment import PROGRAM, Text
+from robocomp_yaml.model.deployment import PROGRAM
+from robocomp_yaml.model.located import Text
 from robocomp_yaml.network import processes
 from robocomp_yaml.network.configuration import Configuration
 from robocomp_yaml.network.configuration_base import ConfigurationBase, base_of
@@ -104,7 +105,7 @@ def endpoint_faults(drafts: Drafts) -> Iterator[Diagnostic]:
         if offer.explicit:
             try:
                 fixed_endpoint(offer.explicit)
-            except Refused as refused:
+            except InvalidIceText as refused:
                 facts = {"name": offer.adapter, "text": offer.explicit}
                 yield text_fault(codes.BAD_ENDPOINT, offer.owner, offer.span, offer.explicit, refused, usual, **facts)
         elif offer.number > LAST_PORT:

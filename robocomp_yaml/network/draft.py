@@ -19,7 +19,7 @@ from robocomp_yaml.model import deployment as model
 from robocomp_yaml.network.network import LOOPBACK, Endpoint, NetworkHost, is_loopback
 from robocomp_yaml.network.port_numbers import COMMON_BEHAVIOR, RESERVED, default_port, next_free
 from robocomp_yaml.source.ice_endpoint import IceEndpoint, parse_endpoint, spelled_host
-from robocomp_yaml.source.ice_options import BLANKS, Refused
+from robocomp_yaml.source.ice_options import BLANKS, InvalidIceText
 
 MANAGER, PUBLISH = "TopicManager", "Publish"
 STORM_INSTANCE = "IceStorm"
@@ -235,7 +235,7 @@ def _endpoints(owner: Draft, instance: LinkedInstance) -> Iterator[Offer]:
 
 
 def text_fault(
-    code: Code, draft: Draft, span: Span, written: str, refused: Refused, otherwise: str = "", **facts: Any
+    code: Code, draft: Draft, span: Span, written: str, refused: InvalidIceText, otherwise: str = "", **facts: Any
 ) -> Diagnostic:
     """What Ice would reject in a text of the document, with its location. `otherwise` is the hint without a suggestion.
     The location in the text of an instance is unknown, because `{i}` in it has been replaced."""

@@ -14,6 +14,7 @@ from robocomp_yaml import resources
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.deployments import LinkedGroup, LinkedInstance, Served
 from robocomp_yaml.model import deployment as model
+from robocomp_yaml.model.located import Text
 from robocomp_yaml.network.draft import Draft, Drafts, LocatedText, Offer
 from robocomp_yaml.network.network import Connection
 from robocomp_yaml.network.order import Dependence
@@ -40,7 +41,7 @@ class Gates(msgspec.Struct):
             name = f"{group.name}.gate"
             while name in self.drafts.linked.instances:
                 name += "_"
-            python, how, span = model.Text("python3"), model.Text(model.ARGUMENT), group.group.span
+            python, how, span = Text("python3"), Text(model.ARGUMENT), group.group.span
             enabled = any(owner.instance.entry.enabled for _, owner in ruled)
             entry = model.Entry(name, model.PROGRAM, python, config_as=how, enabled=enabled, span=span)
             folder = first.instance.folder

@@ -37,7 +37,7 @@ def read(path: str, raw: bytes) -> tuple[Form | None, list[Diagnostic]]:
     try:
         reader.parser.Parse(raw, True)
     except _FormRefused as refused:
-        return None, [codes.REFUSED.at(reader.here(), what=refused.what)]
+        return None, [codes.FORM_WITH_ENTITIES.at(reader.here(), what=refused.what)]
     except (expat.ExpatError, ValueError, LookupError) as error:  # the latter two: an unknown encoding
         reason = expat.ErrorString(error.code) if isinstance(error, expat.ExpatError) else str(error)
         return None, [codes.NOT_A_FORM.at(reader.here(), reason=reason)]

@@ -117,7 +117,7 @@ class Sequence(Node):
 
 def below(root: Node) -> Iterable[Node]:
     """A node and all nodes in it, each once."""
-    return reached([root], lambda node: node.children())
+    return reachable([root], lambda node: node.children())
 
 
 def pairs_below(root: Node) -> Iterator[tuple[Scalar, Node]]:

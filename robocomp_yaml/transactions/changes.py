@@ -10,7 +10,7 @@ from msgspec.structs import replace
 
 from robocomp_yaml import secrets
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.source.hidden_properties import without_secret
+from robocomp_yaml.source.properties import without_secret
 from robocomp_yaml.transactions.atomic import FileStep
 from robocomp_yaml.transactions.journal import JOURNAL, JOURNAL_DONE
 

@@ -159,7 +159,7 @@ def tool() -> str:
 def _builds(plugins: Iterable[str]) -> dict[str, str]:
     if not plugins:
         return {}
-    from robocomp_yaml.plugins.finding import identity  # most workspaces have no plug-ins
+    from robocomp_yaml.plugins.loading import identity  # most workspaces have no plug-ins
 
     return {name: identity(name) for name in plugins}
 

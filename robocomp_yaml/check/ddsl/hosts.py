@@ -9,8 +9,7 @@ from collections.abc import Iterator
 
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
-from robocomp_yaml.network.draft import is_loopback
-from robocomp_yaml.network.network import LOOPBACK, Endpoint, Host, Network, Process
+from robocomp_yaml.network.network import LOOPBACK, Endpoint, Network, NetworkHost, Process, is_loopback
 from robocomp_yaml.source.ice_endpoint import parse_endpoint
 
 _LABEL = re.compile(r"(?!-)[A-Za-z0-9_-]{1,63}(?<!-)\Z")

@@ -39,9 +39,9 @@ def _cycles(linked: LinkedModule) -> Iterator[Diagnostic]:
     that is first in the document. Imports have no circles, so a circle of types is in one module."""
     types = {definition.name: definition for definition in reversed(linked.module.types)}
     uses = {name: [other for other in _used(linked, types[name]) if other in types] for name in types}
-    for knot in digraph.knots(uses):
+    for knot in digraph.cyclic_components(uses):
         start = min(knot, key=lambda name: types[name].span)
-        circle = [types[name] for name in digraph.circle(uses, knot, start)]
+        circle = [types[name] for name in digraph.cycle_through(uses, knot, start)]
         first = circle[0]
         inside = [_span_of_use(linked, d, circle[(n + 1) % len(circle)]) for n, d in enumerate(circle)]
         names = [definition.name for definition in (*circle, first)]
@@ -105,7 +105,7 @@ def _key(linked: LinkedModule, key: TypeRef) -> Iterator[Diagnostic]:
         if target is not None and isinstance(target[1], Struct):
             yield from ((target[0], member.type) for member in target[1].members)
 
-    reasons = [_reason(scope, ref) for scope, ref in digraph.reached([(linked, key)], members)]
+    reasons = [_reason(scope, ref) for scope, ref in digraph.reachable([(linked, key)], members)]
     other = next((reason for reason in reasons if reason not in ("", _SEQUENCE)), "")
     if not other and _SEQUENCE in reasons:
         hint = "use a string, an integer, or a struct of them"

@@ -35,7 +35,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 def _names(record: RecordType, known: Iterable[TargetLanguage]) -> Iterator[Diagnostic]:
     """Checks the names of a struct's members, and of those in its groups."""
-    names: dict[tuple[str, str], Member] = {}
+    names: dict[tuple[str, str], ResolvedMember] = {}
     for member in record.members:
         if member.is_group and isinstance(member.type, RecordType):
             yield from _names(member.type, known)

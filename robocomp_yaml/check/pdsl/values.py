@@ -64,7 +64,7 @@ def _texts_of_ice(linked: LinkedValues) -> Iterator[Diagnostic]:
         text = unquoted(node.lexeme)
         try:
             parse(text)
-        except Refused as refused:
+        except InvalidIceText as refused:
             fault = BAD_ICE_TEXT.at(
                 node.span.inside(text, refused.start, refused.end),
                 what=what,
@@ -92,7 +92,7 @@ def is_only_a_layer(linked: LinkedValues) -> bool:
 def has_only_harmless_parameters(linked: LinkedValues, values: Effective) -> bool:
     """Whether the layers contain only parameters, whose values are all harmless as properties."""
     keys = {key for layer in linked.layers() for key in layer.document.root.entries}
-    return keys <= {"component", "doc", "extends", "parameters"} and is_harmless(values.parameters, values.data)
+    return keys <= {"component", "doc", "extends", "parameters"} and is_surely_writable(values.parameters, values.data)
 
 
 def _layers(linked: LinkedValues) -> Iterator[Diagnostic]:

@@ -25,7 +25,7 @@ from robocomp_yaml.deploy.local.log_reader import LineReader, LogReader, merged
 from robocomp_yaml.deploy.local.obstacles import CheckedSpecs, is_local, obstacles
 from robocomp_yaml.deploy.readiness import listens
 from robocomp_yaml.deploy.spec import ProcessSpec
-from robocomp_yaml.diag.codes import deploying, grids
+from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.network.network import NEVER, PROGRAM, Network, RestartRule

@@ -19,7 +19,7 @@ from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry, free_po
 from robocomp_yaml.deploy.local.obstacles import is_local
 from robocomp_yaml.deploy.local.record import clear_up
 from robocomp_yaml.deploy.time_limit import until
-from robocomp_yaml.diag.codes import grids
+from robocomp_yaml.diag.codes import deploying as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.network.network import Network, NetworkHost
@@ -107,7 +107,7 @@ def ensure_nodes(
         if reason:
             where = host.span if host.span.file else Span(network.path)
             hint = "" if is_local(host.address) else hint
-            faults[host.name] = grids.NO_NODE.at(
+            faults[host.name] = codes.NO_NODE.at(
                 where, name=host.name, address=host.address, reason=reason, hint=hint
             )  # fmt: skip
     return faults

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import msgspec
 
-from robocomp_yaml.digraph import inner_first
+from robocomp_yaml.digraph import postorder
 from robocomp_yaml.emit.graphs.picture import Picture
 
 MOST_COLUMNS = 12

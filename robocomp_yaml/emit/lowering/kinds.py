@@ -49,7 +49,7 @@ class Builders(msgspec.Struct, frozen=True):
             case _:
                 return f"{functions[type_.name or group or '']}()"
 
-    def member(self, start: str, member: Member, functions: Mapping[str, str], group: str | None) -> str:
+    def member(self, start: str, member: ResolvedMember, functions: Mapping[str, str], group: str | None) -> str:
         """The expression for a member; `start` is the call up to the name of the member."""
         made = f"{start}, {self.kind(member.type, functions, group)})"
         made += f".byDefault({self.value(member.default.data)})" if member.default is not None else ""
@@ -74,7 +74,7 @@ class Builders(msgspec.Struct, frozen=True):
         if type_.unit:
             yield f"in({self.text(type_.unit)})"
 
-    def spelling(self, spelling: Spelling) -> str:
+    def spelling(self, spelling: LegacySpelling) -> str:
         """The arguments that build a spelling of properties."""
         fields = self.listed([self.listed([self.text(name), self.text(key)]) for name, key in spelling.fields])
         words = [

@@ -73,8 +73,8 @@ class Types:
                 return spelling.own.format(self.of[type_.name or group or ""])
 
     def setters(
-        self, member: Member, names: NameAllocator, group: str = ROOT, prefix: str = ""
-    ) -> Iterator[tuple[str, Member, str]]:
+        self, member: ResolvedMember, names: NameAllocator, group: str = ROOT, prefix: str = ""
+    ) -> Iterator[tuple[str, ResolvedMember, str]]:
         """Name, member and path of each setter: of the member, or of the members of its group."""
         in_code, path = inside(group, member.code_name), f"{prefix}{member.name}"
         if member.is_group and isinstance(member.type, RecordType):
@@ -110,12 +110,12 @@ def about_enum(enum: EnumType) -> list[str]:
     return words + [f"{name}: {' '.join(doc.split())}" for name, doc in enum.enumerators if doc]
 
 
-def about_member(member: Member, between: str) -> str:
+def about_member(member: ResolvedMember, between: str) -> str:
     """The documentation of a member, and its type and limits in words, with `between` in the middle."""
     return between.join(part for part in (member.doc.strip(), for_code(member)) if part) or f"{member.name}."
 
 
-def path_of(member: Member, group: str | None) -> str | None:
+def path_of(member: ResolvedMember, group: str | None) -> str | None:
     """The path of a member of a group; None in a struct."""
     return None if group is None else inside(group, member.code_name)
 

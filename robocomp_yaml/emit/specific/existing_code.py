@@ -13,7 +13,7 @@ from robocomp_yaml.link.program import LinkedComponent, Program
 
 def has_code(program: Program) -> bool:
     """Whether a requested component has files of the user."""
-    return any(_is_written(program.components[real]) for real in program.asked_components())
+    return any(_is_written(program.components[real]) for real in program.requested_components())
 
 
 def check(program: Program, diagnostics: Sequence[Diagnostic], linker: Linker) -> Iterator[Diagnostic]:
@@ -24,7 +24,7 @@ def check(program: Program, diagnostics: Sequence[Diagnostic], linker: Linker) -
     from robocomp_yaml.emit.specific.review import review
     from robocomp_yaml.transactions.plan import RootPlan
 
-    languages = {program.components[real].component.language.name for real in program.asked_components()}
+    languages = {program.components[real].component.language.name for real in program.requested_components()}
     options = EmitOptions(
         None, (), frozenset({*languages, "config"}), linker.workspace_of, lambda linked: assign([linked], program.disk),
         only=_is_written,

@@ -45,7 +45,7 @@ class _Module(msgspec.Struct):
 
     def check(self) -> Iterator[Diagnostic]:
         module = self.linked.module
-        yield from self.macro(Name("module", module.name, module.span))
+        yield from self.macro(Identifier("module", module.name, module.span))
         yield from self.module_name()
         for definition in module.definitions:
             yield from self.macro(Identifier(kind_of(definition), definition.name, definition.span))
@@ -89,7 +89,7 @@ class _Module(msgspec.Struct):
             hint = f"call it 'RoboComp{name[0].upper()}{name[1:]}'"
             yield self.reported(codes.CPP_GLOBAL.at(span, name=name, owner=owner, hint=hint), self.users)
 
-    def same_names(self, names: Iterable[Name], taken: set[str]) -> Iterator[Diagnostic]:
+    def same_names(self, names: Iterable[Identifier], taken: set[str]) -> Iterator[Diagnostic]:
         """In Ice's C++, a member cannot have the name of its exception, nor a method that of a type which it uses."""
         for name in names:
             if name.text in taken:
@@ -142,7 +142,7 @@ class _Module(msgspec.Struct):
         found = self.linked.find(ref)
         return found is not None and isinstance(found[1], Enum)
 
-    def clash(self, name: Name, other: str = "") -> Diagnostic:
+    def clash(self, name: Identifier, other: str = "") -> Diagnostic:
         return self.reported(_clash(name, other), self.users)
 
     def reported(self, diagnostic: Diagnostic, users: list[LinkedComponent]) -> Diagnostic:

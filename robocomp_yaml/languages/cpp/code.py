@@ -36,7 +36,7 @@ def _parser() -> Parser:
     return Parser(Language(tree_sitter_cpp.language()))
 
 
-def read(path: str, source: str) -> Code:
+def read(path: str, source: str) -> SourceCode:
     root = _parser().parse(_QT.sub(_replacement, source.encode())).root_node
     lines = lines_of(source)
     imports, import_end = [], 0
@@ -59,7 +59,7 @@ def read(path: str, source: str) -> Code:
     )  # fmt: skip
 
 
-def compiles(code: Code) -> bool:
+def compiles(code: SourceCode) -> bool:
     """Always true: the syntax tree already has all faults."""
     return True
 
@@ -98,7 +98,7 @@ def _definitions(root: Node, lines: list[str]) -> Iterator[SourceMethod]:
             yield replace(found, name=found.name.removeprefix(f"{CLASS}::"))
 
 
-def _method(node: Node, lines: list[str], nested: bool, *, has_body: bool = True) -> Method | None:
+def _method(node: Node, lines: list[str], nested: bool, *, has_body: bool = True) -> SourceMethod | None:
     """The function that a declaration declares; None if it declares something else."""
     declarator, around = node.child_by_field_name("declarator"), ""
     while declarator is not None and declarator.type in ("reference_declarator", "pointer_declarator"):

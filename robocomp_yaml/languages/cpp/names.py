@@ -1,4 +1,4 @@
-"""Names in C++: how Ice's C++11 mapping changes a Slice name, and how clashes are resolved."""
+"""NameAllocator in C++: how Ice's C++11 mapping changes a Slice name, and how clashes are resolved."""
 
 from __future__ import annotations
 
@@ -49,6 +49,6 @@ PORTS = PortSpelling(
 )
 
 
-def names(taken: Iterable[str] = ()) -> Names:
-    """Names that are not keywords or macros of C++ either."""
-    return Names((*taken, *_KEYWORDS))
+def names(taken: Iterable[str] = ()) -> NameAllocator:
+    """NameAllocator that are not keywords or macros of C++ either."""
+    return NameAllocator((*taken, *_KEYWORDS))

@@ -111,7 +111,7 @@ def _implemented(service: lowering.Service, servants: NameAllocator) -> ServiceV
     return _served(service, servants, "Servant", arguments, ("services.implement", f"{{{arguments}}}"))
 
 
-def _subscribed(service: lowering.Service, servants: Names) -> ServiceView:
+def _subscribed(service: lowering.Service, servants: NameAllocator) -> ServiceView:
     arguments = f"{literal(service.port.name)}, {literal(service.port.interface.name)}"
     return _served(service, servants, "Subscriber", arguments, ("topics.subscribe", f"services, {arguments}"))
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
 
-from robocomp_yaml.diag.codes import languages as codes
+from robocomp_yaml.diag.codes import cdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.emit.lowering.types import found, results
+from robocomp_yaml.emit.lowering.types import resolve, results
 from robocomp_yaml.languages._shared.checks import needed_by, result_structs, users
 from robocomp_yaml.languages.java import LANGUAGE
 from robocomp_yaml.languages.java.names import PACKAGE
@@ -31,7 +31,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
             yield _diagnostic(name, other, user)
 
 
-def _impossible(scope: LinkedModule) -> Iterator[tuple[Name, str]]:
+def _impossible(scope: LinkedModule) -> Iterator[tuple[Identifier, str]]:
     """The illegal names, each with a proposed one."""
     for definition in scope.module.definitions:
         if definition.name in TYPES and not isinstance(definition, Sequence | Map):
@@ -54,7 +54,7 @@ def _impossible(scope: LinkedModule) -> Iterator[tuple[Name, str]]:
 
 def _hiding(
     members: Iterable[Member], types: Collection[TypeRef], scope: LinkedModule, own: str = ""
-) -> Iterator[tuple[Name, str]]:
+) -> Iterator[tuple[Identifier, str]]:
     """In a class, a member hides the type of the same name from the code that marshals the other members; a member
     `slice` hides the package of all modules. A member of that type itself is hidden too."""
     for member in members:
@@ -73,7 +73,7 @@ def _is_hidden(ref: TypeRef, member: Member, scope: LinkedModule) -> bool:
     return is_class and definition.name == member.name and member.type.text != ref.text
 
 
-def _hidden(interface: Interface) -> Iterator[tuple[Name, str]]:
+def _hidden(interface: Interface) -> Iterator[tuple[Identifier, str]]:
     """A method with several results returns a class inside of the interface, which hides a type of the same name."""
     made = result_structs(interface)
     for ref in types_of(interface):
@@ -86,7 +86,7 @@ def _other(name: str) -> str:
     return f"the{name[:1].upper()}{name[1:]}" if name[0].islower() else f"{name}Value"
 
 
-def _diagnostic(name: Name, other: str, user: LinkedComponent) -> Diagnostic:
+def _diagnostic(name: Identifier, other: str, user: LinkedComponent) -> Diagnostic:
     return codes.IMPOSSIBLE_NAME.at(
         name.span,
         language=LANGUAGE.title,

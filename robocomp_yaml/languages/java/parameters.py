@@ -10,7 +10,6 @@ from robocomp_yaml.emit.lowering.kinds import Builders
 from robocomp_yaml.emit.lowering.names import NameAllocator
 from robocomp_yaml.emit.lowering.parameters import (
     ConstraintView,
-    Spelling,
     Types,
     TypeSpelling,
     about_enum,
@@ -107,7 +106,7 @@ def text(parameters: Parameters, component: str, source: str) -> str:
         getters=list(types.getters()),
         root=types.functions["."],
         spellings=[
-            f"java.util.Map.entry({literal(each.path)}, new Spelling({_BUILDERS.spelling(each)}))"
+            f"java.util.Map.entry({literal(each.path)}, new TypeSpelling({_BUILDERS.spelling(each)}))"
             for each in parameters.spellings
         ],
         constraints=constraint_views(parameters, LANGUAGE, literal),
@@ -115,7 +114,7 @@ def text(parameters: Parameters, component: str, source: str) -> str:
     return render("java/Parameters.java.j2", view)
 
 
-_SPELLING = Spelling(
+_SPELLING = TypeSpelling(
     basic={
         "bool": "boolean", "int": "int", "long": "long", "float": "float", "double": "double", "string": "String",
     },
@@ -136,12 +135,12 @@ class _Types(Types):
     def __init__(self, root: RecordType) -> None:
         super().__init__(root, NameAllocator(TYPES), _SPELLING)
         self.root = root
-        functions = Names(METHODS)
-        self.functions = {path: functions.take(f"kindOf{self.of[path]}") for path, _ in self.records}
+        functions = NameAllocator(METHODS)
+        self.functions = {path: functions.allocate(f"kindOf{self.of[path]}") for path, _ in self.records}
 
     def enum(self, enum: EnumType) -> EnumView:
-        names = Names(TYPES)  # a constant hides a type of the same name in the enum
-        constants = [ConstantView(names.take(LANGUAGE.in_code(name)), literal(name)) for name in enum.names]
+        names = NameAllocator(TYPES)  # a constant hides a type of the same name in the enum
+        constants = [ConstantView(names.allocate(LANGUAGE.in_code(name)), literal(name)) for name in enum.names]
         return EnumView(self.of[enum.name], comment("\n".join(about_enum(enum)), IN), constants)
 
     def record(self, path: str, record: RecordType) -> RecordView:

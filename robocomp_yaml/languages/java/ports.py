@@ -5,8 +5,8 @@ from __future__ import annotations
 import msgspec
 
 from robocomp_yaml.emit.lowering import ports as lowering
-from robocomp_yaml.emit.lowering.names import Names
-from robocomp_yaml.emit.lowering.types import found, results
+from robocomp_yaml.emit.lowering.names import NameAllocator
+from robocomp_yaml.emit.lowering.types import resolve, results
 from robocomp_yaml.languages._shared.text import IN, declaration
 from robocomp_yaml.languages._shared.views import PortViews
 from robocomp_yaml.languages.java.names import PORTS, ice_name, parameter, proxy, qualified
@@ -59,7 +59,7 @@ Ports = PortViews[AccessorView, ServiceView]
 
 
 def port_views(component: LinkedComponent) -> Ports:
-    lowered, servants = lowering.lower(component, PORTS), Names(("Services",))
+    lowered, servants = lowering.lower(component, PORTS), NameAllocator(("Services",))
     return Ports(
         [_required(accessor) for accessor in lowered.requires],
         [_published(accessor) for accessor in lowered.publishes],
@@ -134,7 +134,7 @@ def _throws(method: Method, port: Port) -> str:
     return f" throws {', '.join(names)}" if names else ""
 
 
-def _stub(called: lowering.Called, returns: str) -> list[str]:
+def _stub(called: lowering.CalledMethod, returns: str) -> list[str]:
     """The statements of a method until the user writes it."""
     method, scope = called.method, called.port.scope
     hidden = "this." if any(member.name == "log" for member in method.inputs) else ""

@@ -52,7 +52,7 @@ def read(path: str, source: str) -> SourceCode:
     )  # fmt: skip
 
 
-def compiles(code: Code) -> bool:
+def compiles(code: SourceCode) -> bool:
     """Whether Python compiles it."""
     try:
         with warnings.catch_warnings():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from robocomp_yaml.emit.lowering.ports import Spelling
+from robocomp_yaml.emit.lowering.ports import PortSpelling
 from robocomp_yaml.semantics.slice_names import NOT_ESCAPED
 
 # Ice 3.7's mapping puts an underscore before these. The keywords that it does not escape are escaped when the generated

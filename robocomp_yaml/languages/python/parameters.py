@@ -123,7 +123,9 @@ class _Types(Types):
 
     def __init__(self, root: RecordType) -> None:
         members = {LANGUAGE.in_code(member.code_name) for _, record in records(root)[0] for member in record.members}
-        super().__init__(root, Names((*_TAKEN, *members)), _SPELLING)  # a class's members hide types of the same name
+        super().__init__(
+            root, NameAllocator((*_TAKEN, *members)), _SPELLING
+        )  # a class's members hide types of the same name
 
     def enum(self, enum: EnumType) -> EnumView:
         names = ", ".join(map(literal, enum.names))

@@ -27,7 +27,7 @@ from robocomp_yaml.languages.python.text import docstring, one_line
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.link.references import groups
 from robocomp_yaml.model.interface import Sequence
-from robocomp_yaml.semantics.slice_names import FORGOTTEN
+from robocomp_yaml.semantics.slice_names import NOT_ESCAPED
 from robocomp_yaml.transactions.plan import ONCE, FilePlan
 
 if TYPE_CHECKING:
@@ -152,7 +152,7 @@ def _view(linked: LinkedComponent, layout: Layout) -> View:
         period=lowered.period,
         files=[json.dumps(file, ensure_ascii=False) for file in lowered.imported],
         modules=[SliceModule(ice_name(name), module_variable(name)) for name in lowered.modules],
-        escape=any(name in FORGOTTEN for name in _identifiers(linked)),
+        escape=any(name in NOT_ESCAPED for name in _identifiers(linked)),
         behavior=module_variable(BEHAVIOR),
         has_behavior=lowered.is_common,
         stubs=[stub(scope) for scope in linked.modules()],

@@ -267,5 +267,5 @@ LINES = {
 
 @pytest.mark.parametrize(("text", "lines"), LINES.items(), ids=range(len(LINES)))
 def test_the_lines_that_a_comment_concerns(text: str, lines: tuple[int, int]) -> None:
-    (allowance,), diagnosed = allowances(Text("a.yaml", text))
+    (allowance,), diagnosed = allowances(DocumentText("a.yaml", text))
     assert (allowance.first, allowance.last) == lines and not diagnosed

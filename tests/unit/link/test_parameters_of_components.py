@@ -8,7 +8,7 @@ from in_memory import ROOT, pdsl, program, refused, said
 from robocomp_yaml.parameters.types import RecordType, ResolvedMember, is_secret
 
 
-def parameters(flow: str, types: str = "", component: str = "") -> dict[str, Member]:
+def parameters(flow: str, types: str = "", component: str = "") -> dict[str, ResolvedMember]:
     """Every parameter by its path, `group.parameter` for those of groups."""
     documents = pdsl(flow, types)
     documents["c.cdsl.yaml"] += component
