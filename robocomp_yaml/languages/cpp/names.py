@@ -1,4 +1,4 @@
-"""NameAllocator in C++: how Ice's C++11 mapping changes a Slice name, and how clashes are resolved."""
+"""Names in C++: how Ice's C++11 mapping changes a Slice name, and how clashes are resolved."""
 
 from __future__ import annotations
 
@@ -50,5 +50,5 @@ PORTS = PortSpelling(
 
 
 def names(taken: Iterable[str] = ()) -> NameAllocator:
-    """NameAllocator that are not keywords or macros of C++ either."""
+    """Names that are not keywords or macros of C++ either."""
     return NameAllocator((*taken, *_KEYWORDS))
