@@ -78,7 +78,7 @@ class Values:
     """A values document with its layers, its parameters and its diagnostics.
 
     `file` is its path, `diagnostics` are sorted by location. What needs the effective values raises Faulty if errors
-    leave none. Raises Refused if the file is no values document.
+    leave none. Raises Refused if the file is not a values document.
     """
 
     def __init__(self, file: str, include: Sequence[str] = (), overlay: Mapping[str, bytes] | None = None) -> None:
@@ -88,7 +88,7 @@ class Values:
         self.documents_read: int = self._analysis.program.documents
         self._linked: LinkedValues | None = self._analysis.program.values.get(os.path.realpath(file))
         if self._linked is None and not has_errors(self._analysis.diagnostics):
-            raise Refused(f"{file} is no values document: its name is config.yaml (in etc/, beside a component) "
+            raise Refused(f"{file} is not a values document: its name is config.yaml (in etc/, beside a component) "
                           "or NAME.config.yaml")  # fmt: skip
         self.diagnostics: tuple[Diagnostic, ...] = tuple(self._all_diagnostics())
 
@@ -209,7 +209,7 @@ class Values:
         if node is None:
             reason = faults[0].message if faults else "it is empty"
             shown = f"'{value}'" if not is_secret(type_) else HIDDEN
-            found = [file_codes.WRONG_SHAPE.at(span, problem=f"{shown} is no value: {reason}")]
+            found = [file_codes.WRONG_SHAPE.at(span, problem=f"{shown} is not a value: {reason}")]
         else:
             found = [replace(fault, span=span, fixes=()) for fault in judge(type_, node, tuple(steps), complete=False)]
         if found:

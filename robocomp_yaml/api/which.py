@@ -27,7 +27,7 @@ def component(argument: str) -> str:
     if kind_of(argument) in ("cdsl", "pdsl") and os.path.isfile(argument):
         return argument
     if os.path.lexists(argument) or os.path.basename(argument) != argument or argument.endswith((".yaml", ".yml")):
-        problem = "is no document of a component" if os.path.lexists(argument) else "does not exist"
+        problem = "is not a document of a component" if os.path.lexists(argument) else "does not exist"
         raise Refused(f"'{argument}' {problem}")
     return _named(argument)
 

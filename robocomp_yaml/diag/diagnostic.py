@@ -24,7 +24,7 @@ def as_facts(facts: Mapping[str, object]) -> Facts:
 
 
 def _fact(value: object) -> Fact:
-    if isinstance(value, list | tuple | set | frozenset):
+    if isinstance(value, (list, tuple, set, frozenset)):
         return tuple(_plain(each) for each in value)
     return _plain(value)
 

@@ -106,7 +106,7 @@ def _by_pip(name: str) -> LibraryStatus:
 def _by_pkg_config(name: str) -> LibraryStatus:
     program = shutil.which("pkg-config")
     if program is None:
-        return LibraryStatus(False, why="pkg-config, which would find it, is missing, too")
+        return LibraryStatus(False, why="pkg-config, which would detect it, is missing, too")
     done = _run([program, "--modversion", name])
     return LibraryStatus(True, done.stdout.strip()) if done and done.returncode == 0 else LibraryStatus(False)
 
@@ -115,7 +115,7 @@ def _by_cmake(libraries: list[tuple[str, str]]) -> dict[tuple[str, str], Library
     """The status of packages and libraries: from one project for all; from one for each if a package causes an
     error."""
     if shutil.which("cmake") is None:
-        return dict.fromkeys(libraries, LibraryStatus(False, why="CMake, which would find it, is missing, too"))
+        return dict.fromkeys(libraries, LibraryStatus(False, why="CMake, which would detect it, is missing, too"))
     answers = _configured(libraries)
     if answers is None and len(libraries) > 1:
         return {one: (_configured([one]) or {one: LibraryStatus(False)})[one] for one in libraries}

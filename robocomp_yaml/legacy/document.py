@@ -122,7 +122,7 @@ def data(document: Map) -> dict[str, Any]:
 
 
 def _node(value: Value) -> Node:
-    if isinstance(value, str | ReferredName | Doc):
+    if isinstance(value, (str, ReferredName, Doc)):
         return _scalar(_string(value))
     if isinstance(value, Map):
         return tree(value)
@@ -178,7 +178,7 @@ def _entry(entry: DocumentEntry, indent: str, start: str) -> Iterator[Line]:
         header, body = _block_text(entry.value.text, inner)
         yield f"{start} {header}{tail}"
         yield from body
-    elif isinstance(entry.value, Map | List):
+    elif isinstance(entry.value, (Map, List)):
         yield start + tail
         yield from _map(entry.value, inner) if isinstance(entry.value, Map) else _list(entry.value, inner)
     yield from _comments(entry.notes.foot, inner)
@@ -188,7 +188,7 @@ def _line(value: Value, start: str) -> str | None:
     """Return an entry on one line; None where it needs several."""
     if value is None:
         return start
-    if isinstance(value, Map | List):
+    if isinstance(value, (Map, List)):
         line = _flow(value)
         limit = value.limit if isinstance(value, Map) else WIDTH
         empty = line in ("{}", "[]")
@@ -207,7 +207,7 @@ def _flow(value: Value) -> str | None:
         return "null"
     if isinstance(value, Raw):
         return value.lexeme
-    if isinstance(value, str | ReferredName | Doc):
+    if isinstance(value, (str, ReferredName, Doc)):
         string = _string(value)
         return None if isinstance(value, Doc) and "\n" in string else text_of(string, in_flow=True)
     entries = value.entries if isinstance(value, Map) else value.items

@@ -58,7 +58,7 @@ class InterfaceFiles(msgspec.Struct, frozen=True):
 
 
 def _imports(file: Converted) -> tuple[ImportDraft, ...]:
-    return file.draft.imports if isinstance(file.draft, ModuleDraft | ComponentDraft) else ()
+    return file.draft.imports if isinstance(file.draft, (ModuleDraft, ComponentDraft)) else ()
 
 
 def name_imports(

@@ -163,7 +163,7 @@ def _plan(
         if isinstance(draft, MachineDraft):
             planned.append((entry, rules.kind, document, yaml.Map(), Notes(), draft.text))
         else:
-            content = settled[path] if isinstance(draft, ConfigDraft | DeploymentDraft) else draft.document
+            content = settled[path] if isinstance(draft, (ConfigDraft, DeploymentDraft)) else draft.document
             planned.append((entry, rules.kind, document, content, draft.around, ""))
     planned += [(each.entry, "pdsl", each.path, each.document, Notes(), "") for each in inferred]
     for entry, kind, document, content, around, raw in planned:

@@ -53,7 +53,7 @@ class Attachments(msgspec.Struct):
         model = document.model
         if isinstance(model, Component):
             yield from self._follow_component(document, model)
-        elif isinstance(model, ParameterDocument | ValuesDocument):
+        elif isinstance(model, (ParameterDocument, ValuesDocument)):
             if isinstance(model, ValuesDocument):
                 self.tables.values[document.real] = LinkedValues(model)
             yield from self._follow_reference(document, model)

@@ -57,7 +57,7 @@ def seconds(node: Node | None) -> float | None:
     """The seconds of `100 ms`, `10 s`, or of a plain number, which counts milliseconds. None for any other node."""
     if not isinstance(node, Scalar) or node.data is None:
         return None
-    if isinstance(node.data, int | float):
+    if isinstance(node.data, (int, float)):
         return node.data / 1000
     return duration(node.lexeme)
 

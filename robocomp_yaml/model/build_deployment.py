@@ -39,7 +39,7 @@ def _text(parent: Node, key: str) -> Text | None:
 def _integer(parent: Node | None, key: str) -> int | None:
     """An integer. The schema also allows a float without a fraction, such as `3.0`."""
     node = parent.get(key) if parent else None
-    return int(node.data) if isinstance(node, Scalar) and isinstance(node.data, int | float) else None
+    return int(node.data) if isinstance(node, Scalar) and isinstance(node.data, (int, float)) else None
 
 
 def _host(key: Scalar, node: Node) -> model.Host:

@@ -127,7 +127,7 @@ def _enum(key: Scalar, node: Mapping) -> model.Enum:
         for name, value in entries(node, "enum"):
             number = value.get("value") if isinstance(value, Mapping) else value
             given = number.data if number is not None else None
-            whole = int(given) if isinstance(given, int | float) else None
+            whole = int(given) if isinstance(given, (int, float)) else None
             enumerators.append(model.Enumerator(name.lexeme, whole, doc(value), span=name.span))
     return model.Enum(key.lexeme, tuple(enumerators), doc(node), span=key.span, list_span=_key_span(node, "enum"))
 

@@ -14,7 +14,7 @@ from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 def holds_secret(type_: Type) -> bool:
     """Whether a value of a type is secret or contains a secret."""
-    return any(isinstance(each, BasicType | EnumType) and each.secret for each in nested(type_))
+    return any(isinstance(each, (BasicType, EnumType)) and each.secret for each in nested(type_))
 
 
 def secret_names(type_: Type) -> Iterator[str]:
@@ -44,7 +44,7 @@ def hidden(type_: Type, data: Any) -> Any:
 
 def plain(type_: Type, data: Any) -> Any:
     """One plain value, hidden if it is secret. Passwords in URLs are always hidden."""
-    if isinstance(type_, BasicType | EnumType) and type_.secret:
+    if isinstance(type_, (BasicType, EnumType)) and type_.secret:
         return data if data is None or data == "" or is_sound(data) else secrets.HIDDEN
     return secrets.url(data) if isinstance(data, str) else data
 

@@ -263,4 +263,4 @@ def _is_simple(data: object) -> bool:
     """Whether no list contains lists or mappings, for which editors insert `[object Object]`."""
     if isinstance(data, dict):
         return all(map(_is_simple, data.values()))
-    return not (isinstance(data, list) and any(isinstance(item, dict | list) for item in data))
+    return not (isinstance(data, list) and any(isinstance(item, (dict, list)) for item in data))

@@ -192,7 +192,7 @@ class ResolvedMember(Located, frozen=True):
     @property
     def documentation(self) -> str:
         """The documentation of the member, or else of its type."""
-        return self.doc or (self.type.doc if isinstance(self.type, RecordType | EnumType) else "")
+        return self.doc or (self.type.doc if isinstance(self.type, (RecordType, EnumType)) else "")
 
 
 class ResolvedConstraint(Located, frozen=True):
@@ -236,17 +236,19 @@ def below(type_: Type | None, step: str | int) -> Type | None:
 
 def nested(type_: Type) -> Iterator[Type]:
     """A type, and all types inside its lists, maps and records."""
-    yield type_
-    if isinstance(type_, ListType | MapType):
-        yield from nested(type_.element)
-    elif isinstance(type_, RecordType):
-        for member in type_.members:
-            yield from nested(member.type)
+    pending = [type_]
+    while pending:
+        one = pending.pop()
+        yield one
+        if isinstance(one, RecordType):
+            pending += [member.type for member in reversed(one.members)]
+        elif isinstance(one, (ListType, MapType)):
+            pending.append(one.element)
 
 
 def innermost(type_: Type) -> ScalarType | RecordType:
     """The type of the entries of lists and maps, at any depth; the type itself if it is neither."""
-    while isinstance(type_, ListType | MapType):
+    while isinstance(type_, (ListType, MapType)):
         type_ = type_.element
     return type_
 

@@ -102,7 +102,7 @@ def limits_in_words(type_: Type) -> list[str]:
 
 def label(type_: Type) -> str:
     """The name of a type: `list of Motor`."""
-    if isinstance(type_, ListType | MapType):
+    if isinstance(type_, (ListType, MapType)):
         return f"{'list' if isinstance(type_, ListType) else 'map'} of {label(type_.element)}"
     return type_.name
 

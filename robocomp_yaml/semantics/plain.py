@@ -16,6 +16,8 @@ from .paths import Path, in_words
 from .problems import Problem
 from .secrecy import HIDDEN, url
 
+_DATA = frozenset((bool, int, float, str))
+
 
 @dataclass
 class Conversion:
@@ -49,15 +51,17 @@ class PlainKind:
 
     def convert(self, raw: Any, path: Path, conversion: Conversion) -> Any:
         """The value of `raw`, or None, with a problem in `conversion`."""
-        raw = references.referred(raw)
-        if isinstance(raw, references.Unresolved):
-            return raw
-        if isinstance(raw, references.Missing):
-            conversion.reject(path, raw.why)
-            return None
-        if isinstance(raw, references.Referred):
-            conversion.references[path] = raw.reference
-        is_text = isinstance(raw, references.Referred) or (conversion.is_text and isinstance(raw, str))
+        is_text = type(raw) is str and conversion.is_text
+        if type(raw) not in _DATA:  # only other data can be a reference, or stand for one
+            raw = references.referred(raw)
+            if isinstance(raw, references.Unresolved):
+                return raw
+            if isinstance(raw, references.Missing):
+                conversion.reject(path, raw.why)
+                return None
+            if isinstance(raw, references.Referred):
+                conversion.references[path] = raw.reference
+            is_text = isinstance(raw, references.Referred) or (conversion.is_text and isinstance(raw, str))
         value = self.read(raw) if is_text else self.of(raw)
         if value is None:
             unit = f" ({self.unit})" if self.unit else ""

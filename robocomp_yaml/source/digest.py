@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from hashlib import blake2b
 
 
 def digest(data: bytes) -> str:
+    from hashlib import blake2b  # with OpenSSL, slow to import
+
     return blake2b(data, digest_size=16).hexdigest()
 
 

@@ -177,12 +177,12 @@ def _depth(text: str) -> int:
     try:
         while parser.check_event():
             event = parser.get_event()
-            if isinstance(event, MappingStartEvent | SequenceStartEvent):
+            if isinstance(event, (MappingStartEvent, SequenceStartEvent)):
                 depth += 1
                 deepest = max(deepest, depth)
                 if deepest > MAX_DEPTH:
                     break
-            elif isinstance(event, MappingEndEvent | SequenceEndEvent):
+            elif isinstance(event, (MappingEndEvent, SequenceEndEvent)):
                 depth -= 1
     except MarkedYAMLError:
         pass  # composing reports the error; the depth so far is used

@@ -185,9 +185,9 @@ LIMITS = {
     "attributes of one element of XML": xml.MAX_ATTRIBUTES,
     "plain values of a component's parameters": parameters.MAX_VALUES, "types inside of types": parameters.MAX_DEPTH,
     "a constraint": expression.MAX_LENGTH, "nesting of a constraint": expression.MAX_DEPTH, "a count in a `pattern:`": pattern.MAX_COUNT,
-    "sum of all counts of a `pattern:`": pattern_match.MAX_PLACES,
-    "processes of a deployment": deployment_documents.MOST,
-    "nested includes": deployment_documents.DEEPEST,
+    "sum of all counts of a `pattern:`": pattern_match.MAX_STATES,
+    "processes of a deployment": deployment_documents.MAX_INSTANCES,
+    "nested includes": deployment_documents.MAX_DEPTH,
 }  # fmt: skip
 
 

@@ -184,7 +184,7 @@ def test_a_language_is_in_schemas_and_choices(rcyaml: Run, tmp_path: Path) -> No
     installed = (tmp_path / "here/.rcyaml/schemas/cdsl.schema.json").read_text()
     assert '"shell"' in installed and installed == rcyaml("schema", "cdsl", below="here").stdout
     assert '"shell"' not in rcyaml("schema", "cdsl", below="other").stdout
-    assert "is not this version's" not in rcyaml("schema", "clock.cdsl.yaml", below="here").stdout
+    assert "outdated" not in rcyaml("schema", "clock.cdsl.yaml", below="here").stdout
     assert "|shell]" in rcyaml("new", "component", "--help", below="here").stdout
     assert "shell" in rcyaml("compile", "--help", below="here").stdout
     assert "shell" not in rcyaml("compile", "--help", below="other").stdout

@@ -9,9 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
-from robocomp_yaml.legacy import document, ledger
+from robocomp_yaml.legacy import document
 from robocomp_yaml.legacy.convert import Converted, convert
 from robocomp_yaml.legacy.draft import ConfigDraft
+from robocomp_yaml.legacy.ledger import LedgerEntry
+from robocomp_yaml.legacy.sources import LegacyFile
 from robocomp_yaml.model import build_component, build_interface, located
 from robocomp_yaml.model.component import Component, Gui, Language, Use
 from robocomp_yaml.model.interface import (
@@ -282,7 +284,7 @@ PIECES = st.lists(st.sampled_from([*SAMPLE.split(" "), *OTHERS]))
 def test_nothing_makes_it_stumble_and_every_line_is_counted(name: str, text: str | bytes) -> None:
     result, written = _converted(name, text)
     assert result.refused == any(d.severity == "error" for d in result.diagnostics)
-    entry = ledger.Entry(result, diagnostics=[*result.diagnostics])
+    entry = LedgerEntry(LegacyFile(result.path, "", ""), result, diagnostics=[*result.diagnostics])
     if result.source is not None:
         assert entry.lines().total() == result.source.lines
         for diagnostic in result.diagnostics:

@@ -89,7 +89,7 @@ def parameters_document(root: str, name: str) -> NewDocument:
 def require_name(name: str) -> None:
     if not _NAME.fullmatch(name):
         raise Refused(
-            f"'{name}' is no name: a name has letters, digits and underscores, and does not start with a digit"
+            f"'{name}' is not a name: a name has letters, digits and underscores, and does not start with a digit"
         )
     if len(name) > _LONGEST_NAME:
         raise Refused(f"'{name[:20]}…' is too long: a name has at most {_LONGEST_NAME} characters")

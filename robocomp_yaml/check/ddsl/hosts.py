@@ -54,12 +54,12 @@ def _problem(address: str) -> str:
             found = ipaddress.ip_address(address)
         except ValueError:
             kind = "IPv6" if ":" in address else "IPv4"
-            return f"it is no {kind} address"
+            return f"it is not an {kind} address"
         if found.is_unspecified:
-            return "it stands for every address of a machine"
-        return "it stands for many machines" if found.is_multicast else ""
+            return "it means every address of a machine"
+        return "it means many machines" if found.is_multicast else ""
     if len(address) > 253 or not all(map(_LABEL.match, address.removesuffix(".").split("."))):
-        return "it is no name of a machine"
+        return "it is not a valid host name"
     return ""
 
 

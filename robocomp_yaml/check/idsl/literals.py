@@ -25,7 +25,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
         for constant in linked.module.constants:
             yield from _fits(linked, constant.type, constant.value, default=False)
         for definition in (*linked.module.types, *linked.module.exceptions):
-            if isinstance(definition, Struct | ExceptionType):
+            if isinstance(definition, (Struct, ExceptionType)):
                 for member in definition.members:
                     if member.default is not None:
                         yield from _fits(linked, member.type, member.default, default=True)

@@ -41,7 +41,7 @@ def _property_names(linked: LinkedParameters) -> Iterator[Diagnostic]:
     warned: set[str] = set()
     for path, key, is_spelled in exact_keys(parameters):
         first = key.partition(".")[0]
-        has_tail = "." in key or not (is_spelled or isinstance(types[path], BasicType | EnumType))
+        has_tail = "." in key or not (is_spelled or isinstance(types[path], (BasicType, EnumType)))
         if key in taken:
             yield codes.PROPERTY_CLASH.at(spans[path], name=path, other=taken[key], property=key)
         elif has_tail and first in _ICE:

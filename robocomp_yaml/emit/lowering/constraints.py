@@ -104,7 +104,7 @@ class _ConstraintWriter(msgspec.Struct, frozen=True):
 
     def each(self, each: Each) -> str:
         type_ = type_of(each.source, self.scope)
-        assert isinstance(type_, ListType | MapType)
+        assert isinstance(type_, (ListType, MapType))
         inner = _ConstraintWriter(self.scope.with_variable(each.variable, type_.element), self.calls)
         variable = self.calls.variable(each.variable, len(self.scope.variables))
         functions = [self.calls.function(variable, inner.code(each.element))]

@@ -197,7 +197,7 @@ class _Types(Types):
                 return "true" if data else "false"
             case BasicType() if isinstance(data, str):
                 return string(data)
-            case BasicType(name=name) if isinstance(data, int | float):
+            case BasicType(name=name) if isinstance(data, (int, float)):
                 if name in ("int", "long"):
                     return number(int(data))
                 return f"{float(data)!r}{'f' if name == 'float' else ''}"
@@ -210,7 +210,7 @@ class _Types(Types):
             group = inside(".", member.code_name)
             name, made = getters[member.name], self.member_type(member, group)
             field = LANGUAGE.in_code(member.code_name)
-            if member.optional or isinstance(member.type, BasicType | EnumType):
+            if member.optional or isinstance(member.type, (BasicType, EnumType)):
                 body = f"return live_.now().{field};"
             else:
                 made, body = f"runtime::Held<{made}>", f"return live_.held(&parameters::Values::{field});"
@@ -225,7 +225,7 @@ class _Types(Types):
 
     def argument(self, member: ResolvedMember) -> str:
         made = self.member_type(member, None)
-        is_small = isinstance(member.type, BasicType | EnumType) and made != "std::string" and not member.optional
+        is_small = isinstance(member.type, (BasicType, EnumType)) and made != "std::string" and not member.optional
         return made if is_small else f"const {made}&"
 
 

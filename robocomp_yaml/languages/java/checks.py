@@ -34,7 +34,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
 def _impossible(scope: LinkedModule) -> Iterator[tuple[Identifier, str]]:
     """The illegal names, each with a proposed one."""
     for definition in scope.module.definitions:
-        if definition.name in TYPES and not isinstance(definition, Sequence | Map):
+        if definition.name in TYPES and not isinstance(definition, (Sequence, Map)):
             yield Identifier(kind_of(definition), definition.name, definition.span), _other(definition.name)
         for group in groups(definition):
             for name in group:
@@ -69,7 +69,7 @@ def _is_hidden(ref: TypeRef, member: Member, scope: LinkedModule) -> bool:
     home, definition = resolve(ref, scope)
     if home.module.name != scope.module.name:
         return member.name == PACKAGE
-    is_class = not isinstance(definition, Sequence | Map)
+    is_class = not isinstance(definition, (Sequence, Map))
     return is_class and definition.name == member.name and member.type.text != ref.text
 
 

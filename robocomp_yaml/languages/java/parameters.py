@@ -106,7 +106,7 @@ def text(parameters: Parameters, component: str, source: str) -> str:
         getters=list(types.getters()),
         root=types.functions["."],
         spellings=[
-            f"java.util.Map.entry({literal(each.path)}, new TypeSpelling({_BUILDERS.spelling(each)}))"
+            f"java.util.Map.entry({literal(each.path)}, new Spelling({_BUILDERS.spelling(each)}))"
             for each in parameters.spellings
         ],
         constraints=constraint_views(parameters, LANGUAGE, literal),

@@ -82,7 +82,7 @@ class _ConstraintWriter(msgspec.Struct, frozen=True):
     def operand(self, expression: Expression) -> PythonCode:
         """The code of an operand, in parentheses if needed."""
         made = self.code(expression)
-        is_open = isinstance(expression, Unary | Binary | Compare | Logic) and not made.text.startswith("constraints.")
+        is_open = isinstance(expression, (Unary, Binary, Compare, Logic)) and not made.text.startswith("constraints.")
         return PythonCode(f"({made.text})", made.may_miss) if is_open else made
 
     def name(self, name: str) -> PythonCode:
@@ -135,7 +135,7 @@ class _ConstraintWriter(msgspec.Struct, frozen=True):
 
     def each(self, each: Each) -> PythonCode:
         source, type_ = self.code(each.source), type_of(each.source, self.scope)
-        assert isinstance(type_, ListType | MapType)
+        assert isinstance(type_, (ListType, MapType))
         inner = _ConstraintWriter(self.scope.with_variable(each.variable, type_.element))
         element = inner.code(each.element)
         condition = inner.code(each.condition) if each.condition is not None else PythonCode("")

@@ -219,7 +219,7 @@ class _IdslConverter:
 def _foot_inside(notes: Notes, body: Value) -> Notes:
     """Return the comments of a definition, with those at the end of its block moved below the block's last entry."""
     inner = body.entries[-1] if notes.foot and isinstance(body, Map) and body.entries else None
-    if inner is None or not isinstance(inner.value, Map | List):
+    if inner is None or not isinstance(inner.value, (Map, List)):
         return notes
     inner.value.block = True
     inner.notes.foot += notes.foot

@@ -91,7 +91,7 @@ def _same_but(before: object, after: object, steps: list[Step]) -> bool:
     """Whether the data of two documents differ at most at `steps`."""
     if not steps:
         return True
-    if isinstance(before, dict | None.__class__) and isinstance(after, dict):
+    if isinstance(before, (dict, None.__class__)) and isinstance(after, dict):
         old = before or {}
         others = {key for key in (*old, *after) if key != steps[0]}
         return all(key in old and key in after and old[key] == after[key] for key in others) and _same_but(

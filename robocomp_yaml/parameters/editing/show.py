@@ -98,7 +98,7 @@ def _record(
 def _value(type_: Type, data: Any, where: Origin, default: Node | None, path: Path, editable: bool) -> Iterator[Value]:
     if isinstance(type_, RecordType) and isinstance(data, dict):
         yield from _record(type_, data, where, default, path, editable)
-    elif isinstance(type_, ListType | MapType) and data:
+    elif isinstance(type_, (ListType, MapType)) and data:
         entries: list[tuple[Step, Any]] = list(data.items() if isinstance(type_, MapType) else enumerate(data))
         for name, item in entries:
             own = step(default, name) if default is not None and where is None else None

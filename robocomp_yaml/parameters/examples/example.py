@@ -28,7 +28,7 @@ _LARGEST = 1024  # entries of an example
 
 def example(member: ResolvedMember) -> object:
     """An example of a member, without secrets."""
-    if isinstance(member.type, BasicType | EnumType) and member.type.secret:
+    if isinstance(member.type, (BasicType, EnumType)) and member.type.secret:
         return reference(member.name)
     if member.default is not None and not is_secret(member.type):
         return hidden(member.type, member.default.data)
@@ -61,7 +61,7 @@ def count_of(size: Size, preferred: int | None = None) -> int:
 
 def _different(element: Type, count: int) -> list[object]:
     """Different entries, as far as they are known. The others repeat the last one, and the user must change them."""
-    plain = element if isinstance(element, EnumType | BasicType) else None
+    plain = element if isinstance(element, (EnumType, BasicType)) else None
     entries = list(islice(simplest(plain), count)) if plain else [example_of(element)]
     return entries + entries[-1:] * (count - len(entries))
 

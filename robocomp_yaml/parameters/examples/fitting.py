@@ -124,7 +124,7 @@ class _Search:
         constants = [literal for each in parameters.constraints for literal in _literals(each.expression)]
         constants += [member.default.data for member in members.values() if member.default is not None]
         self.texts = list(dict.fromkeys(each for each in constants if isinstance(each, str)))
-        numbers = [each for each in constants if isinstance(each, int | float) and not isinstance(each, bool)]
+        numbers = [each for each in constants if isinstance(each, (int, float)) and not isinstance(each, bool)]
         self.numbers = list(dict.fromkeys(numbers))
         named = [code for each in parameters.constraints for code in evaluate.paths(each.expression)]
         self.named = {path for path in members if _is_named(_code_path(parameters.root, path), named)}
@@ -250,7 +250,7 @@ class _Search:
             return [reference("_".join(map(str, steps[named:])))]
         found = [*slot.first, *islice(simplest(type_), _VALUES)]
         if isinstance(type_, BasicType) and type_.is_number:
-            near = [each for each in simplest(type_) if isinstance(each, int | float)]
+            near = [each for each in simplest(type_) if isinstance(each, (int, float))]
             whole = sorted((each for each in near if float(each).is_integer()), key=abs)
             found = [*slot.first, *near[:1], *whole[:_VALUES], *near[-4:]]
             for number in self.numbers:

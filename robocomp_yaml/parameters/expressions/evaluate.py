@@ -79,7 +79,7 @@ def _has(operand: Expression | Each, scope: Mapping[str, Any]) -> Any:
     """Whether a value is set. A reference sets a value, though it is unknown."""
     if isinstance(operand, NameExpression):
         return scope.get(operand.name) is not None
-    if not isinstance(operand, Attribute | Index):
+    if not isinstance(operand, (Attribute, Index)):
         return not isinstance(operand, Each) and value(operand, scope) is not None
     if (outer := _has(operand.of, scope)) is not True:
         return outer

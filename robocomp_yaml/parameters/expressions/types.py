@@ -175,7 +175,7 @@ def _compare(expression: Compare, scope: Scope) -> Type:
     for operator, node in expression.rest:
         right = type_of(node, scope)
         if operator in ("in", "not in"):
-            if not isinstance(right, ListType | MapType):
+            if not isinstance(right, (ListType, MapType)):
                 raise _needs(f"'{operator}'", "a list or a map", right, node.at)
             inner = right.element if isinstance(right, ListType) else TEXT
             _same(left, inner, left_node, node, operator)
@@ -201,7 +201,7 @@ def _same(left: Type, right: Type, left_node: Expression, right_node: Expression
 def _call(call: Call, scope: Scope) -> Type:
     function, first = call.function, call.arguments[0]
     if function == "has":
-        if not isinstance(first, NameExpression | Attribute | Index):
+        if not isinstance(first, (NameExpression, Attribute, Index)):
             raise ExpressionError("has() needs the name of a parameter, member or entry", call.at)
         type_of(first, scope)
         return BOOL
@@ -227,7 +227,7 @@ _OF_ONE = ("len", "abs", "keys", "values")
 def _of_one(function: str, operand: Type, node: Expression) -> Type:
     if function == "abs" and is_number(operand):
         return operand
-    if function == "len" and isinstance(operand, ListType | MapType):
+    if function == "len" and isinstance(operand, (ListType, MapType)):
         return WHOLE
     if function in ("keys", "values") and isinstance(operand, MapType):
         return ListType(TEXT if function == "keys" else operand.element)
@@ -242,7 +242,7 @@ def _of_many(function: str, element: Type, node: Expression | Each) -> Type:
             raise _needs(f"{function}()", "true or false", element, at)
         return BOOL
     if function == "unique":
-        if not isinstance(element, BasicType | EnumType):
+        if not isinstance(element, (BasicType, EnumType)):
             raise _needs("unique()", "plain values", element, at)
         return BOOL
     if not is_number(element):

@@ -55,7 +55,7 @@ def merge(type_: Type, entries_of_layers: Iterable[LayerEntry]) -> MergedValue |
     if not layers:
         return None
     key, top = layers[-1]
-    if not isinstance(type_, RecordType | MapType) or not isinstance(top, Mapping):
+    if not isinstance(type_, (RecordType, MapType)) or not isinstance(top, Mapping):
         return MergedValue(top, key, None, _overridden(layers[:-1]))
     first = len(layers) - 1
     while first > 0 and isinstance(layers[first - 1][1], Mapping):
@@ -94,14 +94,14 @@ def _without_null(data: Any, type_: Type) -> Any:
     """Data in a list, which does not merge, without null members, which reset to their defaults, and without the keys
     `x-…` of records, which are not members."""
     if isinstance(type_, ListType) and isinstance(data, list):
-        if not isinstance(type_.element, RecordType | MapType | ListType):
+        if not isinstance(type_.element, (RecordType, MapType, ListType)):
             return data
         return [_without_null(item, type_.element) for item in data]
-    if isinstance(type_, RecordType | MapType) and isinstance(data, dict):
+    if isinstance(type_, (RecordType, MapType)) and isinstance(data, dict):
         kept = data
         if isinstance(type_, RecordType) and any(name.startswith("x-") for name in data):
             kept = {name: value for name, value in data.items() if not name.startswith("x-")}
-        if None not in kept.values() and not any(isinstance(value, dict | list) for value in kept.values()):
+        if None not in kept.values() and not any(isinstance(value, (dict, list)) for value in kept.values()):
             return kept
         return {
             name: _without_null(value, below(type_, name) or type_) for name, value in kept.items() if value is not None

@@ -125,7 +125,7 @@ def _check_keys(node: Node) -> None:
 
 def _bound(scalar: Scalar, is_open: bool, type_: BasicType) -> Bound:
     value = scalar.data
-    assert isinstance(value, int | float)
+    assert isinstance(value, (int, float))
     return Bound(int(value) if type_.is_integer else value, is_open, scalar.lexeme)
 
 
@@ -237,7 +237,7 @@ def inside(node: Scalar, index: int) -> Span:
 
 
 def _size(type_: Type, node: Node) -> Type:
-    if not isinstance(type_, ListType | MapType):
+    if not isinstance(type_, (ListType, MapType)):
         raise _not_for("size", type_, node)
     data, old = node.data, type_.size
     ends: list[Any] = data if isinstance(data, list) else [data, data]
@@ -253,7 +253,7 @@ def _size(type_: Type, node: Node) -> Type:
 def _unique(type_: Type, node: Node) -> Type:
     if node.data is not True:
         return type_
-    if not isinstance(type_, ListType) or not isinstance(element := type_.element, BasicType | EnumType):
+    if not isinstance(type_, ListType) or not isinstance(element := type_.element, (BasicType, EnumType)):
         hint = "for records, write a constraint: unique(m.name for m in motors)"
         raise _misfit("unique", node, "applies only to lists of plain values", hint)
     possible = element.allowed if isinstance(element, EnumType) else element.values
@@ -264,7 +264,7 @@ def _unique(type_: Type, node: Node) -> Type:
 
 
 def _unit(type_: Type, node: Node) -> Type:
-    if isinstance(type_, ListType | MapType):
+    if isinstance(type_, (ListType, MapType)):
         return replace(type_, element=_unit(type_.element, node))
     if not isinstance(type_, BasicType) or not type_.is_number:
         raise _not_for("unit", type_, node)

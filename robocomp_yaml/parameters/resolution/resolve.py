@@ -256,13 +256,13 @@ def _plain_of(type_: Type) -> ScalarType | None:
     """The plain type of the entries of lists, at any depth; None if the entries are not plain."""
     while isinstance(type_, ListType):
         type_ = type_.element
-    return type_ if isinstance(type_, BasicType | EnumType) else None
+    return type_ if isinstance(type_, (BasicType, EnumType)) else None
 
 
 def _as_secret(type_: Type) -> Type:
-    if isinstance(type_, ListType | MapType):
+    if isinstance(type_, (ListType, MapType)):
         return replace(type_, element=_as_secret(type_.element))
-    return replace(type_, secret=True) if isinstance(type_, BasicType | EnumType) else type_
+    return replace(type_, secret=True) if isinstance(type_, (BasicType, EnumType)) else type_
 
 
 def _secret_by_name(type_: Type) -> Type:

@@ -217,7 +217,7 @@ class _ExpressionReader:
                 return LiteralExpression(_TRUTHS[name], at=at) if name in _TRUTHS else NameExpression(name, at=at)
             case ast.Attribute(value=of, attr=name):
                 return Attribute(self.read(of), name, at=self.at(node, node.end_col_offset) - len(name))
-            case ast.Subscript(value=of, slice=index) if not isinstance(index, ast.Slice | ast.Tuple):
+            case ast.Subscript(value=of, slice=index) if not isinstance(index, (ast.Slice, ast.Tuple)):
                 return Index(self.read(of), self.read(index), at=at)
             case ast.List(elts=items) | ast.Tuple(elts=items):
                 return ListExpression(tuple(self.read(item) for item in items), at=at)
@@ -252,7 +252,7 @@ class _ExpressionReader:
             raise ExpressionError(f"{function}() needs one argument", at)
         read: list[Expression | Each] = []
         for argument in arguments:
-            if isinstance(argument, ast.GeneratorExp | ast.ListComp):
+            if isinstance(argument, (ast.GeneratorExp, ast.ListComp)):
                 read.append(self.each(function, argument))
             else:
                 read.append(self.read(argument))

@@ -29,7 +29,7 @@ def fault(spelling: LegacySpelling, type_: Type) -> str:
         return "cannot have 'fields' together with 'key', 'columns' or 'separators'"
     if not spelling.fields and not key:
         return "has neither 'key' nor 'fields'"
-    if isinstance(type_, BasicType | EnumType):
+    if isinstance(type_, (BasicType, EnumType)):
         plain = not (spelling.fields or spelling.columns or spelling.separators or spelling.count or placeholders)
         return "" if plain else "is for rows, and the parameter is one plain value"
     if isinstance(type_, RecordType):
@@ -57,7 +57,7 @@ def _rows(spelling: LegacySpelling, element: Type, placeholders: tuple[str, ...]
         return "has placeholders other than {i}, and the entries are not records"
     if spelling.columns:
         return "has columns, and the entries are not records"
-    return "" if isinstance(element, BasicType | EnumType) else "cannot nest lists or maps in rows"
+    return "" if isinstance(element, (BasicType, EnumType)) else "cannot nest lists or maps in rows"
 
 
 def _row(spelling: LegacySpelling, record: RecordType, in_key: tuple[str, ...]) -> str:
@@ -67,7 +67,7 @@ def _row(spelling: LegacySpelling, record: RecordType, in_key: tuple[str, ...]) 
         member = record.member(name)
         if member is None:
             return f"names unknown member '{name}' of {record.name}"
-        if not isinstance(member.type, BasicType | EnumType):
+        if not isinstance(member.type, (BasicType, EnumType)):
             return f"has '{name}' in a row, which is not a plain value"
     both = set(in_key) & set(spelling.columns)
     if both:
@@ -87,7 +87,7 @@ def _fields(spelling: LegacySpelling, element: Type) -> str:
         member = element.member(name)
         if member is None:
             return f"names unknown member '{name}' of {element.name}"
-        if not isinstance(member.type, BasicType | EnumType):
+        if not isinstance(member.type, (BasicType, EnumType)):
             return f"has '{name}' as a field, which is not a plain value"
         if placeholders_of(key) != ("i",):
             return f"needs {{i}} once in the property of '{name}'"
@@ -107,7 +107,7 @@ def _separated(spelling: LegacySpelling, type_: ListType, placeholders: tuple[st
         depth += 1
     elif spelling.columns:
         return "has columns, and the entries are not records"
-    if not isinstance(found, BasicType | EnumType | RecordType):
+    if not isinstance(found, (BasicType, EnumType, RecordType)):
         return "cannot nest maps in one property"
     if depth != len(spelling.separators):
         return f"needs {depth} separator{'' if depth == 1 else 's'}, one for each level"

@@ -173,7 +173,7 @@ def _list(type_: ListType, node: Node, path: Path, complete: bool, key: Scalar |
     for index, item in enumerate(node.items):
         yield from judge(type_.element, item, (*path, index), complete=complete)
         if type_.unique:
-            known = item.data if isinstance(item.data, str | int | float) else repr(item.data)
+            known = item.data if isinstance(item.data, (str, int, float)) else repr(item.data)
             if known in seen:
                 value, fixes = shown(item, type_.element), [removal(item.span, safe=False)]
                 yield codes.NOT_UNIQUE.at(item.span, path=in_words(path), value=value, fixes=fixes)
@@ -210,7 +210,7 @@ def _record(type_: RecordType, node: Node, path: Path, complete: bool, key: Scal
         if member is None:
             if complete or not name.lexeme.startswith("x-"):  # an extension of the user
                 yield unknown(name, type_, path, node)
-        elif value.data is None and not isinstance(value, Mapping | Sequence):
+        elif value.data is None and not isinstance(value, (Mapping, Sequence)):
             if complete:
                 yield _wrong_type(member.type, value, (*path, name.lexeme), name)
         else:

@@ -75,7 +75,7 @@ def _rows(record: RecordType, prefix: str) -> Iterator[str]:
 def _linked(type_: Type) -> str:
     """The type in words, with a link to the section of a named type."""
     named = innermost(type_)
-    if not isinstance(named, RecordType | EnumType):
+    if not isinstance(named, (RecordType, EnumType)):
         return in_words(type_)
     inner = in_words(named)
     outer = in_words(type_).removesuffix(inner)

@@ -29,7 +29,7 @@ def is_surely_writable(parameters: Parameters, data: dict[str, Any]) -> bool:
     """Whether every value can certainly be written as a property."""
     spelled = {spelling.path for spelling in parameters.spellings}
     if any(
-        path in spelled and not isinstance(member.type, BasicType | EnumType)
+        path in spelled and not isinstance(member.type, (BasicType, EnumType))
         for path, member in leaves(parameters.root)
     ):
         return False
@@ -71,4 +71,4 @@ def _risky_members(record: RecordType, known: Known) -> list[ResolvedMember]:
 def _is_risky(type_: Type, known: Known) -> bool:
     if isinstance(type_, RecordType):
         return bool(_risky_members(type_, known))
-    return isinstance(type_, ListType | MapType) or (isinstance(type_, BasicType) and type_.name == "string")
+    return isinstance(type_, (ListType, MapType)) or (isinstance(type_, BasicType) and type_.name == "string")

@@ -183,7 +183,7 @@ class Writer(msgspec.Struct):
         return "its quotes would be removed when it is read" if is_unquoted else ""
 
     def spelled(self, spelling: LegacySpelling, type_: Type, data: Any, at: _Position) -> Iterator[Property]:
-        if isinstance(type_, BasicType | EnumType):
+        if isinstance(type_, (BasicType, EnumType)):
             yield from self.scalar(type_, data, at, spelling.key)
         elif isinstance(type_, RecordType):
             yield from self.row(spelling, spelling.key, type_, data, at)

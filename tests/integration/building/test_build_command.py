@@ -178,7 +178,7 @@ def test_a_stale_program_is_not_deployed(rcyaml: Rcyaml, tmp_path: Path) -> None
         result = rcyaml("deploy", command_)
         assert result.exit_code == 1
         assert (
-            "error[RC7016]: the program of 'eye' is older than what it is made of: eye/src/SpecificWorker.java"
+            "error[RC7016]: the program of 'eye' is older than its sources: eye/src/SpecificWorker.java"
             in result.stderr
         )
         assert "`rcyaml build EyeComp`" in result.stderr

@@ -146,7 +146,7 @@ def test_an_error_cannot_be_suppressed(diagnostics: Check) -> None:
     text = f"{METHODS}      find: {{in: {{x: Quux}}}}  # rcyaml: allow RC1010 -- it comes\n"
     diagnosed = diagnostics({"Speech.idsl.yaml": text})
     assert codes(diagnosed) == [("RC1010", 5), ("RC0064", 5)]
-    assert diagnosed[1]["message"] == "no comment can allow RC1010: it is an error"
+    assert diagnosed[1]["message"] == "a comment cannot allow RC1010: it is an error"
 
 
 def test_a_document_that_cannot_be_read_has_no_comments(diagnostics: Check) -> None:

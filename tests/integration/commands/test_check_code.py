@@ -64,7 +64,7 @@ def test_only_requested_components_are_reported(compiled: Path, rcyaml: Rcyaml) 
 
 
 def test_code_is_read_only_if_the_skeleton_has_changed(compiled: Path, rcyaml: Rcyaml) -> None:
-    for name in [name for name in sys.modules if name.startswith("robocomp_yaml.emit.specific.telling")]:
+    for name in [name for name in sys.modules if name.startswith("robocomp_yaml.emit.specific.reporting")]:
         del sys.modules[name]
     assert rcyaml("check").stdout == "3 documents: nothing wrong\n"
     assert "robocomp_yaml.emit.specific.reporting" not in sys.modules
@@ -79,7 +79,7 @@ def test_code_is_not_read_again_after_a_compile(
     compiled: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch
 ) -> None:  # fmt: skip
     looked: list[str] = []
-    monkeypatch.setattr("robocomp_yaml.emit.specific.written.of_written", lambda *_: looked.append("looked") or ())
+    monkeypatch.setattr("robocomp_yaml.emit.specific.existing_code.check", lambda *_: looked.append("looked") or ())
     (
         compiled / "py/generated/component.py"
     ).unlink()  # generated files do not change the diagnostics of the user's code

@@ -268,7 +268,7 @@ def test_a_guess_after_which_the_document_is_understood_is_applied(rcyaml: Run, 
     write_tree(tmp_path, {IDSL: text})
     result = rcyaml("check", "--unsafe-fixes")
     assert (tmp_path / IDSL).read_text() == text.replace("intefaces", "interfaces") and result.exit_code == 1
-    assert "no type called 'Quux'" in result.stdout and "no type called 'Zork'" in result.stdout
+    assert "unknown type 'Quux'" in result.stdout and "unknown type 'Zork'" in result.stdout
 
 
 def test_one_error_hides_another(rcyaml: Run, tmp_path: Path) -> None:

@@ -99,7 +99,7 @@ def test_settings_that_cannot_be_read_are_reported(rcyaml: Run, tmp_path: Path) 
     write_tree(tmp_path, {".vscode/settings.json": "{ nonsense"})
     result = rcyaml("init")
     assert result.exit_code == 0
-    assert "note: .vscode/settings.json is left as it is, since it is not JSON" in result.stderr
+    assert "note: .vscode/settings.json is not changed, because it is not JSON" in result.stderr
     assert read_tree(tmp_path)[".vscode/settings.json"] == "{ nonsense"
 
 

@@ -268,7 +268,7 @@ def test_a_configuration_that_is_no_document(robot: Path, rcyaml: Callable[..., 
     assert printed.count("RC4311") == (1 if line else 0), printed
     assert not sings(printed)
     if line:
-        assert f"speech/flat.conf holds a secret in line {line}, and others can read it" in printed
+        assert f"speech/flat.conf contains a secret in line {line}, and other users can read it" in printed
         assert "robot.ddsl.yaml:3:56" in printed and "`chmod 600 speech/flat.conf`" in printed
     (robot / "speech/flat.conf").chmod(0o600)
     assert "RC4311" not in rcyaml("check", "robot.ddsl.yaml").output
@@ -304,9 +304,8 @@ def test_other_values_are_shown(robot: Path, rcyaml: Callable[..., Any]) -> None
     """A message that hides too much hides the error."""
     (robot / CONFIG).write_text("component: ../speech.cdsl.yaml\nparameters: {wifi: canary, nam: 3, name: 7}\n")
     printed = rcyaml("check", CONFIG).output
-    assert "2 │ parameters: {wifi: ***, nam: 3, name: 7}\n  │                         ^^^ 'name' is there already" in (
-        printed
-    )
+    line = "2 │ parameters: {wifi: ***, nam: 3, name: 7}"
+    assert f"{line}\n  │                         ^^^ 'name' is already present" in printed
     assert "name must be text, and is 7" in printed
 
 

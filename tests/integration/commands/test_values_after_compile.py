@@ -116,7 +116,7 @@ def test_an_edit_that_would_be_lost_is_reported(rcyaml: Run, tmp_path: Path) -> 
     result = rcyaml("compile")
     assert result.exit_code == 1
     assert "RC6010" in result.stdout
-    assert "bring period.compute into speech/etc/config.yaml" in result.stdout
+    assert "move period.compute to speech/etc/config.yaml" in result.stdout
     assert rcyaml("config", "set", "speech", "period.compute", "20").exit_code == 0
     assert rcyaml("compile").exit_code == 0
     assert "period.compute=20\n" in config.read_text()

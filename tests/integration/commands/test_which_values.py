@@ -52,7 +52,7 @@ def test_the_other_commands_accept_all_forms(rcyaml: Run, tmp_path: Path, argume
     (["check", "base"], "components/base/etc/config.yaml does not exist yet: `rcyaml config new components/base/cdsl.yaml`"),
     (["show", "x.config.yaml"], "'x.config.yaml' does not exist"),
     (["new", "components/arm/a.cdsl.yaml"], "'components/arm/a.cdsl.yaml' does not exist"),
-    (["new", "rcyaml.yaml"], "'rcyaml.yaml' is no document of a component"),
+    (["new", "rcyaml.yaml"], "'rcyaml.yaml' is not a document of a component"),
     (["show", "empty"], "'empty' has no component; `rcyaml new component NAME` writes one"),
     (["get", "components/arm/arm.pdsl.yaml"], "components/arm/etc/config.yaml does not exist yet"),
 ])  # fmt: skip

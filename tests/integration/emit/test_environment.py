@@ -31,8 +31,8 @@ def test_cmake_finds_packages_and_libraries(rcyaml: Run, tmp_path: Path) -> None
     there = [{"cmake": "Threads"}, {"link": "m"}, {"link": "pthread"}]
     lost = [{"cmake": "LostPackage"}, {"link": "lostlibrary"}]
     assert warnings_of(rcyaml, tmp_path, [*there, *lost]) == [
-        "the CMake package LostPackage is not installed here",
-        "the library lostlibrary is not installed here",
+        "the CMake package LostPackage is not installed on this machine",
+        "the library lostlibrary is not installed on this machine",
     ]
 
 
@@ -43,7 +43,7 @@ def test_a_package_with_an_error_does_not_hide_others(
     write_tree(tmp_path, {"lib/cmake/Bad/BadConfig.cmake": "message(FATAL_ERROR no)\n"})
     monkeypatch.setenv("CMAKE_PREFIX_PATH", str(tmp_path))
     assert warnings_of(rcyaml, tmp_path, [{"cmake": "Bad"}, {"link": "m"}]) == [
-        "the CMake package Bad is not installed here"
+        "the CMake package Bad is not installed on this machine"
     ]
 
 
@@ -55,8 +55,8 @@ def test_pkg_config_versions(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.Mo
     versions = (">=3.9, <4", "3.10", ">3.10.1", "==3.10.1.0")
     libraries = [{"pkg-config": "own", "version": version} for version in versions]
     assert warnings_of(rcyaml, tmp_path, [*libraries, {"pkg-config": "lost-module"}]) == [
-        "the pkg-config module own >3.10.1 is not installed here: version 3.10.1 is installed",
-        "the pkg-config module lost-module is not installed here",
+        "the pkg-config module own >3.10.1 is not installed on this machine: version 3.10.1 is installed",
+        "the pkg-config module lost-module is not installed on this machine",
     ]
 
 
@@ -66,13 +66,13 @@ def test_pip_versions(rcyaml: Run, tmp_path: Path, language: str) -> None:
     libraries = [{"pip": "Click"}, *versions, {"pip": "no-such-thing"}]
     found = warnings_of(rcyaml, tmp_path, libraries, language)
     assert len(found) == 2
-    assert found[0].startswith("the Python package click <2 is not installed here: version ")
-    assert found[1] == "the Python package no-such-thing is not installed here"
+    assert found[0].startswith("the Python package click <2 is not installed on this machine: version ")
+    assert found[1] == "the Python package no-such-thing is not installed on this machine"
 
 
 def test_missing_programs_are_reported(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(environment.shutil, "which", lambda name: None)
     assert warnings_of(rcyaml, tmp_path, [{"cmake": "A"}, {"pkg-config": "b"}]) == [
-        "the CMake package A is not installed here: CMake, which would find it, is missing, too",
-        "the pkg-config module b is not installed here: pkg-config, which would find it, is missing, too",
+        "the CMake package A is not installed on this machine: CMake, which would detect it, is missing, too",
+        "the pkg-config module b is not installed on this machine: pkg-config, which would detect it, is missing, too",
     ]

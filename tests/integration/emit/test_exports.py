@@ -41,7 +41,7 @@ def test_golden(golden: Golden, form: str) -> None:
 
 def test_the_forms() -> None:
     assert forms() == ["compose", "icegrid", "rcmanager", "systemd"]
-    with pytest.raises(ValueError, match="no form 'helm'"):
+    with pytest.raises(ValueError, match="unknown form 'helm'"):
         export(speaking(), "helm")
 
 

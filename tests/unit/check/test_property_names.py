@@ -43,9 +43,9 @@ _INT = "{type: int, default: 1}"
                 "RC3116 'MovedTopic.Endpoints' and the endpoints of MovedTopic both use the property 'MovedTopic.Endpoints'"
             ],
         ),
-        (f"OtherProxy: {_INT}", "", ["RC3116 'OtherProxy' and the proxy Other are both the property 'OtherProxy'"]),
-        (f"Ice: {{group: {{x: {_INT}}}}}", "", ["RC3116 'Ice.x' and a property of Ice are both the property 'Ice.…'"]),
-        (f"a: {_INT}, b: {_INT}", "a: X, b: X", ["RC3116 'b' and 'a' are both the property 'X'"]),
+        (f"OtherProxy: {_INT}", "", ["RC3116 'OtherProxy' and the proxy Other both use the property 'OtherProxy'"]),
+        (f"Ice: {{group: {{x: {_INT}}}}}", "", ["RC3116 'Ice.x' and a property of Ice both use the property 'Ice.…'"]),
+        (f"a: {_INT}, b: {_INT}", "a: X, b: X", ["RC3116 'b' and 'a' both use the property 'X'"]),
         (
             f"a: {_INT}, ids: {{list: int, default: []}}",
             "a: Id7, ids: {key: 'Id{i}'}",

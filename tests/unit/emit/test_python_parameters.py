@@ -163,7 +163,7 @@ def test_an_error_names_value_and_parameter(arm: Any) -> None:
 
 
 def test_attributes_that_cannot_be_set(arm: Any) -> None:
-    with pytest.raises(AttributeError, match="there is no parameter 'basicperiod'"):
+    with pytest.raises(AttributeError, match="unknown parameter 'basicperiod'"):
         arm.basicperiod = 3
     with pytest.raises(AttributeError, match="use set"):
         arm.motors[0].vel = 1.0

@@ -158,7 +158,7 @@ def test_a_component_and_its_parameters_agree_on_the_period() -> None:
         ('a: {list: int, unique: true, default: [1, 1]}', '', 'RC3113', '1', 'the default of a contains 1 twice', ''),
         ('a-b: int', '', 'RC3114', 'a-b', "'a-b' cannot be a name in code", 'for instance as: a_b'),
         ('2d: int', '', 'RC3114', '2d', "'2d' cannot be a name in code", 'for instance as: p2d'),
-        ('class: int, class_: int', '', 'RC3115', 'class_', "'class_' and 'class' are both named 'class_' in Python", 'give one of them another name in code with as:'),
+        ('class: int, class_: int', '', 'RC3115', 'class_', "'class_' and 'class' are both named 'class_' in Python", 'set another name in code for one of them with as:'),
     ],
 )  # fmt: skip
 def test_wrong_parameters(flow: str, types: str, code: str, at: str, message: str, hint: str) -> None:

@@ -99,7 +99,7 @@ def test_what_extends_nothing_is_told_once(tmp_path: Path) -> None:
             f"big: {10**50}",
             f"5:8 RC3303 big is 1{38 * '0'}…, and must be from -9223372036854775808 to 9223372036854775807 (long)",
         ),
-        ("volume: 1\n  volumee: 1", "6:3 RC3301 there is no parameter 'volumee' ('volume' is already present)"),
+        ("volume: 1\n  volumee: 1", "6:3 RC3301 unknown parameter 'volumee' ('volume' is already present)"),
         ("period: {compute: 0}", "5:21 RC3303 period.compute is 0 ms, and must be at least 1 ms"),
     ],
 )
