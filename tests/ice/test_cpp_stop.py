@@ -125,7 +125,7 @@ def test_what_it_is_told(turns: list[str | Path], start: Start, behavior: Ask, p
     changed = asked.getParameterList()
     changed["a"].value, changed["period.compute"].value = "2", "99"
     asked.setParameterList(changed)
-    running.wait_for("WARNING Turns: setParameterList rejected: there is no parameter 'a'")
+    running.wait_for("WARNING Turns: setParameterList rejected: unknown parameter 'a'")
     assert asked.getPeriod() == 20, "all, or none"
     config = Path(turns[1])
     config.write_text(config.read_text() + "period.compute = 30\n")

@@ -85,7 +85,7 @@ def test_what_it_is_told(component: Built, start: Start, behavior: Ask, port: in
     changed = asked.getParameterList()
     changed["Arm.Speed"].value, changed["period.compute"].value = "2", "99"
     asked.setParameterList(changed)
-    running.wait_for("setParameterList rejected: there is no parameter 'Arm.Speed'")
+    running.wait_for("setParameterList rejected: unknown parameter 'Arm.Speed'")
     assert asked.getPeriod() == 20, "all, or none"
     config = component.root / "etc" / "config"
     config.write_text(config.read_text() + "period.compute = 30\n")
