@@ -63,7 +63,7 @@ class _Duration(click.ParamType):  # type: ignore[type-arg]  # older ones are no
 
         seconds = value if isinstance(value, float) else duration(value)
         if not seconds:
-            self.fail(f"'{value}' is no duration, such as 30s or 2min", param, ctx)
+            self.fail(f"'{value}' is not a duration, such as 30s or 2min", param, ctx)
         return seconds
 
 

@@ -93,7 +93,7 @@ def _refuse_to_overwrite(path: str) -> None:
     with _options.writing(path), open(path, "rb") as file:
         words = file.read(40).split()
     if words and words[:2] != [b"{", b'"files":']:
-        raise click.UsageError(f"--report does not overwrite {path}, which is no earlier report")
+        raise click.UsageError(f"--report does not overwrite {path}, which is not an earlier report")
 
 
 def _save(path: str, text: str) -> None:

@@ -48,7 +48,7 @@ def is_values(path: str) -> bool:
 
 
 def include_path(deployment: Deployment, text: str, disk: Disk) -> str | None:
-    """The path of an included deployment; None if it is no deployment document."""
+    """The path of an included deployment; None if it is not a deployment document."""
     path = joined(document_folder(deployment), text)
     name = os.path.basename(path)
     is_deployment = name == "ddsl.yaml" or name.endswith(".ddsl.yaml")

@@ -63,7 +63,7 @@ def seconds(node: Node | None) -> float | None:
 
 
 def duration(text: str) -> float | None:
-    """The seconds of `100 ms`, `10 s` or `2min`; None if the text is no duration."""
+    """The seconds of `100 ms`, `10 s` or `2min`; None if the text is not a duration."""
     parts = re.fullmatch(_DURATION, text.strip())
     return float(parts[1]) * _SECONDS[parts[2]] if parts else None
 

@@ -91,7 +91,7 @@ def quoted(text: str) -> str:
 
 
 def script(text: str) -> list[str]:
-    """The names of a script's actions. Raises NullSyntaxError if a part of the text is no name."""
+    """The names of a script's actions. Raises NullSyntaxError if a part of the text is not a name."""
     actions: list[str] = []
     for part in re.split(r"[;\n]", text):
         if part := part.strip():

@@ -138,7 +138,7 @@ def _why_not(error: BaseException, name: str) -> str:
 def _problem_of_codes(module: ModuleType) -> str:
     for code in codes_in(module):
         if not _CODE.fullmatch(code.id):
-            return f"'{code.id}' is no code: a code has two or more capital letters, and three or four digits"
+            return f"'{code.id}' is not a code: a code has two or more capital letters, and three or four digits"
         if _OWN_CODE.match(code.id):
             continue  # a code of rcyaml, which it may report; `_clash` compares them
         try:

@@ -95,7 +95,7 @@ def test_an_attached_up_takes_all_down_at_its_end(legs: Path) -> None:
         (lambda: opened(engine="icegrd"), "no engine 'icegrd'; did you mean 'icegrid'?"),
         (lambda: opened().up(on_failure="rolback"), "did you mean 'rollback'?"),
         (lambda: opened().export("systmd"), "did you mean 'systemd'?"),
-        (lambda: opened(path="other.ddsl.yaml"), "'other.ddsl.yaml' is no deployment"),
+        (lambda: opened(path="other.ddsl.yaml"), "'other.ddsl.yaml' is not a deployment"),
     ],
 )
 def test_unknown_names_are_rejected(legs: Path, call: Callable[[], object], said: str) -> None:

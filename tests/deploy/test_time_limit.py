@@ -131,4 +131,4 @@ def test_the_command(engine: str, place: Place, tmp_path: Path, rcyaml: Callable
 def test_a_time_has_a_unit(time: str, tmp_path: Path, rcyaml: Callable[..., Result]) -> None:
     write_tree(tmp_path, {"robot.ddsl.yaml": ROBOT})
     result = rcyaml("deploy", "up", "robot.ddsl.yaml", f"--timeout={time}")
-    assert result.exit_code == 2 and f"'{time}' is no duration, such as 30s or 2min" in result.stderr
+    assert result.exit_code == 2 and f"'{time}' is not a duration, such as 30s or 2min" in result.stderr

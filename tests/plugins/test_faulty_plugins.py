@@ -78,7 +78,7 @@ def found(done: subprocess.CompletedProcess[str]) -> dict[str, dict[str, object]
         ("graphs/a", "draw = None\n", "draw is not a function"),
         ("formats/a", "RULES = ''\n", "mod has no convert"),
         ("languages/a", "LANGUAGE = 'a'\n", "LANGUAGE is not a TargetLanguage"),
-        ("checks/a", PAGE.replace("{code}", "odd1"), "'odd1' is no code"),
+        ("checks/a", PAGE.replace("{code}", "odd1"), "'odd1' is not a code"),
         ("checks/a", PAGE.replace("code('{code}')", "code('ODD002')").replace("{code}", "ODD001"), "ODD002"),
     ],
 )

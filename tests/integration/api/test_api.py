@@ -97,7 +97,7 @@ def test_which_network(place: Path) -> None:
     assert sorted(workspace.networks) == ["arm.ddsl.yaml", "robot.ddsl.yaml"]
     with pytest.raises(api.Refused, match="arm.ddsl.yaml, robot.ddsl.yaml"):
         workspace.network()
-    with pytest.raises(api.Refused, match="'leg.ddsl.yaml' is no deployment"):
+    with pytest.raises(api.Refused, match="'leg.ddsl.yaml' is not a deployment"):
         workspace.network("leg.ddsl.yaml")
     write_tree(place, {"arm.ddsl.yaml": "deployment: [\n"})
     with pytest.raises(api.Faulty) as faulty:

@@ -143,7 +143,7 @@ def test_a_report_overwrites_nothing_but_a_report(path: str, rcyaml: Run, tmp_pa
     write_tree(tmp_path, files)
     result = rcyaml("migrate", "Speech.idsl", "-o", "out", "--report", path)
     assert result.exit_code == 2
-    assert f"--report does not overwrite {path}, which is no earlier report" in result.output
+    assert f"--report does not overwrite {path}, which is not an earlier report" in result.output
     assert read_tree(tmp_path) == files
     for _ in range(2):
         assert rcyaml("migrate", "Speech.idsl", "-o", "out", "--report", "ledger.json").exit_code == 0
