@@ -158,7 +158,7 @@ class Workspace:
             return only_deployment(found)
         if any(document.kind == "ddsl" and (not path or real in candidates) for real, document in read.items()):
             raise Faulty(self.analysis.diagnostics, self.documents_read)
-        raise Refused(f"'{path}' is not a deployment" if path else "there is not a deployment")
+        raise Refused(f"'{path}' is not a deployment" if path else "the loaded documents contain no deployment")
 
     def values(self, path: str = "") -> Values:
         """The values of a component's parameters: `path` is the document of the values or of the component, its folder,

@@ -46,7 +46,7 @@ def conflicts(output: str, files: Mapping[str, str]) -> list[Diagnostic]:
     """Files at the paths of exported files that no export wrote, or that were edited. Raises OSError."""
     written = _record(output)
     found = {path: _read(os.path.join(output, path)) for path in files}
-    hint = "or it was edited since; move it away, or export to another folder"
+    hint = "move it away, or export to another folder; an exported file that was edited is kept too"
     return [
         emitting.NOT_GENERATED.at(Span(os.path.join(output, path)), path=path, hint=hint)
         for path, data in found.items()

@@ -449,7 +449,7 @@ def test_an_export_overwrites_only_what_it_wrote(robot: Path, rcyaml: Rcyaml) ->
 
     write_tree(robot, {"Robot.xml": "<rcmanager/>"})  # what the deployment was migrated from
     refused = run()
-    assert refused.exit_code == 1 and "'Robot.xml' is there already" in refused.stderr
+    assert refused.exit_code == 1 and "'Robot.xml' exists, and rcyaml did not write it" in refused.stderr
     assert (robot / "Robot.xml").read_text(encoding="utf-8") == "<rcmanager/>"
     (robot / "Robot.xml").unlink()
     assert run().exit_code == 0

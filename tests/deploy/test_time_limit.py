@@ -117,7 +117,7 @@ def test_the_command(engine: str, place: Place, tmp_path: Path, rcyaml: Callable
     write_tree(tmp_path, {"robot.ddsl.yaml": ROBOT + MORE})
     result = deploy("up", "--timeout", "6s")
     assert result.exit_code == 1
-    assert result.stdout.endswith("Robot: failed; what was started was stopped\n")
+    assert result.stdout.endswith("Robot: failed; the started processes were stopped\n")
     assert "error[RC7011]: the time limit of 6 s expired when 1 of 3 processes was ready" in result.stderr
     assert "    ready: base\n    pending: arm\n    not started: hand\n" in result.stderr
     assert "robot.ddsl.yaml:4:3" in result.stderr and "arm | no motor" in result.stderr

@@ -33,7 +33,7 @@ def test_the_network_answers(tmp_path: Path) -> None:
     assert not done.stderr and "warning" not in done.stdout.lower() and "\x1b" not in done.stdout
     parts = (
         "10 documents: nothing wrong\n", "ShellyHead: 3 processes as desired\n", "$ python3 say.py 'speech:tcp -h 127.0.0.1",
-        "Speech.say('I am up and running') answers True\n", "speech   ready", "says 'running' with the mouth", "stopped\n",
+        "Speech.say('I am up and running') returns True\n", "speech   ready", "says 'running' with the mouth", "stopped\n",
     )  # fmt: skip
     places = [done.stdout.find(part) for part in parts]
     assert -1 not in places and places == sorted(places), done.stdout

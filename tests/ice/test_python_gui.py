@@ -155,7 +155,10 @@ def test_it_waits_for_others_with_its_window_open(build: Build, start: Start, fr
     ("form", "says"),
     [
         ("<ui", "src/mainUI.ui is not a form"),
-        (FORM.format(base="QWidget").replace("guiDlg", "Other"), "src/mainUI.ui is not a form for the window: its <class> must be guiDlg"),
+        (
+            FORM.format(base="QWidget").replace("guiDlg", "Other"),
+            "src/mainUI.ui is not a form for the window: its <class> must be guiDlg",
+        ),
         (FORM.format(base="QMainWindow").replace("<widget class", "<widget  class"), None),
     ],
     ids=["no-xml", "another-class", "fine"],
