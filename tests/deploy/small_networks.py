@@ -142,7 +142,13 @@ class Place:
 
     def wait_gone(self) -> None:
         """Waits until no process of the deployment runs, nor its supervisor."""
-        until(lambda: not [pid for pid in procfs.marked(self.folder) if is_alive(pid)], "nothing is left")
+
+        def is_gone() -> bool:
+            if any(is_alive(pid) for pid in procfs.marked(self.folder)):
+                return False  # an ending process has lost its mark already; the record still knows the keeper
+            return not record.is_there(self.folder) or record.was_killed(self.folder)
+
+        until(is_gone, "nothing is left")
 
     def keeper_and_supervisor(self) -> tuple[int, int]:
         keeper = int(Path(self.folder, record._FILE).read_text(encoding="ascii").split()[0])
