@@ -1,8 +1,8 @@
-# rcyaml: `make demo` shows what it does, `make test` proves that it works.
+# rcyaml: `make demo` shows what it does, `make test` tests it.
 
 VENV ?= .venv
 export VENV
-# Ice comes as a module for Debian's own python3; a newer one in front of it cannot load it.
+# Debian's module of Ice is for Debian's own python3. A newer Python that is first on PATH cannot load it.
 PYTHON ?= $(or $(RCYAML_PYTHON),$(shell /usr/bin/python3 -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null \
   && echo /usr/bin/python3 || echo python3))
 JOBS ?= 2
@@ -10,13 +10,13 @@ FUZZ_MINUTES ?= 10
 MUTANTS ?= 60
 SEED ?= 1
 
-# What the system is to have for a goal: installed where that may be done, else named.
+# The packages that a goal needs. They are installed if possible; otherwise they are listed.
 demo_NEEDS := python3-venv python3-zeroc-ice
 test_NEEDS := $(demo_NEEDS) \
   zeroc-ice-compilers libzeroc-ice-dev zeroc-ice-slice zeroc-icebox libzeroc-icestorm3.7 zeroc-icegrid zeroc-ice-utils \
   qt6-base-dev cmake g++ make ninja-build nodejs npm git openssl iproute2 \
   openjdk-17-jdk-headless libzeroc-ice3.7-java
-# More for the tests than one wants by the way on a machine of one's own: the CI has an SSH server, and systemd.
+# More packages for the tests, which few want on their own machine: the CI has an SSH server, and systemd.
 MORE ?=
 
 .PHONY: help demo test test-long fast unit fuzz mutants lint format macros bench ice clean system-demo system-test
@@ -24,18 +24,18 @@ MORE ?=
 
 help:
 	@echo "make demo   install into $(VENV), and run the example: migrate, check, compile, deploy, call"
-	@echo "make test   install what the tests need, and run them all"
+	@echo "make test   install the requirements of the tests, and run all tests"
 	@echo "make test-long  the same with all C++ builds and more random cases: more than half an hour"
-	@echo "make unit   the tests of parts by themselves: some 30 seconds"
-	@echo "make fast   the tests that need neither C++ builds nor an editor"
-	@echo "make fuzz   look for new failing examples, for FUZZ_MINUTES=10 minutes"
-	@echo "make mutants  MUTANTS=60 small changes of what the code means, SEED=1: which the unit tests notice"
+	@echo "make unit   the unit tests: some 30 seconds"
+	@echo "make fast   the tests without C++ builds, editor and Ice"
+	@echo "make fuzz   search for new failing examples, for FUZZ_MINUTES=10 minutes"
+	@echo "make mutants  mutation tests: which of MUTANTS=60 small changes (SEED=1) the unit tests detect"
 	@echo "make bench  the benchmarks, as ratios"
-	@echo "make lint   the code by itself: rules, types, layers"
-	@echo "make format the order of imports, and the format, of all code"
-	@echo "make macros the names that C++ takes, from this machine's compiler and headers"
-	@echo "make ice    compile Ice into $(VENV), where Debian's python3-zeroc-ice cannot be installed: minutes"
-	@echo "make clean  remove $(VENV) and what the demo made"
+	@echo "make lint   static checks: rules, format, types, layers"
+	@echo "make format sort the imports, and format the code"
+	@echo "make macros update the names that C++ reserves, from this machine's compiler and headers"
+	@echo "make ice    compile Ice into $(VENV), if python3-zeroc-ice of Debian cannot be installed: some minutes"
+	@echo "make clean  remove $(VENV) and the files of the demo"
 
 system-demo system-test: system-%:
 	@$(PYTHON) tools/prepare.py system $* $($*_NEEDS) $(if $(filter test,$*),$(MORE))
@@ -57,13 +57,13 @@ ice: $(VENV)/rcyaml
 test: system-test $(VENV)/tests
 	@$(VENV)/bin/python -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder -q
 
-# What seldom breaks and takes long to build, and the random tests with more cases.
+# All builds, also the long ones that seldom fail, and more cases in random tests.
 test-long: export RCYAML_ALL_BUILDS := 1
 test-long: export RCYAML_CASES := 4000
 test-long: export RCYAML_CPP_DOCUMENTS := 60
 test-long: test
 
-# The names that C++ takes, as this machine's compiler and headers have them; it only adds.
+# Adds the names that this machine's compiler and headers reserve in C++.
 macros: $(VENV)/tests
 	@$(VENV)/bin/python tests/ice/cpp_macros.py
 

@@ -1,9 +1,9 @@
-"""What reading a parameter costs while a component runs, in Python and in C++, and what setting one costs.
+"""The time for reading and setting a parameter while a component runs, in Python and in C++.
 
     python benchmarks/accessors.py
 
-The component is compiled from the document below; Python is compared with a plain attribute, C++ (-O2) is in
-nanoseconds, alone and while another thread sets a parameter a thousand times a second.
+The component is compiled from the document below. Python is compared with a plain attribute; C++ (-O2) is measured in
+nanoseconds, with and without another thread that sets a parameter a thousand times a second.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ codes = {
     "a record's in a list": "worker.parameters.motors[0].vel",
 }
 best = dict.fromkeys(codes, 1e9)
-for _ in range(100):  # in turn, so that what else the machine does is the same for all
+for _ in range(100):  # in turn, so that other load of the machine affects all alike
     for name, code in codes.items():
         best[name] = min(best[name], timeit.timeit(code, globals=globals(), number=30_000) / 30_000 * 1e9)
 floors = [taken for name, taken in best.items() if "plain" in name for _ in "12"]
@@ -143,7 +143,7 @@ def main() -> None:
         python = compiled(Path(name) / "python", "python")
         subprocess.run([sys.executable, "-c", PYTHON, python], check=True)
         if shutil.which("g++") is None:
-            sys.exit("there is no g++ here: nothing of C++ was measured")
+            sys.exit("g++ is not installed: C++ was not measured")
         cpp = compiled(Path(name) / "cpp", "cpp") / "generated"
         sources = ["kinds", "texts", "references", "secrecy", "reading", "editing", "store"]  # what needs no Ice
         text = "".join(f'#include "{cpp}/runtime/{source}.cpp"\n' for source in sources)

@@ -1,10 +1,12 @@
-"""Builds: nothing to do for many components, and what each further C++ component costs beside a bare Ice server.
+"""Builds: nothing to do for many components, and the time for each further C++ component, compared with a bare Ice
+server.
 
     python benchmarks/building.py [RUNS]
 
-Seconds of processors, user and system, of all processes. The bare server is what slice2cpp makes of the same Slice,
-with a main program of a few lines, by CMake and Ninja: it is built beside each step, in turn, and the ratio is theirs.
-The run time's libraries are kept apart for this, so that "the first ever" compiles them; ccache is not used.
+CPU seconds, user and system, of all processes. The bare server is the output of slice2cpp for the same Slice, with a
+main program of a few lines, built with CMake and Ninja. It is built after each step, and the result is the ratio of
+both. The run time's libraries are cached in a separate folder, so that the first component compiles them; ccache is not
+used.
 """
 
 from __future__ import annotations
@@ -136,7 +138,7 @@ def steps(work: Path) -> None:
 
 
 def nothing_to_do(work: Path, runs: int) -> None:
-    """Without their programs being built: a stamp is as good for any program that stands there."""
+    """The programs are not built: a stamp holds for any file at the program's path."""
     from robocomp_yaml import api
     from robocomp_yaml.api.building import units
     from robocomp_yaml.building import stamps

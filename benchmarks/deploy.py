@@ -1,9 +1,9 @@
-"""Deployments: 50 small processes brought up, left alone, killed and taken down; a document of 500 planned.
+"""Deployments: 50 small processes are started, left unchanged, killed and stopped; a document of 500 is planned.
 
     python benchmarks/deploy.py [RUNS]
 
-Times of the clock, in seconds, as a user waits for them: median (min–max). The floor of an `up` is a Python process
-that only starts the same 50 programs, one after the other. Every process counts as ready after a tenth of a second.
+Wall-clock times in seconds: median (min–max). The floor of an `up` is a Python process that only starts the same 50
+programs, one after the other. Every process is ready after a tenth of a second.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ FLOOR = f"import subprocess\nfor _ in range({COUNT}): subprocess.Popen(['true'])
 
 
 def document(path: Path, count: int, width: int) -> Path:
-    """So many sleepers, in chains: each is after the one that stands `width` before it."""
+    """A document of `count` sleeping processes; each is after the one that precedes it by `width`."""
     lines = ["deployment: Many", "components:"]
     for number in range(count):
         after = f", after: [p{number - width}]" if number >= width else ""

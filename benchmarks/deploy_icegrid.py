@@ -1,14 +1,14 @@
-"""Deployments with IceGrid: 50 small processes brought up by IceGrid alone, by the engine `icegrid` and by `local`.
+"""Deployments with IceGrid: 50 small processes are started by IceGrid alone, by the engine `icegrid` and by `local`.
 
     python benchmarks/deploy_icegrid.py [RUNS]
 
 IceGrid alone is a Python program that starts a registry and a node (plain TCP), adds an application of 50 plain servers
-and starts them all through the Admin API: no order, no readiness, no configuration. All begin with nothing running, and
-the runs of the three take turns. Then one process is killed again and again, until its next run exists: under IceGrid
-alone as an `always` server.
+and starts all of them through the Admin API: without order, readiness and configuration. Nothing runs at the beginning,
+and the runs of the three alternate. Then processes are killed, and the time until their next run is measured; with
+IceGrid alone they are `always` servers.
 
-The processes are `sleep`, and then, where there are g++ and Ice for C++, small servers of Ice, components to rcyaml,
-which count as up when all that they serve answers to `ice_ping`: the program of IceGrid alone pings them as well.
+The processes are `sleep`, and then, if g++ and Ice for C++ are installed, small Ice servers, which are components for
+rcyaml. They are ready when all their interfaces answer `ice_ping`; the program of IceGrid alone pings them, too.
 """
 
 from __future__ import annotations
@@ -47,8 +47,8 @@ COMPONENTS = {
 
 @dataclass(frozen=True)
 class Load:
-    """The same processes twice: as a document of rcyaml, and as the commands that IceGrid alone is given, with the
-    proxies that answer when they are up."""
+    """The same processes twice: as a document of rcyaml, and as commands for IceGrid alone, with the proxies that
+    answer when the processes are ready."""
 
     document: Path
     commands: list[list[str]]
@@ -62,7 +62,7 @@ def sleepers(folder: Path) -> Load:
 
 
 def servers(folder: Path) -> Load | None:
-    """None where they cannot be built."""
+    """The Ice servers; None if they cannot be built."""
     folder.mkdir()
     options = ["-O2", "-std=c++11", "-DICE_CPP11_MAPPING", "-lIce++11", "-pthread"]
     command = ["g++", str(SERVER), "-o", str(folder / "server"), *options]
@@ -81,7 +81,7 @@ def servers(folder: Path) -> Load | None:
 
 
 class Alone:
-    """A registry and a node of IceGrid's own, in a folder."""
+    """A registry and a node of IceGrid without rcyaml, in a folder."""
 
     def __init__(self, folder: Path, load: Load) -> None:
         self.folder = folder
@@ -91,7 +91,7 @@ class Alone:
         self.daemons: list[subprocess.Popen[bytes]] = []
 
     def up(self, activation: str = "manual") -> None:
-        """As a program of its own would do it, but for the start of Python."""
+        """Starts the application in a separate Python process."""
         for name in ("registry", "node"):
             (self.folder / name).mkdir(parents=True)
         own = "tcp -h 127.0.0.1"
@@ -100,7 +100,7 @@ class Alone:
             "IceGrid.Registry.Internal.Endpoints": own, "IceGrid.Registry.LMDB.Path": f"{self.folder}/registry",
             "IceGrid.Registry.AdminPermissionsVerifier": "IceGrid/NullPermissionsVerifier",
         })  # fmt: skip
-        while not self._answers():  # a node that finds no registry looks for it again only after 10 s
+        while not self._answers():  # a node that cannot reach the registry tries again only after 10 s
             time.sleep(0.005)
         self._start("icegridnode", {
             "Ice.Default.Locator": f"IceGrid/Locator:{own} -p {self.port}", "IceGrid.Node.Name": "here",
@@ -129,7 +129,7 @@ class Alone:
 
 
 def deploy_alone(port: int, activation: str) -> None:
-    """Adds the application, starts all its servers, and waits for what they serve."""
+    """Adds the application, starts all its servers, and waits until their proxies answer."""
     import Ice
     import IceGrid
 
@@ -205,7 +205,7 @@ def crashes_alone(alone: Alone) -> list[float]:
 
 
 def crashes_of_ours(folder: str) -> list[float]:
-    """Until `run` tells of the next run's pid."""
+    """The seconds from each crash until `run` writes the pid of the next run."""
 
     def crash(status: Path) -> None:
         before = status.read_text()
@@ -218,7 +218,7 @@ def crashes_of_ours(folder: str) -> list[float]:
 
 
 def tell(what: str, samples: dict[str, list[float]], goal: str) -> None:
-    """The medians side by side, with their ratios to IceGrid alone."""
+    """Prints the medians, with their ratios to IceGrid alone."""
     floor = statistics.median(samples["IceGrid alone"])
     shown = "  ".join(
         f"{name} {(median := statistics.median(of)):.2f} s ({min(of):.2f}–{max(of):.2f}, ×{median / floor:.2f})"
@@ -239,7 +239,7 @@ def main(runs: int) -> None:
             tell(f"up, {COUNT} servers of Ice until all answer", ups, "IceGrid alone + 0.5 s")
             print(f"up, nothing to do: icegrid {statistics.median(again):.2f} s; goal: 1 s")
         else:
-            print("servers of Ice cannot be built here: g++ or Ice for C++ is missing (Debian: libzeroc-ice-dev)")
+            print("Ice servers cannot be built: g++ or Ice for C++ is missing (Debian: libzeroc-ice-dev)")
 
 
 def measured(load: Load, runs: int) -> tuple[dict[str, list[float]], list[float], dict[str, list[float]]]:

@@ -1,5 +1,5 @@
-"""Deployments: a document of 500 components read, derived and checked, in seconds; and that twice as many take twice as
-long.
+"""Deployments: CPU seconds for reading, deriving and checking a document of 500 components, and whether the time is
+linear in the number of components.
 
     python benchmarks/deployments.py [RUNS]
 """
@@ -26,7 +26,7 @@ topics:
 
 
 def deployment(folder: Path, size: int) -> Path:
-    """A chain of so many components of ten kinds on four hosts, each with a topic and a value of its own."""
+    """A chain of `size` components of ten kinds on four hosts, each with a topic and a value of its own."""
     folder.mkdir(parents=True)
     (folder / "Work.idsl.yaml").write_text(INTERFACE)
     for kind in range(KINDS):

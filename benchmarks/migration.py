@@ -1,4 +1,4 @@
-"""The corpus of legacy files beside the checkout, migrated: what became of each format, and how long it took.
+"""Migrates the corpus of legacy files beside the checkout, and prints the result and the time for each format.
 
 python benchmarks/migration.py
 """
@@ -20,7 +20,7 @@ STATES = ("converted", "warned", "refused", "skipped")
 
 def main() -> None:
     if not CORPUS.is_dir():
-        sys.exit("there is no corpus beside the checkout")
+        sys.exit("the corpus beside the checkout is missing")
     states = "".join(f"{state:>11}" for state in STATES)
     print(f"{'format':<12}{'files':>6}{states}{'lines lost':>12}{'seconds':>9}{'MiB':>6}")
     folders = sorted(path for path in CORPUS.iterdir() if path.is_dir())

@@ -1,9 +1,9 @@
-"""The benchmarks: whole processes, run in turn with what they are compared to, reported as ratios.
+"""The benchmarks: whole processes, which alternate with what they are compared with, reported as ratios.
 
     make bench                  # or: python benchmarks/run.py [RUNS]
 
 The floor of reading is a Python process that only composes the same documents with libyaml's C parser. The documents
-are the migrated interfaces of the corpus beside the checkout where it is there, else generated ones.
+are the migrated interfaces of the corpus beside the checkout, or, if it is missing, generated ones.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ for path in sys.argv[1:]:
 
 @dataclass(frozen=True)
 class Usage:
-    """Of one process: seconds of processor time and of the clock, and the peak of its memory in MiB."""
+    """The CPU and wall-clock seconds of a process, and the peak of its memory in MiB."""
 
     cpu: float
     wall: float
@@ -39,7 +39,7 @@ class Usage:
 
 
 def measure(command: list[str], fresh: Path | None = None) -> Usage:
-    """One run of a command; the folder `fresh` is removed before."""
+    """The usage of one run of a command; the folder `fresh` is deleted before."""
     if fresh is not None:
         shutil.rmtree(fresh, ignore_errors=True)
     start = os.times().elapsed
@@ -53,7 +53,7 @@ def compare(
     label: str, command: list[str], other: list[str], goal: str, runs: int,
     fresh: Path | None = None, other_fresh: Path | None = None,
 ) -> None:  # fmt: skip
-    """Runs the two in turn, once for warming up; prints the median of the ratios pair by pair."""
+    """Runs both commands alternately, after a warm-up; prints the median of the pairs' ratios."""
     measure(command, fresh), measure(other, other_fresh)
     pairs = [(measure(command, fresh), measure(other, other_fresh)) for _ in range(runs)]
     cpu = statistics.median(one.cpu / two.cpu for one, two in pairs)
@@ -64,7 +64,7 @@ def compare(
 
 
 def generated(folder: Path, modules: int, interfaces: int) -> Path:
-    """Modules of so many interfaces each, each importing the one before."""
+    """A folder of `modules` documents with `interfaces` interfaces each; each imports the previous one."""
     folder.mkdir(parents=True)
     for m in range(modules):
         lines = [f"module: RoboCompGen{m}", f"imports: [Gen{m - 1}]" if m else "imports: []", "types:"]
@@ -77,7 +77,7 @@ def generated(folder: Path, modules: int, interfaces: int) -> Path:
 
 
 def documents(work: Path) -> Path:
-    """Documents without errors, to be read by all."""
+    """A folder of documents without errors."""
     if not CORPUS.is_dir():
         return generated(work / "generated", 140, 3)
     folder = work / "corpus"
@@ -105,7 +105,7 @@ def component(folder: Path, language: str) -> Path:
 
 
 def main(runs: int) -> None:
-    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # what is installed has its bytecode; the run to warm up makes it
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # the warm-up writes the bytecode that an installed rcyaml has
     with tempfile.TemporaryDirectory() as name:
         work = Path(name)
         docs = documents(work)

@@ -1,4 +1,4 @@
-"""Values: a document of 5,000 records checked, and a 350-line PDSL compiled, as ratios.
+"""Values: checking a document of 5,000 records, as ratios, and compiling a 350-line PDSL.
 
     python benchmarks/values.py [RUNS]
 
@@ -30,7 +30,7 @@ TYPES = """types:
 
 
 def records(folder: Path, *, complete: bool) -> Path:
-    """A component with so many records; those that are not complete lack one member with a default each."""
+    """A values document with RECORDS records; unless `complete`, each lacks one member with a default."""
     (folder / "etc").mkdir(parents=True)
     (folder / "c.cdsl.yaml").write_text("component: C\nlanguage: python\n")
     (folder / "c.pdsl.yaml").write_text(
@@ -87,6 +87,6 @@ def main(runs: int) -> None:
 
 if __name__ == "__main__":
     os.environ.pop("RCYAML_PATH", None)
-    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # a cold compile finds rcyaml itself compiled
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # a cold compilation uses rcyaml's own bytecode
     subprocess.run([*RCYAML, "--version"], stdout=subprocess.DEVNULL, check=True)
     main(int(sys.argv[1]) if len(sys.argv) > 1 else 5)

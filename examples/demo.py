@@ -1,7 +1,7 @@
-"""The main job on the examples, as a user would do it: migrate, check, compile, deploy, call.
+"""The whole workflow with the examples, as a user would type it: migrate, check, compile, deploy, call.
 
-Works on a copy of the examples in `.demo/`. Run it with `make demo`. The exit code is 1 where the network cannot be
-shown, as Ice is missing.
+Works on a copy of the examples in `.demo/`. Run it with `make demo`. The exit code is 1 if the network cannot be
+started because Ice is missing.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ DEMO = HERE.parent / ".demo"
 NETWORK = "head.ddsl.yaml"
 TEXT = "I am up and running"
 BOLD, DIM, PLAIN = ("\x1b[1m", "\x1b[2m", "\x1b[0m") if sys.stdout.isatty() else ("", "", "")
-# As where a virtual environment is active, this Python comes first: components start with it, unless it has no Ice.
+# As in an active virtual environment, this Python is the first on the path: components use it if it has Ice.
 ENVIRONMENT = {**os.environ, "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ.get('PATH', os.defpath)}"}
 
 
@@ -32,7 +32,7 @@ def comment(text: str) -> None:
 
 
 def run(*words: str) -> None:
-    """Runs a command in the copy, showing it and what it prints."""
+    """Runs a command in the copy, and shows the command and its output."""
     say(f"{BOLD}$ {' '.join(word if word.isalnum() else quoted(word) for word in words)}{PLAIN}")
     colors = ["--color", "always" if sys.stdout.isatty() else "never"]
     command = [sys.executable, "-m", "robocomp_yaml", *colors, *words[1:]] if words[0] == "rcyaml" else words
@@ -44,7 +44,7 @@ def quoted(word: str) -> str:
 
 
 def asked(*words: str) -> dict[str, Any]:
-    """What `rcyaml deploy` answers, without showing it."""
+    """The JSON output of `rcyaml deploy`, without showing it."""
     done = subprocess.run(
         [sys.executable, "-m", "robocomp_yaml", "deploy", *words, "--format", "json"],
         cwd=DEMO, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
@@ -54,12 +54,12 @@ def asked(*words: str) -> dict[str, Any]:
 
 
 def runs_here() -> bool:
-    """Whether this machine has all that the components need, which is Ice."""
+    """Whether this machine has what the components need: Ice."""
     return all(not one["missing"] for found in asked("probe", NETWORK)["hosts"].values() for one in found)
 
 
 def proxy_of(interface: str) -> str:
-    """Where the running network serves it."""
+    """The proxy of an interface in the running network. Raises LookupError if no process serves it."""
     for process in asked("status", NETWORK)["processes"]:
         for served in process["endpoints"]:
             if served["interface"] == interface:
@@ -69,22 +69,22 @@ def proxy_of(interface: str) -> str:
 
 def main() -> int:
     if (DEMO / NETWORK).is_file():
-        asked("down", NETWORK)  # of a demo that was killed
+        asked("down", NETWORK)  # the network of a demo that was killed
     shutil.rmtree(DEMO, ignore_errors=True)
     shutil.copytree(HERE, DEMO, ignore=shutil.ignore_patterns("demo.py", "cpp", "__pycache__"))
-    comment(f"A robot's head, copied to {DEMO.name}/: two components as legacy files, and one that is YAML already.")
+    comment(f"A robot's head, copied to {DEMO.name}/: two components as legacy files, and one as YAML.")
     run("rcyaml", "migrate", "talkinghead")
     run("cat", "talkinghead/components/speech/speechcomp.cdsl.yaml")
-    comment("All of it compiled to Slice, and to components that run.")
+    comment("Compile all of it to Slice, and to components that run.")
     run("rcyaml", "compile", "talkinghead", "jointmotor")
     run("rcyaml", "check")
-    comment("The network: who serves what, and who calls whom.")
+    comment("The network: processes, interfaces and connections.")
     run("rcyaml", "graph", NETWORK)
     if not runs_here():
         say("")
         subprocess.run([sys.executable, HERE.parent / "tools" / "prepare.py", "advise"], check=True)
         return 1
-    comment("Each is started as soon as those that it needs answer.")
+    comment("Each process is started as soon as those that it needs are ready.")
     try:
         run("rcyaml", "deploy", "up", NETWORK)
         comment("A call from outside, over Ice.")
@@ -92,9 +92,9 @@ def main() -> int:
         run("rcyaml", "deploy", "status", NETWORK)
         run("rcyaml", "deploy", "logs", "-n", "6", NETWORK)
     finally:
-        comment("All are stopped in order.")
+        comment("All processes are stopped in order.")
         run("rcyaml", "deploy", "down", NETWORK)
-    comment(f"{DEMO.name}/ holds all of it. Your own: `.venv/bin/rcyaml new --help`, and the tour in the README.")
+    comment(f"{DEMO.name}/ contains all of it. For your own robot: `.venv/bin/rcyaml new --help`, and the README.")
     return 0
 
 
@@ -102,6 +102,6 @@ if __name__ == "__main__":
     try:
         sys.exit(main())
     except subprocess.CalledProcessError as failure:
-        sys.exit(f"\nThe demo ends here, as a command failed (exit code {failure.returncode}); its words stand above.")
+        sys.exit(f"\nThe demo ends here: a command failed (exit code {failure.returncode}); see its output above.")
     except KeyboardInterrupt:
         sys.exit(130)

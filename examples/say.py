@@ -22,11 +22,11 @@ def main(proxy: str, text: str) -> None:
         try:
             speech = RoboCompSpeech.SpeechPrx.checkedCast(communicator.stringToProxy(proxy))
         except Ice.Exception as error:
-            sys.exit(f"say.py: nobody answers at '{proxy}': {str(error).splitlines()[-1]}")
-        print(f"Speech.say({text!r}) answers {speech.say(text, False)}", flush=True)
+            sys.exit(f"say.py: no server answers at '{proxy}': {str(error).splitlines()[-1]}")
+        print(f"Speech.say({text!r}) returns {speech.say(text, False)}", flush=True)
         while speech.isBusy():
             time.sleep(0.1)
-        print("Speech.isBusy() answers False: it has said it")
+        print("Speech.isBusy() returns False: everything is said")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
-"""The command `rcyaml`, which is `python -m robocomp_yaml` too: until all is imported, signals just end it."""
+"""The command `rcyaml`, also `python -m robocomp_yaml`. Until all modules are imported, a signal ends the process at
+once."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""The command line: a table of commands, each imported only when it is called.
+"""The command line: a table of commands, each imported when it is called.
 
-Only click is imported here, so that `rcyaml --help` answers at once.
+This module imports little but click, so that `rcyaml --help` is fast.
 """
 
 from __future__ import annotations
@@ -13,48 +13,42 @@ import os
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
+from types import SimpleNamespace
 from typing import Any
 
 import click
 
 from robocomp_yaml import __version__
 from robocomp_yaml.commands import _signals
-from robocomp_yaml.commands._command import Group
+from robocomp_yaml.commands._command import CommandGroup
 from robocomp_yaml.diag import terminal
 
 COMMANDS = {
-    "init": "Make a folder a workspace that already checks.",
-    "new": "Write a new document of any kind, which already checks.",
+    "init": "Make a folder a workspace.",
+    "new": "Write a new document of any kind.",
     "check": "Report everything that is wrong with the documents.",
-    "fmt": "Lay documents out in the usual way; nothing of them changes.",
-    "compile": "Write Slice and components; only what changed.",
-    "build": "Build components; only what is not what it is made of.",
-    "mock": "Stand in for components: serve interfaces, publish topics.",
-    "migrate": "Carry legacy files over to YAML, losing nothing.",
-    "config": "Values of parameters: check, show, change, export.",
-    "graph": "A picture of a deployment, or of components.",
-    "deploy": "A network of components: plan, up, status, logs, down.",
+    "fmt": "Format documents; what they mean does not change.",
+    "compile": "Generate Slice and components; write only what changed.",
+    "build": "Build the components that are not up to date.",
+    "mock": "Serve interfaces and publish topics in place of components.",
+    "migrate": "Convert legacy files to YAML documents, without loss.",
+    "config": "Check, show, change and export the values of parameters.",
+    "graph": "Draw a deployment, or the components of a folder.",
+    "deploy": "Run a network of components: plan, up, status, logs, down.",
     "schema": "Print the JSON Schema of a kind of document.",
-    "explain": "Say what a diagnostic means, with examples.",
+    "explain": "Explain a diagnostic, with examples.",
 }
 
 
-class Options:
-    """What holds for every command. `verbosity`: -1 quiet, 0, 1 verbose; `color`: None = as the terminal wants."""
-
-    def __init__(self, color: bool | None, verbosity: int) -> None:
-        self.color, self.verbosity = color, verbosity
-
-
 class _ReaderGone(Exception):
-    """Whoever reads what is printed has had enough, which click takes for a failure."""
+    """The reader of standard output closed the pipe. click would treat a BrokenPipeError as a failure."""
 
 
-class LazyGroup(Group):
+class LazyGroup(CommandGroup):
     """A group whose commands live in `robocomp_yaml.commands.NAME.command`."""
 
     def main(self, *args: Any, standalone_mode: bool = True, **extra: Any) -> Any:
-        """Runs a command line, and tells what is wrong with it; returns the exit code, or ends with it."""
+        """Runs a command line and reports what is wrong with it. Returns the exit code, or exits with it."""
         code = self._code(*args, **extra)
         if standalone_mode:
             sys.exit(code)
@@ -65,12 +59,12 @@ class LazyGroup(Group):
             code = super().main(args, prog_name, standalone_mode=False, **extra)
             return code if isinstance(code, int) else 0
         except click.ClickException as error:
-            _tell(error)
+            _report(error)
             return error.exit_code
         except click.Abort as error:
             cause = error.__cause__ or error.__context__
             if isinstance(cause, EOFError):
-                terminal.say("Error: there was a question, and no answer", err=True)
+                terminal.say("Error: no answer to a question: the input has ended", err=True)
                 return 1
             return _signals.code_of(cause)
         except _ReaderGone:
@@ -104,31 +98,30 @@ class LazyGroup(Group):
         except click.NoSuchOption as error:
             name = error.option_name
             if any(name in option.opts for option in self.params):
-                raise click.UsageError(f"'{name}' stands before the command: rcyaml {name} …", error.ctx) from None
+                raise click.UsageError(
+                    f"'{name}' is an option of rcyaml: write it before the command, rcyaml {name} …", error.ctx
+                ) from None
             raise
 
 
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
 @click.version_option(__version__, "-V", "--version", prog_name="rcyaml")
 @click.option("--color", type=click.Choice(["auto", "always", "never"]), default="auto", help="Colour the output.")
-@click.option("-q", "--quiet", is_flag=True, help="Say only what is wrong.")
-@click.option("-v", "--verbose", is_flag=True, help="Say what is done to each file.")
+@click.option("-q", "--quiet", is_flag=True, help="Print only what is wrong.")
+@click.option("-v", "--verbose", is_flag=True, help="Print what is done to each file.")
 @click.pass_context
 def group(ctx: click.Context, color: str, quiet: bool, verbose: bool) -> None:
     """The configuration compiler for component-based robotics.
 
-    Interfaces and components are YAML documents; rcyaml checks them and compiles them to Ice Slice and to components
-    that run.
+    Interfaces and components are YAML documents. rcyaml checks them, and compiles them to Ice Slice and to runnable
+    components.
     """
-    wanted = {"always": True, "never": False}.get(color)
-    if wanted is None and os.environ.get("NO_COLOR"):
-        wanted = False
-    ctx.color = wanted
-    ctx.obj = Options(wanted, -1 if quiet else int(verbose))
+    ctx.color = {"always": True, "never": False}.get(color, False if os.environ.get("NO_COLOR") else None)
+    ctx.obj = SimpleNamespace(verbosity=-1 if quiet else int(verbose))
 
 
-def _tell(error: click.ClickException) -> None:
-    """What is wrong with a command line. It quotes what was typed, which is no more to be trusted than a document."""
+def _report(error: click.ClickException) -> None:
+    """Prints what is wrong with a command line. The message quotes the command line, and is escaped as a document's."""
     if isinstance(error, click.exceptions.NoArgsIsHelpError):
         terminal.say_text(error.format_message(), err=True)
         return
@@ -139,31 +132,31 @@ def _tell(error: click.ClickException) -> None:
             terminal.say(f"Try '{ctx.command_path} {max(ctx.help_option_names, key=len)}' for help.", err=True)
         terminal.say("", err=True)
     message = f"Error: {error.format_message()}"
-    if isinstance(error, click.MissingParameter):  # a text of click's own, of several lines
+    if isinstance(error, click.MissingParameter):  # a message of click, with several lines
         terminal.say_text(message, err=True)
     else:
         terminal.say(message, err=True)
 
 
 def main() -> None:
-    """Run rcyaml; the exit code is 0 (fine), 1 (the documents have errors), 2 (wrong usage), or what signals give."""
-    gc.set_threshold(200_000, 20, 100)  # a run is short, and most of what it makes lives to its end
-    end = _End()
-    atexit.register(end.at_once)  # the first to be registered is the last to be called
+    """Runs rcyaml and exits: with 0 (success), 1 (errors), 2 (wrong usage), or 128 plus the number of a signal."""
+    gc.set_threshold(200_000, 20, 100)  # a run is short, and most of its objects live until its end
+    end = _ProcessEnd()
+    atexit.register(end.at_once)  # registered first, called last
     _make_streams_usable()
     try:
-        with _signals.heeded():
+        with _signals.handled():
             end.code = group(prog_name="rcyaml", standalone_mode=False)
-    except KeyboardInterrupt as error:  # on the way out
+    except KeyboardInterrupt as error:  # while the command line returns
         end.code = _signals.code_of(error)
-    except OSError as error:  # commands tell of files that fail them: this is the output itself
+    except OSError as error:  # commands report the errors of files: this one is of standard output
         end.code = _output_failed(error)
     sys.exit(end.code)
 
 
 def _forget_output() -> None:
-    """What is not written yet goes nowhere, where nobody reads it or it cannot be written: Python tries again at the
-    end of the process, and would give that an exit code of its own."""
+    """Discards the buffered output, which nobody reads or which cannot be written. Otherwise Python writes it again at
+    the end of the process, fails, and changes the exit code."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
 
 
@@ -171,18 +164,18 @@ def _output_failed(error: OSError) -> int:
     _forget_output()
     reason = (error.strerror or str(error)).lower()
     with suppress(OSError):
-        terminal.say(f"Error: cannot write what there is to say: {reason}", err=True)
+        terminal.say(f"Error: cannot write to standard output: {reason}", err=True)
     return 1
 
 
-class _End:
-    """The end of the process, with the exit code once it is known."""
+class _ProcessEnd:
+    """The end of the process. `code` is the exit code, None until it is known."""
 
     code: int | None = None
 
     def at_once(self) -> None:
-        """To give back piece by piece what a run made takes as long as a small run: the system takes all of it."""
-        with suppress(OSError):  # what cannot be written, Python tells of
+        """Ends the process without freeing its objects one by one, which takes as long as a small run."""
+        with suppress(OSError):  # Python reports what cannot be written
             sys.stdout.flush()
             sys.stderr.flush()
             if self.code is not None:
@@ -190,11 +183,10 @@ class _End:
 
 
 def _make_streams_usable() -> None:
-    """Standard streams that are closed swallow what they are given, and no character is refused: what an old encoding
-    lacks leaves as a question mark."""
-    if sys.stdout is None:
-        sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 (for the whole run)
-    if sys.stderr is None:
-        sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
+    """Makes writing to the standard streams always possible: a closed stream discards its text, and a character that
+    the encoding lacks becomes a question mark."""
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115 (for the whole run)
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="replace")

@@ -1,6 +1,6 @@
-"""Walks of directed graphs: what is reached, an order that has inner ones first, and circles.
+"""Algorithms on directed graphs: reachable nodes, topological orders, cycles.
 
-No walk recurses, for chains may be long.
+None of them recurses, because chains may be long.
 """
 
 from __future__ import annotations
@@ -12,21 +12,22 @@ from typing import TypeVar
 Node = TypeVar("Node", bound=Hashable)
 
 
-def reached(starts: Iterable[Node], following: Callable[[Node], Iterable[Node]]) -> dict[Node, None]:
-    """These nodes and all that follow them, directly or not, the nearest first. What follows a node is asked once."""
-    found = dict.fromkeys(starts)
-    todo = list(found)
-    for node in todo:
+def reachable(starts: Iterable[Node], following: Callable[[Node], Iterable[Node]]) -> dict[Node, None]:
+    """The start nodes and all nodes that are reachable from them, in breadth-first order. `following` is called once
+    for each node."""
+    seen = dict.fromkeys(starts)
+    queue = list(seen)
+    for node in queue:
         for other in following(node):
-            if other not in found:
-                found[other] = None
-                todo.append(other)
-    return found
+            if other not in seen:
+                seen[other] = None
+                queue.append(other)
+    return seen
 
 
-def inner_first(starts: Iterable[Node], inner: Callable[[Node], Iterable[Node]]) -> Iterator[Node]:
-    """These nodes and all below them, each once and behind those below it; where a line closes a circle, behind as many
-    as can be."""
+def postorder(starts: Iterable[Node], inner: Callable[[Node], Iterable[Node]]) -> Iterator[Node]:
+    """The start nodes and all nodes below them, in depth-first postorder: each node once, after the nodes below it. An
+    edge that closes a cycle does not count."""
     entered: set[Node] = set()
     for start in starts:
         path = [(start, iter(inner(start)))] if start not in entered else []
@@ -42,37 +43,39 @@ def inner_first(starts: Iterable[Node], inner: Callable[[Node], Iterable[Node]])
                 path.append((other, iter(inner(other))))
 
 
-def waves(after: Mapping[Node, Iterable[Node]]) -> list[tuple[Node, ...]] | None:
-    """The nodes in waves, each wave behind all that it is after; None where there is a circle."""
+def generations(after: Mapping[Node, Iterable[Node]]) -> list[tuple[Node, ...]] | None:
+    """The nodes in topological generations, each after all generations that it depends on; None if the graph has a
+    cycle. `after` has the nodes that each node depends on."""
     sorter = TopologicalSorter(after)
     try:
         sorter.prepare()
     except CycleError:
         return None
-    found: list[tuple[Node, ...]] = []
+    result: list[tuple[Node, ...]] = []
     while sorter.is_active():
-        found.append(sorter.get_ready())
-        sorter.done(*found[-1])
-    return found
+        result.append(sorter.get_ready())
+        sorter.done(*result[-1])
+    return result
 
 
-def knots(graph: Mapping[Node, Iterable[Node]]) -> list[set[Node]]:
-    """The nodes that lie on circles, each set with all that share circles. `graph` has what follows each node."""
+def cyclic_components(graph: Mapping[Node, Iterable[Node]]) -> list[set[Node]]:
+    """The strongly connected components that have a cycle. `graph` has the successors of each node."""
     try:
         TopologicalSorter(graph).prepare()
         return []
     except CycleError:
-        import networkx  # slow to import, and wanted only to explain
+        import networkx  # slow to import, and used only for error messages
 
     whole: networkx.DiGraph[Node] = networkx.DiGraph({node: list(others) for node, others in graph.items()})
-    found = networkx.strongly_connected_components(whole)
-    return [knot for knot in found if len(knot) > 1 or any(whole.has_edge(node, node) for node in knot)]
+    components = networkx.strongly_connected_components(whole)
+    return [one for one in components if len(one) > 1 or any(whole.has_edge(node, node) for node in one)]
 
 
-def circle(graph: Mapping[Node, Iterable[Node]], knot: set[Node], start: Node) -> list[Node]:
-    """A circle through a node of a knot, from this node on: by the first that follows it, and the shortest way back."""
+def cycle_through(graph: Mapping[Node, Iterable[Node]], component: set[Node], start: Node) -> list[Node]:
+    """A cycle through a node of a strongly connected component, from this node on: by its first successor, and the
+    shortest path back."""
     import networkx
 
-    inside = {node: [other for other in graph[node] if other in knot] for node in knot}
-    way: list[Node] = networkx.shortest_path(networkx.DiGraph(inside), inside[start][0], start)
-    return [start, *way[:-1]]
+    inside = {node: [other for other in graph[node] if other in component] for node in component}
+    path: list[Node] = networkx.shortest_path(networkx.DiGraph(inside), inside[start][0], start)
+    return [start, *path[:-1]]

@@ -1,16 +1,16 @@
-"""The pipeline: paths to a linked program and everything that is wrong with it.
+"""The pipeline: from paths to a linked program and its diagnostics.
 
-Each pass takes what the one before it gave, and nothing is changed once it is given:
+Each pass uses the results of the passes before it. No result is changed later.
 
     discover   paths → which documents                                    source.discover
     read       each document once: bytes → tree → shape → model           link.documents (source, schemas, model)
     link       imports, names, parameters, values, deployments → program  link.linker
-    complete   values documents → effective values, when first asked for  program.effective (parameters.layers)
+    complete   values documents → effective values, at their first use    program.effective (parameters.layers)
     derive     deployments → networks                                     network.networks
-    check      what no schema can say, of documents and of networks       check
-    tell       what comments allow and `lint:` asks for, fixes spelled, secrets hidden
+    check      what a schema cannot say, of documents and of networks     check
+    report     suppressed diagnostics and severities of `lint:` applied, fixes spelled, secrets hidden
 
-`check` is this and no more; `compile` goes on from the program that it gives.
+`check` is this pipeline, and no more. `compile` continues with its program.
 """
 
 from __future__ import annotations
@@ -23,111 +23,113 @@ import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml.check import checks, secrets
-from robocomp_yaml.check.allowed import Allowed, Judged
-from robocomp_yaml.check.networks import of_networks
+from robocomp_yaml.check.allowed import Allowances, AllowanceVerdict
+from robocomp_yaml.check.networks import check_networks
 from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
 from robocomp_yaml.diag.hidden import Hidden
 from robocomp_yaml.link.documents import Documents
 from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.link.workspace import Search
-from robocomp_yaml.network.networks import Derived, networks_of
+from robocomp_yaml.link.workspace import ImportSearch
+from robocomp_yaml.network.networks import DerivedNetworks, networks_of
 from robocomp_yaml.source.allowances import Allowance
-from robocomp_yaml.source.discover import WORKSPACE_FILE, Found, discover
+from robocomp_yaml.source.discover import WORKSPACE_FILE, DiscoveredDocuments, discover
 from robocomp_yaml.source.disk import Disk
-from robocomp_yaml.source.spelled import Texts, spelled
+from robocomp_yaml.source.spelled import DocumentTexts, spelled
 
 if TYPE_CHECKING:
     from robocomp_yaml.network.network import Network
 
 
 class Analysis(msgspec.Struct, frozen=True):
-    """A program with its diagnostics, sorted, the disk that they were read from, its texts as they were read, and its
-    networks; `used` are the comments that allow some of what was found."""
+    """A linked program with its sorted diagnostics, the disk and the texts that they come from, and its networks.
+    `used` are the comments that suppress a diagnostic."""
 
     program: Program
     linker: Linker
-    found: Found
+    discovered: DiscoveredDocuments
     disk: Disk
-    derived: Derived
-    texts: Texts
-    allowed: Allowed
+    derived: DerivedNetworks
+    texts: DocumentTexts
+    allowed: Allowances
     diagnostics: tuple[Diagnostic, ...] = ()
     used: frozenset[Allowance] = frozenset()
 
     @property
     def networks(self) -> Mapping[str, Network]:
-        """What the deployments come to, by real path."""
+        """The network of each deployment, by the real path of its document."""
         return self.derived.networks
 
     def with_more(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
-        """All diagnostics with some that were found elsewhere, as users get them."""
-        return in_order([*self.diagnostics, *self.shown(self.judged(diagnostics).told)])
+        """All diagnostics, with more from another pass, as users see them."""
+        return in_order([*self.diagnostics, *self.for_users(self.without_suppressed(diagnostics).reported)])
 
-    def whole(self, diagnostics: Iterable[Diagnostic], *, environment: bool = False) -> list[Diagnostic]:
-        """The same, where these are all that there is: then it is known, too, which comments allow what nobody said, of
-        the documents asked for."""
-        more, read = self.judged(diagnostics), self.linker.documents.read
-        asked = [read[real].path for real in self.program.asked if real in read]
-        files = {*asked, *(path for path in self.allowed.by_file if os.path.basename(path) == WORKSPACE_FILE)}
-        vain = self.judged(self.allowed.in_vain(sorted(files), self.used | more.used, environment=environment))
-        return in_order([*self.diagnostics, *self.shown((*more.told, *vain.told))])
+    def complete(self, diagnostics: Iterable[Diagnostic], *, environment: bool = False) -> list[Diagnostic]:
+        """The same, if no pass follows. Then it is also known which comments suppress nothing, and these are reported
+        for the requested documents."""
+        more, read = self.without_suppressed(diagnostics), self.linker.documents.read
+        requested = [read[real].path for real in self.program.requested if real in read]
+        files = {*requested, *(path for path in self.allowed.by_file if os.path.basename(path) == WORKSPACE_FILE)}
+        unused = self.allowed.unused(sorted(files), self.used | more.used, environment=environment)
+        return in_order(
+            [*self.diagnostics, *self.for_users((*more.reported, *self.without_suppressed(unused).reported))]
+        )
 
-    def judged(self, diagnostics: Iterable[Diagnostic]) -> Judged:
-        """Diagnostics without those that comments allow."""
+    def without_suppressed(self, diagnostics: Iterable[Diagnostic]) -> AllowanceVerdict:
+        """The diagnostics that no comment suppresses."""
         return self.allowed.judge(diagnostics, lambda file: self.linker.workspace_of(file).lint)
 
-    def shown(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
-        """Diagnostics as users get them: at the severities that the workspaces ask for, with fixes that say what to
-        write, and without secrets."""
-        return self.veiled(spelled(_with_lint(diagnostics, self.linker), self.texts))
+    def for_users(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
+        """Diagnostics as users see them: with the severities that their workspaces set, with fixes that say which text
+        to write, and without secrets."""
+        return self.redacted(spelled(_with_lint(diagnostics, self.linker), self.texts))
 
-    def veiled(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
-        """Diagnostics without the secrets that the documents hold."""
-        told = list(diagnostics)
-        hidden = self.hidden({span.file for one in told for span in (one.span, *(r.span for r in one.related))})
-        return [hidden.veiled(one) for one in told]
+    def redacted(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
+        """Diagnostics without the secrets that the documents contain."""
+        shown = list(diagnostics)
+        hidden = self.hidden({span.file for one in shown for span in (one.span, *(r.span for r in one.related))})
+        return [hidden.veiled(one) for one in shown]
 
     def hidden(self, files: set[str] | None = None) -> Hidden:
-        """The secrets that these documents hold, or all."""
+        """The secrets that these documents contain, by default all documents."""
         documents = self.linker.documents.read.values()
         files = {document.path for document in documents} if files is None else files
         return secrets.hidden(self.program, documents, files) if files else Hidden()
 
 
-def search_folders(given: Iterable[str]) -> tuple[str, ...]:
-    """The folders of `-I` and, behind them, of RCYAML_PATH."""
-    return (*given, *(folder for folder in os.environ.get("RCYAML_PATH", "").split(os.pathsep) if folder))
+def search_folders(include: Iterable[str]) -> tuple[str, ...]:
+    """The folders of `-I`, then those of RCYAML_PATH."""
+    return (*include, *(folder for folder in os.environ.get("RCYAML_PATH", "").split(os.pathsep) if folder))
 
 
 def analyse(
     paths: Iterable[str],
-    extra: Iterable[str] = (),
-    on_read: Callable[[str], None] = lambda path: None,
+    include: Iterable[str] = (),
+    on_read: Callable[[str], None] | None = None,
     overlay: Mapping[str, bytes] | None = None,
 ) -> Analysis:
-    """All about the documents at these paths; `extra` are folders to look for imports in, `on_read` is told of each
-    document that is read. `overlay` has contents, by path, that count instead of the disk's."""
+    """The analysis of the documents at these paths. `include` are folders to search for imports; `on_read` is called
+    with the path of each document that is read. `overlay` has contents by path that replace those on the disk."""
     disk = Disk(overlay)
-    found = discover(list(paths), disk)
-    linker = Linker(Documents(disk, on_read), Search(search_folders(extra), disk))
-    program = linker.link(found.documents)
+    discovered = discover(list(paths), disk)
+    linker = Linker(Documents(disk, on_read or (lambda path: None)), ImportSearch(search_folders(include), disk))
+    program = linker.link(discovered.documents)
     derived = networks_of(program)
-    said = [*found.diagnostics, *linker.documents.diagnostics, *linker.diagnostics]
+    diagnostics = [*discovered.diagnostics, *linker.documents.diagnostics, *linker.diagnostics]
     for check in checks(program, [one.plugins for one in linker.workspaces.values()]):
-        said += check(program)
-    said += of_networks(derived, program)
-    said += secrets.check(program, linker.documents.read.values())
-    texts = Texts(disk.contents, linker.documents.trees())
-    allowed = Allowed.of(texts, program.plugins_of)
-    analysis = Analysis(program, linker, found, disk, derived, texts, allowed)
-    judged = analysis.judged([*said, *analysis.allowed.said])
-    return replace(analysis, diagnostics=tuple(in_order(analysis.shown(judged.told))), used=judged.used)
+        diagnostics += check(program)
+    diagnostics += check_networks(derived, program)
+    diagnostics += secrets.check(program, linker.documents.read.values())
+    texts = DocumentTexts(disk.contents, linker.documents.trees())
+    allowed = Allowances.of(texts, program.plugins_of)
+    analysis = Analysis(program, linker, discovered, disk, derived, texts, allowed)
+    judged = analysis.without_suppressed([*diagnostics, *analysis.allowed.faults])
+    return replace(analysis, diagnostics=tuple(in_order(analysis.for_users(judged.reported))), used=judged.used)
 
 
 def _with_lint(diagnostics: Iterable[Diagnostic], linker: Linker) -> Iterator[Diagnostic]:
-    """The severities that each document's workspace asks for."""
+    """Diagnostics with the severities that the `lint:` of their workspaces sets. `off` drops one."""
     for diagnostic in diagnostics:
-        wanted = linker.workspace_of(diagnostic.span.file).lint.get(diagnostic.code, diagnostic.severity)
-        if wanted != "off":
-            yield diagnostic if wanted == diagnostic.severity else diagnostic.as_severity(wanted)
+        severity = linker.workspace_of(diagnostic.span.file).lint.get(diagnostic.code, diagnostic.severity)
+        if severity != "off":
+            yield diagnostic if severity == diagnostic.severity else diagnostic.as_severity(severity)

@@ -1,7 +1,7 @@
-"""Where the data folders live: `schemas/`, `templates/`, `migrate/` and `docs/diagnostics/`.
+"""The data folders: `schemas/`, `templates/`, `migrate/` and `docs/diagnostics/`.
 
-In a wheel they stand inside the package, under `_data/`; in a checkout (and so in an editable install) they stand
-beside the package, where people look for them.
+In a wheel they are inside the package, in `_data/`. In a checkout (and in an editable install) they are beside the
+package, where people look for them.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ _IN_CHECKOUT = {"diagnostics": "docs/diagnostics"}
 
 @cache
 def folder(name: str) -> str:
-    """The data folder `schemas`, `templates`, `migrate` or `diagnostics`.
+    """The path of the data folder `schemas`, `templates`, `migrate` or `diagnostics`.
 
-    Raises FileNotFoundError where the installation is broken: rcyaml cannot work without its data.
+    Raises FileNotFoundError if the folder is missing from the installation.
     """
     shipped = os.path.join(_PACKAGE, "_data", name)
     if os.path.isdir(shipped):
@@ -31,25 +31,25 @@ def folder(name: str) -> str:
 
 
 def files(source: str) -> Iterator[tuple[str, str]]:
-    """The names and the texts of the files that stand directly in a folder of rcyaml's own."""
+    """The names and the texts of the files that are directly in a folder of rcyaml."""
     for name in sorted(os.listdir(source)):
         if os.path.isfile(path := os.path.join(source, name)):
-            yield name, whole(path)
+            yield name, read(path)
 
 
 def text(path: str) -> str:
     """The text of one data file, such as `schemas/idsl.schema.json`."""
-    return whole(_of(path))
+    return read(_of(path))
 
 
-def whole(path: str) -> str:
-    """The text of a file of rcyaml's own."""
+def read(path: str) -> str:
+    """The text of a file of rcyaml."""
     with open(path, encoding="utf-8") as file:
         return file.read()
 
 
 def names(path: str) -> list[str]:
-    """What is in a data folder, or a folder in one, such as `migrate/options`."""
+    """The sorted names of what a data folder contains, or a folder in one, such as `migrate/options`."""
     return sorted(os.listdir(_of(path)))
 
 

@@ -1,7 +1,7 @@
-"""What is secret: names that say so, and texts with what nobody should read taken out.
+"""Secrets in texts: detected by the names of what they are values of, and replaced.
 
-Whatever is shown of a document, a command or a state asks here. Parameters may also say it themselves (`secret: true`):
-then their types know it. Which names say it, components decide by the same rule (`semantics.secrecy`).
+Everything that shows a part of a document, a command or a state calls this module. A parameter can also be secret by
+`secret: true`: its type says so. Components decide which names are secret by the same rule, `semantics.secrecy`.
 """
 
 from __future__ import annotations
@@ -26,14 +26,14 @@ _OPTION = pattern(
 )
 _IS_OPTION = pattern(r"--?[A-Za-z][\w.\-]*\Z")
 _WHOLE = pattern(r"((?:--?)?[^\x00-@\[-^`{-\x7f][\w.\-]*)([=:])(?!//)(.+)\Z", re.DOTALL)
-# One that can be followed, as far as that is seen: others are what somebody meant to be a secret.
+# A reference that can be resolved, as far as its text shows it. Any other text like one may be a secret.
 _REFERENCE = pattern(
     r"\$\{?[A-Za-z_]|\{ *env *: *([\"']?)[A-Za-z_][A-Za-z0-9_]*\1 *(?:\}|\Z)|\{ *file *: *[^\s\[\]{},]"
 )
 
 
 def masked(text: str) -> str:
-    """A text of any kind without the secrets that its own words tell: `user:password@` of URLs, `password=…`,
+    """A text of any kind without the secrets that are visible in it: `user:password@` of URLs, `password=…`,
     `"token": "…"`, `--api-key …`. References to the environment and to files are no secrets."""
     text = url(text)
     if "=" in text or ":" in text:
@@ -50,19 +50,19 @@ def _without_value(found: re.Match[str]) -> str:
 
 
 def is_one_of(name: str, names: Collection[str]) -> bool:
-    """Whether a name, or a part of a dotted one, says that it is secret or is one of these."""
+    """Whether a name, or a part of a dotted name, is that of a secret or one of `names`."""
     return is_secret(name) or (bool(names) and not {name, *name.lstrip("-").split(".")}.isdisjoint(names))
 
 
 def value(name: str, text: str, names: Collection[str] = ()) -> str:
-    """The value of something by its name."""
+    """The value of a name as it may be shown: hidden if the name, or one of `names`, is that of a secret."""
     if text and is_one_of(name, names) and not _REFERENCE.match(text):
         return HIDDEN
     return masked(text)
 
 
 def words(command: Iterable[str], names: Collection[str] = ()) -> Iterator[str]:
-    """The words of a command: the value of an option may be the next word."""
+    """The words of a command without secrets. The value of an option may be the next word."""
     is_value = False
     for word in command:
         option = _IS_OPTION.match(word)
@@ -79,7 +79,7 @@ def words(command: Iterable[str], names: Collection[str] = ()) -> Iterator[str]:
 
 
 def command(words_: Iterable[str], names: Collection[str] = ()) -> str:
-    """A command on one line, for people."""
+    """A command on one line, without secrets."""
     return " ".join(words(words_, names))
 
 
@@ -89,7 +89,7 @@ _SUSPECT = pattern(
 
 
 def may_hold(text: str) -> bool:
-    """Whether a look for secrets is worth its time."""
+    """Whether a text may contain a secret. False makes a search unnecessary."""
     return _SUSPECT.search(text) is not None
 
 
@@ -97,7 +97,7 @@ Part = tuple[int, int]
 
 
 def hidden_lines(text: str, names: Collection[str] = ()) -> list[str]:
-    """The lines of a document or a property file, with their ends, as they may be shown."""
+    """The lines of a document or a property file, with their line ends and without secrets."""
     lines = text.splitlines(keepends=True)
     for number, parts in parts_of_lines([line.rstrip("\r\n") for line in lines], names).items():
         for start, end in sorted(parts, reverse=True):
@@ -114,17 +114,17 @@ _INDENT = pattern(r"[ \t]*(?:-[ \t]+)*")
 
 
 def parts_of_lines(lines: Sequence[str], names: Collection[str] = ()) -> dict[int, list[Part]]:
-    """What is hidden of each line (from 0) of a text that nobody could read as what it is to be: whatever stands behind
-    a name that says so, or is one of `names`, and below it."""
-    found: dict[int, list[Part]] = {}
-    below: int | None = None  # the indentation of the key whose value goes on
-    is_value = False  # of an option, which the item before is
+    """The parts of each line (from 0) to hide, in a text that cannot be parsed: everything after a name that is that of
+    a secret, or one of `names`, and the lines below it."""
+    hidden: dict[int, list[Part]] = {}
+    below: int | None = None  # the indentation of the key whose value continues
+    is_value = False  # this item is the value of the option before it
     for number, line in enumerate(lines):
         start = len(line) - len(line.lstrip())
-        goes_on = below is not None and (start > below or (start == below and not _KEY.search(line)))
-        if goes_on or (below is not None and (not line.strip() or line.lstrip().startswith("- "))):
+        continues = below is not None and (start > below or (start == below and not _KEY.search(line)))
+        if continues or (below is not None and (not line.strip() or line.lstrip().startswith("- "))):
             if line.strip():
-                found[number] = [(start, len(line.rstrip()))]
+                hidden[number] = [(start, len(line.rstrip()))]
             continue
         parts, below = _parts_of_line(line, names)
         option = _ITEM.match(line)
@@ -132,12 +132,12 @@ def parts_of_lines(lines: Sequence[str], names: Collection[str] = ()) -> dict[in
             parts = [(item.end(), max(len(line.rstrip()), item.end()))]
         is_value = option is not None and is_one_of(option["name"], names)
         if parts:
-            found[number] = parts
-    return found
+            hidden[number] = parts
+    return hidden
 
 
 def _parts_of_line(line: str, names: Collection[str]) -> tuple[list[Part], int | None]:
-    """Also the indentation of a key whose value goes on in the next line."""
+    """Also the indentation of a key whose value continues in the next line."""
     parts = [found.span(2) for found in re.finditer(USER_INFO, line)]
     for options in (_OPTION, _LISTED):
         parts += [found.span("value") for found in options.finditer(line) if is_secret(found["name"])]

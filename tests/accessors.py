@@ -14,8 +14,8 @@ from robocomp_yaml.languages.python import parameters as python_parameters
 from robocomp_yaml.parameters.kinds import recording
 from robocomp_yaml.parameters.types import Parameters
 from robocomp_yaml.semantics import composite
-from robocomp_yaml.semantics.plain import Taking
-from robocomp_yaml.semantics.reading import Reader
+from robocomp_yaml.semantics.plain import Conversion
+from robocomp_yaml.semantics.reading import PropertyReader
 from robocomp_yaml.semantics.references import unresolved
 
 _LAST: list[Any] = []  # the parameters and the module that were asked for last
@@ -61,12 +61,12 @@ def take(parameters: Parameters, data: Any) -> tuple[Any, list[str]]:
     """Data as the accessors take it: as data again, with defaults; and what is wrong. References are not judged."""
     made = python(parameters)
     from generated.runtime.semantics import composite, references  # type: ignore[import-not-found]
-    from generated.runtime.semantics.plain import Taking  # type: ignore[import-not-found]
+    from generated.runtime.semantics.plain import Conversion  # type: ignore[import-not-found]
 
-    kind, taking = composite.Recording(made.TABLE.values), Taking()
+    kind, conversion = composite.RecordKind(made.TABLE.values), Conversion()
     with mock.patch.object(references.os, "environ", {}):
-        values = kind.take(data, (), taking)
-    problems = [problem.message for problem in taking.problems if " comes from the " not in problem.message]
+        values = kind.convert(data, (), conversion)
+    problems = [problem.message for problem in conversion.problems if " comes from the " not in problem.message]
     return (None if problems else composite.data(kind, values)), problems
 
 
@@ -91,9 +91,9 @@ def read_back(parameters: Parameters, properties: dict[str, str]) -> Any:
 
 def as_written(parameters: Parameters, properties: dict[str, str]) -> tuple[Any, list[str]]:
     """The same as the compiler reads them, by whose types no reference is followed."""
-    kind, taking = recording(parameters.root), Taking(is_text=True)
-    texts = Reader(properties, {each.path: each for each in parameters.spellings}, unresolved).read(kind)
-    taken = kind.take(texts, (), taking)
-    if taking.problems:
-        return None, [problem.message for problem in taking.problems]
+    kind, conversion = recording(parameters.root), Conversion(is_text=True)
+    texts = PropertyReader(properties, {each.path: each for each in parameters.spellings}, unresolved).read(kind)
+    taken = kind.convert(texts, (), conversion)
+    if conversion.problems:
+        return None, [problem.message for problem in conversion.problems]
     return composite.data(kind, taken), []

@@ -17,8 +17,8 @@ from robocomp_yaml.parameters.types import (
     EnumType,
     ListType,
     MapType,
-    Member,
     RecordType,
+    ResolvedMember,
     ScalarType,
     Size,
     Type,
@@ -90,7 +90,7 @@ def rules_of(type_: RecordType) -> Rules:
     return {member.name: _member(member) for member in type_.members}
 
 
-def _member(member: Member) -> Rules:
+def _member(member: ResolvedMember) -> Rules:
     rules = _type(member.type)
     if member.is_group:
         rules["default_setter"] = _always({})

@@ -1,4 +1,4 @@
-"""What the tests of the writer share: trees on the disk, and the os calls of a commit made to fail."""
+"""Shared by tests of the writer: trees on the disk, and calls of `os` that fail during a commit."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def carry_out(*plans: RootPlan, adopt: bool = False) -> tuple[Changes, list[Diag
 
 
 def commit(prepared: Changes) -> list[Diagnostic]:
-    """What the commit itself had to say."""
+    """The diagnostics of the commit itself."""
     return list(writer.commit(prepared).diagnostics[len(prepared.diagnostics) :])
 
 
@@ -54,7 +54,7 @@ def codes(diagnostics: Iterable[Diagnostic]) -> list[str]:
 
 
 def tree(root: Path, *, state: bool = False) -> dict[str, str | None]:
-    """Every file below a folder with its text (links as `-> target`, folders as None), without rcyaml's own state."""
+    """Every file below a folder with its text (links as `-> target`, folders as None), without the state of rcyaml."""
     found: dict[str, str | None] = {}
     for path in sorted(root.rglob("*")):
         name = path.relative_to(root).as_posix()
@@ -72,8 +72,8 @@ def files(root: Path) -> dict[str, str]:
 
 
 class Disk:
-    """The `os` that a commit sees. Its changing calls are counted; the one with number `fail_at` raises `error`, or
-    calls `instead`."""
+    """The `os` module of a commit. Calls that change something are counted; the one with number `fail_at` raises or
+    calls `error`."""
 
     CHANGING = ("open", "write", "replace", "rename", "link", "unlink", "mkdir", "makedirs", "fchmod")
 
@@ -106,12 +106,12 @@ class Disk:
 
 
 class Killed(BaseException):
-    """Stands for the end of the process: with `killed_in`, nothing of a commit runs any more."""
+    """Simulates the end of the process: with `killed_in`, the rest of a commit does not run."""
 
 
 @contextlib.contextmanager
 def killed_in(number: int) -> Iterator[None]:
-    """A commit in here ends without a trace of order at its n-th changing call, as by SIGKILL."""
+    """A commit in this block ends at its n-th changing call without any cleanup, as by SIGKILL."""
     with pytest.MonkeyPatch.context() as patch, Disk(number, Killed()).seen_by_commits(), contextlib.suppress(Killed):
         patch.setattr(atomic._Commit, "undo", lambda commit: None)
         yield

@@ -8,15 +8,15 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from robocomp_yaml.deploy.carry_out import Event
+from robocomp_yaml.deploy.carry_out import ProcessEvent
 from robocomp_yaml.deploy.engine import GIVEN_UP, RUNNING, STOP_WITHIN, STOPPED, DeployFailed, Line, Running
 from robocomp_yaml.deploy.operations import KEEP_GOING, Result, down, up
-from robocomp_yaml.deploy.spec import Spec, spec_of
+from robocomp_yaml.deploy.spec import ProcessSpec, spec_of
 from robocomp_yaml.deploy.time_limit import TimeLimit
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.network.network import LOOPBACK, Host, Network, Process, Readiness
+from robocomp_yaml.network.network import LOOPBACK, Network, NetworkHost, Process, Readiness
 
 ASKED = Readiness(within=0.2, command=("ask",))
 """Ready as soon as a command says so: nobody waits long."""
@@ -31,7 +31,7 @@ def process(name: str, *after: str, **more: Any) -> Process:
 
 def network(*processes: Process) -> Network:
     """Each in the wave behind all that it is after."""
-    made = Network("N", "/n.ddsl.yaml", "/folder", {LOOPBACK: Host(LOOPBACK)})
+    made = Network("N", "/n.ddsl.yaml", "/folder", {LOOPBACK: NetworkHost(LOOPBACK)})
     made.processes = {one.name: one for one in processes}
     left = {one.name: set(one.after) for one in processes if one.enabled}
     while left:
@@ -42,7 +42,7 @@ def network(*processes: Process) -> Network:
     return made
 
 
-def spec(one: Process) -> Spec:
+def spec(one: Process) -> ProcessSpec:
     return spec_of(network(one), one, {})
 
 
@@ -61,7 +61,7 @@ class InMemory:
         self.done: list[str] = []
         self.notes: list[Diagnostic] = []
         self.ending, self.silent, self.blocked = ending.split(), silent.split(), blocked.split()
-        self.specs: dict[str, Spec] = {}
+        self.specs: dict[str, ProcessSpec] = {}
         self.logs: dict[str, list[str]] = {}
 
     async def open(self, network: Network, *, create: bool) -> bool:
@@ -70,14 +70,14 @@ class InMemory:
     async def observe(self) -> dict[str, Running]:
         return dict(self.now)
 
-    async def obstacles(self, specs: Sequence[Spec], leaving: Collection[str]) -> list[Diagnostic]:
+    async def obstacles(self, specs: Sequence[ProcessSpec], leaving: Collection[str]) -> list[Diagnostic]:
         return [
             deploying.NOT_READY.at(one.process.span, name=one.name, within="1", why="it is in the way")
             for one in specs
             if one.name in self.blocked and one.name not in leaving
         ]
 
-    async def prepare(self, specs: Sequence[Spec]) -> None:
+    async def prepare(self, specs: Sequence[ProcessSpec]) -> None:
         self.done.append(f"prepare {' '.join(one.name for one in specs)}")
         self.specs.update({one.name: one for one in specs})
 
@@ -125,7 +125,7 @@ class InMemory:
             self.done.append(f"ask: {' '.join(result.outcome.failed)}")
             return on_failure
 
-        self.events: list[Event] = []
+        self.events: list[ProcessEvent] = []
         limit = TimeLimit(seconds)
         return asyncio.run(
             up(self, wanted, names, forced, choose, self.events.append, keep_going=keep_going, limit=limit)

@@ -12,12 +12,12 @@ from robocomp_yaml.network.network import (
     ConfigFile,
     Connection,
     Endpoint,
-    Host,
+    EnvironmentVariable,
     Network,
+    NetworkHost,
     Process,
     Readiness,
-    Restart,
-    Variable,
+    RestartRule,
 )
 
 
@@ -28,11 +28,11 @@ def served(interface: str, port: int) -> Endpoint:
 def speaking(folder: str = "/robot/.rcyaml/deployments/Head") -> Network:
     """Two hosts, IceStorm, three components, a program with a second name and one that is not started."""
     network = Network("Head", "/robot/head.ddsl.yaml", folder, {
-        "onboard": Host("onboard", "10.0.0.2"), "head": Host("head", "10.0.0.3", "robocomp"),
+        "onboard": NetworkHost("onboard", "10.0.0.2"), "head": NetworkHost("head", "10.0.0.3", "robocomp"),
     })  # fmt: skip
 
     def component(name: str, host: str, ports: tuple[Endpoint, ...], after: tuple[str, ...] = (),
-                  env: tuple[Variable, ...] = ()) -> Process:  # fmt: skip
+                  env: tuple[EnvironmentVariable, ...] = ()) -> Process:  # fmt: skip
         config = ConfigFile(f"config/{name}", f"Title=50% ${{env:TITLE}} of $HOME & <{name}>\n")
         return Process(
             name,
@@ -55,15 +55,15 @@ def speaking(folder: str = "/robot/.rcyaml/deployments/Head") -> Network:
     )  # fmt: skip
     laser = Process(
         "laser", "onboard", ("rcis", "a b;c", ";", "$HOME", "100%", 'say "hi"', "back\\slash"), "/robot/etc sim",
-        PROGRAM, env=(Variable("DISPLAY", ":0"), Variable("TOKEN", source="ROBOT_TOKEN")),
+        PROGRAM, env=(EnvironmentVariable("DISPLAY", ":0"), EnvironmentVariable("TOKEN", source="ROBOT_TOKEN")),
         endpoints=(served("Laser", 10003), served("DifferentialRobot", 10004)), aliases=("base",), is_ice=False,
-        restart=Restart(NEVER),
+        restart=RestartRule(NEVER),
     )  # fmt: skip
     viewer = Process("viewer", "head", ("/usr/bin/viewer",), "", PROGRAM, enabled=False, is_ice=False)
     processes = (
         storm, laser, component("motors", "head", (served("JointMotor", 10005),)),
         component("mouth", "head", (served("Mouth", 10002),), ("motors", "storm")),
-        component("speech", "onboard", (served("Speech", 10001),), ("mouth", "storm"), (Variable("LANG", "es_ES"),)),
+        component("speech", "onboard", (served("Speech", 10001),), ("mouth", "storm"), (EnvironmentVariable("LANG", "es_ES"),)),
         viewer,
     )  # fmt: skip
     network.processes = {process.name: process for process in processes}
@@ -81,8 +81,8 @@ def speaking(folder: str = "/robot/.rcyaml/deployments/Head") -> Network:
 def large(count: int, hosts: int = 4) -> Network:
     """Robots that look alike: each component needs the one before it in its row and one of another row."""
     network = Network("Fleet", "/fleet.ddsl.yaml", "/f", {
-        f"robot{i}": Host(f"robot{i}", f"10.0.0.{i + 1}") for i in range(hosts)
-    } if hosts > 1 else {LOOPBACK: Host(LOOPBACK)})  # fmt: skip
+        f"robot{i}": NetworkHost(f"robot{i}", f"10.0.0.{i + 1}") for i in range(hosts)
+    } if hosts > 1 else {LOOPBACK: NetworkHost(LOOPBACK)})  # fmt: skip
     names = list(network.hosts)
     for i in range(count):
         name = f"component{i}"

@@ -18,7 +18,7 @@ import jsonschema_rs
 import accessors
 from by_cerberus import cerberus_verdict
 from parameters import tree
-from robocomp_yaml.parameters.schema.json_schema import EFFECTIVE, values_schema
+from robocomp_yaml.parameters.json_schema import EFFECTIVE, values_schema
 from robocomp_yaml.parameters.types import Parameters
 from robocomp_yaml.parameters.verdict.judge import judge
 from robocomp_yaml.source.yaml_text import flow

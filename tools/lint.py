@@ -1,7 +1,7 @@
-"""What is seen of the code without running it: the rules and the format of ruff, the types of mypy, and the layers.
+"""Static checks of the code: the rules and the format of ruff, the types of mypy, and the layers.
 
-lint.py [NAME...]   all of them, or some: rules, format, types, layers; exit code 1 where one finds something
-lint.py --fix       mends what can be mended without a thought: the order of imports, and the format
+lint.py [NAME...]   all checks, or some: rules, format, types, layers; exit code 1 if one fails
+lint.py --fix       sorts the imports, and formats the code
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ def main(*words: str) -> int:
     if words == ("--fix",):
         return max(run(arguments).returncode for arguments in FIXES)
     if unknown := set(words) - set(CHECKS):
-        print(f"there is no {', '.join(sorted(unknown))}: {', '.join(CHECKS)}", file=sys.stderr)
+        print(f"unknown: {', '.join(sorted(unknown))}; there are {', '.join(CHECKS)}", file=sys.stderr)
         return 2
-    wrong = [name for name in words or CHECKS if not is_right(name)]
+    wrong = [name for name in words or CHECKS if not passes(name)]
     return 1 if wrong else 0
 
 
-def is_right(name: str) -> bool:
+def passes(name: str) -> bool:
     done = run(CHECKS[name])
     if done.returncode:
         print(f"{name}:\n{done.stdout}{done.stderr}", flush=True)

@@ -1,13 +1,13 @@
-"""What `make demo` and `make test` need before they can begin: packages of the system, an environment, Ice.
+"""The requirements of `make demo` and `make test`: packages of the system, a virtual environment, Ice.
 
-Installed where that may be done (as root, or by a sudo that asks for no password), else it is said who can do it and
-how. What is called keeps quiet as long as all is well, and a line shows how far it is; where it fails, all that it said
-is shown. Runs with any Python 3.7, and needs nothing else.
+They are installed if possible (as root, or by a sudo that needs no password). Otherwise a message says who can install
+them, and how. The output of commands is hidden while they succeed, and one line shows the progress; if a command fails,
+its whole output is printed. Runs with any Python from 3.7 on, without other packages.
 
-  prepare.py system GOAL PACKAGE...   Debian's packages for `make GOAL`
-  prepare.py environment [EXTRA]      rcyaml and its dependencies, in .venv
-  prepare.py ice                      Ice, compiled into .venv
-  prepare.py advise                   says how one comes to Ice
+    prepare.py system GOAL PACKAGE...   Debian's packages for `make GOAL`
+    prepare.py environment [EXTRA]      rcyaml and its dependencies, in .venv
+    prepare.py ice                      Ice, compiled into .venv
+    prepare.py advise                   prints how to install Ice
 """
 
 from __future__ import annotations
@@ -32,15 +32,15 @@ ROOT = Path(__file__).resolve().parent.parent
 ENVIRONMENT = ROOT / os.environ.get("VENV", ".venv")
 PYTHON = ENVIRONMENT / "bin" / "python"
 OLDEST = (3, 11)
-DURATION = {"demo": "about half a minute", "test": "some minutes"}  # of 10 and of 700 MB, on a fast line
+DURATION = {"demo": "about half a minute", "test": "some minutes"}  # for 10 and for 700 MB, on a fast network
 QUIETLY = {"DEBIAN_FRONTEND": "noninteractive", "PIP_DISABLE_PIP_VERSION_CHECK": "1", "LC_ALL": "C.UTF-8"}
 APT = ["-o", "DPkg::Lock::Timeout=120", "-o", "Dpkg::Use-Pty=0", "-q"]
 FOR_ADMINISTRATORS = "sudo apt install python3-zeroc-ice"
 LASTS = "some ten minutes"
 COMPILING = "Compiling Ice needs g++ and the headers of Python, OpenSSL and bzip2"
 HEADER_PACKAGES = "g++ python3-dev libssl-dev libbz2-dev"
-ICE_FILES = 250  # that a compiler is called for
-# Whether some Python would run a component: asked of the rule that every component has.
+ICE_FILES = 250  # files that are compiled
+# Whether there is a Python for components, by the function with which each component chooses one.
 ASK_FOR_ICE = f"""\
 import sys
 sys.path.insert(0, {str(ROOT / "robocomp_yaml" / "languages" / "python" / "templates" / "runtime")!r})
@@ -55,7 +55,7 @@ PIP = "https://pypi.org/pypi/pip/json"
 
 
 class Failed(Exception):
-    """What is to be said before all ends with exit code 1."""
+    """An error: its message is printed, and the exit code is 1."""
 
 
 def main(goal: str, *words: str) -> None:
@@ -68,8 +68,8 @@ def main(goal: str, *words: str) -> None:
 
 
 def system(goal: str, packages: Sequence[str]) -> None:
-    """Where it may not, the demo says what it lacks when it comes to it."""
-    missing = [package for package in packages if not is_there(package)]
+    """Installs the missing packages. Without the rights, the demo itself reports what is missing."""
+    missing = [package for package in packages if not is_installed(package)]
     if not missing:
         return
     as_root = rights()
@@ -78,14 +78,14 @@ def system(goal: str, packages: Sequence[str]) -> None:
             show(f"some tests will be skipped; to run them all: sudo apt install {' '.join(missing)}")
         return
     show(f"make {goal} needs packages of Debian, and installs them: {' '.join(missing)}")
-    call([*as_root, "apt-get", *APT, "update"], "asking for the newest packages")
+    call([*as_root, "apt-get", *APT, "update"], "updating the list of packages")
     count = len(missing)
     what = f"installing {f'{count} packages' if count > 1 else missing[0]}, which takes {DURATION[goal]}"
     call([*as_root, "apt-get", *APT, "install", "-y", "--no-install-recommends", *missing], what, of_apt)
 
 
-def is_there(package: str) -> bool:
-    """Some things come from elsewhere just as well."""
+def is_installed(package: str) -> bool:
+    """Whether a package is installed, or what it provides comes from elsewhere."""
     if package == "python3-zeroc-ice" and has_ice():
         return True
     if package == "python3-venv" and (importlib.util.find_spec("ensurepip") or has_pip()):
@@ -102,7 +102,7 @@ def is_there(package: str) -> bool:
 
 
 def rights() -> list[str] | None:
-    """The words that come before what only root may do; None where that may not be done."""
+    """The beginning of a command line for root; None if root's rights are not available."""
     if not shutil.which("apt-get"):
         return None
     if os.geteuid() == 0:
@@ -137,7 +137,7 @@ def environment(extra: str = "") -> None:
 
 
 def without_ensurepip() -> None:
-    """Debian keeps pip in a package of its own: it is fetched from where it would be updated from."""
+    """Creates an environment without ensurepip, which Debian has in another package, and installs pip from PyPI."""
     call([sys.executable, "-m", "venv", "--clear", "--without-pip", "--system-site-packages", ENVIRONMENT],
          f"making {shown()}")  # fmt: skip
     wheel = ENVIRONMENT / "pip.whl"
@@ -147,10 +147,10 @@ def without_ensurepip() -> None:
         with urllib.request.urlopen(urllib.parse.urljoin(PIP, found["url"]), timeout=60) as answer:
             content = answer.read()
         if hashlib.sha256(content).hexdigest() != found["digests"]["sha256"]:
-            raise ValueError("its digest is not the one that was announced")
+            raise ValueError("its digest differs from that of the index")
     except (OSError, ValueError, KeyError, StopIteration) as error:
         raise Failed(
-            f"{sys.executable} has no pip, and it cannot be fetched ({error}). "
+            f"{sys.executable} has no pip, and pip cannot be downloaded ({error}). "
             "An administrator installs it: sudo apt install python3-venv"
         ) from None
     named = ENVIRONMENT / found["filename"]
@@ -161,14 +161,14 @@ def without_ensurepip() -> None:
 
 
 def advise() -> None:
-    """What one can do who has no Ice, and could not have it installed."""
+    """Prints how to install Ice, if it is missing and could not be installed."""
     if os.environ.get("RCYAML_PYTHON"):
         subprocess.run([sys.executable, "-c", ASK_FOR_ICE, ASK_FOR_ICE], stdout=subprocess.DEVNULL)
         return
-    show("Running the network needs Ice for Python, which is not here. An administrator installs it in half a minute:")
-    show(f"\n  {FOR_ADMINISTRATORS}\n\nWithout such rights, it is compiled into {shown()}: {LASTS}, with progress.")
+    show("Running the network needs Ice for Python, which is missing. An administrator installs it in half a minute:")
+    show(f"\n  {FOR_ADMINISTRATORS}\n\nWithout such rights, compile it into {shown()}: {LASTS}.")
     if not can_compile():
-        show(f"{COMPILING}, not all of which are here ({HEADER_PACKAGES}).")
+        show(f"{COMPILING}, some of which are missing ({HEADER_PACKAGES}).")
     show("\n  make ice demo\n")
 
 
@@ -184,10 +184,10 @@ def ice() -> None:
         return
     if not can_compile():
         raise Failed(
-            f"{COMPILING}, not all of which are here. An administrator installs these:\n"
-            f"  sudo apt install {HEADER_PACKAGES}\nor sooner Ice itself:\n  {FOR_ADMINISTRATORS}"
+            f"{COMPILING}, some of which are missing. An administrator installs these:\n"
+            f"  sudo apt install {HEADER_PACKAGES}\nor faster Ice itself:\n  {FOR_ADMINISTRATORS}"
         )
-    show(f"Ice is compiled for this Python, which takes {LASTS}.")
+    show(f"Compiling Ice for this Python takes {LASTS}.")
     compiled = 0
 
     def of_compiler(line: str) -> str:
@@ -214,9 +214,9 @@ def of_pip(line: str) -> str:
     return found[1][0].lower() + found[1][1:] if found else ""
 
 
-def call(command: Sequence[str | Path], doing: str, told: Callable[[str], str] = lambda line: "") -> None:
-    """Runs a command, and says how far it is: by `told`, which turns a line of it into few words. All that it said is
-    shown where it fails."""
+def call(command: Sequence[str | Path], doing: str, describe: Callable[[str], str] = lambda line: "") -> None:
+    """Runs a command with a progress line. `describe` turns a line of its output into a short text. If the command
+    fails, its whole output is printed. Raises Failed."""
     progress = Progress(doing)
     try:
         running = subprocess.Popen(
@@ -226,23 +226,24 @@ def call(command: Sequence[str | Path], doing: str, told: Callable[[str], str] =
     except OSError as error:
         progress.end("failed")
         raise Failed(f"cannot run {command[0]}: {error.strerror}") from None
-    said = []
+    output = []
     with running:
         try:
             for line in running.stdout or ():
-                said.append(line)
-                progress.note = told(line) or progress.note
+                output.append(line)
+                progress.note = describe(line) or progress.note
         except KeyboardInterrupt:
             running.terminate()
             raise
         finally:
             progress.end("done" if running.wait() == 0 else "failed")
     if running.returncode:
-        raise Failed("".join(said).rstrip() + f"\n\n{doing.partition(',')[0]} failed, see above: {words_of(command)}")
+        raise Failed("".join(output).rstrip() + f"\n\n{doing.partition(',')[0]} failed, see above: {words_of(command)}")
 
 
 class Progress:
-    """One line that is renewed on a terminal; else one at the beginning, at the end, and each quarter of a minute."""
+    """A progress line that is updated on a terminal; on other outputs, a line at the beginning, at the end, and every
+    15 seconds."""
 
     def __init__(self, doing: str) -> None:
         self.doing, self.note, self.began = doing, "", time.monotonic()

@@ -9,18 +9,19 @@
     if not plan.has_errors:
         plan.apply()
 
-What `__all__` names here, and its public attributes, keep their names and their meaning within a major version;
-docs/api.md says more. All else in `robocomp_yaml` may change at any time. The command line is made of this.
+The names in `__all__`, and their public attributes, keep their names and their meaning within a major version; see
+docs/api.md. Everything else in `robocomp_yaml` may change at any time. The command line is built on this library.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, WARNING, Diagnostic, Related
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.registry import lazy_attributes
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.building import Built
@@ -45,11 +46,11 @@ __all__ = [
 ]  # fmt: skip
 
 _HOMES = {
-    "Attached": "deploy.attached", "Built": "api.building", "Change": "api.values", "Compilation": "api.compiling",
-    "Deployment": "api.deploying", "File": "api.outcome", "Fixing": "api.fixing", "Line": "deploy.engine",
-    "Migration": "api.migrating", "Network": "network.network", "Outcome": "api.outcome", "Plan": "deploy.plan",
-    "Result": "deploy.operations", "Status": "deploy.operations", "Value": "parameters.editing.show",
-    "Values": "api.values", "Workspace": "api.workspace",
+    "api.building": "Built", "api.compiling": "Compilation", "api.deploying": "Deployment", "api.fixing": "Fixing",
+    "api.migrating": "Migration", "api.outcome": "File Outcome", "api.values": "Change Values",
+    "api.workspace": "Workspace", "deploy.attached": "Attached", "deploy.engine": "Line",
+    "deploy.operations": "Result Status", "deploy.plan": "Plan", "network.network": "Network",
+    "parameters.editing.show": "Value",
 }  # fmt: skip
 
 
@@ -57,12 +58,12 @@ def load(
     *paths: str, include: Iterable[str] = (), overlay: Mapping[str, bytes | str] | None = None,
     on_read: Callable[[str], None] | None = None,
 ) -> Workspace:  # fmt: skip
-    """Reads the documents at some paths, and all that belongs to them; a folder means all documents below it, and no
-    path the working folder. `include` are folders to look for imports in (`-I`). `overlay` has the texts of unsaved
-    documents by path: they count instead of what the disk has, be there such a file or not. `on_read` is told the
-    path of each document that is read.
+    """Reads the documents at these paths, with all that they refer to. A folder means all documents below it; the
+    default is the working folder. `include` are folders to search for imports (`-I`). `overlay` has the texts of
+    unsaved documents by path; they replace the files on the disk, or add to them. `on_read` is called with the path of
+    each document that is read.
 
-    Never raises for what documents say: `Workspace.check` tells what is wrong with them.
+    Returns a workspace whatever the documents contain: `Workspace.check` reports what is wrong with them.
     """
     from robocomp_yaml.api.workspace import Workspace
 
@@ -73,20 +74,14 @@ def load(
 def migrate(
     *paths: str, output: str | None = None, include: Iterable[str] = (), force: bool = False, exact: bool = False
 ) -> Migration:
-    """What carrying legacy files over to documents comes to: those at some paths, or all below a folder. Nothing is
-    written before `Migration.apply`. `output` is a folder to write below, else documents stand beside their sources;
-    `force` overwrites documents that were edited since; `exact` keeps blanks around the separators of lists."""
+    """Converts legacy files to documents: the files at these paths, or all below a folder. Returns the migration;
+    nothing is written before `Migration.apply`. `output` is a folder to write below; by default, documents are written
+    beside their sources. `force` overwrites documents that were edited since, `exact` keeps blanks around the
+    separators of lists."""
     from robocomp_yaml.api.migrating import Migration
 
     return Migration(paths, output, tuple(include), force=force, exact=exact)
 
 
-if not TYPE_CHECKING:  # which would believe in any name
-
-    def __getattr__(name: str) -> Any:
-        """Types are imported when somebody asks for them: what a command does not need, it does not load."""
-        if name not in _HOMES:
-            raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
-        from importlib import import_module
-
-        return getattr(import_module(f"robocomp_yaml.{_HOMES[name]}"), name)
+if not TYPE_CHECKING:  # mypy would accept any name
+    __getattr__ = lazy_attributes(__name__, _HOMES)

@@ -1,4 +1,4 @@
-"""Components built, as data."""
+"""Building components: the results as data."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
+from robocomp_yaml.api.refusals import require
 from robocomp_yaml.building import builder, stamps
 from robocomp_yaml.building.inputs import Inputs
-from robocomp_yaml.building.job import FAILED, RELEASE, TYPES, Event, Job, Result
+from robocomp_yaml.building.job import FAILED, RELEASE, TYPES, BuildEvent, BuildResult, Job
 from robocomp_yaml.building.unit import Unit, unit_of
 from robocomp_yaml.deploy.outdated import outdated_components
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
-from robocomp_yaml.diag.errors import Faulty, Refused
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.errors import Faulty
 from robocomp_yaml.source.discover import of_kind
 
 if TYPE_CHECKING:
@@ -24,11 +24,11 @@ if TYPE_CHECKING:
 
 
 class Built(msgspec.Struct, frozen=True):
-    """What came of a build: its components in the order of their documents, what compilers and others said, and the
-    seconds of processors that it took."""
+    """The result of a build: its components in the order of their documents, the diagnostics of compilers and of
+    rcyaml, and the CPU time in seconds."""
 
     type: str
-    components: tuple[Result, ...]
+    components: tuple[BuildResult, ...]
     diagnostics: tuple[Diagnostic, ...]
     cpu: float
 
@@ -37,64 +37,55 @@ class Built(msgspec.Struct, frozen=True):
         return has_errors(self.diagnostics) or any(one.state == FAILED for one in self.components)
 
 
-def units(analysis: Analysis, documents: Iterable[str] = ()) -> list[Unit]:
-    """The components of these documents, but for those that cannot be read; without any, all that were asked for."""
-    return [_unit(analysis, linked) for linked in _components(analysis, documents)]
-
-
-def every_unit(analysis: Analysis) -> list[Unit]:
-    """All components that were read."""
-    return [_unit(analysis, linked) for linked in analysis.program.components.values()]
-
-
-def _unit(analysis: Analysis, linked: LinkedComponent) -> Unit:
-    return unit_of(linked, analysis.linker.workspace_of(linked.component.path))
+def units(analysis: Analysis, components: Iterable[LinkedComponent] | None = None) -> list[Unit]:
+    """These components as they are built; by default, the requested ones."""
+    chosen = _components(analysis) if components is None else components
+    return [unit_of(linked, analysis.linker.workspace_of(linked.component.path)) for linked in chosen]
 
 
 def _components(analysis: Analysis, documents: Iterable[str] = ()) -> list[LinkedComponent]:
     components = analysis.program.components
-    wanted = [os.path.realpath(path) for path in documents] or analysis.program.asked_components()
-    found = [components[real] for real in wanted if real in components]
-    return sorted(found, key=lambda linked: linked.component.path)
+    chosen = [os.path.realpath(path) for path in documents] or analysis.program.requested_components()
+    linked = [components[real] for real in chosen if real in components]
+    return sorted(linked, key=lambda linked: linked.component.path)
 
 
 def _unread(analysis: Analysis, documents: Iterable[str]) -> list[Diagnostic]:
-    """What is wrong with documents that cannot be read: the others are built all the same."""
-    lost = {path for path in documents if os.path.realpath(path) not in analysis.program.components}
-    return [told for told in analysis.diagnostics if told.span.file in lost]
+    """The diagnostics of documents that cannot be read. The other components are built all the same."""
+    unread = {path for path in documents if os.path.realpath(path) not in analysis.program.components}
+    return [one for one in analysis.diagnostics if one.span.file in unread]
 
 
 def build(
     analysis: Analysis, documents: Sequence[str], *, build_type: str = RELEASE, jobs: int | None = None,
-    defines: Sequence[str] = (), report: Callable[[Event], None] | None = None,
+    defines: Sequence[str] = (), report: Callable[[BuildEvent], None] | None = None,
 ) -> Built:  # fmt: skip
-    if build_type not in TYPES:
-        meant = suggest(build_type, TYPES)
-        raise Refused(
-            f"there is no build type '{build_type}'; " + (f"did you mean '{meant}'?" if meant else ", ".join(TYPES))
-        )
+    """Builds the components of these documents, by default the requested ones. `jobs` is how many steps run at once, by
+    default one a processor; `report` gets each event. Raises Refused if the build type is unknown, Faulty if none of
+    the documents can be read."""
+    require("build type", build_type, TYPES)
     before = _cpu()
 
-    def told(event: Event) -> None:
+    def forward(event: BuildEvent) -> None:
         if report is not None:
-            report(analysis.veiled([event])[0] if isinstance(event, Diagnostic) else event)
+            report(analysis.redacted([event])[0] if isinstance(event, Diagnostic) else event)
 
-    job = Job(build_type, jobs or len(os.sched_getaffinity(0)), told, tuple(defines))
+    job = Job(build_type, jobs or len(os.sched_getaffinity(0)), forward, tuple(defines))
     components = _components(analysis, documents)
     if documents and not components:
         raise Faulty(analysis.diagnostics, analysis.program.documents)
-    job.tell([*_unread(analysis, documents), *outdated_components(components)])
-    found = builder.build(job, [_unit(analysis, linked) for linked in components])
-    return Built(build_type, tuple(found), tuple(analysis.veiled(job.told)), round(_cpu() - before, 2))
+    job.add([*_unread(analysis, documents), *outdated_components(components)])
+    results = builder.build(job, units(analysis, components))
+    return Built(build_type, tuple(results), tuple(analysis.redacted(job.diagnostics)), round(_cpu() - before, 2))
 
 
 def to_build(analysis: Analysis) -> list[str]:
-    """The components whose programs are there, and are older than what they are made of."""
+    """The names of the components whose programs exist, and are stale."""
     inputs = Inputs()
     return [
         unit.name
         for unit in units(analysis)
-        if unit.language.build and (found := stamps.look(unit, inputs)).is_there and found.changed
+        if unit.language.build and (state := stamps.inspect(unit, inputs)).is_there and state.changed
     ]
 
 
@@ -104,24 +95,20 @@ def _cpu() -> float:
 
 
 def documents(names: Sequence[str]) -> list[str]:
-    """The documents of the components that are meant: by name, folder or document; without any, all below the working
-    folder. Raises Refused."""
+    """The documents of components, by name, folder or document; by default, all below the working folder. Raises
+    Refused if a name is unknown."""
     from robocomp_yaml.api import which
 
-    found: dict[str, None] = {}
+    paths: dict[str, None] = {}
     for name in names or (".",):
         below = of_kind(name, "cdsl") if os.path.isdir(name) else []
-        found |= dict.fromkeys(below or ([which.component(name)] if names else []))
-    return list(found)
+        paths |= dict.fromkeys(below or ([which.component(name)] if names else []))
+    return list(paths)
 
 
 def clean(
-    analysis: Analysis,
-    documents: Sequence[str],
-    build_type: str | None = None,
-    *,
-    everything: bool = False,
+    analysis: Analysis, documents: Sequence[str], build_type: str | None = None, *, everything: bool = False
 ) -> list[str]:
-    """Takes the build trees of these components away; the folders that are gone. Of `everything` that was asked for,
-    whole trees."""
-    return builder.clean(units(analysis, documents), everything, build_type)
+    """Removes the build trees of these components, or whole trees if they are `everything` that is built there. Returns
+    the removed folders."""
+    return builder.clean(units(analysis, _components(analysis, documents)), everything, build_type)

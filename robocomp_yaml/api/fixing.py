@@ -1,4 +1,4 @@
-"""The fixes that documents get, and what remains."""
+"""Applying the fixes of diagnostics, and what remains."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from robocomp_yaml.api.edited import EditedDocument, write
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.fixing.files import Written, write
-from robocomp_yaml.fixing.rounds import MISSHAPEN, UNDERSTOOD, UNREADABLE, Done, Look, mend
+from robocomp_yaml.fixing import MISSHAPEN, UNDERSTOOD, UNREADABLE, AttemptedFix, CheckedDocuments, apply_fixes
 from robocomp_yaml.pipeline import Analysis
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 from robocomp_yaml.source.inside import stays_inside
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class Fixing:
-    """What fixing the documents of a workspace comes to. Nothing is written before `apply`.
+    """The fixes of the documents of a workspace. Nothing is written before `apply`.
 
     `fixed` are the fixes that are applied, each with its diagnostic; `left` those that are not, with the reason;
     `written` the documents that change.
@@ -30,31 +30,31 @@ class Fixing:
         *, unsafe: bool, environment: bool,
     ) -> None:  # fmt: skip
         self._before, self._load, self._paths, self._environment = before, load, tuple(paths), environment
-        mended = mend(self._look, _asked(before.analysis), unsafe=unsafe)
-        self._changed, self._fixed, self._left = mended.changed, mended.fixed, mended.left
-        self.written: tuple[Written, ...] = self._write(look_only=True)
+        result = apply_fixes(self._look, _requested(before.analysis), unsafe=unsafe)
+        self._changed, self._fixed, self._left = result.changed, result.fixed, result.left
+        self.written: tuple[EditedDocument, ...] = self._write(look_only=True)
         self._remaining: Workspace | None = None
 
     @property
-    def fixed(self) -> list[Done]:
+    def fixed(self) -> list[AttemptedFix]:
         refused = self.refused
         return [one for one in self._fixed if one.diagnostic.span.file not in refused]
 
     @property
-    def left(self) -> list[Done]:
+    def left(self) -> list[AttemptedFix]:
         reasons = {one.path: one.reason for one in self.written if one.reason}
-        kept = [Done(one.diagnostic, one.fix, reasons[one.diagnostic.span.file])
+        kept = [AttemptedFix(one.diagnostic, one.fix, reasons[one.diagnostic.span.file])
                 for one in self._fixed if one.diagnostic.span.file in reasons]  # fmt: skip
         return [*self._left, *kept]
 
     @property
     def refused(self) -> set[str]:
-        """The documents that cannot be written."""
+        """The paths of the documents that cannot be written."""
         return {one.path for one in self.written if one.reason}
 
     @property
     def remaining(self) -> Workspace:
-        """The documents as they are when all is applied."""
+        """The workspace after all fixes are applied."""
         if self._remaining is None:
             refused = self.refused
             self._remaining = self._load({path: to for path, to in self._changed.items() if path not in refused})
@@ -62,52 +62,56 @@ class Fixing:
 
     @property
     def diagnostics(self) -> list[Diagnostic]:
-        """What remains."""
+        """The diagnostics that remain."""
         return self.remaining.check(environment=self._environment)
 
     def diffs(self) -> Iterator[str]:
-        """A unified diff of each document that changes, with secrets hidden."""
+        """A unified diff of each document that changes, without secrets."""
         hidden = self._before.analysis.hidden()
         for one in self.written:
             if not one.reason:
                 yield hidden.without(unified(_text(one.before), _text(one.after), f"a/{one.path}", f"b/{one.path}"))
 
     def apply(self) -> None:
-        """Writes the documents, each whole or not at all; one that was changed meanwhile, or cannot be written, stays
-        as it is."""
+        """Writes the documents, each completely or not at all. A document that has changed since it was read, or cannot
+        be written, is kept."""
         self.written = self._write(look_only=False)
         self._remaining = None
 
-    def _write(self, *, look_only: bool) -> tuple[Written, ...]:
+    def _write(self, *, look_only: bool) -> tuple[EditedDocument, ...]:
         contents = self._before.analysis.disk.contents
         changed = ((path, contents[path], after) for path, after in sorted(self._changed.items()))
         return tuple(write(self._paths, changed, look_only=look_only))
 
-    def _look(self, changed: Mapping[str, bytes]) -> Look:
+    def _look(self, changed: Mapping[str, bytes]) -> CheckedDocuments:
         workspace = self._load(changed) if changed else self._before
         analysis = workspace.analysis
         levels = {
             document.path: UNREADABLE if document.tree is None else MISSHAPEN if document.model is None else UNDERSTOOD
             for document in analysis.linker.documents.read.values()
         }
-        # Whether a comment allows something in vain is known once all is checked.
-        told = workspace.check(environment=self._environment) if analysis.allowed.by_file else analysis.diagnostics
-        return Look(list(told), analysis.disk.contents, levels)
+        # Which comments suppress nothing is known only after a complete check.
+        is_complete = bool(analysis.allowed.by_file)
+        found = workspace.check(environment=self._environment) if is_complete else analysis.diagnostics
+        return CheckedDocuments(list(found), analysis.disk.contents, levels)
 
 
-def _asked(analysis: Analysis) -> set[str]:
-    """The documents that the user named, or that are below the folders that were named, with their state machines and
-    workspaces."""
+def _requested(analysis: Analysis) -> set[str]:
+    """The paths of the requested documents, of those below requested folders, and of their state machines and workspace
+    files."""
     program, read = analysis.program, analysis.linker.documents.read
     machines = {
-        path for real, linked in program.components.items() if real in program.asked for path in linked.machine_files
+        path
+        for real, linked in program.components.items()
+        if real in program.requested
+        for path in linked.machine_files
     }
     settings = {
         path for each in analysis.linker.workspaces.values()
-        if any(stays_inside(folder, os.path.abspath(each.root)) for folder in analysis.found.folders)
+        if any(stays_inside(folder, os.path.abspath(each.root)) for folder in analysis.discovered.folders)
         and (path := os.path.normpath(os.path.join(each.root, WORKSPACE_FILE))) in analysis.disk.contents
     }  # fmt: skip
-    return {read[real].path for real in program.asked if real in read} | machines | settings
+    return {read[real].path for real in program.requested if real in read} | machines | settings
 
 
 def _text(content: bytes) -> str:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Sequence
 
+from robocomp_yaml.api.edited import EditedDocument, write
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
-from robocomp_yaml.fixing.files import Written, write
 from robocomp_yaml.source import text
 from robocomp_yaml.source.discover import WORKSPACE_FILE, discover
 from robocomp_yaml.source.formatting import Unformattable, formatted, same_content
@@ -30,7 +30,7 @@ class Formatting:
         }  # fmt: skip
         self.documents = (*found.documents, *named, *sorted(path for path in settings if os.path.isfile(path)))
         self.diagnostics: tuple[Diagnostic, ...] = found.diagnostics
-        self._unformattable: list[Written] = []
+        self._unformattable: list[EditedDocument] = []
         self._changed = list(self._laid_out())
         self.written = self._write(look_only=True)
 
@@ -53,7 +53,7 @@ class Formatting:
         as it is."""
         self.written = self._write(look_only=False)
 
-    def _write(self, *, look_only: bool) -> tuple[Written, ...]:
+    def _write(self, *, look_only: bool) -> tuple[EditedDocument, ...]:
         return (*write(self._paths, self._changed, look_only=look_only), *self._unformattable)
 
     def _laid_out(self) -> Iterator[tuple[str, bytes, bytes]]:
@@ -65,7 +65,7 @@ class Formatting:
             after, faults = layout(path, raw)
             self.diagnostics += tuple(faults)
             if isinstance(after, Unformattable):
-                self._unformattable.append(Written(path, raw, raw, str(after)))
+                self._unformattable.append(EditedDocument(path, raw, raw, str(after)))
             elif after is not None and after != raw:
                 yield path, raw, after
 

@@ -1,4 +1,4 @@
-"""Carrying legacy files over, as data."""
+"""Migrating legacy files, as data."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from robocomp_yaml.api.outcome import File
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.legacy import migration, outputs
 from robocomp_yaml.legacy.migration import Progress
-from robocomp_yaml.legacy.result import Migration as Run
-from robocomp_yaml.legacy.settings.plan import Guesses
+from robocomp_yaml.legacy.result import MigrationRun
+from robocomp_yaml.legacy.settings.plan import Corrections
 from robocomp_yaml.pipeline import search_folders
 
 _ACTIONS = {
@@ -19,34 +19,34 @@ _ACTIONS = {
 
 
 class Migration:
-    """What carrying legacy files over comes to. Nothing is written before `apply`, but that a folder in which an
-    earlier run was interrupted is put in order.
+    """A migration of legacy files. Nothing is written before `apply`, except that an interrupted earlier run is rolled
+    back.
 
-    `run` is the whole of it, for the command line alone.
+    `run` has all results, and is for the command line only.
     """
 
     def __init__(
         self, paths: Sequence[str], output: str | None, include: Sequence[str], *, force: bool = False,
-        exact: bool = False, guesses: Guesses = Guesses(), progress: Progress = iter,
+        exact: bool = False, guesses: Corrections = Corrections(), progress: Progress = iter,
     ) -> None:  # fmt: skip
         self._include = tuple(include)
-        self.run: Run = migration.migrate(
+        self.run: MigrationRun = migration.migrate(
             paths, output, search_folders(self._include), force=force, progress=progress, guesses=guesses, exact=exact
         )
 
     @property
     def diagnostics(self) -> list[Diagnostic]:
-        """All that is to be said of the legacy files; after `apply` also what `check` says of the documents."""
+        """All diagnostics of the legacy files; after `apply` also those of `check` on the documents."""
         return self.run.diagnostics
 
     @property
     def has_errors(self) -> bool:
-        """Whether a file was refused, or could not be written."""
+        """Whether a file was rejected, or could not be written."""
         return self.run.failed
 
     @property
     def files(self) -> tuple[File, ...]:
-        """The documents, each with what becomes of it and a unified diff."""
+        """The documents, each with its action and a unified diff."""
         return tuple(
             File(root.root.path, path, _ACTIONS[output.state], diff=output.diff(path))
             for root in self.run.roots.values()
@@ -56,11 +56,11 @@ class Migration:
 
     @property
     def lost(self) -> int:
-        """How many lines of the sources no document says."""
+        """How many lines of the sources are in no document."""
         return sum(entry.lines()["lost"] for entry in self.run.entries)
 
     def apply(self) -> None:
-        """Writes the documents, and looks at what was written as `check` does. Files that were edited since stay; what
-        could not be written is told by `diagnostics`."""
+        """Writes the documents, and checks what was written. A file that was edited since is kept. A file that could
+        not be written is reported in `diagnostics`."""
         self.run.write()
-        migration.look_back(self.run, self._include)
+        migration.check_written(self.run, self._include)

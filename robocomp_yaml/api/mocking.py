@@ -10,7 +10,7 @@ from robocomp_yaml.api.neighbours import workspace_ports
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, has_errors
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.emit.ports import Ports
+from robocomp_yaml.emit.ports import PortTable
 from robocomp_yaml.network.port_numbers import default_port
 from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.source import schema, text
@@ -50,11 +50,11 @@ class Mock:
             from_document = reader.of_document(root) if root is not None else None
             if from_document is not None:
                 self._add(from_document)
-        self._ports: Ports | None = None
+        self._ports: PortTable | None = None
 
     @property
     def diagnostics(self) -> list[Diagnostic]:
-        return self._analysis.veiled(self._diagnostics)
+        return self._analysis.redacted(self._diagnostics)
 
     def endpoints(self, given: Mapping[str, str] | None = None) -> dict[str, str]:
         """Where each interface is served, by its type id: as `given` by its name, else as the script says, else where

@@ -1,4 +1,4 @@
-"""What a compile came to, as data."""
+"""The result of a compile, as data."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ CHANGED = (*WRITTEN, "remove", "refused")
 
 
 class File(msgspec.Struct, frozen=True):
-    """One file and what becomes of it. `root` is the folder of its component, or the workspace's for Slice; `path`
-    begins with it. `action` is `create`, `update`, `adopt` (a file that rcyaml did not write), `edited` (a generated
-    file that was edited, and is written again), `merge`, `remove`, `refused`, `kept` or `left` (the user's), or
-    `unchanged`. `orig` is where an earlier text is kept, `diff` a unified diff where it was asked for."""
+    """One file, and what a compile does with it. `root` is the folder of its component, or the workspace's for Slice;
+    `path` begins with it. `action` is `create`, `update`, `adopt` (a file that rcyaml did not write), `edited` (a
+    generated file that was edited, and is written again), `merge`, `remove`, `refused`, `kept` or `left` (the user's),
+    or `unchanged`. `orig` is the path of the backup of an earlier text, `diff` a unified diff if it was requested."""
 
     root: str
     path: str
@@ -31,9 +31,9 @@ class File(msgspec.Struct, frozen=True):
 
 
 class Outcome(msgspec.Struct, frozen=True):
-    """`documents` were looked at, `asked` of them named by the user; of these, some were `left_out`, by path: whether
-    they have errors themselves. `planned` when nothing was written, since only a look was wanted. `to_build` are the
-    components whose programs are older now than what they are made of."""
+    """How many `documents` were read, and how many of them were `asked` for by the user. `left_out` are the requested
+    documents that were skipped, by path: True if the document itself has errors. `planned` says that nothing was
+    written. `to_build` are the components whose programs are stale now."""
 
     diagnostics: tuple[Diagnostic, ...]
     files: tuple[File, ...]
@@ -49,7 +49,7 @@ class Outcome(msgspec.Struct, frozen=True):
 
     @property
     def dirty(self) -> bool:
-        """Whether a file that a user sees changed, or would."""
+        """Whether a file that users see has changed, or would change."""
         return any(file.action in CHANGED for file in self.files)
 
     def as_data(self) -> dict[str, Any]:
@@ -57,17 +57,17 @@ class Outcome(msgspec.Struct, frozen=True):
 
     @classmethod
     def of_data(cls, data: dict[str, Any], *, planned: bool = False) -> Outcome:
-        """The inverse of `as_data`. Raises ValueError."""
+        """The inverse of `as_data`. Raises ValueError if the data has another shape."""
         return msgspec.structs.replace(msgspec.convert(data, cls), planned=planned)
 
     def settled(self, lasting: Sequence[Diagnostic], changes: Changes) -> Outcome:
-        """The outcome of the same run made again: nothing left to write, and only the `lasting` diagnostics. What is
-        gone, or is the user's alone from now on, it would not see."""
-        ours = {os.path.normpath(path) for path in changes.settled}
+        """The outcome of the same compile when it is run again: nothing to write, and only the `lasting` diagnostics.
+        It would not report removed files, nor files that have become the user's."""
+        generated = {os.path.normpath(path) for path in changes.settled}
         users = {os.path.normpath(path) for path in changes.once}
         files = tuple(
-            File(file.root, file.path, "unchanged" if file.path in ours else "kept")
+            File(file.root, file.path, "unchanged" if file.path in generated else "kept")
             for file in self.files
-            if file.path in ours or file.path in users
+            if file.path in generated or file.path in users
         )
         return Outcome(tuple(lasting), files, self.documents, self.asked, self.left_out)

@@ -1,19 +1,19 @@
-"""What plug-ins are made of: all that their modules import from rcyaml. docs/plugins.md says how one is written.
+"""The library for plug-ins: everything that their modules import from rcyaml. See docs/plugins.md.
 
-The names of `__all__` keep their meaning as those of `robocomp_yaml.api` do. Each is imported when it is asked for, so
-that a module which is loaded for every check costs only what it uses.
+The names in `__all__` keep their meaning as those of `robocomp_yaml.api` do. Each is imported when it is used, so that
+a module that is loaded for every check costs only what it uses.
 """
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from robocomp_yaml.diag.code import Code, Family
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.fix import Edit, Fix, Hint, removal, replacing
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean
+from robocomp_yaml.registry import lazy_attributes
 
 if TYPE_CHECKING:
     from robocomp_yaml.emit.exports import Unwritable
@@ -42,19 +42,10 @@ __all__ = [
     "removal", "render", "replacing", "token", "trees",
 ]  # fmt: skip
 
-_HOMES = {
-    "emit.exports": ("Unwritable",), "emit.graphs.picture": ("Picture",), "emit.render": ("render",),
-    "languages.record": ("TargetLanguage",), "legacy.document": ("List", "Map", "Notes", "Raw"),
-    "legacy.draft": (
-        "ComponentDraft", "DeploymentDraft", "ModuleDraft", "ModuleNames", "ParametersDraft", "Reader", "ValuesDraft",
-    ),
-    "legacy.grammar": ("token", "trees"), "link.program": ("LinkedComponent", "Program"),
-    "network.network": ("Network",), "transactions.plan": ("FilePlan",),
-}  # fmt: skip
-_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
-
-
-def __getattr__(name: str) -> Any:
-    if name not in _HOME_OF:
-        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
-    return getattr(import_module(f"robocomp_yaml.{_HOME_OF[name]}"), name)
+__getattr__ = lazy_attributes(__name__, {
+    "emit.exports": "Unwritable", "emit.graphs.picture": "Picture", "emit.render": "render",
+    "languages.record": "TargetLanguage", "legacy.document": "List Map Notes Raw",
+    "legacy.draft": "ComponentDraft DeploymentDraft ModuleDraft ModuleNames ParametersDraft Reader ValuesDraft",
+    "legacy.grammar": "token trees", "link.program": "LinkedComponent Program", "network.network": "Network",
+    "transactions.plan": "FilePlan",
+})  # fmt: skip

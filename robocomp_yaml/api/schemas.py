@@ -7,8 +7,8 @@ import re
 
 import msgspec
 
+from robocomp_yaml.api.refusals import meant
 from robocomp_yaml.diag.errors import Refused
-from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.link.workspace import root_above
 from robocomp_yaml.link.workspace_files import GLOBS, modeline, schema_of, schema_path
 from robocomp_yaml.plugins import Plugins
@@ -16,12 +16,13 @@ from robocomp_yaml.source.discover import WORKSPACE_FILE, kind_of
 from robocomp_yaml.source.regular import regular, whole
 
 _MODELINE = re.compile(r"^#\s*yaml-language-server\s*:.*?\$schema\s*=\s*(\S+)", re.MULTILINE)
-_HEAD = 10_000  # characters in which editors look
+_HEAD = 10_000  # characters that editors search
 
 
 class Schema(msgspec.Struct, frozen=True):
-    """The schema of a document's kind in its workspace, which is `root`. `named` is what the document's first lines
-    say, `path` where the schema stands; both are '' where there is none. `modeline` is what these lines should say."""
+    """The schema of a document's kind in its workspace, whose folder is `root`. `named` is the schema that the first
+    lines of the document name, `path` the file of the schema; both are '' if there is none. `modeline` is what the
+    first line should be."""
 
     kind: str
     root: str
@@ -34,18 +35,18 @@ class Schema(msgspec.Struct, frozen=True):
         return bool(self.path) and not os.path.isfile(self.path)
 
     def is_outdated(self, plugins: Plugins) -> bool:
-        """Whether it is not what this version has for the kind, with the plug-ins of the workspace."""
+        """Whether the file differs from the schema of this version, with the plug-ins of the workspace."""
         return bool(self.path) and whole(self.path)[0] != schema_of(self.kind, plugins).encode("utf-8")
 
 
 def installed(root: str) -> dict[str, str]:
-    """Where a workspace keeps the schema of each kind; '' for those that it has not."""
+    """The path of the schema of each kind in a workspace; '' if it is missing."""
     paths = {kind: os.path.normpath(os.path.join(root, schema_path(kind))) for kind in GLOBS}
     return {kind: path if os.path.isfile(path) else "" for kind, path in paths.items()}
 
 
 def schema_for(document: str) -> Schema:
-    """The schema of a document. Raises Refused for what is none."""
+    """The schema of a document. Raises Refused if there is no such document, or it cannot be read."""
     kind = _kind_of(document)
     folder = os.path.dirname(document) or "."
     root = root_above(folder) or folder
@@ -57,20 +58,19 @@ def schema_for(document: str) -> Schema:
 def _kind_of(document: str) -> str:
     kind = "workspace" if os.path.basename(document) == WORKSPACE_FILE else kind_of(document)
     if kind is None:
-        meant = suggest(document, GLOBS)
-        hint = f"did you mean '{meant}'?" if meant else f"kinds are {', '.join(GLOBS)}"
-        raise Refused(f"'{document}' is neither a kind nor the name of a document; {hint}")
+        hint = meant(document, GLOBS, f"the kinds are {', '.join(GLOBS)}")
+        raise Refused(f"'{document}' is neither a kind of document nor a document{hint}")
     if not os.path.isfile(document):
-        raise Refused(f"there is no file '{document}'")
+        raise Refused(f"'{document}' does not exist")
     return kind
 
 
 def _named(document: str) -> str:
-    """The schema that a document's modeline names, or ''."""
+    """The schema that the modeline of a document names, or ''."""
     try:
         with open(document, encoding="utf-8", errors="replace", opener=regular) as file:
             head = file.read(_HEAD)
     except OSError as error:
         raise Refused(f"cannot read {document}: {error.strerror}") from error
-    found = _MODELINE.search(head)
-    return found[1] if found else ""
+    match = _MODELINE.search(head)
+    return match[1] if match else ""

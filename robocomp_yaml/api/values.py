@@ -1,4 +1,4 @@
-"""The values of a component's parameters: read, looked at, changed and exported without a build and without a robot."""
+"""The values of a component's parameters: checked, shown, changed and exported without a build and without a robot."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml.api import which
+from robocomp_yaml.api.refusals import cannot_write, meant
 from robocomp_yaml.check.pdsl import values as check
 from robocomp_yaml.diag.codes import files as file_codes
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors, in_order
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues
 from robocomp_yaml.parameters.editing import show
 from robocomp_yaml.parameters.editing.edit import NotEditable
@@ -43,13 +43,13 @@ from robocomp_yaml.source.tree import Sequence as List
 from robocomp_yaml.transactions import whole_file
 from robocomp_yaml.transactions.changes import unified
 
-# As `rcyaml config get` prints them; one that cannot be followed is refused, and no text that happens to look so.
+# A reference as `rcyaml config get` prints it. One that cannot be resolved is rejected, not read as a text.
 _REFERENCE = re.compile(r"\{ *(?:env|file) *:.*\}", re.DOTALL)
 
 
 class Change(msgspec.Struct, frozen=True):
-    """A change of one value: nothing is written before `apply`. `value` and `was` are as documents spell them, with
-    secrets hidden; `was` is '' where nothing stood there."""
+    """A change of one value; nothing is written before `apply`. `value` and `was` are as documents spell them, without
+    secrets; `was` is '' if the value was not set."""
 
     file: str
     path: str
@@ -59,26 +59,26 @@ class Change(msgspec.Struct, frozen=True):
     after: bytes
 
     def diff(self) -> str:
-        """A unified diff of the document."""
+        """A unified diff of the document, without secrets."""
         old, new = (text.decode("utf-8", "surrogateescape") for text in (self.before, self.after))
         return unified("".join(hidden_lines(old)), "".join(hidden_lines(new)), f"a/{self.file}", f"b/{self.file}")
 
     def apply(self) -> None:
-        """Writes the document, whole or not at all. Raises Refused where it cannot be written, or is another one than
-        it was."""
+        """Writes the document, completely or not at all. Raises Refused if it cannot be written, or has changed
+        meanwhile."""
         try:
             if whole(self.file)[0] != self.before:
-                raise Refused(f"{self.file} was changed meanwhile, and stays as it is: try again")
+                raise Refused(f"{self.file} has changed meanwhile, and is kept as it is: try again")
             whole_file.replace(self.file, self.after)
         except OSError as error:
-            raise Refused(f"{self.file} cannot be written: {(error.strerror or str(error)).lower()}") from None
+            raise cannot_write(self.file, error) from None
 
 
 class Values:
-    """A values document with its layers, its parameters and all that is wrong with them.
+    """A values document with its layers, its parameters and its diagnostics.
 
-    `file` is its path, `diagnostics` what is wrong, sorted by place. What needs the effective values raises Faulty
-    where errors leave none.
+    `file` is its path, `diagnostics` are sorted by location. What needs the effective values raises Faulty if errors
+    leave none. Raises Refused if the file is not a values document.
     """
 
     def __init__(self, file: str, include: Sequence[str] = (), overlay: Mapping[str, bytes] | None = None) -> None:
@@ -88,53 +88,54 @@ class Values:
         self.documents_read: int = self._analysis.program.documents
         self._linked: LinkedValues | None = self._analysis.program.values.get(os.path.realpath(file))
         if self._linked is None and not has_errors(self._analysis.diagnostics):
-            raise Refused(f"{file} is no values document: it is called config.yaml (in etc/, beside a component) "
+            raise Refused(f"{file} is not a values document: its name is config.yaml (in etc/, beside a component) "
                           "or NAME.config.yaml")  # fmt: skip
-        self.diagnostics: tuple[Diagnostic, ...] = tuple(self._told())
+        self.diagnostics: tuple[Diagnostic, ...] = tuple(self._all_diagnostics())
 
-    def _told(self) -> list[Diagnostic]:
-        told, linked = list(self._analysis.diagnostics), self._linked
+    def _all_diagnostics(self) -> list[Diagnostic]:
+        diagnostics, linked = list(self._analysis.diagnostics), self._linked
         if linked is not None:
-            # The component's own values document is read with it; what is wrong there is none of this one's business.
-            ours = {layer.document.path for layer in linked.layers()}
-            others = {one.document.path for one in self._analysis.program.values.values()} - ours
-            told = [diagnostic for diagnostic in told if diagnostic.span.file not in others]
-            if linked.parameters is not None and check.is_only_layer(linked):
-                told += check.of_document(linked, self._analysis.program, complete=True)
-        return in_order(self._analysis.veiled(told))
+            # The component's own values document is read too. Its diagnostics do not belong to this document.
+            own = {layer.document.path for layer in linked.layers()}
+            others = {one.document.path for one in self._analysis.program.values.values()} - own
+            diagnostics = [one for one in diagnostics if one.span.file not in others]
+            if linked.parameters is not None and check.is_only_a_layer(linked):
+                diagnostics += check.check_document(linked, self._analysis.program, complete=True)
+        return in_order(self._analysis.redacted(diagnostics))
 
     @property
     def _parameters(self) -> LinkedParameters:
-        """Raises Faulty where it cannot be known whose values these are."""
+        """The parameters of these values. Raises Faulty if the component is unknown."""
         if self._linked is None or self._linked.parameters is None:
             raise self._unknown(self.diagnostics)
         return self._linked.parameters
 
-    def _unknown(self, told: Sequence[Diagnostic] = ()) -> Faulty:
-        """What is wrong, at the least that it is not known whose values these are."""
-        return Faulty(told or [codes.NO_COMPONENT.at(Span(self.file)).as_severity("error")], self.documents_read)
+    def _unknown(self, diagnostics: Sequence[Diagnostic] = ()) -> Faulty:
+        """The error to raise: the diagnostics, or at least that the component is unknown."""
+        return Faulty(diagnostics or [codes.NO_COMPONENT.at(Span(self.file)).as_severity("error")], self.documents_read)
 
     @property
     def _effective(self) -> Effective:
-        """The effective values, completed from all layers and defaults. Raises Faulty."""
+        """The effective values of all layers and defaults. Raises Faulty."""
         if has_errors(self.diagnostics):
             raise Faulty(self.diagnostics, self.documents_read)
         if self._linked is None or self._linked.parameters is None:
             raise self._unknown()
         values, found = self._analysis.program.effective(self._linked)
-        if values is None:  # what is wrong is no error in this workspace, and leaves nothing to show all the same
-            problem = "the values cannot be completed: `rcyaml check` says what is wrong with their parameters"
-            told = [*found, file_codes.WRONG_SHAPE.at(Span(self.file), problem=problem)]
-            raise Faulty(told, self.documents_read)
+        if values is None:  # without an error, because the workspace lowers severities
+            problem = "the values cannot be completed: `rcyaml check` reports what is wrong with the parameters"
+            found = [*found, file_codes.WRONG_SHAPE.at(Span(self.file), problem=problem)]
+            raise Faulty(found, self.documents_read)
         return values
 
     def rows(self, *, reveal: bool = False) -> list[Value]:
-        """Every effective value with where it is given; secrets are hidden unless `reveal`. Raises Faulty."""
+        """All effective values, each with the location that sets it. Secrets are hidden unless `reveal` is set. Raises
+        Faulty."""
         return list(show.shown(self._effective, reveal=reveal))
 
     def get(self, path: str, *, reveal: bool = False) -> Any:
-        """The effective value at a path such as `motors[0].vel`, as plain data; None where it has none. A secret is
-        hidden unless `reveal`. Raises Faulty, and Refused where there is no such parameter."""
+        """The effective value at a path such as `motors[0].vel`, as plain data; None if it has no value. A secret is
+        hidden unless `reveal` is set. Raises Faulty, and Refused if the parameter is unknown."""
         values = self._effective
         steps, _ = _steps(path, values.parameters.root)
         found = show.find(values, steps)
@@ -143,8 +144,8 @@ class Values:
         return copy.deepcopy(found) if reveal else show.hidden_at(values.parameters.root, steps, found)
 
     def export(self, form: str = "ice", *, reveal: bool = True) -> str:
-        """All effective values as a property file for Ice (`ice`) or as TOML (`toml`). Programs get the values as they
-        are; with `reveal` off secrets are hidden. Raises Faulty."""
+        """All effective values as Ice properties (`ice`) or TOML (`toml`), for programs. Secrets are hidden only if
+        `reveal` is off. Raises Faulty."""
         values = self._effective
         assert self._linked is not None
         if form == "toml":
@@ -164,10 +165,9 @@ class Values:
         return property_text(sections, name, os.path.basename(self.file))
 
     def set(self, path: str, value: str) -> Change:
-        """The document with another value at a path, as a change to be applied; all else in it stays, byte for byte.
-        Text needs no quotes; `null` returns to the default. Raises Refused where there is no such parameter or it
-        cannot be set there, and Faulty where its type or limits refuse the value, or the document would have more
-        errors than before."""
+        """The change of the value at a path. Everything else in the document stays, byte for byte. Text needs no
+        quotes; `null` returns to the default. Raises Refused if the parameter is unknown or cannot be set in this
+        document, and Faulty if its type or limits reject the value, or the document would have new errors."""
         parameters = self._parameters
         if parameters.broken or self._linked is None:
             raise self._unknown(self.diagnostics)
@@ -176,61 +176,57 @@ class Values:
         steps = show.typed(of, named)
         is_text = isinstance(type_, EnumType) or (isinstance(type_, BasicType) and type_.name == "string")
         is_text = is_text and not _REFERENCE.fullmatch(value)
-        raw = self._analysis.disk.contents[self._linked.document.path]  # what the places are in
+        raw = self._analysis.disk.contents[self._linked.document.path]  # the text that the locations refer to
         text = source_text.decode(self.file, raw)[0]
-        assert text is not None  # it was read before
+        assert text is not None  # the analysis has read it
         root = self._linked.document.root
-        self._refuse_bad(type_, steps, value, _place_of(root, ["parameters", *steps]), is_text=is_text)
+        self._reject_value(type_, steps, value, _location(root, ["parameters", *steps]), is_text=is_text)
         try:
             change = edit(
-                self.file,
-                text,
-                root,
-                ["parameters", *steps],
-                value,
-                is_text=is_text and value != "null",
-                lines_above=lambda way: lines_above(of, way[1:]),
-            )
-        except NotEditable as refused:
-            raise Refused(f"{path} cannot be set in {self.file}:{refused.node.span.line}: {refused}") from None
+                self.file, text, root, ["parameters", *steps], value, is_text=is_text and value != "null",
+                lines_above=lambda steps_: lines_above(of, steps_[1:]),
+            )  # fmt: skip
+        except NotEditable as error:
+            raise Refused(f"{path} cannot be set in {self.file}:{error.node.span.line}: {error}") from None
         bom = raw[:3] if raw.startswith(b"\xef\xbb\xbf") else b""
         changed = bom + change.text.encode()
-        self._refuse_worse(changed)
-        said, was = (show.hidden_text(of, named, text) for text in (value, change.was))
-        return Change(self.file, path, said, was, raw, changed)
+        self._reject_new_errors(changed)
+        shown, was = (show.hidden_text(of, named, text) for text in (value, change.was))
+        return Change(self.file, path, shown, was, raw, changed)
 
-    def _refuse_worse(self, changed: bytes) -> None:
+    def _reject_new_errors(self, changed: bytes) -> None:
         after = Values(self.file, self._include, {**self._overlay, os.path.realpath(self.file): changed})
         before = {(d.code, d.facts) for d in self.diagnostics}
-        worse = [d for d in after.diagnostics if d.severity == "error" and (d.code, d.facts) not in before]
-        if worse:
-            raise Faulty(worse, after.documents_read)
+        new = [d for d in after.diagnostics if d.severity == "error" and (d.code, d.facts) not in before]
+        if new:
+            raise Faulty(new, after.documents_read)
 
-    def _refuse_bad(self, type_: Type, steps: Sequence[Step], value: str, span: Span, *, is_text: bool) -> None:
-        """A value that its type or limits refuse, shown at the place where it was to go."""
+    def _reject_value(self, type_: Type, steps: Sequence[Step], value: str, span: Span, *, is_text: bool) -> None:
+        """Raises Faulty if the type or the limits reject a value, with the location where it would be written."""
         if value == "null":
             return
         node, faults = parse(self.file, json.dumps(value) if is_text else value)
         if node is None:
             reason = faults[0].message if faults else "it is empty"
-            said = f"'{value}'" if not is_secret(type_) else HIDDEN
-            found = [file_codes.WRONG_SHAPE.at(span, problem=f"{said} is no value: {reason}")]
+            shown = f"'{value}'" if not is_secret(type_) else HIDDEN
+            found = [file_codes.WRONG_SHAPE.at(span, problem=f"{shown} is not a value: {reason}")]
         else:
             found = [replace(fault, span=span, fixes=()) for fault in judge(type_, node, tuple(steps), complete=False)]
         if found:
-            raise Faulty(self._analysis.veiled(found), 1)
+            raise Faulty(self._analysis.redacted(found), 1)
 
 
 def write_new(file: str, include: Sequence[str] = ()) -> str:
-    """Writes a first values document: `file` is that document, or what `which.component` knows a component by. Values
-    and connections of the component's `etc/config` are taken over. Raises Refused and Faulty."""
+    """Writes a first values document, and returns its path: `file` is that document, or names a component as
+    `which.component` accepts it. Values and connections of the component's `etc/config` are copied. Raises Refused and
+    Faulty."""
     is_values = kind_of(file) == "config" or file.endswith(".config.yaml") or os.path.basename(file) == "config.yaml"
     if is_values and os.path.lexists(file):
-        raise Refused(f"{os.path.normpath(file)} is there already, and stays as it is")
+        raise Refused(f"{os.path.normpath(file)} exists already, and is kept as it is")
     component = which.component_near(file) if is_values else which.component(file)
     target = os.path.normpath(file if is_values else os.path.join(os.path.dirname(component), which.VALUES))
     if os.path.lexists(target):
-        raise Refused(f"{target} is there already, and stays as it is")
+        raise Refused(f"{target} exists already, and is kept as it is")
     analysis = analyse((component,), include)
     real = os.path.realpath(component)
     program = analysis.program
@@ -244,7 +240,7 @@ def write_new(file: str, include: Sequence[str] = ()) -> str:
         os.makedirs(os.path.dirname(target) or ".", exist_ok=True)
         whole_file.create(target, first_values(linked, component, target, ports(analysis)))
     except OSError as error:
-        raise Refused(f"{target} cannot be written: {(error.strerror or str(error)).lower()}") from None
+        raise cannot_write(target, error) from None
     return target
 
 
@@ -252,13 +248,12 @@ def _steps(path: str, root: RecordType) -> tuple[list[str], Type]:
     steps = paths.parse(path)
     type_ = show.type_at(root, steps) if steps else None
     if steps is None or type_ is None:
-        meant = suggest(path, [name for name, _ in leaves(root)])
-        raise Refused(f"there is no parameter '{path}'" + (f"; did you mean '{meant}'?" if meant else ""))
+        raise Refused(f"unknown parameter '{path}'{meant(path, (name for name, _ in leaves(root)))}")
     return steps, type_
 
 
-def _place_of(root: Tree, steps: Sequence[Step]) -> Span:
-    """The place of a value, or of the nearest thing around it."""
+def _location(root: Tree, steps: Sequence[Step]) -> Span:
+    """The location of a value, or of the nearest node that contains it."""
     node: Node = root
     span = root.span
     for step in steps:

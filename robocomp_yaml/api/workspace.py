@@ -1,4 +1,4 @@
-"""Documents that belong together, read once."""
+"""A workspace: documents that belong together, read once."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.pipeline import Analysis, analyse
+from robocomp_yaml.source.discover import kind_of
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.building import Built
@@ -16,15 +17,16 @@ if TYPE_CHECKING:
     from robocomp_yaml.api.deploying import Deployment
     from robocomp_yaml.api.fixing import Fixing
     from robocomp_yaml.api.values import Values
-    from robocomp_yaml.building.job import Event
+    from robocomp_yaml.building.job import BuildEvent
+    from robocomp_yaml.emit.graphs.picture import Picture
     from robocomp_yaml.network.network import Network
 
 
 class Workspace:
-    """Documents as they were when `api.load` read them: what changes on the disk later is not seen.
+    """Documents as `api.load` read them: later changes on the disk are not seen.
 
-    `documents` are the paths of those that were asked for; `documents_read` is how many were read, with those that
-    they import. `analysis` is for rcyaml itself, and no part of the promise.
+    `documents` are the paths of the requested documents; `documents_read` is how many were read, imports included.
+    `analysis` is for rcyaml itself, and not part of the promise.
     """
 
     def __init__(
@@ -32,65 +34,53 @@ class Workspace:
         on_read: Callable[[str], None] | None = None,
     ) -> None:  # fmt: skip
         self._paths, self._include, self._overlay = tuple(paths), tuple(include), overlay
-        self.analysis: Analysis = analyse(self._paths, self._include, on_read or _ignore, overlay)
+        self.analysis: Analysis = analyse(self._paths, self._include, on_read, overlay)
 
     @property
     def documents(self) -> tuple[str, ...]:
-        return tuple(self.analysis.found.documents)
+        return tuple(self.analysis.discovered.documents)
 
     @property
     def documents_read(self) -> int:
         return self.analysis.program.documents
 
     def check(self, *, environment: bool = False) -> list[Diagnostic]:
-        """Everything that is wrong with the documents and with what belongs to them (the user's code, the flat
-        configurations, the programs of deployments), sorted by place. `environment` also looks for the libraries that
-        components name, for programs on PATH and for hosts."""
+        """All diagnostics, sorted by location: of the documents, of the user's code, of flat configs and of the
+        programs of deployments. `environment` also checks that the libraries which components name, the programs on
+        PATH and the hosts are available."""
         found = [*self._on_disk(environment), *(self._missing() if environment else ())]
-        return self.analysis.whole(found, environment=environment)
+        return self.analysis.complete(found, environment=environment)
 
     def compile(
-        self,
-        *,
-        output: str | None = None,
-        targets: Sequence[str] = (),
-        adopt: bool = False,
-        merge: bool = False,
+        self, *, output: str | None = None, targets: Sequence[str] = (), adopt: bool = False, merge: bool = False,
         standalone: bool = False,
-    ) -> Compilation:
-        """What compiling comes to; nothing is written before its `apply`. `output` is a folder to write below;
-        `targets` limits what is written (`slice`, `python`, `cpp`, `config`, `docs`); `adopt` takes over files that
-        rcyaml did not write, `merge` brings the user's files up to date."""
+    ) -> Compilation:  # fmt: skip
+        """The compile of the documents; nothing is written before its `apply`. `output` is a folder to write below;
+        `targets` limits what is written (`slice`, `python`, `cpp`, `config`, `docs`); `adopt` overwrites files that
+        rcyaml did not write and keeps backups, `merge` merges changes into the user's files."""
+        from robocomp_yaml.api.compile_stamps import CompileArguments
         from robocomp_yaml.api.compiling import Compilation
 
-        return Compilation(
-            self.analysis,
-            self._paths,
-            self._include,
-            output,
-            targets,
-            adopt=adopt,
-            merge=merge,
-            standalone=standalone,
-        )
+        arguments = CompileArguments(self._paths, self._include, output, targets, standalone)
+        return Compilation(self.analysis, arguments, adopt=adopt, merge=merge)
 
     def build(
         self, *names: str, build_type: str = "Release", jobs: int | None = None, defines: Sequence[str] = (),
-        report: Callable[[Event], None] | None = None,
+        report: Callable[[BuildEvent], None] | None = None,
     ) -> Built:  # fmt: skip
-        """Builds the components that were asked for, or those NAMEs (a component's name, folder or document): those
-        that are not what they are made of. `build_type` is CMake's, `jobs` how much is done at once, `defines`
-        are variables for CMake (`NAME=VALUE`); `report` is told of each step. Builds what was compiled last, whatever
-        the documents say now."""
+        """Builds the requested components, or those NAMEs (a component's name, folder or document), unless they are up
+        to date. `build_type` is that of CMake, `jobs` the number of parallel steps, `defines` are variables for CMake
+        (`NAME=VALUE`); `report` gets each event. Builds what was compiled last, whatever the documents say now. Raises
+        Refused if a name or the build type is unknown, Faulty if a document cannot be read."""
         from robocomp_yaml.api import which
         from robocomp_yaml.api.building import build
 
-        wanted = [which.component(name) for name in names]
-        return build(self.analysis, wanted, build_type=build_type, jobs=jobs, defines=defines, report=report)
+        chosen = [which.component(name) for name in names]
+        return build(self.analysis, chosen, build_type=build_type, jobs=jobs, defines=defines, report=report)
 
     def fix(self, *, unsafe: bool = False, environment: bool = False) -> Fixing:
-        """What applying the fixes of diagnostics comes to: those that leave only one possible meaning, and with
-        `unsafe` guesses too. Nothing is written before its `apply`."""
+        """The fixes of the diagnostics: those that leave only one possible meaning, and with `unsafe` also guesses.
+        Nothing is written before its `apply`."""
         from robocomp_yaml.api.fixing import Fixing
 
         def load(changed: Mapping[str, bytes]) -> Workspace:
@@ -100,54 +90,79 @@ class Workspace:
 
     @property
     def networks(self) -> dict[str, Network]:
-        """What the deployments come to, by the paths of their documents; those are left out whose errors leave no
-        network."""
+        """The networks of the deployments, by the paths of their documents. A deployment whose errors leave no network
+        is missing."""
         documents = self.analysis.linker.documents.read
         return {documents[real].path: network for real, network in self.analysis.networks.items()}
 
     def network(self, path: str = "") -> Network:
-        """The network of the deployment at a path, or of the only one that no other one includes. Raises Refused where
-        there is none, or several; Faulty where its errors leave no network."""
+        """The network of the deployment at a path, or of the only one that no other one includes. Raises Refused if
+        there is none, or more than one; Faulty if errors leave no network."""
         return self.networks[self._deployment_at(path)]
 
     def deployment(self, path: str = "", *, engine: str | None = None, lenient: bool = False) -> Deployment:
-        """The same deployment as it is carried out: planned, brought up, watched and taken down. `engine` is what runs
-        it (`local`, `icegrid`); without one, what its hosts call for. Faulty where the documents have errors; `lenient`
-        lets those pass that leave the network readable, and where they do not, at a path, takes what runs of it."""
+        """The deployment at a path, to be planned, started, watched and stopped. `engine` is `local` or `icegrid`; by
+        default, its hosts decide. Raises Faulty if the documents have errors. `lenient` accepts errors that leave the
+        network readable; if they do not, and a path is passed, the network is that of the running processes."""
         from robocomp_yaml.api.deploying import Deployment
 
         document = path if path and lenient else self._deployment_at(path)
         return Deployment(self.analysis, document, engine, lenient=lenient)
 
     def draw(self, form: str = "text", path: str = "") -> str:
-        """A picture in one of the forms of `rcyaml graph`: of the deployment at a path, or of what a folder has, which
-        is its deployment or else its components. Raises Refused where there are several, or a document is none, and
-        Faulty where errors leave nothing to show."""
-        from robocomp_yaml.api.drawing import draw
+        """A picture in one of the formats of `rcyaml graph`: of the deployment at a path, or of what a folder contains:
+        its deployment, or else its components. Raises Refused if there is more than one deployment, or the path is no
+        deployment, and Faulty if errors leave nothing to draw."""
+        from robocomp_yaml.emit.graphs.forms import draw, forms
 
-        return draw(self.analysis, form, path or self._paths[0])
+        path = path or self._paths[0]
+        # The plug-ins are those of the workspace that contains the document, or the documents of the folder.
+        inside = os.path.join(path, "") if os.path.isdir(path) else path
+        plugins = self.analysis.linker.workspace_of(inside).plugins
+        if form not in forms(plugins):
+            raise Refused(f"unknown picture '{form}'; choose one of {', '.join(forms(plugins))}")
+        picture = self._picture(path)
+        if picture is None:
+            raise Faulty(self.analysis.diagnostics, self.documents_read)
+        return draw(picture, form, plugins)
+
+    def _picture(self, path: str) -> Picture | None:
+        """None if the document, or everything in the folder, has too many errors."""
+        from robocomp_yaml.api.which import deployments_of, only_deployment
+        from robocomp_yaml.emit.graphs import of_components, of_network
+
+        networks, program = self.analysis.networks, self.analysis.program
+        if not os.path.isdir(path):
+            network = networks.get(os.path.realpath(path))
+            if network is None and kind_of(path) != "ddsl":
+                raise Refused(f"'{path}' is neither a deployment document (NAME.ddsl.yaml) nor a folder")
+            return of_network.picture_of(network, self.analysis.diagnostics) if network is not None else None
+        readable = [one for one in deployments_of(path, analysis=self.analysis) if os.path.realpath(one) in networks]
+        if readable:
+            network = networks[os.path.realpath(only_deployment(readable))]
+            return of_network.picture_of(network, self.analysis.diagnostics)
+        if program.deployments or not program.components:
+            return None
+        return of_components.picture_of(os.path.basename(os.path.abspath(path)), program.components.values())
 
     def _deployment_at(self, path: str) -> str:
-        """The document of the deployment that is meant, if it comes to a network."""
-        program = self.analysis.program
-        wanted = (
-            {os.path.realpath(path)}
-            if path
-            else {real for real, linked in program.deployments.items() if not linked.is_included}
-        )
+        """The path of the deployment that is meant, if errors leave a network."""
+        deployments = self.analysis.program.deployments
+        top = {real for real, linked in deployments.items() if not linked.is_included}
+        candidates = {os.path.realpath(path)} if path else top
         read = self.analysis.linker.documents.read
-        found = [read[real].path for real in self.analysis.networks if real in wanted]
+        found = [read[real].path for real in self.analysis.networks if real in candidates]
         if found:
-            from robocomp_yaml.api.deployments import one_of
+            from robocomp_yaml.api.which import only_deployment
 
-            return one_of(found)
-        if any(document.kind == "ddsl" and (not path or real in wanted) for real, document in read.items()):
+            return only_deployment(found)
+        if any(document.kind == "ddsl" and (not path or real in candidates) for real, document in read.items()):
             raise Faulty(self.analysis.diagnostics, self.documents_read)
-        raise Refused(f"there is no deployment at '{path}'" if path else "there is no deployment")
+        raise Refused(f"'{path}' is not a deployment" if path else "the loaded documents contain no deployment")
 
     def values(self, path: str = "") -> Values:
-        """The values of a component's parameters: `path` is the document of the values or of the component, its
-        folder, the component's name, or nothing where there is only one. Raises Refused where there is none."""
+        """The values of a component's parameters: `path` is the document of the values or of the component, its folder,
+        or the component's name; by default, the only one. Raises Refused if there is none."""
         from robocomp_yaml.api import which
         from robocomp_yaml.api.values import Values
 
@@ -156,32 +171,28 @@ class Workspace:
         return Values(document, self._include, self._overlay)
 
     def _on_disk(self, environment: bool) -> Iterator[Diagnostic]:
-        """What files say that are no documents: each component's `etc/config` and code, and the executables of
+        """The diagnostics of files that are no documents: each component's `etc/config` and code, and the programs of
         deployments."""
         analysis = self.analysis
         if analysis.program.components:
             from robocomp_yaml.emit import ports
-            from robocomp_yaml.emit.specific import written
+            from robocomp_yaml.emit.specific import existing_code
 
             yield from ports.clashes(analysis.program.components.values(), analysis.disk)
-            if written.has_code(analysis.program):
-                from robocomp_yaml.api import made_already
+            if existing_code.has_code(analysis.program):
+                from robocomp_yaml.api import compile_stamps
 
-                told = None if self._overlay else made_already.told_of_code(self._paths, self._include)
-                if told is not None:
-                    yield from told
+                kept = None if self._overlay else compile_stamps.diagnostics_of_code(self._paths, self._include)
+                if kept is not None:
+                    yield from kept
                 else:
-                    yield from written.of_written(analysis.program, analysis.diagnostics, analysis.linker)
+                    yield from existing_code.check(analysis.program, analysis.diagnostics, analysis.linker)
         if analysis.networks:
-            from robocomp_yaml.check.networks import of_environment
+            from robocomp_yaml.check.networks import check_environment
 
-            yield from of_environment(analysis.derived, environment=environment)
+            yield from check_environment(analysis.derived, environment=environment)
 
     def _missing(self) -> Iterator[Diagnostic]:
         from robocomp_yaml.emit.environment import missing
 
         return missing(self.analysis.program.components.values(), self.analysis.linker.workspace_of)
-
-
-def _ignore(path: str) -> None:
-    """Nobody wants to be told of what is read."""

@@ -1,5 +1,5 @@
-"""Components built: by what their languages need for it, and whether they are what they are made of.
+"""Building components as their languages need it, and whether they are up to date.
 
-A language that has a part `building` says how many components of it are built at once; of any other one, the commands
-are run that its record names, component by component.
+A language with a part `building` builds several components at once. For any other language, the commands of its record
+are run, component by component.
 """

@@ -1,4 +1,4 @@
-"""The files that a component is made of, as they are now."""
+"""The files that a component is built from, in their current state."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.regular import whole
 
 State = tuple[int, int, int]
-"""Of a file: its size, when it was changed, and which file it is. Where all are as they were, its contents are."""
+"""The state of a file: its size, the time of its last change, and its inode. If these are equal, the contents are."""
 
 
 class Inputs:
-    """Looks; what several components share, once."""
+    """Reads the states and digests of files, each once, although several components share some."""
 
     def __init__(self) -> None:
         self._shared: dict[str, dict[str, State]] = {}
         self._digests: dict[tuple[str, State], str] = {}
 
     def digest(self, path: str, known: State) -> str:
-        """Of the contents of a file that is in this state; '' where it cannot be read."""
+        """The digest of a file in this state; '' if it cannot be read."""
         key = (path, known)
         if key not in self._digests:
             try:
@@ -32,8 +32,8 @@ class Inputs:
         return self._digests[key]
 
     def of(self, unit: Unit, more: Iterable[str] = ()) -> dict[str, State]:
-        """Each file with its state, by its path. `more` are files that a build read besides; those that are gone are
-        left out."""
+        """The inputs of a component: the state of each file, by its path. `more` are other files that the last build
+        read; those that do not exist any more are skipped."""
         found: dict[str, State] = {}
         for path, endings in unit.language.made_of.items():
             found |= _below(unit.path(path), endings)
@@ -48,7 +48,7 @@ class Inputs:
 
 
 def state(path: str) -> State | None:
-    """None where there is no such file."""
+    """The state of a file; None if it does not exist."""
     try:
         status = os.stat(path)
     except OSError:
@@ -61,14 +61,15 @@ def _files(paths: Iterable[str]) -> dict[str, State]:
 
 
 def _below(path: str, endings: tuple[str, ...]) -> dict[str, State]:
-    """The file itself, or the files below the folder whose names end so; all without endings."""
+    """The state of a file, or of the files below a folder whose names have one of the endings; without endings, of
+    all."""
     if not os.path.isdir(path):
         return _files([path])
     return _files(file for file in _walk(path) if not endings or file.endswith(endings))
 
 
 def _walk(folder: str) -> Iterator[str]:
-    """Hidden files are those of editors, and what Python compiles is its own."""
+    """The files below a folder, without hidden ones, which belong to editors, and without Python's bytecode."""
     with os.scandir(folder) as entries:
         for entry in entries:
             if entry.name.startswith(".") or entry.name == "__pycache__":

@@ -1,4 +1,4 @@
-"""A build: what is asked for, what is told meanwhile, and what came of it."""
+"""A build: its options, its events and its results."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ RELEASE = "Release"
 TYPES = (RELEASE, "Debug", "RelWithDebInfo", "MinSizeRel")
 
 
-class Result(msgspec.Struct, frozen=True):
-    """What came of a component: its `state` is `built`, `up to date` or `failed`; `cpu` are the seconds of processors
-    that it took, as far as they can be told from those of others."""
+class BuildResult(msgspec.Struct, frozen=True):
+    """The result of a component: its `state` is `built`, `up to date` or `failed`; `cpu` is its CPU time in seconds, as
+    far as it can be measured by component."""
 
     name: str
     language: str
@@ -29,19 +29,19 @@ class Result(msgspec.Struct, frozen=True):
     cpu: float = 0.0
 
 
-class Step(msgspec.Struct, frozen=True):
-    """How far a build is: `done` of `total` steps, and what is being done."""
+class BuildStep(msgspec.Struct, frozen=True):
+    """The progress of a build: `done` of `total` steps, and the current step."""
 
     done: int
     total: int
     what: str
 
 
-Event = Step | Diagnostic | Result
+BuildEvent = BuildStep | Diagnostic | BuildResult
 
 
-class Made(msgspec.Struct, frozen=True):
-    """What a language's build made of a component; `read` are files that it read, besides those that are known."""
+class ComponentBuild(msgspec.Struct, frozen=True):
+    """What the build of a language did with a component; `read` are files that it read besides the known inputs."""
 
     is_built: bool
     cpu: float = 0.0
@@ -49,28 +49,26 @@ class Made(msgspec.Struct, frozen=True):
 
 
 class Job(msgspec.Struct):
-    """`defines` are what CMake is told with -D. `told` are the diagnostics so far; all that is new goes to `report`,
-    too."""
+    """A running build. `defines` are the -D options for CMake. `diagnostics` are those so far; `report` gets each new
+    event."""
 
     type: str
     jobs: int
-    report: Callable[[Event], None]
+    report: Callable[[BuildEvent], None]
     defines: tuple[str, ...] = ()
     processes: Processes = msgspec.field(default_factory=Processes)
-    told: list[Diagnostic] = []
+    diagnostics: list[Diagnostic] = []
 
-    def tell(self, diagnostics: Iterable[Diagnostic]) -> None:
+    def add(self, diagnostics: Iterable[Diagnostic]) -> None:
         for one in diagnostics:
-            if one not in self.told:
-                self.told.append(one)
+            if one not in self.diagnostics:
+                self.diagnostics.append(one)
                 self.report(one)
 
-    def failed(self, unit: Unit, reason: str, *, hint: str = "", more: Iterable[str] = ()) -> None:
-        """Says why a component is not built, where no compiler has."""
-        self.tell(
-            [codes.FAILED.at(Span(unit.document), name=unit.name, reason=reason, hint=hint, more="\n".join(more))]
-        )
+    def add_failure(self, unit: Unit, reason: str, *, hint: str = "", more: Iterable[str] = ()) -> None:
+        """Reports why a component is not built, if no compiler did."""
+        self.add([codes.FAILED.at(Span(unit.document), name=unit.name, reason=reason, hint=hint, more="\n".join(more))])
 
 
-Builder = Callable[[Job, list[Unit]], Mapping[Unit, Made]]
-"""What a language's part `building` has as `build`: makes all of these, and goes on where one fails."""
+Builder = Callable[[Job, list[Unit]], Mapping[Unit, ComponentBuild]]
+"""The `build` of a language's part `building`: builds these components, and continues if one fails."""

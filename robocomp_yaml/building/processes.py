@@ -1,4 +1,4 @@
-"""Processes that a build starts: what they say line by line, what they cost, and that they end with it."""
+"""The processes of a build: their output line by line, their cost, and their end."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from contextlib import suppress
 
 import msgspec
 
-_POLITE = 5.0  # seconds that a process has to end when it is interrupted, before it is killed
+_TIME_TO_END = 5.0  # seconds between SIGINT and SIGKILL
 
 
-class Ended(msgspec.Struct, frozen=True):
-    """`cpu` are seconds, of the process and all that it waited for."""
+class CompletedCommand(msgspec.Struct, frozen=True):
+    """The exit code, and the CPU time in seconds, with that of child processes."""
 
     code: int
     cpu: float
 
 
 class Processes:
-    """Starts them, each in a session of its own: Ctrl-C reaches rcyaml alone, which ends them one and all."""
+    """Starts processes, each in a session of its own, so that Ctrl-C reaches only rcyaml, which then ends them."""
 
     def __init__(self) -> None:
         self._running: set[subprocess.Popen[bytes]] = set()
@@ -33,9 +33,10 @@ class Processes:
     def run(
         self, command: Sequence[str], on_line: Callable[[str], None], *, cwd: str | None = None,
         env: Mapping[str, str] | None = None,
-    ) -> Ended:  # fmt: skip
-        """Runs a command to its end; what it writes, on standard error too, goes to `on_line`. Compilers speak English,
-        so that it is known what they say. Raises OSError where it cannot be started."""
+    ) -> CompletedCommand:  # fmt: skip
+        """Runs a command to its end. `on_line` gets each line of its standard output and standard error. The locale is
+        set so that compilers print English, which is parsed. Raises OSError if the command cannot be started,
+        KeyboardInterrupt if the build is ending."""
         with self._lock:
             if self._over:
                 raise KeyboardInterrupt
@@ -60,10 +61,10 @@ class Processes:
                 process.stdout.close()
             with self._lock:
                 self._running.discard(process)
-        return Ended(process.returncode, used.ru_utime + used.ru_stime)
+        return CompletedCommand(process.returncode, used.ru_utime + used.ru_stime)
 
     def end(self) -> None:
-        """Ends all of them; none is started any more."""
+        """Ends all processes. No other one is started from now on."""
         with self._lock:
             self._over = True
             running = list(self._running)
@@ -71,18 +72,18 @@ class Processes:
 
 
 def _end(processes: Sequence[subprocess.Popen[bytes]]) -> None:
-    """Interrupted first, so that compilers leave no halves behind."""
+    """Interrupts processes, so that compilers remove incomplete files, and then kills them."""
     for number in (signal.SIGINT, signal.SIGKILL):
         for process in processes:
             with suppress(ProcessLookupError, PermissionError):
                 os.killpg(process.pid, number)
-        until = time.monotonic() + _POLITE
+        until = time.monotonic() + _TIME_TO_END
         while time.monotonic() < until and any(map(_runs, processes)):
             time.sleep(0.02)
 
 
 def _runs(process: subprocess.Popen[bytes]) -> bool:
-    """Whether it is still there; one that has ended is buried."""
+    """Whether a process is still running."""
     try:
         return os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is None
     except ChildProcessError:

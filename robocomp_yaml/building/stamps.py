@@ -1,8 +1,8 @@
-"""The stamp of a build: what a program was made of, so that one is known that is older than that.
+"""The stamp of a build: what a program was built from, so that a stale program is detected.
 
-It stands in the component's `.rcyaml/builds/`, which no repository holds. Where the program is the one that the stamp
-knows, contents are compared, and a file that was but touched is as it was. Another one, as by CMake itself, must be
-younger than all that it is made of.
+It is in `.rcyaml/builds/` of the component, which is not under version control. If the program is the one of the stamp,
+contents are compared, so that touching a file has no effect. Any other program, such as one that CMake built directly,
+is up to date if it is younger than all its inputs.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ FOLDER = ".rcyaml/builds"
 _NAME = f"{FOLDER}/stamp.json"
 
 
-class Stamp(msgspec.Struct, frozen=True):
-    """`program` is the state of what was built, `inputs` the files that it was made of, relative to the component's
-    folder, with state and digest; `more` of these are such as only the build knew."""
+class BuildStamp(msgspec.Struct, frozen=True):
+    """`program` is the state of the built program, `inputs` are the files that it was built from, relative to the
+    folder of the component, each with state and digest; `more` are those of them that only the build knows."""
 
     type: str
     program: State
@@ -34,9 +34,9 @@ class Stamp(msgspec.Struct, frozen=True):
     more: tuple[str, ...] = ()
 
 
-class Look(msgspec.Struct, frozen=True):
-    """How a component is: whether its program `is_there`, and which files `changed` since it was made. `type` is how
-    it was built last, '' where nobody knows; `is_known` says that the program is the one of the last build."""
+class ProgramState(msgspec.Struct, frozen=True):
+    """The program of a component: whether it exists (`is_there`), and which inputs have `changed` since it was built.
+    `type` is the last build type, '' if unknown; `is_known` says that the program is the one of the last build."""
 
     is_there: bool
     changed: tuple[str, ...] = ()
@@ -48,38 +48,38 @@ class Look(msgspec.Struct, frozen=True):
         return self.is_there and not self.changed
 
 
-def look(unit: Unit, inputs: Inputs) -> Look:
+def inspect(unit: Unit, inputs: Inputs) -> ProgramState:
     program, stamp = state(unit.program), load(unit)
     type_ = stamp.type if stamp else ""
     if program is None:
-        return Look(False, type=type_)
+        return ProgramState(False, type=type_)
     if stamp is None or stamp.program != program:
-        return Look(True, tuple(sorted(_younger(unit, inputs, program))), type_)
-    here = {path: os.path.normpath(os.path.join(unit.folder, path)) for path in stamp.inputs}
-    now = inputs.of(unit, (here[path] for path in stamp.more))
-    changed = set(here.values()) ^ now.keys()
+        return ProgramState(True, tuple(sorted(_younger(unit, inputs, program))), type_)
+    files = {path: os.path.normpath(os.path.join(unit.folder, path)) for path in stamp.inputs}
+    now = inputs.of(unit, (files[path] for path in stamp.more))
+    changed = set(files.values()) ^ now.keys()
     for path, (known, known_digest) in stamp.inputs.items():
-        file = here[path]
+        file = files[path]
         if file in now and now[file] != known and inputs.digest(file, now[file]) != known_digest:
             changed.add(file)
-    return Look(True, tuple(sorted(changed)), type_, is_known=True)
+    return ProgramState(True, tuple(sorted(changed)), type_, is_known=True)
 
 
 def _younger(unit: Unit, inputs: Inputs, program: State) -> list[str]:
     return [path for path, (_, changed, _) in inputs.of(unit).items() if changed > program[1]]
 
 
-def take(unit: Unit, inputs: Inputs, type_: str) -> Stamp:
-    """Of a build that begins now."""
-    return Stamp(type_, (0, 0, 0), _known(unit, inputs, inputs.of(unit)))
+def take(unit: Unit, inputs: Inputs, type_: str) -> BuildStamp:
+    """The stamp of a build that begins now."""
+    return BuildStamp(type_, (0, 0, 0), _known(unit, inputs, inputs.of(unit)))
 
 
-def with_more(unit: Unit, taken: Stamp, inputs: Inputs, more: Iterable[str]) -> Stamp:
-    """With files that the build read besides."""
+def with_more(unit: Unit, begun: BuildStamp, inputs: Inputs, more: Iterable[str]) -> BuildStamp:
+    """A stamp with more files that the build has read."""
     others = {path: found for path in more if (found := state(path)) is not None}
     known = _known(unit, inputs, others)
     return msgspec.structs.replace(
-        taken, inputs={**known, **taken.inputs}, more=tuple(sorted(known.keys() - taken.inputs.keys()))
+        begun, inputs={**known, **begun.inputs}, more=tuple(sorted(known.keys() - begun.inputs.keys()))
     )
 
 
@@ -87,8 +87,9 @@ def _known(unit: Unit, inputs: Inputs, files: Mapping[str, State]) -> dict[str, 
     return {os.path.relpath(path, unit.folder): (found, inputs.digest(path, found)) for path, found in files.items()}
 
 
-def keep(unit: Unit, taken: Stamp) -> None:
-    """Keeps it, with the program as it is now. Where that cannot be, the next build only looks again."""
+def keep(unit: Unit, begun: BuildStamp) -> None:
+    """Writes the stamp, with the current state of the program. If it cannot be written, the next build compares
+    times."""
     program = state(unit.program)
     if program is None or not stays_inside(unit.folder, _NAME):
         return
@@ -99,14 +100,14 @@ def keep(unit: Unit, taken: Stamp) -> None:
             open(unit.path(f"{FOLDER}/.gitignore"), "x", encoding="utf-8") as own,
         ):
             own.write("*\n")
-        text = json.dumps(msgspec.to_builtins(msgspec.structs.replace(taken, program=program)), separators=(",", ":"))
+        text = json.dumps(msgspec.to_builtins(msgspec.structs.replace(begun, program=program)), separators=(",", ":"))
         whole_file.put(unit.path(_NAME), text.encode("utf-8", "surrogateescape"))
 
 
-def load(unit: Unit) -> Stamp | None:
+def load(unit: Unit) -> BuildStamp | None:
     try:
         with open(unit.path(_NAME), "rb", opener=regular) as file:
-            return msgspec.convert(json.loads(file.read().decode("utf-8", "surrogateescape")), Stamp)
+            return msgspec.convert(json.loads(file.read().decode("utf-8", "surrogateescape")), BuildStamp)
     except (OSError, ValueError, RecursionError):
         return None
 

@@ -1,13 +1,12 @@
-"""What a schema cannot say: a folder for each kind of document, every module of which may have a
+"""Checks: rules that a schema cannot express. There is a folder for each kind of document, in which a module may have a
 `check(program) -> Iterator[Diagnostic]` (`ddsl`: `check(network)`, see `networks`). The checks of a kind are imported
-only where there are documents of it. What a language says of interfaces stands with the language. Plug-ins add checks,
-for the documents of the workspaces that name them."""
+only if the program has documents of it. A language's own checks are in the language's folder. Plug-ins add checks, for
+the documents of the workspaces that name them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-from types import ModuleType
-from typing import Any
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping
+from typing import Any, TypeVar
 
 from robocomp_yaml import languages
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -17,20 +16,26 @@ from robocomp_yaml.link.program import Program
 from robocomp_yaml.plugins import CHECKS, LANGUAGES, Plugin, Plugins
 from robocomp_yaml.registry import Modules
 
-Check = Callable[[Program], Iterator[Diagnostic]]
-
-
-def modules_of(kind: str) -> list[ModuleType]:
-    """Every module that checks a kind of document, in the order of their names."""
-    return [module for module in Modules(f"{__name__}.{kind}", "check").every() if hasattr(module, "check")]
+_Item = TypeVar("_Item")
+Check = Callable[[Any], Iterator[Diagnostic]]
 
 
 def checks_of(kind: str) -> list[Check]:
-    return [module.check for module in modules_of(kind)]
+    """The checks of a kind of document, in the order of their modules' names."""
+    return [module.check for module in Modules(f"{__name__}.{kind}", "check").every() if hasattr(module, "check")]
+
+
+def repeated(items: Iterable[_Item], key: Callable[[_Item], Hashable]) -> Iterator[tuple[_Item, _Item]]:
+    """Each item with the key of an earlier item, as the pair (first item with the key, item)."""
+    first: dict[Hashable, _Item] = {}
+    for item in items:
+        other = first.setdefault(key(item), item)
+        if other is not item:
+            yield other, item
 
 
 def checks(program: Program, plugins: Iterable[Plugins] = ()) -> list[Check]:
-    """The checks that a program calls for; `plugins` are those of its workspaces."""
+    """The checks for the documents of a program; `plugins` are those of its workspaces."""
     kinds = {
         "idsl": program.modules,
         "cdsl": program.components,
@@ -38,25 +43,24 @@ def checks(program: Program, plugins: Iterable[Plugins] = ()) -> list[Check]:
         "pdsl": program.parameters or program.values,
     }
     found = [check for kind, documents in kinds.items() if documents for check in checks_of(kind)]
-    spoken = {linked.component.language.name for linked in program.components.values()}
+    used = {linked.component.language.name for linked in program.components.values()}
     if program.modules:
-        asked = (one for one in languages.table().values() if one.name in spoken or one.warns_others)
-        found += [one.part("checks").check for one in asked if one.has_checks]
+        relevant = (one for one in languages.table().values() if one.name in used or one.warns_others)
+        found += [one.part("checks").check for one in relevant if one.has_checks]
     for plugin in {one.name: one for each in plugins for one in each.active}.values():
-        for name, check in plugged(plugin, kinds, spoken):
-            found.append(_where_it_counts(plugin, name, check))
+        for name, check in plugin_checks(plugin, kinds, used):
+            found.append(_in_its_workspaces(plugin, name, check))
     return found
 
 
-def plugged(
-    plugin: Plugin, kinds: Mapping[str, object], spoken: Collection[str] = ()
+def plugin_checks(
+    plugin: Plugin, kinds: Mapping[str, object], used: Collection[str] = ()
 ) -> Iterator[tuple[str, Check]]:  # fmt: skip
-    """The checks of a plug-in that documents of these kinds and components in these languages call for, with what they
-    are called."""
-    for (kind, name), module in plugin.pieces.items():
+    """The checks of a plug-in for documents of these kinds and components in the `used` languages, with their names."""
+    for (kind, name), module in plugin.modules.items():
         if kind == CHECKS and kinds.get(module.KIND):
             yield f"check '{name}'", module.check
-        elif kind == LANGUAGES and kinds.get("idsl") and (name in spoken or module.LANGUAGE.warns_others):
+        elif kind == LANGUAGES and kinds.get("idsl") and (name in used or module.LANGUAGE.warns_others):
             if module.LANGUAGE.has_checks:
                 yield f"language '{name}'", _of_language(module.LANGUAGE)
 
@@ -69,25 +73,25 @@ def _of_language(language: TargetLanguage) -> Check:
     return check
 
 
-def said_by(plugin: Plugin, name: str, check: Callable[[Any], Iterator[Diagnostic]], about: Any) -> list[Diagnostic]:
-    """What a plug-in's check says, and that it failed, where it does."""
-    said: list[Diagnostic] = []
+def reported_by(plugin: Plugin, name: str, check: Check, about: Any) -> list[Diagnostic]:
+    """The diagnostics of a plug-in's check, and of its failure if it fails."""
+    diagnostics: list[Diagnostic] = []
     try:
-        with plugin.answering(name):
+        with plugin.guarded(name):
             for one in check(about):
                 if not isinstance(one, Diagnostic):
-                    raise TypeError(f"it gives {type(one).__name__}, which is no Diagnostic")
-                said.append(one)
+                    raise TypeError(f"it yields {type(one).__name__}, which is not a Diagnostic")
+                diagnostics.append(one)
     except Faulty as failed:
-        said += failed.diagnostics
-    return said
+        diagnostics += failed.diagnostics
+    return diagnostics
 
 
-def _where_it_counts(plugin: Plugin, name: str, check: Check) -> Check:
-    """A plug-in sees the whole program, and speaks only of the documents of workspaces that name it."""
+def _in_its_workspaces(plugin: Plugin, name: str, check: Check) -> Check:
+    """A plug-in's check reads the whole program, but may report only documents of workspaces that name the plug-in."""
 
     def run(program: Program) -> Iterator[Diagnostic]:
-        for one in said_by(plugin, name, check, program):
+        for one in reported_by(plugin, name, check, program):
             if one.span.file == plugin.span.file or program.plugins_of(one.span.file).has(plugin.name):
                 yield one
 

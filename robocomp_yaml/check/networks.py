@@ -1,33 +1,32 @@
-"""What is wrong with networks: the checks of `ddsl/`, and what depends on this machine."""
+"""Checks of networks: those of `ddsl/`, and those that depend on this machine."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from robocomp_yaml.check import modules_of, plugged, said_by
+from robocomp_yaml.check import checks_of, plugin_checks, reported_by
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.network.networks import Derived
+from robocomp_yaml.network.networks import DerivedNetworks
 
 _FAMILY = "RC4"
 
 
-def of_networks(derived: Derived, program: Program) -> Iterator[Diagnostic]:
-    """What deriving them said, and what the checks say."""
+def check_networks(derived: DerivedNetworks, program: Program) -> Iterator[Diagnostic]:
+    """The diagnostics of deriving the networks, and of the checks."""
     if not derived.networks:
         return iter(())
-    checks = [module.check for module in modules_of("ddsl")]
+    checks = checks_of("ddsl")
     found = [fault for real in derived.judged for check in checks for fault in check(derived.networks[real])]
     for real in derived.judged:
         for plugin in program.plugins_of(program.deployments[real].deployment.path).active:
-            for name, check in plugged(plugin, {"ddsl": True}):
-                found += said_by(plugin, name, check, derived.networks[real])
+            for name, check in plugin_checks(plugin, {"ddsl": True}):
+                found += reported_by(plugin, name, check, derived.networks[real])
     return one_per_cause([*derived.diagnostics, *found])
 
 
-def of_environment(derived: Derived, *, environment: bool) -> Iterator[Diagnostic]:
-    """What depends on this machine: warnings about executables that are not there, and, where `environment` is asked
-    for, about programs and addresses."""
+def check_environment(derived: DerivedNetworks, *, environment: bool) -> Iterator[Diagnostic]:
+    """Diagnostics that depend on this machine: missing executables and, with `environment`, programs and addresses."""
     from robocomp_yaml.check.ddsl import files, hosts
 
     found: list[Diagnostic] = []
@@ -39,7 +38,7 @@ def of_environment(derived: Derived, *, environment: bool) -> Iterator[Diagnosti
 
 
 def one_per_cause(diagnostics: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
-    """What a document says once is reported once, however many instances it gives or includes it is part of."""
+    """Removes repetitions: an error in a document is reported once, even if it affects many instances or includes."""
     seen = set()
     for fault in diagnostics:
         cause: object = fault

@@ -1,7 +1,7 @@
-"""The secrets that documents hold: where they stand, so that nothing shows them, and which of them others can read.
+"""Finds secrets in documents, so that no output shows them, and reports those that other users can read.
 
-A values document is looked at by the types of its parameters, a deployment by what its keys mean. Of a document with
-errors of its own the names count, and of one that is no YAML the lines.
+In a values document, the types of the parameters decide; in a deployment, the meaning of the keys. In a document with
+errors, the names decide; in one that is no YAML, the lines are searched.
 """
 
 from __future__ import annotations
@@ -19,21 +19,20 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.hidden import Hidden
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
-from robocomp_yaml.link.documents import Document
+from robocomp_yaml.link.documents import Document, read_tree
 from robocomp_yaml.link.program import LinkedParameters, Program
-from robocomp_yaml.parameters.hidden import declared, named_nodes, nodes, plain_below
+from robocomp_yaml.parameters.hidden import named_nodes, nodes, plain_below, secret_names
 from robocomp_yaml.parameters.types import RecordType
 from robocomp_yaml.source import properties
 from robocomp_yaml.source.disk import Disk
-from robocomp_yaml.source.text import decode
-from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, pairs_below, parse
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, pairs_below
 
 _PROPERTIES = ("properties", "ice", "endpoints", "proxies", "topics")
 
 
 class Secret(msgspec.Struct, frozen=True):
-    """A plain value that a document holds itself. `part` is what of a longer text is secret; `is_sure` is False where
-    nobody can tell, for what it is given to is not known."""
+    """A secret that a document contains in plain text. `part` is the secret part of a longer text; `is_sure` is False
+    if the use of the value is unknown."""
 
     node: Scalar
     part: str = ""
@@ -41,8 +40,8 @@ class Secret(msgspec.Struct, frozen=True):
 
 
 def check(program: Program, documents: Iterable[Document]) -> Iterator[Diagnostic]:
-    """Warnings about secrets that stand where others can read them."""
-    finder = _Finder(program)
+    """Warns about secrets in files that other users can read."""
+    finder = _SecretFinder(program)
     for document in documents:
         if document.kind in _KINDS and document.model is not None and finder.may_hold(document):
             if _others_can_read(document.path):
@@ -51,24 +50,26 @@ def check(program: Program, documents: Iterable[Document]) -> Iterator[Diagnosti
 
 
 def _of_configurations(program: Program) -> Iterator[Diagnostic]:
-    """Of those that are no documents of ours, at the deployment that names them."""
-    told: set[tuple[str, str]] = set()
+    """Warns about secrets in flat configs, at the deployment that names them."""
+    reported: set[tuple[str, str]] = set()
     for deployment in program.deployments.values():
         for instance in deployment.instances.values():
-            path, given, component = instance.flat, instance.entry.config, instance.component
-            place = (instance.document.path, os.path.realpath(path)) if path else ("", "")
-            if given is None or place in told or path not in program.disk.contents or not _others_can_read(path):
+            path, config, component = instance.flat, instance.entry.config, instance.component
+            location = (instance.document.path, os.path.realpath(path)) if path else ("", "")
+            if config is None or location in reported:
                 continue
-            told.add(place)
-            names = set(declared(component.parameters.parameters.root)) if component is not None else set()
+            if path not in program.disk.contents or not _others_can_read(path):
+                continue
+            reported.add(location)
+            names = set(secret_names(component.parameters.parameters.root)) if component is not None else set()
             line = _line_of_secret(program.disk.contents[path].decode("utf-8", "replace"), names)
             if line:
                 file, hint = os.path.relpath(path), f"`{typed('chmod', '600', os.path.relpath(path))}`"
-                yield network_codes.OPEN_CONFIG.at(given.span, file=file, line=line, hint=hint)
+                yield network_codes.OPEN_CONFIG.at(config.span, file=file, line=line, hint=hint)
 
 
 def _line_of_secret(text: str, names: Collection[str]) -> int:
-    """The first line with a secret, as Ice reads it or as any other text; 0 where there is none."""
+    """The number of the first line with a secret, as Ice reads it or as any other text; 0 if there is none."""
     if not secrets.may_hold(text) and not any(name in text for name in names):
         return 0
     for entry in properties.read(text).entries:
@@ -80,25 +81,25 @@ def _line_of_secret(text: str, names: Collection[str]) -> int:
 
 
 def hidden(program: Program, documents: Iterable[Document], files: set[str]) -> Hidden:
-    """What is not to be shown of these files."""
-    found, finder = Hidden(), _Finder(program)
+    """The parts of these files that must not be shown."""
+    hidden_parts, finder = Hidden(), _SecretFinder(program)
     for document in documents:
         if document.path not in files:
             continue
-        found.files.add(document.path)
+        hidden_parts.files.add(document.path)
         if document.kind not in _KINDS:
             for node in _in_extensions(document.tree):
-                found.add(node.span, node.lexeme)
+                hidden_parts.add(node.span, node.lexeme)
         elif document.tree is None:
-            _add_lines(found, document, program.disk, finder.names)
-        elif finder.names or finder.may_hold(document):  # a name may be misspelt
+            _add_lines(hidden_parts, document, program.disk, finder.names)
+        elif finder.names or finder.may_hold(document):  # a name may be misspelled
             for secret in finder.secrets(document):
-                found.add(secret.node.span, secret.part or secret.node.lexeme)
-    return found
+                hidden_parts.add(secret.node.span, secret.part or secret.node.lexeme)
+    return hidden_parts
 
 
 _MORE = {"ddsl": ("set",), "pdsl": ("default",)}
-"""Names of keys below which a secret can stand that has another name, where nobody can tell."""
+"""Keys that may contain a secret under any name, for documents that cannot be parsed."""
 _ALLOWED = {"values", "enum", "one-of"}
 _COMMENT = ("#", ";", "//", "<!--")
 _KINDS = ("config", "ddsl", "pdsl")
@@ -115,23 +116,25 @@ def _warning(document: Document, secret: Secret) -> Diagnostic:
     mode = f"`{typed('chmod', '600', document.path)}`"
     code = network_codes.OPEN_SECRET if document.kind == "ddsl" else codes.OPEN_SECRET
     hint = {
-        "config": f"{mode}, or give {{env: NAME}} or {{file: PATH}}",
-        "ddsl": f"{mode}, or give {{env: NAME}} or {{file: PATH}}, under `env:` or `set:`",
-        "pdsl": "leave the default out, and give the value as {env: NAME} or {file: PATH}",
+        "config": f"{mode}, or write {{env: NAME}} or {{file: PATH}}",
+        "ddsl": f"{mode}, or write {{env: NAME}} or {{file: PATH}}, under `env:` or `set:`",
+        "pdsl": "remove the default, and set the value as {env: NAME} or {file: PATH}",
     }[document.kind]
     return code.at(secret.node.span, file=os.path.basename(document.path), hint=hint)
 
 
-class _Finder:
+class _SecretFinder:
     def __init__(self, program: Program) -> None:
         self.program = program
         linked = [*program.parameters.values(), *(one.parameters for one in program.components.values())]
-        self.names = {name for one in linked for name in declared(one.parameters.root)}
+        self.names = {name for one in linked for name in secret_names(one.parameters.root)}
 
     def may_hold(self, document: Document) -> bool:
-        """Most documents hold none, which is soon seen."""
+        """Whether a document may contain a secret; a quick test, which is False for most documents."""
         text = self.program.disk.contents.get(document.path, b"").decode("utf-8", "replace")
-        is_alone = document.kind != "pdsl" and document.real not in self.program.values  # what it gives is not known
+        is_alone = (
+            document.kind != "pdsl" and document.real not in self.program.values
+        )  # the types of its values are unknown
         return is_alone or secrets.may_hold(text) or any(name in text for name in self.names)
 
     def secrets(self, document: Document) -> Iterator[Secret]:
@@ -148,13 +151,14 @@ class _Finder:
                 seen.add(node)
                 yield Secret(node, is_sure=False)
         for node in _texts(tree):
-            if node not in seen and secrets.url(node.lexeme) != node.lexeme:
-                yield Secret(node, _password_of_url(node.lexeme))
-            elif node not in seen and (part := _part_of(node.lexeme)):
+            text = node.lexeme
+            if node not in seen and (masked := secrets.url(text)) != text:
+                yield Secret(node, _between(text, masked))
+            elif node not in seen and (masked := secrets.masked(text)) != text and (part := _between(text, masked)):
                 yield Secret(node, part, is_sure=False)
 
     def _of_kind(self, document: Document, tree: Mapping) -> Iterator[Secret]:
-        if document.model is None:  # its shape is wrong: a secret may stand anywhere
+        if document.model is None:  # it does not fit its schema: a secret may be anywhere
             yield from _of_defaults(tree) if document.kind == "pdsl" else _anywhere(tree, self.names)
         if document.kind == "config":
             yield from map(Secret, self._of_values(document, tree))
@@ -167,18 +171,18 @@ class _Finder:
     def _of_values(self, document: Document, tree: Mapping) -> Iterator[Scalar]:
         values = self.program.values.get(document.real)
         linked = values.parameters if values is not None else None
-        given = tree.get("parameters")
+        parameters = tree.get("parameters")
         if linked is None:
             yield from named_nodes(tree, {*self.names, *_names_nearby(document.path, self.program.disk)})
             return
-        if given is not None:
-            yield from nodes(linked.parameters.root, given)
+        if parameters is not None:
+            yield from nodes(linked.parameters.root, parameters)
         for section in _PROPERTIES:
             if (node := tree.get(section)) is not None:
                 yield from named_nodes(node)
 
     def _of_parameters(self, document: Document) -> Iterator[Scalar]:
-        """Defaults of what is secret."""
+        """The defaults of secret parameters."""
         for linked in self.program.parameter_documents():
             if linked.document is not None and linked.document.path == document.path:
                 records = [linked.parameters.root, *linked.parameters.types]
@@ -197,13 +201,13 @@ class _Finder:
                 yield from map(Secret, named_nodes(env))
             for key in ("args", "ready"):
                 yield from _words(entry.get(key), self.names)
-            given = entry.get("set")
-            linked_to = owners.get(str(given.span)) if given is not None else None
-            if given is not None and linked_to is not None:
-                yield from map(Secret, nodes(linked_to.parameters.root, given))
-            elif given is not None:
-                yield from map(Secret, named_nodes(given, self.names))
-                yield from _unsure(given) if isinstance(entry, Mapping) and "component" in entry.entries else ()
+            settings = entry.get("set")
+            owner = owners.get(str(settings.span)) if settings is not None else None
+            if settings is not None and owner is not None:
+                yield from map(Secret, nodes(owner.parameters.root, settings))
+            elif settings is not None:
+                yield from map(Secret, named_nodes(settings, self.names))
+                yield from _doubtful(settings) if isinstance(entry, Mapping) and "component" in entry.entries else ()
 
 
 def _anywhere(node: Node, names: Collection[str]) -> Iterator[Secret]:
@@ -216,32 +220,32 @@ def _anywhere(node: Node, names: Collection[str]) -> Iterator[Secret]:
 
 
 def _of_defaults(tree: Node) -> Iterator[Secret]:
-    """In a document of parameters, whatever its shape."""
-    for value in _called_secret(tree):
-        yield from map(Secret, plain_below(given)) if (given := value.get("default")) is not None else ()
+    """The secret defaults in a parameter document that does not fit the schema."""
+    for value in _secret_specifications(tree):
+        yield from map(Secret, plain_below(default)) if (default := value.get("default")) is not None else ()
 
 
 def _of_allowed(tree: Node) -> Iterator[Secret]:
-    """The values that a secret may have: one of them it is."""
-    for value in _called_secret(tree):
+    """The allowed values of a secret parameter: one of them is the secret."""
+    for value in _secret_specifications(tree):
         for word in _ALLOWED & value.entries.keys():
-            yield from _unsure(value.entries[word][1])
+            yield from _doubtful(value.entries[word][1])
 
 
-def _called_secret(tree: Node) -> Iterator[Mapping]:
-    """What stands below a secret's name, or says itself whether it is one."""
+def _secret_specifications(tree: Node) -> Iterator[Mapping]:
+    """The specifications of parameters with a secret name or the key `secret`."""
     for key, value in pairs_below(tree):
         if isinstance(value, Mapping) and (secrets.is_secret(key.lexeme) or "secret" in value.entries):
             yield value
 
 
 def _words(node: Node | None, names: Collection[str]) -> Iterator[Secret]:
-    """Arguments that are secrets, or hold one."""
+    """Arguments that are secrets or contain one."""
     if isinstance(node, Mapping):
         node = node.get("command")
     if not isinstance(node, Sequence):
         return
-    is_value = False  # of the option before it
+    is_value = False  # of a secret option before it
     for item in node.items:
         yield from map(Secret, plain_below(item) if is_value else named_nodes(item))
         is_value = isinstance(item, Scalar) and item.lexeme.startswith("-") and secrets.is_one_of(item.lexeme, names)
@@ -252,12 +256,12 @@ def _words(node: Node | None, names: Collection[str]) -> Iterator[Secret]:
             yield Secret(item, item.lexeme[len(head) : len(item.lexeme) - len(tail) or None])
 
 
-def _unsure(node: Node) -> Iterator[Secret]:
-    return (Secret(found, is_sure=False) for found in plain_below(node))
+def _doubtful(node: Node) -> Iterator[Secret]:
+    return (Secret(value, is_sure=False) for value in plain_below(node))
 
 
 def _in_extensions(node: Node | None) -> Iterator[Scalar]:
-    """What names and texts below keys of the user's own (`x-…`) say to be secret."""
+    """Secrets below the user's own keys (`x-…`), by name or by text."""
     if isinstance(node, Mapping):
         for key, value in node.items():
             if key.lexeme.startswith("x-"):
@@ -271,22 +275,12 @@ def _in_extensions(node: Node | None) -> Iterator[Scalar]:
 
 
 def _texts(node: Node) -> Iterator[Scalar]:
-    """Every text that may hold a secret by its own words."""
+    """Every text that may contain a secret such as a URL with a password."""
     if isinstance(node, Scalar):
         yield from (node,) if secrets.may_hold(node.lexeme) else ()
-    told = (value for key, value in node.items() if key.lexeme != "doc") if isinstance(node, Mapping) else None
-    for child in told or node.children():
+    children = (value for key, value in node.items() if key.lexeme != "doc") if isinstance(node, Mapping) else None
+    for child in children or node.children():
         yield from _texts(child)
-
-
-def _password_of_url(text: str) -> str:
-    return _between(text, secrets.url(text))
-
-
-def _part_of(text: str) -> str:
-    """What of a text is secret by its own words, or ''."""
-    masked = secrets.masked(text)
-    return _between(text, masked) if masked != text else ""
 
 
 def _between(text: str, masked: str) -> str:
@@ -302,8 +296,8 @@ def _defaults(record: RecordType) -> Iterator[Scalar]:
             yield from _defaults(member.type)
 
 
-def _add_lines(found: Hidden, document: Document, disk: Disk, names: Collection[str]) -> None:
-    """What is hidden of the lines of a document that is no YAML."""
+def _add_lines(hidden_parts: Hidden, document: Document, disk: Disk, names: Collection[str]) -> None:
+    """Adds the secret parts of the lines of a document that is no YAML."""
     text = disk.contents.get(document.path, b"").decode("utf-8-sig", "replace")
     lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
     nearby = _names_nearby(document.path, disk) if document.kind == "config" else ()
@@ -313,18 +307,16 @@ def _add_lines(found: Hidden, document: Document, disk: Disk, names: Collection[
             span = Span(document.path, number + 1, start + 1, number + 1, end + 1)
             part = lines[number][start:end]
             for text in (part.strip("\"' "), *re.findall(r"[^\s\"'!&*@{}\[\],]{4,}", part)):
-                found.add(span, text)
+                hidden_parts.add(span, text)
 
 
 def _names_nearby(path: str, disk: Disk) -> Iterator[str]:
-    """What the documents of parameters beside a document, and one folder up, call secret."""
+    """The names of secret parameters in the parameter documents of a document's folder and of the folder above."""
     folder = os.path.dirname(path) or "."
     for where in (folder, os.path.join(folder, os.pardir)):
         names = [name for name in disk.documents(where) if name.endswith("pdsl.yaml")]
         for name in names[:20]:
-            raw, _ = disk.read(os.path.join(where, name))
-            text = decode(path, raw)[0] if raw is not None else None
-            tree, _ = parse(path, text) if text is not None else (None, [])
+            tree, _ = read_tree(os.path.join(where, name), disk)
             for key, value in pairs_below(tree) if tree is not None else ():
                 if isinstance(value, Mapping) and value.data.get("secret") is True:  # type: ignore[attr-defined]
                     yield key.lexeme

@@ -1,1 +1,1 @@
-"""One module a command: parse the options, call, render. `cli.COMMANDS` names them."""
+"""The commands, one module each: options, call of the library, output. `cli.COMMANDS` names them."""

@@ -1,5 +1,5 @@
-"""Commands as click runs them, for whom the library answers: what it refuses is wrong usage (2), and documents with
-errors end a command (1)."""
+"""Commands of click that call the library: Refused becomes wrong usage (exit code 2), Faulty prints its diagnostics and
+ends the command (exit code 1)."""
 
 from __future__ import annotations
 
@@ -10,27 +10,27 @@ from typing import TYPE_CHECKING
 
 import click
 
-from robocomp_yaml.commands import _plugged
+from robocomp_yaml.commands import _plugin_choices
 
 if TYPE_CHECKING:
     from robocomp_yaml.diag.errors import Faulty
 
 
-class Command(click.Command):
+class LibraryCommand(click.Command):
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        _plugged.remember(ctx, args)
-        with _answers(ctx):
+        _plugin_choices.remember(ctx, args)
+        with _library_errors(ctx):
             return super().parse_args(ctx, args)
 
     def invoke(self, ctx: click.Context) -> object:
-        with _answers(ctx):
+        with _library_errors(ctx):
             return super().invoke(ctx)
 
 
-class Group(click.Group):
-    """Its subcommands are such commands; that a word is none of them it says in one way, at every level."""
+class CommandGroup(click.Group):
+    """A group of such commands, which reports unknown commands in the same way at every level."""
 
-    command_class = Command
+    command_class = LibraryCommand
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]
@@ -38,19 +38,19 @@ class Group(click.Group):
         try:
             return super().resolve_command(ctx, args)
         except click.UsageError as error:
-            if args[0].startswith("-"):  # an option that there is not
+            if args[0].startswith("-"):  # an unknown option
                 raise
-            meant = " or ".join(f"'{one}'" for one in self._meant(ctx, args[0]))
-            said = f"there is no command '{' '.join([*ctx.command_path.split()[1:], args[0]])}'"
-            raise click.UsageError(said + (f"; did you mean {meant}?" if meant else ""), ctx) from error
+            meant = " or ".join(f"'{one}'" for one in self._suggestions(ctx, args[0]))
+            message = f"unknown command '{' '.join([*ctx.command_path.split()[1:], args[0]])}'"
+            raise click.UsageError(message + (f"; did you mean {meant}?" if meant else ""), ctx) from error
 
-    def _meant(self, ctx: click.Context, word: str) -> list[str]:
-        """A command of this group whose name is like the word, or those of its groups that are called so."""
+    def _suggestions(self, ctx: click.Context, word: str) -> list[str]:
+        """The commands that were probably meant: a similar name of this group, or the same name in a subgroup."""
         from robocomp_yaml.diag.suggest import suggest
 
         path = ctx.command_path.split()[1:]
         own = self.list_commands(ctx)
-        groups = {name: found for name in own if isinstance(found := self.get_command(ctx, name), click.Group)}
+        groups = {name: group for name in own if isinstance(group := self.get_command(ctx, name), click.Group)}
         below = [f"{name} {word}" for name, group in groups.items() if word in group.commands]
         if below:
             return below
@@ -59,21 +59,21 @@ class Group(click.Group):
 
 
 @contextmanager
-def _answers(ctx: click.Context) -> Iterator[None]:
+def _library_errors(ctx: click.Context) -> Iterator[None]:
     try:
         yield
     except Exception as error:
-        from robocomp_yaml.diag.errors import Faulty, Refused  # `rcyaml --help` needs neither
+        from robocomp_yaml.diag.errors import Faulty, Refused  # unused by `rcyaml --help`
 
         if isinstance(error, Refused):
             raise click.UsageError(str(error), ctx) from None
         if not isinstance(error, Faulty):
             raise
-        _tell(ctx, error)
+        _report(ctx, error)
 
 
-def _tell(ctx: click.Context, faulty: Faulty) -> None:
-    """What is wrong: on standard error, where standard output is for values; as JSON in their stead."""
+def _report(ctx: click.Context, faulty: Faulty) -> None:
+    """Prints the diagnostics: on standard error, because standard output is for values; as JSON on standard output."""
     from robocomp_yaml.commands import _options
     from robocomp_yaml.diag.render import tell
 

@@ -1,4 +1,4 @@
-"""How plans, results, states and logs of deployments are shown, as text and as JSON."""
+"""The output of plans, results, states and logs of deployments, as text and as JSON."""
 
 from __future__ import annotations
 
@@ -7,9 +7,11 @@ import zlib
 from collections.abc import Collection, Sequence
 from typing import Any
 
-from robocomp_yaml.deploy.engine import OWN, Line
+from robocomp_yaml.deploy.differences import shown_path
+from robocomp_yaml.deploy.engine import OWN, Line, Running
 from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, Result, Status
-from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, Step
+from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, PlanStep
+from robocomp_yaml.deploy.probe import ProbedProgram
 from robocomp_yaml.diag.terminal import Shown, columns, cut, line, pad, paint, shown
 from robocomp_yaml.network.network import Network
 
@@ -19,7 +21,8 @@ _LOG_TINTS = ("36", "33", "32", "35", "34", "96", "93", "92", "95", "94")
 
 
 def plan_lines(plan: Plan, color: bool, *, everything: bool) -> list[Shown]:
-    """A line for each process that something happens to, its changes below, and a last line that counts."""
+    """A line for each process that changes, with its changes, and a summary line. `everything` also prints the other
+    processes."""
     width = max(map(columns, plan.steps), default=0)
     lines = []
     for step in plan.steps.values():
@@ -29,15 +32,15 @@ def plan_lines(plan: Plan, color: bool, *, everything: bool) -> list[Shown]:
             if len(step.changes) > 1:
                 lines += [shown(f"    {change}") for change in step.changes]
     counts = [(len(plan.of(action)), action) for action in (START, STOP, RESTART, CHANGE, KEEP)]
-    told = ", ".join(f"{count} to {action}" for count, action in counts if count)
-    return [*lines, shown("nothing to do" if plan.is_empty else told)]
+    summary = ", ".join(f"{count} to {action}" for count, action in counts if count)
+    return [*lines, shown("nothing to do" if plan.is_empty else summary)]
 
 
 def plan_data(plan: Plan) -> list[dict[str, Any]]:
     return [_step_data(step) for step in plan.steps.values()]
 
 
-def _step_data(step: Step) -> dict[str, Any]:
+def _step_data(step: PlanStep) -> dict[str, Any]:
     changes = [
         {"field": change.field, "old": change.old, "new": change.new, "needs_restart": not change.is_live}
         for change in step.changes
@@ -48,15 +51,15 @@ def _step_data(step: Step) -> dict[str, Any]:
 
 def result_text(network: Network, result: Result) -> str:
     if result.plan.is_empty and result.diagnostics:
-        return f"{network.name}: nothing to do, but not all is ready"
+        return f"{network.name}: nothing to do, but not all processes are ready"
     if result.plan.is_empty:
-        return f"{network.name}: nothing to do, {_count(len(result.plan.steps))} as wanted"
+        return f"{network.name}: nothing to do, {_count(len(result.plan.steps))} as desired"
     if not result.diagnostics:
-        return f"{network.name}: {_count(len(result.plan.of(START, RESTART, CHANGE, KEEP)))} as wanted"
+        return f"{network.name}: {_count(len(result.plan.of(START, RESTART, CHANGE, KEEP)))} as desired"
     if not result.undone:
-        return f"{network.name}: nothing was touched"
-    after = {ROLL_BACK: "back to what ran before", KEEP_GOING: "what was started was kept"}
-    return f"{network.name}: failed; {after.get(result.undone, 'what was started was stopped')}"
+        return f"{network.name}: nothing was changed"
+    after = {ROLL_BACK: "rolled back to what ran before", KEEP_GOING: "the started processes keep running"}
+    return f"{network.name}: failed; {after.get(result.undone, 'the started processes were stopped')}"
 
 
 def result_data(result: Result) -> dict[str, object]:
@@ -71,7 +74,7 @@ def result_data(result: Result) -> dict[str, object]:
 def status_lines(
     network: Network, found: Sequence[Status], color: bool, room: int | None = None
 ) -> list[Shown]:  # fmt: skip
-    """`room` are the columns of a terminal: what is served is cut where it would not fit."""
+    """A table of the processes. `room` is the width of a terminal in columns: the last column is cut to fit."""
     rows = [("PROCESS", "STATE", "PID", "HOST", "UP", "RESTARTS", "MEMORY", "SERVES")]
     for status in found:
         running = status.running
@@ -112,44 +115,58 @@ def _state(one: Status) -> str:
 
 
 def status_data(network: Network, found: Sequence[Status]) -> list[dict[str, Any]]:
+    return [_status_data(network, one, one.running) for one in found]
+
+
+def _status_data(network: Network, one: Status, running: Running | None) -> dict[str, Any]:
+    process = network.processes.get(one.name)
+    return {
+        "name": one.name, "host": one.host, "state": one.state if running else "not started", "ready": one.is_ready,
+        "pid": running.pid if running else 0, "uptime": round(running.uptime, 3) if running else 0,
+        "restarts": running.restarts if running else 0, "last_exit": running.last_exit if running else "",
+        "memory": running.memory if running else 0, "cpu": running.cpu if running else 0,
+        "endpoints": [
+            {"interface": endpoint.interface, "identity": endpoint.identity, "endpoint": endpoint.text}
+            for endpoint in (process.endpoints if process else ())
+        ],
+    }  # fmt: skip
+
+
+def probe_lines(found: Sequence[ProbedProgram], color: bool) -> list[Shown]:
+    """A line for each program that a host was asked for."""
+    rows = [(shown_path(one.program) if "/" in one.program else one.program, *_verdict(one)) for one in found]
+    width = max((columns(row[0]) for row in rows), default=0)
     return [
-        {
-            "name": one.name,
-            "host": one.host,
-            "state": one.state if one.running else "not started",
-            "ready": one.is_ready,
-            "pid": one.running.pid if one.running else 0,
-            "uptime": round(one.running.uptime, 3) if one.running else 0,
-            "restarts": one.running.restarts if one.running else 0,
-            "last_exit": one.running.last_exit if one.running else "",
-            "memory": one.running.memory if one.running else 0,
-            "cpu": one.running.cpu if one.running else 0,
-            "endpoints": [
-                {"interface": endpoint.interface, "identity": endpoint.identity, "endpoint": endpoint.text}
-                for endpoint in (network.processes[one.name].endpoints if one.name in network.processes else ())
-            ],
-        }
-        for one in found
+        line("  ", pad(program, width), "  ", paint(verdict, tint, color), f", for {', '.join(one.used_by)}")
+        for (program, verdict, tint), one in zip(rows, found, strict=True)
     ]
 
 
+def _verdict(one: ProbedProgram) -> tuple[str, str]:
+    if not one.path:
+        return "missing, or not executable", "31"
+    if one.missing:
+        return f"lacks {', '.join(one.missing)}", "31"
+    return f"{one.day} {one.digest}", "32"
+
+
 class LogView:
-    """Lines of logs, each behind the name of its process."""
+    """Lines of logs, each after the name of its process."""
 
     def __init__(self, names: Collection[str], color: bool, times: bool) -> None:
         self._width, self._color, self._times = max(map(columns, names), default=0), color, times
 
-    def text(self, said: Line) -> Shown:
-        tint = _LOG_TINTS[zlib.crc32(said.name.encode()) % len(_LOG_TINTS)]
-        text = shown(said.text, tabs=True)
+    def text(self, logged: Line) -> Shown:
+        tint = _LOG_TINTS[zlib.crc32(logged.name.encode()) % len(_LOG_TINTS)]
+        text = shown(logged.text, tabs=True)
         if text.startswith(OWN):
             text = paint(text, "2", self._color)
-        head = paint(line(pad(said.name, self._width), " |"), tint, self._color)
-        return line(f"{said.time} " if self._times else "", head, " ", text)
+        head = paint(line(pad(logged.name, self._width), " |"), tint, self._color)
+        return line(f"{logged.time} " if self._times else "", head, " ", text)
 
 
-def line_data(said: Line) -> str:
-    return json.dumps({"name": said.name, "time": said.time, "text": said.text}, ensure_ascii=False) + "\n"
+def line_data(logged: Line) -> str:
+    return json.dumps({"name": logged.name, "time": logged.time, "text": logged.text}, ensure_ascii=False) + "\n"
 
 
 def _endpoints(network: Network, name: str) -> str:
@@ -158,7 +175,7 @@ def _endpoints(network: Network, name: str) -> str:
 
 
 def _duration(seconds: float) -> str:
-    """'45 s', '12 min', '3 h 20 min', '5 d 2 h'."""
+    """A duration in words: '45 s', '12 min', '3 h 20 min', '5 d 2 h'."""
     if seconds < 120:
         return f"{seconds:.0f} s"
     minutes = int(seconds // 60)

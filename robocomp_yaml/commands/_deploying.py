@@ -1,4 +1,4 @@
-"""How the commands of `rcyaml deploy` call the library, and tell what came of it."""
+"""The commands of `rcyaml deploy`: calls of the library, and their output."""
 
 from __future__ import annotations
 
@@ -8,18 +8,19 @@ import shutil
 import signal
 import sys
 from collections.abc import Callable, Iterable
-from typing import TypeVar
+from typing import NoReturn, TypeVar
 
 import click
 import msgspec
 
 from robocomp_yaml import api
-from robocomp_yaml.api.deployments import document
+from robocomp_yaml.api import which
 from robocomp_yaml.commands import _deploy_views as views
 from robocomp_yaml.commands import _options, _signals
 from robocomp_yaml.commands._progress import Progress
 from robocomp_yaml.deploy.engine import Line
 from robocomp_yaml.deploy.operations import Result
+from robocomp_yaml.deploy.probe import can_run
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
 from robocomp_yaml.diag.errors import Faulty
@@ -28,12 +29,30 @@ from robocomp_yaml.diag.render.json import as_data, dumps
 from robocomp_yaml.network.network import Network
 
 T = TypeVar("T")
+Names = tuple[str, ...]
 
 
-class Opened(msgspec.Struct):
-    """A deployment as a command works on it; of its diagnostics some have been `shown`. `ended_by` is the exit code
-    where the user had enough of what was brought up."""
+def open_session(
+    ctx: click.Context, ddsl: str, include: tuple[str, ...], format_: str, engine: str | None, *, lenient: bool
+) -> DeploySession:  # fmt: skip
+    """Reads the document with all that it refers to, and opens its deployment. Ends the command if the document has
+    errors. `lenient` accepts errors that leave the network readable; if they do not, the network is that of the running
+    processes, so that these can always be stopped."""
+    path = os.path.normpath(which.deployment(ddsl, include))
+    try:
+        deployment = api.load(path, include=include).deployment(path, engine=engine, lenient=lenient)
+    except Faulty as faulty:
+        _options.report(ctx, format_, faulty.diagnostics, faulty.documents)
+    if deployment.unread:
+        terminal.say(f"{path} cannot be read (see `rcyaml check`): the running processes are used instead", err=True)
+    return DeploySession(ctx, deployment, format_)
 
+
+class DeploySession(msgspec.Struct):
+    """A deployment, as a command uses it. `shown` are the diagnostics that are printed already; `ended_by` is the exit
+    code if the user ended an attached deployment. All methods but `build` end the command."""
+
+    ctx: click.Context
     deployment: api.Deployment
     format_: str
     shown: list[Diagnostic] = []
@@ -43,177 +62,188 @@ class Opened(msgspec.Struct):
     def network(self) -> Network:
         return self.deployment.network
 
+    @property
+    def _color(self) -> bool:
+        return _options.colored(self.ctx)
 
-def open_(
-    ctx: click.Context, ddsl: str, include: tuple[str, ...], format_: str, engine: str | None, *, lenient: bool = False
-) -> Opened:  # fmt: skip
-    """Reads the document and all that belongs to it. Ends the command where it has errors; `lenient` lets those pass
-    that leave the network readable, and takes what runs where they do not: it can be taken down whatever became of its
-    documents."""
-    path = os.path.normpath(document(ddsl, include))
-    try:
-        deployment = api.load(path, include=include).deployment(path, engine=engine, lenient=lenient)
-    except Faulty as faulty:
-        _options.report(ctx, format_, faulty.diagnostics, faulty.documents)
-        raise
-    if deployment.unread:
-        terminal.say(f"{path} cannot be read (see `rcyaml check`): this is about what runs of it", err=True)
-    return Opened(deployment, format_)
+    @property
+    def _prints_progress(self) -> bool:
+        return self.format_ == "text" and self.ctx.obj.verbosity >= 0
 
+    def plan(self, names: Names) -> None:
+        found = self._run(lambda: self.deployment.plan(*names))
+        if self.format_ == "json":
+            self._end({"plan": views.plan_data(found)})
+        terminal.say(*views.plan_lines(found, self._color, everything=self.ctx.obj.verbosity > 0))
+        self._end()
 
-def plan(ctx: click.Context, opened: Opened, names: tuple[str, ...]) -> None:
-    found = carried_out(ctx, opened, lambda: opened.deployment.plan(*names))
-    if opened.format_ == "json":
-        end(ctx, opened, {"plan": views.plan_data(found)})
-    terminal.say(*views.plan_lines(found, _options.colored(ctx), everything=ctx.obj.verbosity > 0))
-    end(ctx, opened)
+    def build(self, names: Names) -> None:
+        """Ends the command if a component cannot be built. Then nothing is started."""
+        from robocomp_yaml.commands import build
 
+        built = build.run(
+            self.ctx, self.format_, lambda report: self.deployment.build(*names, report=report),
+            "interrupted: nothing was started; what was built stays",
+        )  # fmt: skip
+        if any(one.has_errors for one in built):
+            if self.format_ == "json":
+                self._print_json({}, [one for each in built for one in each.diagnostics])
+            else:
+                terminal.say(f"{self.network.name}: nothing was changed")
+            self.ctx.exit(1)
 
-def build(ctx: click.Context, opened: Opened, names: tuple[str, ...]) -> None:
-    """Ends the command where something cannot be built: nothing is started then."""
-    from robocomp_yaml.commands import _building
+    def up(
+        self, names: Names, on_failure: str, timeout: float | None, *, restart: bool = False, attach: bool = False
+    ) -> None:  # fmt: skip
+        asks_user = on_failure == "ask" and sys.stdin.isatty() and sys.stdout.isatty() and self.format_ == "text"
+        progress = self._progress()
 
-    built = _building.run(
-        ctx, opened.format_, lambda report: opened.deployment.build(*names, report=report),
-        "interrupted: nothing was started; what was built stays",
-    )  # fmt: skip
-    if any(one.has_errors for one in built):
-        told = [one for each in built for one in each.diagnostics]
-        if opened.format_ == "json":
-            head = {"deployment": opened.network.name, "engine": opened.deployment.engine}
-            terminal.data(dumps({**head, "diagnostics": [as_data(one) for one in told]}), json=True)
-        else:
-            terminal.say(f"{opened.network.name}: nothing was touched")
-        ctx.exit(1)
+        async def choose(result: Result) -> str:
+            progress.pause()
+            self._show(self.deployment.placed(result.diagnostics))
+            return await _options.ask(
+                "stop what was started, roll back to what ran before, or keep it as it is?",
+                ("stop", "rollback", "keep"),
+            )
 
+        def start() -> Result:
+            with progress:
+                return self.deployment.up(
+                    *names, restart=restart, timeout=timeout, report=progress.report,
+                    on_failure=choose if asks_user else "stop" if on_failure == "ask" else on_failure,
+                    stays=self._attached(progress) if attach else None,
+                )  # fmt: skip
 
-def up(
-    ctx: click.Context, opened: Opened, names: tuple[str, ...], on_failure: str, timeout: float | None, *,
-    restart: bool = False, attach: bool = False,
-) -> None:  # fmt: skip
-    is_asked = on_failure == "ask" and sys.stdin.isatty() and sys.stdout.isatty() and opened.format_ == "text"
-    progress = _progress(ctx, opened)
+        result = self._run(start, "interrupted: all processes were stopped" if attach else None)
+        if self.format_ == "json":
+            self._end(views.result_data(result))
+        if not attach and self._prints_progress:
+            terminal.say(views.result_text(self.network, result))
+        self._end()
 
-    async def choose(result: Result) -> str:
-        progress.pause()
-        show(ctx, opened, opened.deployment.placed(result.diagnostics))
-        return await _options.ask(
-            "stop what was started, roll back to what ran before, or keep it as it is?", ("stop", "rollback", "keep")
-        )
+    def _attached(self, progress: Progress) -> api.Attached:
+        """The user who watches the output, and ends the deployment by Ctrl-C."""
+        view = views.LogView(self.deployment.enabled, self._color, times=False)
 
-    def bring_up() -> Result:
-        with progress:
-            return opened.deployment.up(
-                *names, restart=restart, timeout=timeout, report=progress.report,
-                on_failure=choose if is_asked else "stop" if on_failure == "ask" else on_failure,
-                stays=_attached(ctx, opened, progress) if attach else None,
-            )  # fmt: skip
-
-    result = carried_out(ctx, opened, bring_up, "interrupted: all was taken down" if attach else None)
-    if opened.format_ == "json":
-        end(ctx, opened, views.result_data(result))
-    if not attach and ctx.obj.verbosity >= 0:
-        terminal.say(views.result_text(opened.network, result))
-    end(ctx, opened)
-
-
-def _attached(ctx: click.Context, opened: Opened, progress: Progress) -> api.Attached:
-    """The user, who sees what the processes print and has enough with Ctrl-C."""
-    view = views.LogView(opened.deployment.enabled, _options.colored(ctx), times=False)
-
-    def on_line(line: Line) -> None:
-        terminal.say(view.text(line))
-
-    def on_up(enough: asyncio.Event) -> None:
-        def stop(number: int) -> None:
-            opened.ended_by = 128 + number
-            enough.set()
-
-        progress.pause()
-        for number in (signal.SIGINT, signal.SIGTERM):
-            asyncio.get_running_loop().add_signal_handler(number, stop, number)
-        if opened.format_ == "text" and ctx.obj.verbosity >= 0:
-            terminal.say(f"{opened.network.name}: Ctrl-C takes it down")
-
-    return api.Attached(on_up, on_line if opened.format_ == "text" else None)
-
-
-def status(ctx: click.Context, opened: Opened, names: tuple[str, ...]) -> None:
-    found = carried_out(ctx, opened, lambda: opened.deployment.status(*names))
-    code = 1 if any(one.is_down for one in found) else 0
-    if opened.format_ == "json":
-        end(ctx, opened, {"processes": views.status_data(opened.network, found)}, code)
-    room = shutil.get_terminal_size().columns if sys.stdout.isatty() else None
-    terminal.say(*views.status_lines(opened.network, found, _options.colored(ctx), room))
-    end(ctx, opened, code=code)
-
-
-def logs(ctx: click.Context, opened: Opened, names: tuple[str, ...], last: int, *, follow: bool, times: bool) -> None:
-    wanted = opened.deployment.chosen(names) or opened.deployment.enabled
-    view = views.LogView(wanted, _options.colored(ctx), times)
-
-    def on_line(line: Line) -> None:
-        if opened.format_ == "json":
-            terminal.data(views.line_data(line), json=True)
-        else:
+        def on_line(line: Line) -> None:
             terminal.say(view.text(line))
 
-    carried_out(
-        ctx, opened, lambda: opened.deployment.logs(*names, last=last, follow=follow, on_line=on_line), on_interrupt=""
-    )
+        def on_up(enough: asyncio.Event) -> None:
+            def stop(number: int) -> None:
+                self.ended_by = 128 + number
+                enough.set()
+
+            progress.pause()
+            for number in (signal.SIGINT, signal.SIGTERM):
+                asyncio.get_running_loop().add_signal_handler(number, stop, number)
+            if self._prints_progress:
+                terminal.say(f"{self.network.name}: Ctrl-C stops it")
+
+        return api.Attached(on_up, on_line if self.format_ == "text" else None)
+
+    def status(self, names: Names) -> None:
+        found = self._run(lambda: self.deployment.status(*names))
+        code = 1 if any(one.is_down for one in found) else 0
+        if self.format_ == "json":
+            self._end({"processes": views.status_data(self.network, found)}, code)
+        room = shutil.get_terminal_size().columns if sys.stdout.isatty() else None
+        terminal.say(*views.status_lines(self.network, found, self._color, room))
+        self._end(code=code)
+
+    def logs(self, names: Names, last: int, *, follow: bool, times: bool) -> None:
+        chosen = self.deployment.chosen(names) or self.deployment.enabled
+        view = views.LogView(chosen, self._color, times)
+
+        def on_line(line: Line) -> None:
+            if self.format_ == "json":
+                terminal.data(views.line_data(line), json=True)
+            else:
+                terminal.say(view.text(line))
+
+        self._run(lambda: self.deployment.logs(*names, last=last, follow=follow, on_line=on_line), on_interrupt="")
+
+    def down(self, names: Names) -> None:
+        def stop_all() -> list[str]:
+            with self._progress() as progress:
+                return self.deployment.down(*names, report=progress.report)
+
+        stopped = self._run(stop_all)
+        if self.format_ == "json":
+            self._end({"stopped": stopped})
+        if not stopped:
+            terminal.say(f"{self.network.name}: nothing was running")
+        self._end()
+
+    def probe(self, name: str = "") -> None:
+        """Probes a host, or all hosts. The exit code is 1 if one of them cannot run its programs."""
+        answers = self.deployment.probe(name)
+        code = 0 if all(can_run(self.network, host, found) for host, found in answers.items()) else 1
+        if self.format_ == "json":
+            self._end({"hosts": msgspec.to_builtins(answers)}, code)
+        for host, found in answers.items():
+            terminal.say(f"{host} ({self.network.hosts[host].address}):", *views.probe_lines(found, self._color))
+        self._end(code=code)
+
+    def export(self, form: str, output: str | None) -> None:
+        """Prints the files, or writes them below `output`. They may contain secrets, which are hidden on a terminal."""
+        if output is None:
+            before = len(self.deployment.diagnostics)
+            files = self._run(lambda: self.deployment.export(form, reveal=not sys.stdout.isatty()))
+            if self.format_ == "json":
+                terminal.data(dumps({"files": files}), json=True)
+            else:
+                _print_files(files)
+            self._show(self.deployment.diagnostics[before:])
+            return
+        written = self._run(lambda: self.deployment.write_export(form, output))
+        if self.format_ == "json":
+            self._end({"written": written})
+        if self._prints_progress:
+            terminal.say(*(f"wrote {path}" for path in written))
+        self._end()
+
+    def _progress(self) -> Progress:
+        return Progress(self._prints_progress, self._color, self.deployment.enabled)
+
+    def _run(self, work: Callable[[], T], on_interrupt: str | None = None) -> T:
+        """The result of a call of the library. Errors end the command, and so does Ctrl-C, with a line about the
+        running processes."""
+        try:
+            return work()
+        except Faulty:
+            self._end()
+        except KeyboardInterrupt as error:
+            if on_interrupt is None:
+                stop = terminal.typed("rcyaml", "deploy", "down", self.deployment.path)
+                on_interrupt = f"interrupted: running processes keep running; `{stop}` stops them"
+            if on_interrupt:
+                terminal.say(on_interrupt, err=True)
+            self.ctx.exit(_signals.code_of(error))
+
+    def _end(self, data: dict[str, object] | None = None, code: int = 0) -> NoReturn:
+        """Prints the diagnostics, and ends the command: with 1 if one is an error, else with `code`."""
+        diagnostics = self.deployment.diagnostics
+        if self.format_ == "json":
+            self._print_json(data or {}, diagnostics)
+        else:
+            self._show(diagnostics)
+        self.ctx.exit(self.ended_by or (1 if has_errors(diagnostics) else code))
+
+    def _print_json(self, data: dict[str, object], diagnostics: Iterable[Diagnostic]) -> None:
+        head = {"deployment": self.network.name, "engine": self.deployment.engine, **data}
+        terminal.data(dumps({**head, "diagnostics": [as_data(one) for one in diagnostics]}), json=True)
+
+    def _show(self, diagnostics: Iterable[Diagnostic]) -> None:
+        """Prints the diagnostics that are not printed yet."""
+        new = [one for one in diagnostics if one not in self.shown]
+        self.shown += new
+        if new:
+            blocks = text.each(new, _options.colored(self.ctx, sys.stderr))
+            terminal.say(*[line for block in blocks for line in (terminal.Shown(), *block)][1:], err=True)
 
 
-def down(ctx: click.Context, opened: Opened, names: tuple[str, ...]) -> None:
-    def take_down() -> list[str]:
-        with _progress(ctx, opened) as progress:
-            return opened.deployment.down(*names, report=progress.report)
-
-    stopped = carried_out(ctx, opened, take_down)
-    if opened.format_ == "json":
-        end(ctx, opened, {"stopped": stopped})
-    if not stopped:
-        terminal.say(f"{opened.network.name}: nothing ran")
-    end(ctx, opened)
-
-
-def _progress(ctx: click.Context, opened: Opened) -> Progress:
-    is_shown = opened.format_ == "text" and ctx.obj.verbosity >= 0
-    return Progress(is_shown, _options.colored(ctx), opened.deployment.enabled)
-
-
-def carried_out(ctx: click.Context, opened: Opened, work: Callable[[], T], on_interrupt: str | None = None) -> T:
-    """What a call gives. What fails it ends the command, and so does Ctrl-C, with a line that says what that means for
-    what runs."""
-    try:
-        return work()
-    except Faulty:
-        end(ctx, opened)
-        raise
-    except KeyboardInterrupt as error:
-        if on_interrupt is None:
-            stop = terminal.typed("rcyaml", "deploy", "down", opened.deployment.path)
-            on_interrupt = f"interrupted: what runs goes on; `{stop}` stops it"
-        if on_interrupt:
-            terminal.say(on_interrupt, err=True)
-        ctx.exit(_signals.code_of(error))
-        raise
-
-
-def end(ctx: click.Context, opened: Opened, data: dict[str, object] | None = None, code: int = 0) -> None:
-    """Tells what is wrong and ends the command: with 1 where one of it is an error."""
-    told = opened.deployment.diagnostics
-    if opened.format_ == "json":
-        head = {"deployment": opened.network.name, "engine": opened.deployment.engine, **(data or {})}
-        terminal.data(dumps({**head, "diagnostics": [as_data(one) for one in told]}), json=True)
-    else:
-        show(ctx, opened, told)
-    ctx.exit(opened.ended_by or (1 if has_errors(told) else code))
-
-
-def show(ctx: click.Context, opened: Opened, told: Iterable[Diagnostic]) -> None:
-    """Prints what was not printed before."""
-    new = [one for one in told if one not in opened.shown]
-    opened.shown += new
-    if new:
-        blocks = text.each(new, _options.colored(ctx, sys.stderr))
-        terminal.say(*[line for block in blocks for line in (terminal.Shown(), *block)][1:], err=True)
+def _print_files(files: dict[str, str]) -> None:
+    for path, content in files.items():
+        if len(files) > 1:
+            terminal.data(f"# {path}\n")
+        terminal.data(content if content.endswith("\n") else f"{content}\n")

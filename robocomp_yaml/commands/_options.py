@@ -1,62 +1,132 @@
-"""Options that several commands share, and how they report."""
+"""Options and output that several commands share."""
 
 from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
-from typing import Any
+from typing import Any, NoReturn
 
 import click
+import msgspec
 
-from robocomp_yaml.commands._fail_on import ERRORS, FailOn
-from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.commands import _plugin_choices
+from robocomp_yaml.diag import terminal
+from robocomp_yaml.diag.diagnostic import ERROR, SEVERITIES, Diagnostic
 from robocomp_yaml.diag.render import FORMATS, tell
 
-MANY = 300  # documents: fewer are read before a bar could be seen
+MANY = 300  # documents: fewer are read too fast for a progress bar
 
 paths = click.argument("paths", nargs=-1, type=click.Path(exists=True))
 include = click.option(
-    "-I",
-    "--include",
-    "include",
-    multiple=True,
-    metavar="DIR",
-    type=click.Path(exists=True, file_okay=False),
-    help="Look for imports here too; may be repeated.",
-)
-format_ = click.option(
-    "--format", "format_", type=click.Choice(FORMATS), default="text", help="How to print diagnostics."
-)
+    "-I", "--include", multiple=True, metavar="DIR", type=click.Path(exists=True, file_okay=False),
+    help="Also search DIR for imports; may be repeated.",
+)  # fmt: skip
+
+
+def _format(choices: Sequence[str]) -> Callable[[Any], Any]:
+    return click.option("--format", "format_", type=click.Choice(choices), default="text", help="The output format.")
+
+
+format_, text_or_json = _format(FORMATS), _format(["text", "json"])
+
+
+class FailOn(msgspec.Struct, frozen=True):
+    """`--fail-on`: which diagnostics besides errors make a run fail: those of a severity that is at least `severity`,
+    and those with one of the `codes`. `text` is as typed."""
+
+    severity: str = ERROR
+    codes: frozenset[str] = frozenset()
+    text: str = ""
+
+    def code(self, diagnostics: Iterable[Diagnostic]) -> int:
+        """The exit code of a run with these diagnostics."""
+        return 1 if any(self._counts(one) for one in diagnostics) else 0
+
+    def explain(self, diagnostics: Iterable[Diagnostic]) -> None:
+        """Prints why a run without errors fails."""
+        counting = [one for one in diagnostics if self._counts(one)]
+        if counting and all(one.severity != ERROR for one in counting):
+            codes = ", ".join(sorted({one.code for one in counting}))
+            terminal.say(f"exit code 1 because of {codes} (--fail-on {self.text})", err=True)
+
+    def _counts(self, one: Diagnostic) -> bool:
+        worst = SEVERITIES.index(one.severity)  # sorted, the worst first
+        return worst <= SEVERITIES.index(self.severity) or one.code in self.codes
+
+
+def _fail_on(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -> FailOn:
+    words = [word.strip() for text in values for word in text.split(",")]
+    severities = [word.lower() for word in words if word.lower() in SEVERITIES]
+    codes = {word.upper(): word for word in words if word.lower() not in SEVERITIES}
+    if codes:
+        from robocomp_yaml.diag.codes import table
+        from robocomp_yaml.diag.suggest import suggest
+
+        known = dict(table())
+        if not codes.keys() <= known.keys():
+            known |= _plugin_choices.codes(ctx)
+        for code, word in codes.items():
+            if code not in known:
+                meant = suggest(code.lower(), SEVERITIES) or suggest(code, known)
+                hint = f"did you mean '{meant}'?" if meant else "`rcyaml explain` lists the codes"
+                severity = f"{', '.join(SEVERITIES[:-1])} or {SEVERITIES[-1]}"
+                raise click.BadParameter(f"'{word}' is neither {severity} nor the code of a diagnostic; {hint}")
+    least = max(severities, key=SEVERITIES.index, default=ERROR)
+    return FailOn(least, frozenset(codes), ",".join(words))
+
+
+fail_on = click.option(
+    "--fail-on", "fail_on", multiple=True, metavar="WHAT", callback=_fail_on,
+    help="Also exit with 1 for these: warning, note, or codes such as RC2007,RC3107; may be repeated.",
+)  # fmt: skip
 
 
 def colored(ctx: click.Context, stream: Any = None) -> bool:
-    """Whether to colour what goes to a stream (standard output unless another is given)."""
+    """Whether output to a stream is coloured; by default, to standard output."""
     if ctx.color is not None:
         return ctx.color
     return bool((stream or sys.stdout).isatty())
 
 
 @contextmanager
-def progress(label: str, paths: Iterable[str]) -> Iterator[Callable[[str], None]]:
-    """A bar on standard error that counts documents, where someone watches and there are many."""
-    if not sys.stderr.isatty():
-        yield lambda path: None
-        return
-    from robocomp_yaml.source.discover import documents_below
+def progress(label: str, paths: Iterable[str]) -> Iterator[Callable[[str], None] | None]:
+    """A progress bar on standard error that counts documents, if it is a terminal and there are many documents. Yields
+    the function to call for each document, or None."""
+    if sys.stderr.isatty():
+        from robocomp_yaml.source.discover import documents_below
 
-    total = sum(1 for path in paths if os.path.isdir(path) for _ in documents_below(path))
-    if total < MANY:
-        yield lambda path: None
-        return
-    with click.progressbar(length=total, label=label, file=sys.stderr, update_min_steps=50) as bar:
-        yield lambda path: bar.update(1)
+        total = sum(1 for path in paths if os.path.isdir(path) for _ in documents_below(path))
+        if total >= MANY:
+            with click.progressbar(length=total, label=label, file=sys.stderr, update_min_steps=50) as bar:
+                yield lambda path: bar.update(1)
+            return
+    yield None
+
+
+@contextmanager
+def writing(path: str = "") -> Iterator[None]:
+    """Ends the command with exit code 1 if a file cannot be written: this one, or the one of the error."""
+    try:
+        yield
+    except OSError as error:
+        named = path or error.filename or ""
+        reason = (error.strerror or str(error)).lower()
+        raise click.ClickException(f"cannot write {named}: {reason}" if named else f"cannot write: {reason}") from error
+
+
+def report_file(done: str, what: str) -> None:
+    """Prints what `init` or `new` did with a file, or a note."""
+    if done == "note":
+        terminal.say(f"note: {what}", err=True)
+    elif click.get_current_context().obj.verbosity >= 0:
+        terminal.say(f"{done:<5} {what}")
 
 
 async def ask(text: str, answers: tuple[str, ...]) -> str:
-    """The user's answer, of which the first is the default. A thread waits for it that nobody waits for: Ctrl-C ends
-    the question, too."""
+    """The answer of the user; the first one is the default. It is read in a daemon thread, so that Ctrl-C also ends the
+    question."""
     import asyncio
     import threading
 
@@ -70,9 +140,9 @@ async def ask(text: str, answers: tuple[str, ...]) -> str:
     def wait() -> None:
         try:
             answer: str = click.prompt(text, type=click.Choice(answers), default=first)
-        except click.Abort:  # there is nobody to answer
+        except click.Abort:  # the input has ended
             answer = first
-        with suppress(RuntimeError):  # the question was withdrawn
+        with suppress(RuntimeError):  # the loop has ended
             loop.call_soon_threadsafe(settle, answer)
 
     threading.Thread(target=wait, daemon=True).start()
@@ -80,13 +150,12 @@ async def ask(text: str, answers: tuple[str, ...]) -> str:
 
 
 def report(
-    ctx: click.Context, format_: str, diagnostics: Iterable[Diagnostic], documents: int, fail_on: FailOn = ERRORS
-) -> None:  # fmt: skip
-    """Prints the diagnostics and ends the command: with 1 where one is an error, or what `fail_on` says, else with
-    0."""
-    told = list(diagnostics)
-    if ctx.obj.verbosity >= 0 or told:
-        tell(format_, told, documents, colored(ctx))
+    ctx: click.Context, format_: str, diagnostics: Iterable[Diagnostic], documents: int, fail_on: FailOn = FailOn()
+) -> NoReturn:  # fmt: skip
+    """Prints the diagnostics and ends the command: with 1 if one is an error or counts for `fail_on`, else with 0."""
+    shown = list(diagnostics)
+    if ctx.obj.verbosity >= 0 or shown:
+        tell(format_, shown, documents, colored(ctx))
     if format_ == "text":
-        fail_on.explain(told)
-    ctx.exit(fail_on.code(told))
+        fail_on.explain(shown)
+    ctx.exit(fail_on.code(shown))

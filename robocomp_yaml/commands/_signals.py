@@ -1,7 +1,7 @@
-"""How a run ends that somebody ends: Ctrl-C (130), SIGTERM (143), and a reader of its output that had enough (141).
+"""Exit codes of interrupted runs: Ctrl-C (130), SIGTERM (143), and a closed pipe on standard output (141).
 
-While a command works, both signals raise KeyboardInterrupt, so that what it began is put back; before and after, they
-end the process at once.
+While a command runs, both signals raise KeyboardInterrupt, so that it can clean up. Before and after that, they end the
+process at once.
 """
 
 from __future__ import annotations
@@ -15,23 +15,23 @@ from types import FrameType
 INTERRUPTED, READER_GONE = 128 + signal.SIGINT, 128 + signal.SIGPIPE
 
 
-class Ended(KeyboardInterrupt):
-    """Somebody asked the process to end with SIGTERM."""
+class Terminated(KeyboardInterrupt):
+    """SIGTERM was received."""
 
 
 def code_of(error: BaseException | None) -> int:
-    """The exit code of a run that this interrupted."""
-    return 128 + signal.SIGTERM if isinstance(error, Ended) else INTERRUPTED
+    """The exit code of a run that this exception interrupted."""
+    return 128 + signal.SIGTERM if isinstance(error, Terminated) else INTERRUPTED
 
 
 @contextmanager
-def heeded() -> Iterator[None]:
-    """Signals raise KeyboardInterrupt in here, and end the process at once from then on. One that is ignored stays so,
-    as of what a script runs in the background."""
+def handled() -> Iterator[None]:
+    """In this context, signals raise KeyboardInterrupt; after it, they end the process at once. Ignored signals stay
+    ignored, as in background jobs of shell scripts."""
     numbers = [one for one in (signal.SIGINT, signal.SIGTERM) if signal.getsignal(one) is not signal.SIG_IGN]
     try:
         for number in numbers:
-            # That of Python is known to asyncio, which cancels what it runs.
+            # asyncio recognizes the handler of Python, and cancels its tasks.
             signal.signal(number, signal.default_int_handler if number == signal.SIGINT else _terminate)
         yield
     finally:
@@ -40,7 +40,7 @@ def heeded() -> Iterator[None]:
 
 
 def _terminate(number: int, frame: FrameType | None) -> None:
-    raise Ended
+    raise Terminated
 
 
 def _end(number: int, frame: FrameType | None) -> None:

@@ -1,139 +1,197 @@
-"""`rcyaml config`: the values of a component's parameters, offline and without a robot."""
+"""`rcyaml config`: the values of a component's parameters, without a build and without a robot."""
 
 from __future__ import annotations
 
 import os
+import sys
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from robocomp_yaml.commands import _options
-from robocomp_yaml.commands._command import Command, Group
+from robocomp_yaml.commands._command import CommandGroup, LibraryCommand
+from robocomp_yaml.diag import terminal
+from robocomp_yaml.diag.render.json import dumps
+
+if TYPE_CHECKING:
+    from robocomp_yaml.parameters.editing.show import Value
+    from robocomp_yaml.source.tree import Node
 
 
-def _meant(ctx: click.Context, param: click.Parameter, said: str) -> str:
+def _values_document(ctx: click.Context, param: click.Parameter, argument: str) -> str:
     from robocomp_yaml.api import which
 
-    return which.values(said)
+    return which.values(argument)
 
 
-class _FileMayLack(Command):
-    """Its first argument may be left out where there is only one document that it can be."""
+class _OptionalFile(LibraryCommand):
+    """A command whose first argument may be omitted if only one document is possible."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        wanted = [param.name for param in self.get_params(ctx) if isinstance(param, click.Argument)]
-        found, _, _ = self.make_parser(ctx).parse_args(list(args))
-        given = [found[name] for name in wanted if name and isinstance(found.get(name), str)]
-        lacks = len(given) == len(wanted) - 1 and not os.path.exists(given[0])
+        names = [param.name for param in self.get_params(ctx) if isinstance(param, click.Argument)]
+        parsed, _, _ = self.make_parser(ctx).parse_args(list(args))
+        passed = [parsed[name] for name in names if name and isinstance(parsed.get(name), str)]
+        lacks = len(passed) == len(names) - 1 and not os.path.exists(passed[0])
         return super().parse_args(ctx, ["", *args] if lacks else args)
 
 
-file = click.argument("file", metavar="[FILE]", default="", callback=_meant)
-format_ = click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text",
-                       help="How to print it.")  # fmt: skip
-
-reveal = click.option("--reveal", is_flag=True, help="Show secrets too.")
+file = click.argument("file", metavar="[FILE]", default="", callback=_values_document)
+reveal = click.option("--reveal", is_flag=True, help="Also show secrets.")
 
 
-@click.group(cls=Group, short_help="Values of parameters: check, show, change, export.")
+@click.group(cls=CommandGroup, short_help="Check, show, change and export the values of parameters.")
 def command() -> None:
-    """The values of a component's parameters: without a build, and without a robot.
+    """Check, show, change and export the values of a component's parameters, without a build and without a robot.
 
-    FILE is a values document: etc/config.yaml, or NAME.config.yaml. A component's folder, its document or its name
-    stand for its etc/config.yaml; where there is only one component, FILE may be left out.
+    FILE is a values document: etc/config.yaml, or NAME.config.yaml. The folder, the document or the name of a component
+    means its etc/config.yaml. If there is only one component, FILE may be omitted.
     """
 
 
-@command.command(short_help="A first document, with defaults and docs as comments.")
+@command.command(short_help="Write a first document, with defaults and docs as comments.")
 @click.argument("file", metavar="[COMPONENT]", default="")
 @_options.include
 @click.pass_context
 def new(ctx: click.Context, file: str, include: tuple[str, ...]) -> None:
     """Write a first values document to etc/config.yaml in a component's folder. COMPONENT is that folder, the
-    component's document (or that of its parameters), or its name; where there is only one, it may be left out. It may
-    also be the values document to be written, NAME.config.yaml, for the component beside it or one folder up.
+    component's document (or that of its parameters), or its name; if there is only one component, it may be omitted. It
+    may also be the values document to write, NAME.config.yaml, for the component beside it or one folder up.
 
-    Values and connections that the component's etc/config has are taken over."""
-    from robocomp_yaml.commands import _values
+    Values and connections of the component's etc/config are copied.
+    """
+    from robocomp_yaml.api.values import write_new
 
-    _values.new(ctx, file, include)
+    target = write_new(file, include)
+    if ctx.obj.verbosity >= 0:
+        terminal.say(f"wrote {target}", f"next: {terminal.typed('rcyaml', 'config', 'check', target)}")
 
 
-@command.command(short_help="Everything that is wrong with the values.")
+@command.command(short_help="Report everything that is wrong with the values.")
 @file
 @_options.include
 @_options.format_
 @click.pass_context
 def check(ctx: click.Context, file: str, include: tuple[str, ...], format_: str) -> None:
-    """Report everything that is wrong with the values in FILE and the layers it builds on, at line and column."""
-    from robocomp_yaml.commands import _values
+    """Report everything that is wrong with the values in FILE and its layers, with line and column."""
+    from robocomp_yaml.api.values import Values
 
-    _values.check(ctx, file, include, format_)
+    values = Values(file, include)
+    _options.report(ctx, format_, values.diagnostics, values.documents_read)
 
 
-@command.command(short_help="Every effective value, and where it comes from.")
+@command.command(short_help="Print every effective value, and its location.")
 @file
 @reveal
 @_options.include
-@format_
+@_options.text_or_json
 @click.pass_context
 def show(ctx: click.Context, file: str, reveal: bool, include: tuple[str, ...], format_: str) -> None:
-    """Print every effective value with the file and line that set it, and what it overrode. Secrets are hidden.
-    References to the environment and to files are shown as such: their values are never read here."""
-    from robocomp_yaml.commands import _values
+    """Print every effective value with the file and line that set it, and the values that it overrides. Secrets are
+    hidden. References to the environment and to files are printed as they are: they are never resolved here."""
+    from robocomp_yaml.api.values import Values
 
-    _values.show(ctx, file, include, format_, reveal=reveal)
+    rows = Values(file, include).rows(reveal=reveal)
+    if format_ == "json":
+        terminal.data(dumps({"values": [_as_json(row) for row in rows]}), json=True)
+        return
+    width = max((min(len(_assignment(row)), 50) for row in rows), default=0)
+    terminal.data("".join(f"{_assignment(row):<{width}}  # {_origin(row)}\n" for row in rows))
 
 
-@command.command(short_help="One effective value.", cls=_FileMayLack)
+@command.command(short_help="Print one effective value.", cls=_OptionalFile)
 @file
 @click.argument("path")
 @reveal
 @_options.include
-@format_
+@_options.text_or_json
 @click.pass_context
 def get(
     ctx: click.Context, file: str, path: str, reveal: bool, include: tuple[str, ...], format_: str
 ) -> None:  # fmt: skip
     """Print the effective value at PATH, such as motors[0].vel. A secret is hidden."""
-    from robocomp_yaml.commands import _values
+    from robocomp_yaml.api.values import Values
+    from robocomp_yaml.source.yaml_text import flow
 
-    _values.get(ctx, file, path, include, format_, reveal=reveal)
+    data = Values(file, include).get(path, reveal=reveal)
+    if data is None:
+        terminal.say(f"{path} has no value", err=True)
+        ctx.exit(1)
+    if format_ == "json":
+        terminal.data(dumps({"path": path, "value": data}), json=True)
+        return
+    terminal.data(f"{data if isinstance(data, str) else flow(data)}\n")
 
 
-@command.command(
-    "set",
-    short_help="Change one value; all else stays as it is.",
-    cls=_FileMayLack,
-    context_settings={
-        "ignore_unknown_options": True,
-    },
-)
+@command.command("set", short_help="Change one value, and nothing else.", cls=_OptionalFile,
+                 context_settings={"ignore_unknown_options": True})  # fmt: skip
 @file
 @click.argument("path")
 @click.argument("value")
 @_options.include
-@format_
+@_options.text_or_json
 @click.pass_context
 def set_(
     ctx: click.Context, file: str, path: str, value: str, include: tuple[str, ...], format_: str
 ) -> None:  # fmt: skip
-    """Give the parameter at PATH another VALUE in FILE, checked by its type and limits. Text needs no quotes; null
-    returns to the default, and {env: NAME} or {file: PATH} is what the environment or a file has when the component
-    starts. Comments, order and layout of the document stay, byte for byte."""
-    from robocomp_yaml.commands import _values
+    """Set the parameter at PATH to VALUE in FILE, if its type and limits accept it. Text needs no quotes; null returns
+    to the default; {env: NAME} or {file: PATH} is resolved when the component starts. Comments, order and layout of the
+    document stay, byte for byte."""
+    from robocomp_yaml.api.values import Values
 
-    _values.set_value(ctx, file, path, value, include, format_)
+    change = Values(file, include).set(path, value)
+    change.apply()
+    if format_ == "json":
+        terminal.data(dumps({"path": path, "value": change.value, "was": change.was or None}), json=True)
+    elif ctx.obj.verbosity >= 0:
+        terminal.say(f"{path} = {change.value}" + (f" (was {change.was})" if change.was else ""))
 
 
-@command.command(short_help="The values as Ice properties or TOML.")
+@command.command(short_help="Print the values as Ice properties or TOML.")
 @file
-@click.option("--as", "form", type=click.Choice(["ice", "toml"]), default="ice", help="What to print.")
+@click.option("--as", "form", type=click.Choice(["ice", "toml"]), default="ice", help="The format.")
 @reveal
 @_options.include
 @click.pass_context
 def export(ctx: click.Context, file: str, form: str, reveal: bool, include: tuple[str, ...]) -> None:
-    """Print all effective values as an Ice property file, from which a component runs that knows nothing of YAML, or as
-    TOML. Secrets are hidden on a terminal, and go into a pipe or a file."""
-    from robocomp_yaml.commands import _values
+    """Print all effective values as Ice properties, with which a component runs without any YAML, or as TOML. Secrets
+    are hidden on a terminal, but not in a pipe or a file."""
+    from robocomp_yaml.api.values import Values
 
-    _values.export(ctx, file, form, include, reveal=reveal)
+    terminal.data(Values(file, include).export(form, reveal=reveal or not sys.stdout.isatty()))
+
+
+def _assignment(row: Value) -> str:
+    return f"{row.path} = {row.text}" + (f" {row.unit}" if row.unit else "")
+
+
+def _origin(row: Value) -> str:
+    if row.node is None:
+        where = f", {_location(row.default)}" if row.default is not None else ""
+        return f"default{where}"
+    overrode = "".join(f", overrides {_overridden(row, node)} ({_location(node)})" for node in row.overrode)
+    return f"{_location(row.node)}{overrode}"
+
+
+def _overridden(row: Value, node: Node) -> str:
+    from robocomp_yaml.source.tree import Scalar
+    from robocomp_yaml.source.yaml_text import flow
+
+    data = row.hide(node.data)
+    text = node.lexeme if isinstance(node, Scalar) and data == node.data else flow(data)
+    return text if len(text) <= 40 else text[:39] + "…"
+
+
+def _location(node: Node) -> str:
+    return f"{node.span.file}:{node.span.line}"
+
+
+def _as_json(row: Value) -> dict[str, Any]:
+    return {
+        "path": row.path, "value": row.data, "unit": row.unit, "editable": row.editable, "default": row.node is None,
+        **_json_location(row.node or row.default),
+        "overrode": [{"value": row.hide(node.data), **_json_location(node)} for node in row.overrode],
+    }  # fmt: skip
+
+
+def _json_location(node: Node | None) -> dict[str, Any]:
+    return {"file": node.span.file if node else None, "line": node.span.line if node else None}

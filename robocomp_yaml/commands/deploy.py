@@ -1,37 +1,60 @@
-"""`rcyaml deploy`: a network of components, planned, brought up, watched and taken down."""
+"""`rcyaml deploy`: plans, starts, watches and stops a network of components."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
+from functools import wraps
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from robocomp_yaml.commands import _options
-from robocomp_yaml.commands._command import Group
-from robocomp_yaml.commands._deployment_argument import DocumentAnd
-from robocomp_yaml.commands._plugged import Plugged
+from robocomp_yaml.commands._command import CommandGroup
+from robocomp_yaml.commands._plugin_choices import PluginChoice
 from robocomp_yaml.deploy.engines import ENGINES
+from robocomp_yaml.source.discover import of_kind
 
 if TYPE_CHECKING:
+    from robocomp_yaml.commands._deploying import DeploySession
     from robocomp_yaml.plugins import Plugins
 
-_FORMATS = click.Choice(["text", "json"])
 
+class _DocumentAnd(click.Argument):
+    """The argument `[DDSL]` and the words after it, as the parameters `ddsl` and this one. If the first word is neither
+    a document nor a folder with one, it is the first of the words, and the document is the only one below this
+    folder."""
 
-def _shared(function: Callable[..., Any]) -> Callable[..., Any]:
-    """What all of them take: how to read and tell."""
-    format_ = click.option("--format", "format_", type=_FORMATS, default="text", help="How to print it.")
-    return format_(_options.include(function))
+    def __init__(self, declarations: list[str], limit: int | None = None, metavar: str = "", **more: Any) -> None:
+        self._limit = limit
+        super().__init__(declarations, nargs=-1, type=click.Path(), metavar=f"[DDSL] {metavar}".rstrip(), **more)
 
+    def process_value(self, ctx: click.Context, value: object) -> tuple[str, ...]:
+        words: tuple[str, ...] = super().process_value(ctx, value) or ()
+        ctx.params["ddsl"], rest = self._split(ctx, words)
+        if self._limit is not None and len(rest) > self._limit:
+            extra = rest[self._limit :]
+            raise click.UsageError(f"Got unexpected extra argument{'s' * (len(extra) > 1)} ({' '.join(extra)})", ctx)
+        return rest
 
-engine = click.option("--engine", type=click.Choice([*ENGINES]),
-                      help="What runs it; local on one machine, icegrid on several.")  # fmt: skip
-names = click.argument("names", cls=DocumentAnd, metavar="[NAME]...")
+    def _split(self, ctx: click.Context, words: tuple[str, ...]) -> tuple[str, tuple[str, ...]]:
+        if not words:
+            return ".", ()
+        first = words[0]
+        if os.path.isdir(first):
+            is_document = bool(of_kind(first, "ddsl")) or not of_kind(".", "ddsl")
+        else:
+            is_document = os.path.exists(first)
+        if is_document:
+            return first, words[1:]
+        is_path = "/" in first or first.endswith((".yaml", ".yml"))
+        if self._limit == 0 or is_path or not of_kind(".", "ddsl"):
+            raise click.BadParameter(f"Path '{first}' does not exist.", ctx, self, "'[DDSL]'")
+        return ".", words
 
 
 class _Duration(click.ParamType):  # type: ignore[type-arg]  # older ones are not generic
-    """A length of time with its unit, as in documents."""
+    """A duration with its unit, as in documents; in seconds."""
 
     name = "time"
 
@@ -40,12 +63,20 @@ class _Duration(click.ParamType):  # type: ignore[type-arg]  # older ones are no
 
         seconds = value if isinstance(value, float) else duration(value)
         if not seconds:
-            self.fail(f"'{value}' is no length of time, such as 30s or 2min", param, ctx)
+            self.fail(f"'{value}' is not a duration, such as 30s or 2min", param, ctx)
         return seconds
 
 
-timeout = click.option("--timeout", type=_Duration(), metavar="TIME",
-                       help="How long it may take, all in all: 30s, 2min.")  # fmt: skip
+_names = click.argument("names", cls=_DocumentAnd, metavar="[NAME]...")
+_engine = click.option("--engine", type=click.Choice([*ENGINES]),
+                       help="The engine: local for one machine, icegrid for several.")  # fmt: skip
+_timeout = click.option("--timeout", type=_Duration(), metavar="TIME",
+                        help="The longest total duration: 30s, 2min.")  # fmt: skip
+
+
+def _on_failure(text: str) -> Callable[[Any], Any]:
+    choice = click.Choice(["ask", "stop", "rollback", "keep"])
+    return click.option("--on-failure", type=choice, default="ask", help=text)
 
 
 def _exports(plugins: Plugins) -> list[str]:
@@ -54,144 +85,106 @@ def _exports(plugins: Plugins) -> list[str]:
     return forms(plugins)
 
 
-@click.group(cls=Group, short_help="A network of components: plan, up, status, logs, down.")
+@click.group(cls=CommandGroup, short_help="Run a network of components: plan, up, status, logs, down.")
 def command() -> None:
     """Deploy the network that a document (NAME.ddsl.yaml) describes.
 
-    DDSL is the document, or a folder with one; by default, the only one below this folder. NAMEs are processes or
-    groups of it.
+    DDSL is the document, or a folder with one; by default, the only one below this folder. NAMEs are its processes or
+    groups.
     """
 
 
-@command.command(short_help="What up would do, and why.")
-@_shared
-@names
-@engine
-@click.pass_context
-def plan(ctx: click.Context, ddsl: str, names: tuple[str, ...], engine: str | None, include: tuple[str, ...],
-         format_: str) -> None:  # fmt: skip
-    """Say what `up` would start, stop, restart and change, field by field, against what runs now. Nothing is done."""
-    from robocomp_yaml.commands import _deploying
+def _subcommand(
+    short_help: str, *options: Callable[[Any], Any], lenient: bool = False
+) -> Callable[[Callable[..., None]], click.Command]:
+    """A command about a deployment. Its function gets the session, and the values of its own options."""
 
-    _deploying.plan(ctx, _deploying.open_(ctx, ddsl, include, format_, engine), names)
+    def decorate(function: Callable[..., None]) -> click.Command:
+        @wraps(function)
+        def run(ddsl: str, include: tuple[str, ...], format_: str, engine: str | None = None, **own: Any) -> None:
+            from robocomp_yaml.commands._deploying import open_session
+
+            ctx = click.get_current_context()
+            function(open_session(ctx, ddsl, include, format_, engine, lenient=lenient), **own)
+
+        for option in (*reversed(options), _options.include, _options.text_or_json):
+            run = option(run)
+        return command.command(short_help=short_help)(run)
+
+    return decorate
 
 
-@command.command(short_help="Bring it about; what is as it should be is not touched.")
-@_shared
-@names
-@engine
-@click.option(
-    "--on-failure",
-    type=click.Choice(["ask", "stop", "rollback", "keep"]),
-    default="ask",
-    help="What becomes of what was started when a process fails; asked on a terminal, else stop.",
-)
-@timeout
-@click.option("--build", is_flag=True, help="Build first what is not built, or is older than what it is made of.")
-@click.option("--attach", is_flag=True, help="Stay, show what they print, and take them down at the end.")
-@click.pass_context
-def up(ctx: click.Context, ddsl: str, names: tuple[str, ...], engine: str | None, on_failure: str,
-       timeout: float | None, build: bool, attach: bool, include: tuple[str, ...], format_: str) -> None:  # fmt: skip
-    """Bring the network about: start each process when all that it needs are ready, restart what changed, stop what is
-    no longer part of it. NAMEs limit it to some, with all that they need."""
-    from robocomp_yaml.commands import _deploying
+@_subcommand("Print what up would do, and why.", _names, _engine)
+def plan(session: DeploySession, names: tuple[str, ...]) -> None:
+    """Print what `up` would start, stop, restart and change, field by field, compared to what is running. Nothing is
+    changed."""
+    session.plan(names)
 
-    opened = _deploying.open_(ctx, ddsl, include, format_, engine)
+
+@_subcommand("Start the network, and apply changes to it.", _names, _engine)
+@_on_failure("What happens to the started processes if one fails; ask: on a terminal, else stop.")
+@_timeout
+@click.option("--build", is_flag=True, help="First build the components that are not up to date.")
+@click.option("--attach", is_flag=True, help="Print the logs until Ctrl-C, then stop the processes.")
+def up(
+    session: DeploySession, names: tuple[str, ...], on_failure: str, timeout: float | None, build: bool, attach: bool
+) -> None:
+    """Start the network: start each process when all that it depends on is ready, restart what changed, stop what is no
+    longer in the network. NAMEs limit it to some processes, with all that they depend on."""
     if build:
-        _deploying.build(ctx, opened, names)
-    _deploying.up(ctx, opened, names, on_failure, timeout, attach=attach)
+        session.build(names)
+    session.up(names, on_failure, timeout, attach=attach)
 
 
-@command.command(short_help="How the processes are.")
-@_shared
-@names
-@engine
-@click.pass_context
-def status(ctx: click.Context, ddsl: str, names: tuple[str, ...], engine: str | None, include: tuple[str, ...],
-           format_: str) -> None:  # fmt: skip
-    """Show each process: its state, whether it is ready now, where it runs, for how long, and what it serves. The exit
-    code is 1 where one that should run does not."""
-    from robocomp_yaml.commands import _deploying
-
-    _deploying.status(ctx, _deploying.open_(ctx, ddsl, include, format_, engine, lenient=True), names)
+@_subcommand("Show the state of the processes.", _names, _engine, lenient=True)
+def status(session: DeploySession, names: tuple[str, ...]) -> None:
+    """Show each process: its state, whether it is ready, its host, its uptime, and what it serves. The exit code is 1
+    if a process that should run is not running."""
+    session.status(names)
 
 
-@command.command(short_help="What the processes print, merged.")
-@_shared
-@names
-@engine
-@click.option("-f", "--follow", is_flag=True, help="Go on with what comes, until Ctrl-C.")
-@click.option("-n", "--lines", "last", type=click.IntRange(min=0), default=20, help="The last lines of each; 20.")
-@click.option("-t", "--times", is_flag=True, help="With the time of each line.")
-@click.pass_context
-def logs(ctx: click.Context, ddsl: str, names: tuple[str, ...], engine: str | None, follow: bool, last: int,
-         times: bool, include: tuple[str, ...], format_: str) -> None:  # fmt: skip
-    """Print the last lines of the processes' logs, in the order in which they were written."""
-    from robocomp_yaml.commands import _deploying
-
-    opened = _deploying.open_(ctx, ddsl, include, format_, engine, lenient=True)
-    _deploying.logs(ctx, opened, names, last, follow=follow, times=times)
+@_subcommand("Print the logs of the processes, merged.", _names, _engine, lenient=True)
+@click.option("-f", "--follow", is_flag=True, help="Also print new lines, until Ctrl-C.")
+@click.option("-n", "--lines", "last", type=click.IntRange(min=0), default=20, help="Last lines of each; default: 20.")
+@click.option("-t", "--times", is_flag=True, help="Print the time of each line.")
+def logs(session: DeploySession, names: tuple[str, ...], last: int, follow: bool, times: bool) -> None:
+    """Print the last lines of the logs of the processes, in the order in which they were written."""
+    session.logs(names, last, follow=follow, times=times)
 
 
-@command.command(short_help="Stop and start processes again.")
-@_shared
-@names
-@engine
-@click.option(
-    "--on-failure",
-    type=click.Choice(["ask", "stop", "rollback", "keep"]),
-    default="ask",
-    help="What becomes of those that were restarted when one fails.",
+@_subcommand("Stop processes, and start them again.", _names, _engine)
+@_on_failure("What happens to the restarted processes if one fails.")
+@_timeout
+def restart(session: DeploySession, names: tuple[str, ...], on_failure: str, timeout: float | None) -> None:
+    """Restart the processes NAME (by default, all), as the document describes them now."""
+    session.up(names, on_failure, timeout, restart=True)
+
+
+@_subcommand("Stop the processes, in reverse order.", _names, _engine, lenient=True)
+def down(session: DeploySession, names: tuple[str, ...]) -> None:
+    """Stop all running processes of the network, or the processes NAME with all that depend on them. A process is
+    stopped before those that it depends on."""
+    session.down(names)
+
+
+@_subcommand(
+    "Show which programs of the network a host has.",
+    click.argument("host", cls=_DocumentAnd, limit=1, metavar="[HOST]"),
+    lenient=True,
 )
-@timeout
-@click.pass_context
-def restart(ctx: click.Context, ddsl: str, names: tuple[str, ...], engine: str | None, on_failure: str,
-            timeout: float | None, include: tuple[str, ...], format_: str) -> None:  # fmt: skip
-    """Restart the processes NAME (without: all), as the document describes them now."""
-    from robocomp_yaml.commands import _deploying
-
-    opened = _deploying.open_(ctx, ddsl, include, format_, engine)
-    _deploying.up(ctx, opened, names, on_failure, timeout, restart=True)
+def probe(session: DeploySession, host: tuple[str, ...]) -> None:
+    """Show which programs of the network HOST has (by default, all hosts), in which version, and which of the required
+    libraries are missing."""
+    session.probe(*host)
 
 
-@command.command(short_help="Take it down, in reverse order.")
-@_shared
-@names
-@engine
-@click.pass_context
-def down(ctx: click.Context, ddsl: str, names: tuple[str, ...], engine: str | None, include: tuple[str, ...],
-         format_: str) -> None:  # fmt: skip
-    """Stop everything that runs of the network, or the processes NAME with all that need them; those first that need
-    others."""
-    from robocomp_yaml.commands import _deploying
-
-    _deploying.down(ctx, _deploying.open_(ctx, ddsl, include, format_, engine, lenient=True), names)
-
-
-@command.command(short_help="Which known components a host has.")
-@_shared
-@click.argument("host", cls=DocumentAnd, most=1, metavar="[HOST]")
-@click.pass_context
-def probe(ctx: click.Context, ddsl: str, host: tuple[str, ...], include: tuple[str, ...], format_: str) -> None:
-    """Say which of the network's programs HOST has (without: all its hosts), in which version, and which of the
-    libraries that they need are missing there."""
-    from robocomp_yaml.commands import _deploying, _probing
-
-    _probing.tell(ctx, _deploying.open_(ctx, ddsl, include, format_, None, lenient=True), *host)
-
-
-@command.command(short_help="The network in the words of other tools.")
-@_shared
-@click.argument("nothing", cls=DocumentAnd, most=0, expose_value=False)
-@click.option("--as", "form", required=True, type=Plugged(_exports), help="Which tool.")
-@click.option(
-    "-o", "--output", metavar="DIR", type=click.Path(file_okay=False), help="Write below DIR, not to standard output."
+@_subcommand(
+    "Write the network in the format of another tool.",
+    click.argument("nothing", cls=_DocumentAnd, limit=0, expose_value=False),
 )
-@click.pass_context
-def export(ctx: click.Context, ddsl: str, form: str, output: str | None, include: tuple[str, ...],
-           format_: str) -> None:  # fmt: skip
-    """Print the files from which IceGrid, RCManager, systemd or docker compose run the network, or what a plug-in of
-    the workspace makes of it; or write them."""
-    from robocomp_yaml.commands import _deploying, _exporting
-
-    _exporting.export(ctx, _deploying.open_(ctx, ddsl, include, format_, None), form, output)
+@click.option("--as", "form", required=True, type=PluginChoice(_exports), help="The tool.")
+@click.option("-o", "--output", metavar="DIR", type=click.Path(file_okay=False), help="Write the files below DIR.")
+def export(session: DeploySession, form: str, output: str | None) -> None:
+    """Print the files with which IceGrid, RCManager, systemd or docker compose run the network, or those of a plug-in
+    of the workspace; or write them."""
+    session.export(form, output)

@@ -1,4 +1,4 @@
-"""`rcyaml explain CODE`: what a diagnostic means, with a wrong and a right example."""
+"""`rcyaml explain CODE`: explains a diagnostic, with a wrong and a right example."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from collections.abc import Iterable
 
 import click
 
-from robocomp_yaml.commands import _plugged
-from robocomp_yaml.commands._command import Command
+from robocomp_yaml.commands import _options, _plugin_choices
+from robocomp_yaml.commands._command import LibraryCommand
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.page import Files, Repeated
@@ -16,18 +16,18 @@ from robocomp_yaml.diag.page import Files, Repeated
 _OF_A_PLUGIN = re.compile(r"(?!RC\d)[A-Z]{2,}\d{3,4}")
 
 
-@click.command(cls=Command, short_help="Say what a diagnostic means, with examples.")
+@click.command(cls=LibraryCommand, short_help="Explain a diagnostic, with examples.")
 @click.argument("code", required=False)
-@click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text", help="How to print it.")
+@_options.text_or_json
 @click.pass_context
 def command(ctx: click.Context, code: str | None, format_: str) -> None:
-    """Say what the diagnostic CODE means, such as RC2003; without a code, list them all."""
+    """Explain the diagnostic CODE, such as RC2003; without a code, list all diagnostics."""
     rows = _codes()
     if code is None:
         chosen = list(rows.values())
     elif (row := rows.get(code.upper())) is None:
-        _plugged.here()  # it may be that of a plug-in that cannot be had
-        raise click.UsageError(f"no diagnostic is called {code}{_hint(code.upper(), rows)}")
+        _plugin_choices.plugins_at()  # raises Faulty if it may be that of a missing plug-in
+        raise click.UsageError(f"unknown diagnostic {code}{_hint(code.upper(), rows)}")
     else:
         chosen = [row]
     if format_ == "json":
@@ -41,7 +41,7 @@ def _hint(code: str, known: Iterable[str]) -> str:
 
     alike = [one for one in known if one[:2] == code[:2]]
     if not alike and _OF_A_PLUGIN.fullmatch(code):
-        return " here: those of a plug-in are explained in a workspace that names it under `plugins:`"
+        return ": a diagnostic of a plug-in is explained in a workspace that names the plug-in under `plugins:`"
     meant = suggest(code, alike or known)
     return f"; did you mean {meant}?" if meant else ""
 
@@ -50,7 +50,7 @@ def _codes() -> dict[str, Code]:
     """All codes, with those of the plug-ins of this folder's workspace."""
     from robocomp_yaml.diag.codes import table
 
-    return {**table(), **_plugged.codes()}
+    return {**table(), **_plugin_choices.codes()}
 
 
 def _listed(rows: list[Code]) -> str:
@@ -67,7 +67,7 @@ def _explained(row: Code) -> str:
         f"Right:\n\n{_tree(row.right)}",
     ]
     if row.command != "check .":
-        parts.append(f"It is given by `rcyaml {row.command}`.")
+        parts.append(f"It is reported by `rcyaml {row.command}`.")
     return "\n\n".join(part.rstrip("\n") for part in parts) + "\n"
 
 
@@ -78,39 +78,35 @@ def _wrapped(text: str) -> str:
 
 
 def _tree(files: Files) -> str:
-    """A small tree of files as text; of long texts, the beginning."""
+    """The files of an example as text. Long lines are cut."""
     out = []
     for path, content in files.items():
-        if content is None:
+        text = _text(content)
+        if text is None:
             out.append(f"  {path}/  (an empty folder)")
-        elif isinstance(content, str) and content.startswith("-> "):
-            out.append(f"  {path} {content}  (a link)")
+        elif isinstance(content, str) and text.startswith("-> "):
+            out.append(f"  {path} {text}  (a link)")
         else:
-            text = content.decode("utf-8", "backslashreplace") if isinstance(content, bytes) else str(content)
             lines = [line if len(line) <= 100 else line[:97] + "…" for line in text.splitlines()]
             out.append("\n".join([f"  # {path}", *(f"  {line}".rstrip() for line in lines)]))
     return "\n".join(out)
 
 
+def _text(content: str | bytes | Repeated | None) -> str | None:
+    """The content of a file in an example; None for a folder."""
+    if isinstance(content, bytes):
+        return content.decode("utf-8", "backslashreplace")
+    return None if content is None else str(content)
+
+
 def _as_json(rows: list[Code]) -> str:
     from robocomp_yaml.diag.render.json import dumps
 
-    def text(content: str | bytes | Repeated | None) -> str | None:
-        if content is None:
-            return None
-        return content.decode("utf-8", "backslashreplace") if isinstance(content, bytes) else str(content)
-
-    data = [
+    return dumps([
         {
-            "code": row.id,
-            "severity": row.severity,
-            "message": row.messages[0],
-            "messages": row.messages,
-            "why": row.why,
-            "wrong": {path: text(content) for path, content in row.wrong.items()},
-            "right": {path: text(content) for path, content in row.right.items()},
-            "command": row.command,
+            "code": row.id, "severity": row.severity, "message": row.messages[0], "messages": row.messages,
+            "why": row.why, "wrong": {path: _text(content) for path, content in row.wrong.items()},
+            "right": {path: _text(content) for path, content in row.right.items()}, "command": row.command,
         }
         for row in rows
-    ]
-    return dumps(data)
+    ])  # fmt: skip

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from robocomp_yaml.commands import _options
-from robocomp_yaml.commands._command import Command
+from robocomp_yaml.commands._command import LibraryCommand
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.formatting import Formatting
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 STDIN = "-"
 
 
-@click.command(cls=Command, short_help="Lay documents out in the usual way; nothing of them changes.")
+@click.command(cls=LibraryCommand, short_help="Lay documents out in the usual way; nothing of them changes.")
 @click.argument("paths", nargs=-1, metavar="[PATH]...")
 @click.option("--check", is_flag=True, help="Write nothing; end with 1 if a document would change.")
 @click.option("--diff", is_flag=True, help="Show what would change, and write nothing.")

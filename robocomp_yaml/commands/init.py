@@ -1,4 +1,4 @@
-"""`rcyaml init`: a folder becomes a workspace that already checks and compiles."""
+"""`rcyaml init`: makes a folder a workspace."""
 
 from __future__ import annotations
 
@@ -6,23 +6,23 @@ import os
 
 import click
 
-from robocomp_yaml.commands import _workspace
+from robocomp_yaml.commands import _options
 from robocomp_yaml.diag import terminal
 
 
-@click.command(short_help="Make a folder a workspace that already checks.")
+@click.command(short_help="Make a folder a workspace.")
 @click.argument("folder", metavar="[DIR]", default=".", type=click.Path(file_okay=False))
-@click.option("--bare", is_flag=True, help="Without the example interface and component.")
+@click.option("--bare", is_flag=True, help="Do not write the example interface and component.")
 @click.pass_context
 def command(ctx: click.Context, folder: str, bare: bool) -> None:
-    """Make DIR (by default, this folder) a workspace that already checks and compiles.
+    """Make DIR (by default, this folder) a workspace that checks and compiles.
 
-    Nothing that is there is overwritten. A folder without documents gets an example of each kind.
+    Existing files are kept. A folder without documents gets an example interface and component.
     """
     from robocomp_yaml.api.new import workspace
 
-    with _workspace.writing():
-        workspace.init(folder, _workspace.tell, bare=bare)
+    with _options.writing():
+        workspace.init(folder, _options.report_file, bare=bare)
     if ctx.obj.verbosity >= 0:
         is_here = os.path.realpath(folder) == os.getcwd()
         there = "" if is_here else f"{terminal.typed('cd', os.path.normpath(folder))}, then "

@@ -1,4 +1,4 @@
-"""`rcyaml migrate`: legacy files to documents."""
+"""`rcyaml migrate`: converts legacy files to documents."""
 
 from __future__ import annotations
 
@@ -11,49 +11,34 @@ from typing import TYPE_CHECKING
 import click
 
 from robocomp_yaml.commands import _options
-from robocomp_yaml.commands._command import Command
+from robocomp_yaml.commands._command import LibraryCommand
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.render import tell
 from robocomp_yaml.transactions import whole_file
 
 if TYPE_CHECKING:
-    from robocomp_yaml.legacy.result import Migration
+    from robocomp_yaml.legacy.result import MigrationRun
     from robocomp_yaml.legacy.sources import LegacyFile
 
 LONG = 50
-"""So many files are worth a progress bar."""
+"""The number of files from which a progress bar is shown."""
 
 
-@click.command(cls=Command, short_help="Carry legacy files over to YAML, losing nothing.")
+@click.command(cls=LibraryCommand, short_help="Convert legacy files to YAML documents, without loss.")
 @click.argument("paths", nargs=-1, required=True, type=click.Path(exists=True))
-@click.option(
-    "-o",
-    "--output",
-    metavar="DIR",
-    type=click.Path(file_okay=False),
-    help="Write below DIR, in the folders of the sources. Default: beside each source.",
-)
-@click.option("--dry-run", is_flag=True, help="Write nothing; say what would be written.")
+@click.option("-o", "--output", metavar="DIR", type=click.Path(file_okay=False),
+              help="Write below DIR, in the folders of the sources; by default, beside each source.")  # fmt: skip
+@click.option("--dry-run", is_flag=True, help="Print what would be written; write nothing.")
 @click.option("--diff", "show_diff", is_flag=True, help="Show what changes, as a unified diff.")
-@click.option(
-    "--report",
-    "report",
-    metavar="FILE",
-    type=click.Path(dir_okay=False, allow_dash=True),
-    help="Write what became of each line of each file, as JSON.",
-)
-@click.option("--strict", is_flag=True, help="Fail when a line of a source is lost.")
-@click.option("--force", is_flag=True, help="Overwrite documents that were edited since, showing the difference first.")
+@click.option("--report", metavar="FILE", type=click.Path(dir_okay=False, allow_dash=True),
+              help="Write what happened to each line of each file, as JSON.")  # fmt: skip
+@click.option("--strict", is_flag=True, help="Exit with 1 if a line of a source is lost.")
+@click.option("--force", is_flag=True, help="Overwrite documents that were edited since; print the difference first.")
 @click.option("--exact", is_flag=True, help="Keep the blanks around the separators of records and lists.")
-@click.option(
-    "--names", multiple=True, metavar="KEY=a,b,c", help="What the columns of the rows KEY0, KEY1… are called."
-)
-@click.option(
-    "--rules",
-    metavar="FILE",
-    type=click.Path(exists=True, dir_okay=False),
-    help="Corrections of what is guessed: `names:` and `types:` by key, `text:` for keys that are no lists.",
-)
+@click.option("--names", multiple=True, metavar="KEY=a,b,c", help="The names of the columns of the rows KEY0, KEY1…")
+@click.option("--rules", metavar="FILE", type=click.Path(exists=True, dir_okay=False),
+              help="Corrections of guesses: `names:` and `types:` by key, "
+                   "`text:` for keys that are no lists.")  # fmt: skip
 @_options.include
 @_options.format_
 @click.pass_context
@@ -64,34 +49,33 @@ def command(
 ) -> None:  # fmt: skip
     """Write documents for the legacy files at PATHS: interfaces, components, their configs, and networks of them.
 
-    A folder means all legacy files below it, and becomes a workspace. Comments come along. Nothing that you wrote or
-    edited is overwritten, and the sources stay as they are.
+    A folder means all legacy files below it, and becomes a workspace. Comments are kept. Files that you wrote or edited
+    are not overwritten, and the sources are not changed.
     """
+    from robocomp_yaml.api.migrating import Migration
     from robocomp_yaml.legacy.ledger import as_json
-    from robocomp_yaml.legacy.migration import look_back, migrate
-    from robocomp_yaml.legacy.settings.corrections import Wrong, corrections
-    from robocomp_yaml.pipeline import search_folders
+    from robocomp_yaml.legacy.settings.corrections import CorrectionError, read_corrections
 
     try:
-        guesses = corrections(names, rules)
-    except (Wrong, OSError, UnicodeDecodeError) as error:
+        guesses = read_corrections(names, rules)
+    except (CorrectionError, OSError, UnicodeDecodeError) as error:
         raise click.UsageError(str(error)) from None
     if report is not None:
         _refuse_to_overwrite(report)
-    run = migrate(paths, output, search_folders(include), force=force, progress=_progress, guesses=guesses, exact=exact)
+    migration = Migration(paths, output, include, force=force, progress=_progress, guesses=guesses, exact=exact)
+    run = migration.run
     shown = run.changes() if show_diff else run.forced()
     for path, change in list(shown):
         terminal.data(change.diff(path), err=format_ != "text" or report == "-")
     if not dry_run:
-        run.write()
-        look_back(run, include)
-    lost = sum(entry.lines()["lost"] for entry in run.entries)
+        migration.apply()
+    lost = migration.lost
     _print(ctx, run, format_, dry_run, err=report == "-")
     if report is not None:
         _save(report, as_json(run.entries))
     if strict and lost:
-        terminal.say(f"{lost} line{'s are' if lost > 1 else ' is'} lost, and --strict does not allow that", err=True)
-    ctx.exit(1 if run.failed or (strict and lost) else 0)
+        terminal.say(f"{lost} line{'s are' if lost > 1 else ' is'} lost, which --strict does not allow", err=True)
+    ctx.exit(1 if migration.has_errors or (strict and lost) else 0)
 
 
 def _progress(files: Sequence[LegacyFile]) -> Iterator[LegacyFile]:
@@ -103,36 +87,31 @@ def _progress(files: Sequence[LegacyFile]) -> Iterator[LegacyFile]:
 
 
 def _refuse_to_overwrite(path: str) -> None:
-    """A report replaces an earlier report, and nothing else that stands there."""
+    """Raises an error if a report would overwrite another file than an earlier report."""
     if not os.path.isfile(path):
         return
-    try:
-        with open(path, "rb") as file:
-            words = file.read(40).split()
-    except OSError as error:
-        raise click.ClickException(f"the report cannot be written to {path}: {error.strerror}") from error
+    with _options.writing(path), open(path, "rb") as file:
+        words = file.read(40).split()
     if words and words[:2] != [b"{", b'"files":']:
-        raise click.UsageError(f"--report does not overwrite {path}, which is no report of an earlier run")
+        raise click.UsageError(f"--report does not overwrite {path}, which is not an earlier report")
 
 
 def _save(path: str, text: str) -> None:
-    try:
-        if path == "-":
-            terminal.data(text, json=True)
-        else:
+    if path == "-":
+        terminal.data(text, json=True)
+    else:
+        with _options.writing(path):
             whole_file.replace(path, text.encode("utf-8", "backslashreplace"))
-    except OSError as error:
-        raise click.ClickException(f"the report cannot be written to {path}: {error.strerror}") from error
 
 
-def _print(ctx: click.Context, run: Migration, format_: str, dry_run: bool, *, err: bool) -> None:
-    """Diagnostics, each document if asked for, and the summary by format: on standard output, or where the report
-    goes there, on standard error."""
+def _print(ctx: click.Context, run: MigrationRun, format_: str, dry_run: bool, *, err: bool) -> None:
+    """Prints the diagnostics, each document if verbose, and a summary by format: on standard output, or on standard
+    error if the report is written to standard output."""
     say = partial(terminal.say, err=err)
-    told = run.diagnostics
+    diagnostics = run.diagnostics
     documents = sum(len(entry.outputs) for entry in run.entries)
-    if format_ != "text" or told:
-        tell(format_, told, documents, _options.colored(ctx, sys.stderr if err else None), err=err)
+    if format_ != "text" or diagnostics:
+        tell(format_, diagnostics, documents, _options.colored(ctx, sys.stderr if err else None), err=err)
     if format_ != "text" or ctx.obj.verbosity < 0:
         return
     if ctx.obj.verbosity > 0:
@@ -145,8 +124,8 @@ def _print(ctx: click.Context, run: Migration, format_: str, dry_run: bool, *, e
         say("nothing was written (--dry-run)")
 
 
-def _table(run: Migration) -> list[str]:
-    """How many files of each format ended how."""
+def _table(run: MigrationRun) -> list[str]:
+    """The table of how many files of each format have which status."""
     from robocomp_yaml.legacy.ledger import STATUSES
 
     rows = [["", *STATUSES, "lines lost"]]

@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from robocomp_yaml.commands import _options, _signals
-from robocomp_yaml.commands._command import Command
+from robocomp_yaml.commands._command import LibraryCommand
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.mocking import Mock
     from robocomp_yaml.wire.stand_ins import Call
 
 
-@click.command(cls=Command, short_help="Stand in for components: serve interfaces, publish topics.")
+@click.command(cls=LibraryCommand, short_help="Stand in for components: serve interfaces, publish topics.")
 @click.argument("interfaces", nargs=-1, metavar="[INTERFACE]...")
 @click.option("--script", type=click.Path(dir_okay=False, exists=True), help="What they answer and publish, in YAML.")
 @click.option("--endpoint", "endpoints", multiple=True, metavar="NAME=ENDPOINT", help="Where an interface is served.")

@@ -1,5 +1,5 @@
-"""`rcyaml new interface|component|parameters|deployment`: a document that already checks, where its kind belongs. Where
-there is no workspace yet, this folder becomes one."""
+"""`rcyaml new interface|component|parameters|deployment`: writes a new document, where the workspace keeps its kind. A
+folder without a workspace becomes one."""
 
 from __future__ import annotations
 
@@ -9,30 +9,32 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from robocomp_yaml import languages
-from robocomp_yaml.api import new
-from robocomp_yaml.commands import _options, _workspace
-from robocomp_yaml.commands._command import Group
-from robocomp_yaml.commands._plugged import Plugged
+from robocomp_yaml.commands import _options
+from robocomp_yaml.commands._command import CommandGroup
+from robocomp_yaml.commands._plugin_choices import PluginChoice
 from robocomp_yaml.diag import terminal
 
 if TYPE_CHECKING:
+    from robocomp_yaml.api.new.documents import NewDocument
     from robocomp_yaml.plugins import Plugins
 
 
-@click.group(cls=Group, short_help="Write a new interface, component, parameters or deployment document.")
+@click.group(cls=CommandGroup, short_help="Write a new interface, component, parameters or deployment document.")
 def command() -> None:
-    """Write a new document that already checks and compiles, commented as a tutorial.
+    """Write a new document that checks and compiles, with comments that explain it.
 
-    It goes where the workspace keeps its kind; a folder that belongs to no workspace becomes one.
+    It is written where the workspace keeps its kind. A folder that belongs to no workspace becomes one.
     """
 
 
-@command.command(short_help="A new interface document.")
+@command.command(short_help="Write a new interface document.")
 @click.argument("name")
 @click.pass_context
 def interface(ctx: click.Context, name: str) -> None:
     """Write interfaces/NAME.idsl.yaml: a module with an interface NAME."""
-    _create(ctx, lambda root: new.interface_document(root, name))
+    from robocomp_yaml.api.new.documents import interface_document
+
+    _create(ctx, lambda root: interface_document(root, name))
 
 
 def _names(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[str]:
@@ -54,13 +56,13 @@ def _uses(name: str, meaning: str) -> Callable[[Any], Any]:
     )
 
 
-@command.command(short_help="A new component document.")
+@command.command(short_help="Write a new component document.")
 @click.argument("name")
-@click.option("--language", type=Plugged(_languages), default=languages.DEFAULT, help="The language of its code.")
+@click.option("--language", type=PluginChoice(_languages), default=languages.DEFAULT, help="The language of its code.")
 @_uses("implements", "interfaces that it serves")
 @_uses("requires", "interfaces of others that it calls")
 @_uses("publishes", "topics that it publishes")
-@_uses("subscribes", "topics that it listens to")
+@_uses("subscribes", "topics that it receives")
 @_options.include
 @click.pass_context
 def component(
@@ -68,32 +70,38 @@ def component(
 ) -> None:
     """Write components/NAME/NAME.cdsl.yaml (in lower case): a component NAME.
 
-    INTERFACE is the name of an interface or topic that a document of the workspace defines, or Module.Interface where
-    several do.
+    INTERFACE is the name of an interface or topic that a document of the workspace defines, or Module.Interface if
+    several documents define it.
     """
-    _create(ctx, lambda root: new.component_document(root, name, language, uses, include))
+    from robocomp_yaml.api.new.documents import component_document
+
+    _create(ctx, lambda root: component_document(root, name, language, uses, include))
 
 
-@command.command(short_help="A new document of a component's parameters.")
+@command.command(short_help="Write a new parameters document of a component.")
 @click.argument("name")
 @click.pass_context
 def parameters(ctx: click.Context, name: str) -> None:
-    """Write the parameters' document of the component NAME, beside the component's."""
-    _create(ctx, lambda root: new.parameters_document(root, name))
+    """Write the parameters document of the component NAME, beside the component's document."""
+    from robocomp_yaml.api.new.documents import parameters_document
+
+    _create(ctx, lambda root: parameters_document(root, name))
 
 
-@command.command(short_help="A new deployment document.")
+@command.command(short_help="Write a new deployment document.")
 @click.argument("name")
 @click.pass_context
 def deployment(ctx: click.Context, name: str) -> None:
     """Write deployments/NAME.ddsl.yaml (in lower case): the components of the workspace, on this machine."""
-    _create(ctx, lambda root: new.deployment_document(root, name), "deploy plan")
+    from robocomp_yaml.api.new.deployment import deployment_document
+
+    _create(ctx, lambda root: deployment_document(root, name), "deploy plan")
 
 
-def _create(ctx: click.Context, make: Callable[[str], new.NewDocument], next_: str = "compile") -> None:
+def _create(ctx: click.Context, make: Callable[[str], NewDocument], next_: str = "compile") -> None:
     from robocomp_yaml.api.new import workspace
 
-    with _workspace.writing():
-        path = workspace.create(make, _workspace.tell)
+    with _options.writing():
+        path = workspace.create(make, _options.report_file)
     if ctx.obj.verbosity >= 0:
         terminal.say(f"next: {terminal.typed('rcyaml', *next_.split(), path)}")

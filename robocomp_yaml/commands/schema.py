@@ -1,4 +1,5 @@
-"""`rcyaml schema`: the JSON Schema of a kind of document, or which one applies to a file and how editors find it."""
+"""`rcyaml schema`: prints the JSON Schema of a kind of document, or which schema applies to a document and how editors
+find it."""
 
 from __future__ import annotations
 
@@ -7,8 +8,8 @@ import os
 import click
 from click.shell_completion import CompletionItem
 
-from robocomp_yaml.commands import _plugged
-from robocomp_yaml.commands._command import Command
+from robocomp_yaml.commands import _plugin_choices
+from robocomp_yaml.commands._command import LibraryCommand
 from robocomp_yaml.diag import terminal
 
 
@@ -20,23 +21,24 @@ def _kinds(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[
     return kinds or [CompletionItem(incomplete, type="file")]
 
 
-@click.command(cls=Command, short_help="Print the JSON Schema of a kind of document.")
+@click.command(cls=LibraryCommand, short_help="Print the JSON Schema of a kind of document.")
 @click.argument("kind", metavar="[KIND|FILE]", required=False, shell_complete=_kinds)
 @click.pass_context
 def command(ctx: click.Context, kind: str | None) -> None:
-    """Print the JSON Schema of a KIND of document, or say which one applies to FILE; without either, list the kinds."""
+    """Print the JSON Schema of a KIND of document, or which schema applies to FILE; without an argument, list the
+    kinds."""
     from robocomp_yaml.link.workspace_files import GLOBS, schema_of
 
     if kind is None:
-        _list()
+        _print_kinds()
     elif kind in GLOBS:
-        terminal.data(schema_of(kind, _plugged.here()), json=True)
+        terminal.data(schema_of(kind, _plugin_choices.plugins_at()), json=True)
     else:
-        _tell(os.path.normpath(kind))
+        _print_schema_of(os.path.normpath(kind))
 
 
-def _list() -> None:
-    """The kinds, and where this workspace keeps the schema of each."""
+def _print_kinds() -> None:
+    """Prints the kinds, and the path of each schema in this workspace."""
     from robocomp_yaml.api.schemas import installed
     from robocomp_yaml.link.workspace import root_above
     from robocomp_yaml.link.workspace_files import GLOBS
@@ -46,21 +48,21 @@ def _list() -> None:
         terminal.say(f"{name:<10} {', '.join(globs):<28} {paths[name]}".rstrip())
 
 
-def _tell(document: str) -> None:
-    """Which schema applies to a document, and by what its editor finds it."""
+def _print_schema_of(document: str) -> None:
+    """Prints which schema applies to a document, and how editors find it."""
     from robocomp_yaml.api.schemas import schema_for
 
     schema = schema_for(document)
     init = f"`{terminal.typed('rcyaml', 'init', schema.root)}`"
-    terminal.say(f"{document} has the schema '{schema.kind}'")
+    terminal.say(f"the schema of {document} is '{schema.kind}'")
     if schema.named:
         terminal.say(f"editors find it by the first lines of the document: {schema.named}")
     elif schema.path:
-        terminal.say(f"editors find it by the workspace's settings: {schema.path}")
+        terminal.say(f"editors find it by the settings of the workspace: {schema.path}")
     else:
-        terminal.say(f"editors do not find it: {init} installs it, and the document's first line would name it:")
+        terminal.say(f"editors do not find it: {init} installs it, or write this as the first line of the document:")
         terminal.say(schema.modeline)
     if schema.is_missing:
-        terminal.say(f"that file is missing: {init} writes it again")
-    elif schema.path and schema.is_outdated(_plugged.here(schema.root)):
-        terminal.say(f"that file is not this version's schema: {init} writes it again")
+        terminal.say(f"the file of the schema is missing: {init} writes it")
+    elif schema.path and schema.is_outdated(_plugin_choices.plugins_at(schema.root)):
+        terminal.say(f"the file of the schema is outdated: {init} writes it")

@@ -1,1 +1,1 @@
-"""Networks started, watched and stopped: one plan, and engines that carry it out."""
+"""Networks are started, supervised and stopped: by one plan, which an engine carries out."""

@@ -1,4 +1,4 @@
-"""An `up` that stays while the network runs, hands on what its processes print, and takes it down at the end."""
+"""An `up` that stays attached: it forwards what the processes print, and takes the network down at the end."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ import msgspec
 
 from robocomp_yaml.deploy import operations
 from robocomp_yaml.deploy.carry_out import stop_all
-from robocomp_yaml.deploy.engine import GIVEN_UP, RUNNING, WAITING, Engine, Line
+from robocomp_yaml.deploy.engine import GIVEN_UP, Engine, Line
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.network.network import Network
 
-_PERIOD = 0.2  # seconds between two looks whether anything is left
+_PERIOD = 0.2  # seconds between two observations
 
 Follow = Callable[[], Awaitable[list[Diagnostic]]]
 
 
 class Attached(msgspec.Struct, frozen=True):
-    """Who stays: `on_line` is given what the processes print from the beginning, where it is wanted, and `on_up`, once
-    all is up, what is to be set when there was enough of it."""
+    """Callbacks of an attached `up`. `on_line` receives each line that the processes print, from the beginning. `on_up`
+    is called when the network is up, with the event that ends the attachment."""
 
     on_up: Callable[[asyncio.Event], None]
     on_line: Callable[[Line], None] | None = None
@@ -30,19 +30,19 @@ class Attached(msgspec.Struct, frozen=True):
 
 @asynccontextmanager
 async def attached(engine: Engine, network: Network, stays: Attached | None) -> AsyncIterator[Follow]:
-    """The function that it gives waits until nothing runs any more or there was enough of it, and takes down what is
-    left; it returns what went wrong."""
+    """Yields a function that waits until nothing runs any more or the attachment ends, takes down what still runs, and
+    returns diagnostics."""
     printer = asyncio.create_task(_print(engine, network, stays.on_line)) if stays and stays.on_line else None
     try:
         yield lambda: _stay(engine, stays)
     except asyncio.CancelledError:
-        if stays:  # while it came up
+        if stays:  # cancelled while the network came up
             await _take_down(engine)
             await operations.end_if_idle(engine)
         raise
     finally:
         if printer:
-            await asyncio.sleep(_PERIOD)  # for what was printed last
+            await asyncio.sleep(_PERIOD)  # for the last lines
             printer.cancel()
             with suppress(asyncio.CancelledError):
                 await printer
@@ -54,19 +54,19 @@ async def _print(engine: Engine, network: Network, on_line: Callable[[Line], Non
 
 
 async def _stay(engine: Engine, stays: Attached | None) -> list[Diagnostic]:
-    enough = asyncio.Event()
+    ended = asyncio.Event()
     if stays:
-        stays.on_up(enough)
+        stays.on_up(ended)
     failed: dict[str, Diagnostic] = {}
-    while not enough.is_set():
+    while not ended.is_set():
         running = await engine.observe()
         for one in running.values():
             if one.state == GIVEN_UP and one.spec:
                 failed[one.name] = deploying.GIVEN_UP.at(one.spec.process.span, name=one.name, how=one.end)
-        if not any(one.state in (RUNNING, WAITING) for one in running.values()):
+        if not any(one.is_alive for one in running.values()):
             break
         with suppress(TimeoutError):
-            await asyncio.wait_for(enough.wait(), _PERIOD)
+            await asyncio.wait_for(ended.wait(), _PERIOD)
     await _take_down(engine)
     return list(failed.values())
 

@@ -1,18 +1,19 @@
-"""Carrying out a plan: what stops, in reverse order; then what starts, each as soon as all it is after are ready."""
+"""A plan is carried out: first processes stop, in reverse order; then each process starts when all that it is after are
+ready."""
 
 from __future__ import annotations
 
 import asyncio
 import math
 import time
-from collections.abc import Awaitable, Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import aclosing
 from typing import Any
 
 import msgspec
 
-from robocomp_yaml.deploy.engine import LOST, RUNNING, STOPPED, WAITING, DeployFailed, Engine, Running
-from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, Step, in_order
+from robocomp_yaml.deploy.engine import LOST, STOPPED, DeployFailed, Engine, Running
+from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, PlanStep, in_order
 from robocomp_yaml.deploy.readiness import RECENT, State, holds, until_ready, why_not
 from robocomp_yaml.deploy.time_limit import TimeLimit
 from robocomp_yaml.diag.codes import deploying
@@ -21,8 +22,8 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 STOPPING, GONE, STARTING, READY, FAILED, SKIPPED = "stopping", "stopped", "starting", "ready", "failed", "not started"
 
 
-class Event(msgspec.Struct, frozen=True):
-    """Something happened to a process; `seconds` since it began to happen, `text` what to add."""
+class ProcessEvent(msgspec.Struct, frozen=True):
+    """An event of one process. `seconds` is how long it took, `text` has details."""
 
     name: str
     kind: str
@@ -30,10 +31,10 @@ class Event(msgspec.Struct, frozen=True):
     seconds: float = 0.0
 
 
-class Outcome(msgspec.Struct):
-    """`began` are the processes that were started, ready or not; `failed` why some are not ready; `skipped` are those
-    that were not tried because of these, or because the time was over (`is_late`): then `late` are those of the failed
-    that were still waited for."""
+class StartOutcome(msgspec.Struct):
+    """What came of the starts. `began` are the processes that were started, ready or not. `failed` has the reason for
+    each that is not ready. `skipped` were not started, because others failed or the time limit expired (`is_late`);
+    in the latter case, `late` are the failed ones that were still pending."""
 
     began: list[str] = []
     failed: dict[str, Diagnostic] = {}
@@ -42,63 +43,60 @@ class Outcome(msgspec.Struct):
     late: list[str] = []
 
 
-Report = Callable[[Event], None]
+Report = Callable[[ProcessEvent], None]
 
 
 class Watch:
-    """What the engine sees, asked for by one at a time and no more often than needed, however many wait for it."""
+    """The engine's observations for any number of waiting tasks: one observation at a time serves all of them."""
 
     def __init__(self, engine: Engine) -> None:
         self._engine = engine
-        self._seen: dict[str, Running] = {}
-        self._when = -math.inf
-        self._look: asyncio.Task[None] | None = None
+        self._observed: dict[str, Running] = {}
+        self._when = -math.inf  # the time before the last observation
+        self._task: asyncio.Task[None] | None = None
 
     def of(self, name: str) -> State:
-        async def look(since: float) -> Running | None:
+        async def state(since: float) -> Running | None:
             while self._when < since:
-                if self._look is None or self._look.done():
-                    self._look = asyncio.create_task(self._observe())
-                await asyncio.shield(self._look)  # others wait for it too
-            return self._seen.get(name)
+                if self._task is None or self._task.done():
+                    self._task = asyncio.create_task(self._observe())
+                await asyncio.shield(self._task)  # other tasks wait for it, too
+            return self._observed.get(name)
 
-        return look
+        return state
 
     async def _observe(self) -> None:
         began = time.monotonic()
-        self._seen = await self._engine.observe()
+        self._observed = await self._engine.observe()
         self._when = began
 
     async def close(self) -> None:
-        if self._look:
-            await _cancel([self._look])
+        if self._task:
+            await _cancel([self._task])
 
 
 async def carry_out(
     engine: Engine, plan: Plan, report: Report, *, keep_going: bool, limit: TimeLimit | None = None,
     blocked: Mapping[str, Diagnostic] | None = None,
-) -> Outcome:  # fmt: skip
-    """Does what the plan says. Where a process that is started fails, nothing more is, or, with `keep_going`, only what
-    depends on it is not; the latter holds also where one that ran already is not ready. When the time is over, nothing
-    more is started, and what is not ready has failed. What is `blocked` is left as it is, and counts as failed."""
+) -> StartOutcome:  # fmt: skip
+    """Carries out a plan. When a process fails to start, no further process is started; with `keep_going`, only those
+    that depend on it are skipped. These are skipped also when a process that ran before is not ready. When the time
+    limit expires, nothing more is started, and every process that is not ready has failed. A `blocked` process is not
+    changed, and counts as failed. Raises DeployFailed if a process cannot be stopped or prepared."""
     blocked = blocked or {}
-    leaving = plan.of(STOP, RESTART) + [step for step in plan.of(START) if _is_in_the_way(step)]
-    leaving = [step for step in leaving if step.name not in blocked]
-    await stop_all(engine, [step.running for step in leaving if step.running], report)
+    leaving = [step.running for step in plan.of(STOP, RESTART) if step.running]
+    leaving += [step.running for step in plan.of(START) if step.running and step.running.is_alive]
+    await stop_all(engine, [running for running in leaving if running.name not in blocked], report)
     if gone := [step.name for step in plan.of(STOP)]:
         await engine.forget(gone)
     if specs := [step.spec for step in plan.of(START, RESTART, CHANGE) if step.spec and step.name not in blocked]:
         await engine.prepare(specs)
-    starts = _Starts(engine, plan, report, keep_going, limit or TimeLimit(), blocked)
-    return await starts.run()
-
-
-def _is_in_the_way(step: Step) -> bool:
-    return step.running is not None and step.running.state in (RUNNING, WAITING)
+    return await _Starts(engine, Watch(engine), plan, report, keep_going, limit or TimeLimit(), blocked).run()
 
 
 async def stop_all(engine: Engine, running: Iterable[Running], report: Report) -> None:
-    """Stops processes, each after all that are after it. Raises DeployFailed when all that can stop have stopped."""
+    """Stops processes, each when all that are after it have stopped. Raises DeployFailed if one cannot be stopped, when
+    all others have stopped."""
     leaving = {one.name: one for one in running if one.state not in (STOPPED, LOST)}
     after = {name: one.spec.process.after if one.spec else () for name, one in leaving.items()}
     tasks: dict[str, asyncio.Task[None]] = {}
@@ -106,12 +104,12 @@ async def stop_all(engine: Engine, running: Iterable[Running], report: Report) -
     async def stop(name: str, users: list[asyncio.Task[None]]) -> None:
         if users:
             await asyncio.wait(users)
-        began, is_told = time.monotonic(), leaving[name].state in (RUNNING, WAITING)
-        if is_told:
-            report(Event(name, STOPPING))
+        began, is_reported = time.monotonic(), leaving[name].is_alive
+        if is_reported:
+            report(ProcessEvent(name, STOPPING))
         await engine.stop(name)
-        if is_told:
-            report(Event(name, GONE, seconds=time.monotonic() - began))
+        if is_reported:
+            report(ProcessEvent(name, GONE, seconds=time.monotonic() - began))
 
     for name in reversed(in_order(after)):
         users = [task for user, task in tasks.items() if name in after[user]]
@@ -121,31 +119,31 @@ async def stop_all(engine: Engine, running: Iterable[Running], report: Report) -
             raise result
 
 
-class _Starts:
-    """The starts of one plan under way."""
+class _Starts(msgspec.Struct):
+    """The starts of one plan. `_since` has the time at which the wait for each pending process began."""
 
-    def __init__(
-        self, engine: Engine, plan: Plan, report: Report, keep_going: bool, limit: TimeLimit,
-        blocked: Mapping[str, Diagnostic],
-    ) -> None:  # fmt: skip
-        self._engine, self._plan, self._report = engine, plan, report
-        self._keep_going, self._limit, self._blocked = keep_going, limit, blocked
-        self._outcome = Outcome()
-        self._watch = Watch(engine)
-        self._since: dict[str, float] = {}  # when it began to be waited for; those of which it is not known how it ends
-        self._tasks: dict[str, asyncio.Task[bool]] = {}
-        self._order = in_order({step.name: _after(step) for step in plan.of(START, RESTART, CHANGE, KEEP)})
+    _engine: Engine
+    _watch: Watch
+    _plan: Plan
+    _report: Report
+    _keep_going: bool
+    _limit: TimeLimit
+    _blocked: Mapping[str, Diagnostic]
+    _outcome: StartOutcome = msgspec.field(default_factory=StartOutcome)
+    _since: dict[str, float] = {}
+    _tasks: dict[str, asyncio.Task[bool]] = {}
 
-    async def run(self) -> Outcome:
+    async def run(self) -> StartOutcome:
         starting = {step.name for step in self._plan.of(START, RESTART)}
+        order = in_order({step.name: _after(step) for step in self._plan.of(START, RESTART, CHANGE, KEEP)})
         try:
-            for step in (self._plan.steps[name] for name in self._order):
+            for step in (self._plan.steps[name] for name in order):
                 if step.name in starting:
-                    # Those that close a cycle come later in the order, and are not waited for.
+                    # A process that closes a circle comes later in the order: this one does not wait for it.
                     before = {name: self._tasks[name] for name in _after(step) if name in self._tasks}
                     self._tasks[step.name] = asyncio.create_task(self._start(step, before))
-                else:
-                    self._tasks[step.name] = asyncio.create_task(self._wait_for(step))
+                else:  # it already runs, and is usually ready
+                    self._tasks[step.name] = asyncio.create_task(self._ends_ready(step, is_new=False))
             pending = set(self._tasks.values())
             while pending:
                 if self._limit.is_over:
@@ -164,17 +162,17 @@ class _Starts:
         if self._outcome.is_late:
             self._outcome.late = [*self._since]
             for name in self._outcome.late:
-                await self._is_late(self._plan.steps[name])
+                await self._report_late(self._plan.steps[name])
         await self._watch.close()
         tried = {*self._outcome.began, *self._outcome.failed}
         self._outcome.skipped = [step.name for step in self._plan.of(START, RESTART) if step.name not in tried]
         for name in self._outcome.skipped:
-            self._report(Event(name, SKIPPED))
+            self._report(ProcessEvent(name, SKIPPED))
         return self._outcome
 
-    async def _start(self, step: Step, before: Mapping[str, asyncio.Task[bool]]) -> bool:
-        """Starts a process when all it is after are ready, or have failed where it can do without; whether it is ready
-        then."""
+    async def _start(self, step: PlanStep, before: Mapping[str, asyncio.Task[bool]]) -> bool:
+        """Starts a process when all that it is after are ready, or are optional and have failed. Returns whether it
+        became ready."""
         if step.name in self._blocked:
             self._since[step.name] = time.monotonic()
             self._fail(step.name, self._blocked[step.name])
@@ -183,52 +181,45 @@ class _Starts:
         optional = step.spec.process.optional if step.spec else ()
         if not all(is_ready or name in optional for name, is_ready in zip(before, ready, strict=True)):
             return False
-        self._report(Event(step.name, STARTING))
-        return await self._ends_ready(step, self._begin)
+        self._report(ProcessEvent(step.name, STARTING))
+        return await self._ends_ready(step, is_new=True)
 
-    async def _wait_for(self, step: Step) -> bool:
-        """Waits for a process that runs already: as a rule it answers at once."""
-        return await self._ends_ready(step, None)
-
-    async def _begin(self, name: str) -> None:
-        self._outcome.began.append(name)
-        await self._engine.start(name)
-
-    async def _ends_ready(self, step: Step, begin: Callable[[str], Awaitable[None]] | None) -> bool:
+    async def _ends_ready(self, step: PlanStep, *, is_new: bool) -> bool:
         assert step.spec
         self._since[step.name] = time.monotonic()
         try:
             logs = [step.name] if step.spec.process.ready.log else []
             async with aclosing(await self._engine.lines(logs, 0, True)) as lines:
-                if begin:
-                    await begin(step.name)
-                if begin or not (step.running and await holds(self._engine, step.spec, step.running)):
+                if is_new:
+                    self._outcome.began.append(step.name)
+                    await self._engine.start(step.name)
+                if is_new or not (step.running and await holds(self._engine, step.spec, step.running)):
                     await until_ready(self._engine, step.spec, lines, self._watch.of(step.name))
         except DeployFailed as error:
             self._fail(step.name, error.diagnostic)
             return False
         took = self._took(step.name)
-        if begin:
-            self._report(Event(step.name, READY, seconds=took))
+        if is_new:
+            self._report(ProcessEvent(step.name, READY, seconds=took))
         return True
 
-    async def _is_late(self, step: Step) -> None:
-        """It was still waited for when the time was over."""
+    async def _report_late(self, step: PlanStep) -> None:
+        """Reports a process that was pending when the time limit expired."""
         assert step.spec
         why = why_not(step.spec, await self._watch.of(step.name)(time.monotonic() - RECENT))
         where = step.spec.process.span
         self._fail(step.name, deploying.NOT_READY.at(where, name=step.name, within=self._limit, why=why))
 
-    def _fail(self, name: str, found: Diagnostic) -> None:
-        self._outcome.failed[name] = found
-        self._report(Event(name, FAILED, found.message, self._took(name)))
+    def _fail(self, name: str, reason: Diagnostic) -> None:
+        self._outcome.failed[name] = reason
+        self._report(ProcessEvent(name, FAILED, reason.message, self._took(name)))
 
     def _took(self, name: str) -> float:
-        """The seconds for which it was waited for, which is over."""
+        """Ends the wait for a process; the seconds that it took."""
         return time.monotonic() - self._since.pop(name)
 
 
-def _after(step: Step) -> tuple[str, ...]:
+def _after(step: PlanStep) -> tuple[str, ...]:
     return step.spec.process.after if step.spec else ()
 
 
@@ -240,17 +231,17 @@ async def _cancel(tasks: Iterable[asyncio.Task[Any]]) -> None:
 
 
 def undo(plan: Plan, before: Mapping[str, Running], now: Mapping[str, Running]) -> Plan:
-    """The plan back to what ran before this plan was carried out, wholly or in part. What was not touched is not waited
-    for either."""
-    steps: dict[str, Step] = {}
+    """The plan that restores what ran before this plan was carried out, also if only partly. Unchanged processes are
+    not in it, so that it does not wait for them."""
+    steps: dict[str, PlanStep] = {}
     for name, step in plan.steps.items():
         if step.action == KEEP:
             continue
-        spec = before[name].spec if name in before and before[name].state in (RUNNING, WAITING) else None
+        spec = before[name].spec if name in before and before[name].is_alive else None
         if spec is None:
             if name in now:
-                steps[name] = Step(name, STOP, "it did not run before", running=now[name])
+                steps[name] = PlanStep(name, STOP, "it did not run before", running=now[name])
         else:
             action = CHANGE if step.action == CHANGE else START
-            steps[name] = Step(name, action, "it ran before", spec=spec, running=now.get(name))
+            steps[name] = PlanStep(name, action, "it ran before", spec=spec, running=now.get(name))
     return Plan(steps)

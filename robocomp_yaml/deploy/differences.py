@@ -1,4 +1,4 @@
-"""What differs between two specs of a process, field by field, in the user's words."""
+"""The differences between two specs of a process, field by field, in the user's words."""
 
 from __future__ import annotations
 
@@ -9,15 +9,13 @@ import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml import secrets
-from robocomp_yaml.deploy.spec import Spec
-from robocomp_yaml.network.network import ConfigFile, Process, Variable
+from robocomp_yaml.deploy.spec import ProcessSpec
+from robocomp_yaml.network.network import ConfigFile, EnvironmentVariable, Process
 from robocomp_yaml.source import properties
-
-_LISTS = ("after", "aliases", "groups", "folders")
 
 
 class Difference(msgspec.Struct, frozen=True):
-    """`old` and `new` are '' where there is nothing. `is_live` where it holds without a restart."""
+    """`old` or `new` is '' if the field is absent. `is_live` is True if the new value applies without a restart."""
 
     field: str
     old: str = ""
@@ -32,11 +30,12 @@ class Difference(msgspec.Struct, frozen=True):
         return f"{self.field}: {self.old} → {self.new}" if self.new else f"{self.field}: {self.old} (gone)"
 
 
-def differences(old: Spec, new: Spec) -> list[Difference]:
+def differences(old: ProcessSpec, new: ProcessSpec) -> list[Difference]:
+    """All differences, with secrets hidden."""
     before, after = old.process, new.process
     return [
         *_field("host", old.address, new.address),
-        *_command_field(old, new),
+        *([Difference("command", _command(old), _command(new))] if old.command != new.command else ()),
         *_field("cwd", before.cwd, after.cwd),
         *_entries("env", _variables(before.env), _variables(after.env), ()),
         *_config(before.config, after.config, {*before.secrets, *after.secrets}),
@@ -51,7 +50,7 @@ def _field(name: str, old: str, new: str, *, is_live: bool = False) -> Iterator[
 
 
 def _entries(name: str, old: dict[str, str], new: dict[str, str], hidden: Collection[str]) -> Iterator[Difference]:
-    """`hidden` are names of secrets, beside those that say so themselves."""
+    """`hidden` are names of secrets, in addition to names that suggest a secret."""
     for key in [*old, *(key for key in new if key not in old)]:
         before, after = old.get(key), new.get(key)
         if before != after:
@@ -59,25 +58,20 @@ def _entries(name: str, old: dict[str, str], new: dict[str, str], hidden: Collec
 
 
 def _shown(key: str, value: str | None, hidden: Collection[str]) -> str:
-    """An empty value is not the same as none; secrets are hidden."""
+    """A value, with secrets hidden. An empty value differs from an absent one."""
     return "''" if value == "" else secrets.value(key, value or "", hidden)
 
 
-def _command_field(old: Spec, new: Spec) -> Iterator[Difference]:
-    if old.command != new.command:
-        yield Difference("command", _command(old), _command(new))
-
-
-def _command(spec: Spec) -> str:
+def _command(spec: ProcessSpec) -> str:
     return secrets.command(spec.command, spec.process.secrets)
 
 
-def _variables(variables: tuple[Variable, ...]) -> dict[str, str]:
+def _variables(variables: tuple[EnvironmentVariable, ...]) -> dict[str, str]:
     return {variable.name: variable.shown for variable in variables}
 
 
 def _config(old: ConfigFile | None, new: ConfigFile | None, names: set[str]) -> Iterator[Difference]:
-    """By property; a text that differs in nothing else has changed as a whole."""
+    """By property. If no property differs, the text as a whole has changed."""
     before, after = old.text if old else "", new.text if new else ""
     if before != after:
         hidden = {*names, *(old.secrets if old else ()), *(new.secrets if new else ())}
@@ -86,21 +80,21 @@ def _config(old: ConfigFile | None, new: ConfigFile | None, names: set[str]) -> 
 
 
 def _files(old: dict[str, str], new: dict[str, str]) -> Iterator[Difference]:
-    """A file that was not watched before, or is no longer, is told by the field that names it."""
+    """Changed files. A file that is watched in one spec only is reported with the field that names it."""
     for path, digest in new.items():
         if path in old and old[path] != digest:
             yield Difference(shown_path(path) if digest else f"{shown_path(path)} (gone)")
 
 
 def _live(before: Process, after: Process) -> Iterator[Difference]:
-    """What holds without a restart. Where an endpoint changes what the process does, its configuration changes."""
+    """What applies without a restart. An endpoint that matters to the process itself is also in its configuration."""
     if before.endpoints != after.endpoints:
         served = list(_entries("serves", _served(before), _served(after), ()))
         yield from (replace(one, is_live=True) for one in served or [Difference("endpoints")])
     for name, old, new in (("ready", _ready(before), _ready(after)), ("restart", _restart(before), _restart(after))):
         for key in old:
             yield from _field(f"{name}.{key}", old[key], new[key], is_live=True)
-    for name in _LISTS:
+    for name in ("after", "aliases", "groups", "folders"):
         yield from _names(name, getattr(before, name), getattr(after, name))
     if before.ready.pings != after.ready.pings and before.endpoints == after.endpoints:
         yield from _names("ready.pings", before.ready.pings, after.ready.pings)
@@ -111,7 +105,7 @@ def _served(process: Process) -> dict[str, str]:
 
 
 def _ready(process: Process) -> dict[str, str]:
-    """Without the pings: they follow from what is served, as a rule."""
+    """Without the pings, which usually follow from what is served."""
     ready = process.ready
     port = "" if ready.port is None else str(ready.port)
     return {"within": f"{ready.within:g} s", "port": port, "command": " ".join(ready.command), "log": ready.log}
@@ -126,13 +120,13 @@ def _restart(process: Process) -> dict[str, str]:
 
 
 def _names(name: str, old: tuple[str, ...], new: tuple[str, ...]) -> Iterator[Difference]:
-    """Those that are gone, and those that are new; where there are none, their order has changed."""
+    """Names that were removed, and names that were added. Without either, the order has changed."""
     if old != new:
-        gone = ", ".join(one for one in old if one not in new)
-        yield Difference(name, gone, ", ".join(one for one in new if one not in old), is_live=True)
+        removed = ", ".join(one for one in old if one not in new)
+        yield Difference(name, removed, ", ".join(one for one in new if one not in old), is_live=True)
 
 
 def shown_path(path: str) -> str:
-    """A path as one would type it from here, where that is shorter."""
+    """A path relative to the working folder, if that is shorter."""
     short = os.path.relpath(path)
     return path if short.startswith("../..") else short

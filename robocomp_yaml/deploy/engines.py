@@ -1,10 +1,10 @@
-"""Which engine runs a network: a table of them, each imported when it is to run one."""
+"""The table of engines. An engine is imported when it is used."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from robocomp_yaml.registry import member
+from robocomp_yaml.registry import import_member
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -17,16 +17,16 @@ ENGINES = {
     LOCAL: "robocomp_yaml.deploy.local.engine:LocalEngine",
     ICEGRID: "robocomp_yaml.deploy.icegrid.engine:IceGridEngine",
 }
-"""The class of each, by the name that `--engine` takes."""
+"""The class of each engine, by its name for `--engine`."""
 
 
 def make_engine(name: str | None, network: Network) -> Engine:
-    """The engine of that name; without one, `local` where all runs on this machine, else `icegrid`."""
-    made: Callable[[], Engine] = member(ENGINES[name or _usual(network)])  # type: ignore[assignment]
+    """The engine of that name; without a name, `local` if all processes run on this machine, else `icegrid`."""
+    made: Callable[[], Engine] = import_member(ENGINES[name or _usual(network)])  # type: ignore[assignment]
     return made()
 
 
 def _usual(network: Network) -> str:
-    from robocomp_yaml.deploy.local.obstacles import not_here
+    from robocomp_yaml.deploy.local.obstacles import elsewhere
 
-    return ICEGRID if network.is_distributed or not_here(network) else LOCAL
+    return ICEGRID if network.is_distributed or elsewhere(network) else LOCAL

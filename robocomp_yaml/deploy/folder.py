@@ -1,4 +1,4 @@
-"""The deployment's own folder: only its owner may look into it, and its files are whole or not there at all."""
+"""The deployment's own folder: only its owner can read it, and its files are written atomically."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import contextlib
 import fcntl
 import os
 import re
-import time
 from collections.abc import Iterator
 
+from robocomp_yaml.deploy.time_limit import until
 from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.regular import text
 from robocomp_yaml.transactions import whole_file
@@ -18,7 +18,7 @@ _PARTS = ("config", "logs", "state")
 
 
 def make(folder: str) -> None:
-    """Makes the folder and its parts. Raises OSError."""
+    """Creates the folder and its subfolders. Raises OSError."""
     above = os.path.dirname(folder)
     os.makedirs(above, exist_ok=True)
     with contextlib.suppress(FileExistsError), open(f"{above}/.gitignore", "x", encoding="ascii") as file:
@@ -30,7 +30,7 @@ def make(folder: str) -> None:
 
 
 def write(folder: str, path: str, text: str) -> None:
-    """Writes a file of mode 0600, at once. Raises OSError."""
+    """Writes a file of mode 0600, atomically. Raises OSError."""
     target = f"{folder}/{path}"
     os.makedirs(os.path.dirname(target), mode=0o700, exist_ok=True)
     whole_file.put(target, text.encode("utf-8", "surrogateescape"), 0o600)
@@ -43,15 +43,12 @@ def remove(folder: str, path: str) -> None:
 
 @contextlib.contextmanager
 def locked(folder: str, patience: float = 2.0) -> Iterator[bool]:
-    """Holds the deployment for one who changes it; False where another rcyaml has it for too long. The lock goes with
-    the process. Raises OSError."""
+    """Locks the deployment for a change. Yields False if another rcyaml holds the lock for more than `patience`
+    seconds. The lock ends with this process. Raises OSError."""
     make(folder)
     lock = os.open(f"{folder}/state", os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
     try:
-        until = time.monotonic() + patience
-        while not (is_ours := _acquire(lock)) and time.monotonic() < until:
-            time.sleep(0.05)
-        yield is_ours
+        yield until(lambda: _acquire(lock), patience, 0.05)
     finally:
         os.close(lock)
 
@@ -65,19 +62,19 @@ def _acquire(lock: int) -> bool:
 
 
 def deployment_in(path: str) -> str:
-    """The name of the deployment that a document is about; of one that is no YAML (any more), what looks like it. ''
-    where it does not show it."""
+    """The name of the deployment in a document. In a document that is not valid YAML, the first text that looks like
+    the name; '' if there is none."""
     from robocomp_yaml.source.heading import root_of, text_at_top
 
-    said = text_at_top(root_of(path), "deployment")
-    if said:
-        return said if _NAME.fullmatch(f"deployment: {said}") else ""
+    name = text_at_top(root_of(path), "deployment")
+    if name:
+        return name if _NAME.fullmatch(f"deployment: {name}") else ""
     found = _NAME.search(text(path, "utf-8-sig") or "")
     return found[1] if found else ""
 
 
 def document_in(folder: str, deployment: str) -> str:
-    """The document of a deployment that runs from this folder; where it is gone, the folder."""
+    """The document in this folder of a running deployment; the folder if the document is missing."""
     with contextlib.suppress(OSError):
         for name in sorted(os.listdir(folder)):
             path = os.path.join(folder, name)

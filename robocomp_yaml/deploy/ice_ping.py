@@ -1,7 +1,7 @@
 """Whether an Ice object answers: `ice_ping` in Ice's own protocol, over one plain connection.
 
-A dozen bytes each way need neither the Ice runtime nor its threads, so that readiness can be asked of many processes at
-once, and where Ice is not installed. What is not plain TCP, or names no address, is left to the Ice runtime.
+This needs neither the Ice runtime nor its threads, so that many processes can be pinged at once, also where Ice is not
+installed. Proxies without an address, or with another protocol than TCP, need the Ice runtime.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import struct
 
 from robocomp_yaml.source.ice_proxy import proxy_at
 
-_MAGIC = b"IceP\x01\x00\x01\x00"  # protocol 1.0, its encoding 1.0
+_MAGIC = b"IceP\x01\x00\x01\x00"  # protocol 1.0, encoding 1.0
 _REQUEST, _REPLY, _VALIDATE, _CLOSE = 0, 2, 3, 4
 _HEADER = struct.Struct("<8sBBi")
 _IDEMPOTENT = 2
@@ -22,25 +22,26 @@ _LONGEST = 1 << 16
 
 @functools.cache
 def address_of(proxy: str) -> tuple[str, str, int] | None:
-    """The identity, host and port of a proxy's first endpoint; None where the endpoint is not plain TCP."""
+    """The identity, host and port of a proxy's first endpoint; None if the endpoint is not plain TCP."""
     found = proxy_at(proxy)
     first = found.endpoints[0] if found and found.endpoints else None
     if not found or not found.is_plain or not first or first.protocol not in ("tcp", "default") or not first.port:
         return None
-    if "/" in found.category + found.name:  # one with a backslash before it
+    if "/" in found.category + found.name:  # an escaped one
         return None
     return f"{found.category}/{found.name}" if found.category else found.name, first.host or "127.0.0.1", first.port
 
 
 async def answers(proxy: str, within: float) -> bool:
-    """Whether the object that a proxy names answers a ping; never raises because of what is at the other end."""
+    """Whether the object of a proxy answers a ping within so many seconds. Any failure of the other end returns
+    False."""
     address = address_of(proxy)
     try:
         async with asyncio.timeout(within):
             if address is None:
                 return await asyncio.to_thread(_answers_by_ice, proxy, within)
             identity, host, port = address
-            # Names are looked up in a thread, which costs more than all the rest.
+            # To resolve a name takes a thread, which costs more than the ping.
             reader, writer = await asyncio.open_connection("127.0.0.1" if host == "localhost" else host, port)
             try:
                 return await _ping(identity, reader, writer)
@@ -58,13 +59,13 @@ async def _ping(identity: str, reader: asyncio.StreamReader, writer: asyncio.Str
     body += b"\0" + _text("ice_ping") + bytes([_IDEMPOTENT, 0]) + _NO_ARGUMENTS
     writer.write(_HEADER.pack(_MAGIC, _REQUEST, 0, _HEADER.size + len(body)) + body)
     kind, reply = await _message(reader)
-    # Ice closes a connection in good order by saying so.
+    # Ice expects a message before a connection is closed.
     writer.write(_HEADER.pack(_MAGIC, _CLOSE, 0, _HEADER.size))
     return kind == _REPLY and reply[:5] == struct.pack("<iB", 1, 0)
 
 
 async def _message(reader: asyncio.StreamReader) -> tuple[int, bytes]:
-    """The next message's kind and body; (-1, b"") for what is not Ice."""
+    """The kind and the body of the next message; (-1, b"") if it is not a message of Ice."""
     magic, kind, _, size = _HEADER.unpack(await reader.readexactly(_HEADER.size))
     if magic[:4] != _MAGIC[:4] or not _HEADER.size <= size <= _LONGEST:
         return -1, b""
@@ -77,7 +78,7 @@ def _text(text: str) -> bytes:
 
 
 def _answers_by_ice(proxy: str, within: float) -> bool:
-    """By the Ice runtime; without it, nothing is known, and the object counts as silent."""
+    """Whether the object answers a ping of the Ice runtime; False if that is not installed."""
     try:
         import Ice
     except ImportError:

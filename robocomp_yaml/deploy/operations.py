@@ -1,5 +1,4 @@
-"""What can be done with a deployment as a whole: bring it up, see how it is, take it down. Commands and managers call
-these, whatever the engine."""
+"""Operations on a whole deployment, with any engine: bring it up, report its status, take it down."""
 
 from __future__ import annotations
 
@@ -10,8 +9,8 @@ from contextlib import aclosing
 import msgspec
 from msgspec.structs import replace
 
-from robocomp_yaml.deploy.carry_out import Outcome, Report, carry_out, stop_all, undo
-from robocomp_yaml.deploy.engine import GIVEN_UP, LOST, RUNNING, STOPPED, WAITING, Engine, Running
+from robocomp_yaml.deploy.carry_out import Report, StartOutcome, carry_out, stop_all, undo
+from robocomp_yaml.deploy.engine import GIVEN_UP, LOST, STOPPED, WAITING, Engine, Running
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, plan, with_dependents
 from robocomp_yaml.deploy.readiness import holds
 from robocomp_yaml.deploy.time_limit import TimeLimit
@@ -23,14 +22,14 @@ from robocomp_yaml.network.network import Network
 STOP_THEM, ROLL_BACK, KEEP_GOING = "stop", "rollback", "keep"
 
 SHOWN_LINES = 10
-"""Lines of a log that are shown with what failed."""
+"""Lines of the log that are shown with a failed process."""
 
 
 class Result(msgspec.Struct):
-    """What came of an `up`. `undone` is what was done on failure, '' where nothing failed."""
+    """The result of `up`. `undone` is what was done after a failure (STOP_THEM, ROLL_BACK or KEEP_GOING), else ''."""
 
     plan: Plan
-    outcome: Outcome = msgspec.field(default_factory=Outcome)
+    outcome: StartOutcome = msgspec.field(default_factory=StartOutcome)
     diagnostics: list[Diagnostic] = []
     undone: str = ""
 
@@ -39,8 +38,8 @@ Choose = Callable[[Result], Awaitable[str]]
 
 
 class Status(msgspec.Struct, frozen=True):
-    """A process of the network, or one that runs and is no longer part of it. `running` is None where it was never
-    started."""
+    """The status of a process of the network, or of a process that runs and is no longer part of it. `running` is None
+    if it was never started."""
 
     name: str
     host: str
@@ -53,7 +52,7 @@ class Status(msgspec.Struct, frozen=True):
 
     @property
     def is_down(self) -> bool:
-        """Whether it should run, but does not."""
+        """Whether it should run and does not."""
         return self.state in (WAITING, GIVEN_UP, LOST)
 
 
@@ -61,10 +60,13 @@ async def up(
     engine: Engine, network: Network, names: Iterable[str], forced: Collection[str], choose: Choose, report: Report,
     *, keep_going: bool = False, limit: TimeLimit | None = None,
 ) -> Result:  # fmt: skip
-    """Brings about what the network says, and waits until all of it is ready. Nothing is touched where something stands
-    in the way that can be seen before; with `keep_going`, only what it keeps from starting, and what needs that. When a
-    process that is started fails, or the time is over, `choose` says what becomes of those that were; one that ran
-    already and is not ready is only reported."""
+    """Brings the network up, and waits until all its processes are ready.
+
+    If there are obstacles, nothing is changed; with `keep_going`, only the processes with obstacles, and those that
+    depend on them, are skipped. When a process fails to start, or the time limit expires, `choose` returns what happens
+    to the processes that were started. A process that ran before and is not ready is only reported. Raises
+    DeployFailed.
+    """
     limit = limit or TimeLimit()
     before = await engine.observe()
     result = Result(plan(network, before, names, forced))
@@ -72,11 +74,13 @@ async def up(
     leaving = {step.name for step in result.plan.of(STOP, RESTART)}
     result.diagnostics = await engine.obstacles(starting, leaving) if starting else []
     if limit.is_over:
-        result.diagnostics.append(deploying.LATE.at(Span(network.path), within=limit, when="before anything was done"))
+        result.diagnostics.append(
+            deploying.EXPIRED.at(Span(network.path), within=limit, when="before anything was done")
+        )
     blocked: dict[str, Diagnostic] = {}
     if result.diagnostics and keep_going and not limit.is_over:
-        found = [(spec.name, await engine.obstacles([spec], leaving)) for spec in starting]
-        blocked = {name: obstacles[0] for name, obstacles in found if obstacles}
+        every = [(spec.name, await engine.obstacles([spec], leaving)) for spec in starting]
+        blocked = {name: obstacles[0] for name, obstacles in every if obstacles}
     if result.diagnostics and not blocked:
         return result
     result.outcome = await carry_out(engine, result.plan, report, keep_going=keep_going, limit=limit, blocked=blocked)
@@ -84,8 +88,7 @@ async def up(
     if outcome.failed or outcome.is_late:
         result.diagnostics = await _what_failed(engine, network, result, limit)
         is_unfinished = outcome.failed.keys() & set(outcome.began) or (outcome.is_late and outcome.skipped)
-        is_asked = is_unfinished and not keep_going
-        result.undone = await choose(result) if is_asked else KEEP_GOING
+        result.undone = await choose(result) if is_unfinished and not keep_going else KEEP_GOING
         await _undo(engine, network, result, before, report)
     return result
 
@@ -98,31 +101,30 @@ async def _undo(
         await stop_all(engine, [now[name] for name in result.outcome.began if name in now], report)
     elif result.undone == ROLL_BACK:
         again = await carry_out(engine, undo(result.plan, before, now), report, keep_going=True)
-        for name, found in again.failed.items():
-            # What an engine has kept of a process does not know where it stands in the document.
-            process = network.processes.get(name)
-            result.diagnostics.append(replace(found, span=process.span if process else Span(network.path)))
+        for name, reason in again.failed.items():
+            # The spec that an engine keeps of a process has no location.
+            result.diagnostics.append(replace(reason, span=network.span_of(name)))
 
 
 async def _what_failed(engine: Engine, network: Network, result: Result, limit: TimeLimit) -> list[Diagnostic]:
-    """Each with the last lines of its log; those that were late together."""
+    """A diagnostic for each failed process, with the last lines of its log, and one for all that were late."""
     outcome = result.outcome
     logs = {name: await _last_lines(engine, name) for name in outcome.failed}
-    failed = {name: found for name, found in outcome.failed.items() if name not in outcome.late}
-    told = list(dict.fromkeys(replace(found, more="\n".join(logs[name])) for name, found in failed.items()))
+    failed = {name: reason for name, reason in outcome.failed.items() if name not in outcome.late}
+    reported = list(dict.fromkeys(replace(reason, more="\n".join(logs[name])) for name, reason in failed.items()))
     if not outcome.is_late:
-        return told
-    wanted = [step.name for step in result.plan.of(START, RESTART, CHANGE, KEEP)]
-    ready = [name for name in wanted if name not in outcome.failed and name not in outcome.skipped]
-    groups = {"ready": ready, "waited for": outcome.late, "failed": failed, "not started": outcome.skipped}
+        return reported
+    desired = [step.name for step in result.plan.of(START, RESTART, CHANGE, KEEP)]
+    ready = [name for name in desired if name not in outcome.failed and name not in outcome.skipped]
+    groups = {"ready": ready, "pending": outcome.late, "failed": failed, "not started": outcome.skipped}
     more = [f"{what}: {', '.join(names)}" for what, names in groups.items() if names]
-    late = deploying.LATE.at(
+    late = deploying.EXPIRED.at(
         Span(network.path), within=limit,
-        when=f"when {len(ready)} of {len(wanted)} processes {'was' if len(ready) == 1 else 'were'} ready",
+        when=f"when {len(ready)} of {len(desired)} processes {'was' if len(ready) == 1 else 'were'} ready",
         related=[Related(outcome.failed[name].message, outcome.failed[name].span) for name in outcome.late],
         more="\n".join([*more, *(line for name in outcome.late for line in logs[name])]),
     )  # fmt: skip
-    return [late, *told]
+    return [late, *reported]
 
 
 async def _last_lines(engine: Engine, name: str) -> list[str]:
@@ -131,27 +133,28 @@ async def _last_lines(engine: Engine, name: str) -> list[str]:
 
 
 async def status(engine: Engine, network: Network, names: Collection[str], reached: bool) -> list[Status]:
-    """How the processes are, the network's in its order first; `reached` is what `open` said."""
+    """The status of processes: those of the network first, in its order. `reached` is what `Engine.open` returned.
+    Without `names`, all processes. Raises DeployFailed."""
     running = await engine.observe() if reached else {}
 
-    async def look(name: str) -> Status:
+    async def status_of(name: str) -> Status:
         one, process = running.get(name), network.processes.get(name)
         host = one.host if one else process.host if process else ""
         is_ready = bool(one and one.spec) and await holds(engine, one.spec, one)  # type: ignore[union-attr, arg-type]
         return Status(name, host, is_ready, one)
 
     known = [process.name for process in network.enabled()]
-    wanted = [name for name in [*known, *(name for name in running if name not in known)] if not names or name in names]
-    return list(await asyncio.gather(*(look(name) for name in wanted)))
+    every = [*known, *(name for name in running if name not in known)]
+    return await asyncio.gather(*(status_of(name) for name in every if not names or name in names))
 
 
 async def down(engine: Engine, names: Collection[str], report: Report) -> list[str]:
-    """Takes down what runs, or these processes with all that are after them; those that were. The engine ends with the
-    last of them."""
+    """Stops all processes, or these and all that are after them. Returns those that ran. The engine ends with its last
+    process. Raises DeployFailed."""
     running = await engine.observe()
     after = {name: one.spec.process.after if one.spec else () for name, one in running.items()}
     leaving = with_dependents(after, names) & set(running) if names else set(running)
-    alive = [one.name for one in running.values() if one.name in leaving and one.state in (RUNNING, WAITING)]
+    alive = [one.name for one in running.values() if one.name in leaving and one.is_alive]
     await stop_all(engine, [running[name] for name in leaving], report)
     await engine.forget(leaving)
     await engine.close(end=len(leaving) == len(running))
@@ -159,6 +162,6 @@ async def down(engine: Engine, names: Collection[str], report: Report) -> list[s
 
 
 async def end_if_idle(engine: Engine) -> None:
-    """Lets go of an engine; one that has nothing left to run ends."""
+    """Closes an engine, and ends it if no process runs."""
     running = await engine.observe()
-    await engine.close(end=not any(one.state in (RUNNING, WAITING, LOST) for one in running.values()))
+    await engine.close(end=not any(one.is_alive or one.state == LOST for one in running.values()))

@@ -1,8 +1,8 @@
-"""What `up` would do: for each process of a network, against what runs, what happens to it and why.
+"""The plan of `up`: the desired state of each process is compared with its actual state.
 
-A process restarts when something of it changed that it cannot take over while it runs. What depends on it goes on:
-Ice connects again by itself, and where the process has moved, the configuration of those that use it has changed too.
-Only programs that are not Ice follow when something that they are `after` restarts.
+A process restarts when something changed that it cannot apply while it runs. Processes that depend on it go on: Ice
+reconnects by itself, and if the process has moved, the configurations of its users have changed, too. Only a program
+that does not use Ice restarts with a process that it is `after`.
 """
 
 from __future__ import annotations
@@ -13,35 +13,35 @@ import msgspec
 
 from robocomp_yaml.deploy.differences import Difference, differences
 from robocomp_yaml.deploy.engine import ENDED, GIVEN_UP, LOST, RUNNING, WAITING, Running
-from robocomp_yaml.deploy.spec import Spec, spec_of
-from robocomp_yaml.digraph import inner_first, reached
+from robocomp_yaml.deploy.spec import ProcessSpec, spec_of
+from robocomp_yaml.digraph import postorder, reachable
 from robocomp_yaml.network.network import Network, Process
 
 START, STOP, RESTART, CHANGE, KEEP = "start", "stop", "restart", "change", "keep"
 
 
-class Step(msgspec.Struct, frozen=True):
-    """What happens to one process. `spec` is what it shall run with, None where it stops; `before` is what it runs
-    with now. CHANGE takes over what needs no restart."""
+class PlanStep(msgspec.Struct, frozen=True):
+    """What happens to one process. `spec` is its desired spec, None if it stops; `before` is the spec that it runs
+    with. CHANGE applies what needs no restart."""
 
     name: str
     action: str
     reason: str
     changes: tuple[Difference, ...] = ()
-    spec: Spec | None = None
+    spec: ProcessSpec | None = None
     running: Running | None = None
 
     @property
-    def before(self) -> Spec | None:
+    def before(self) -> ProcessSpec | None:
         return self.running.spec if self.running else None
 
 
 class Plan(msgspec.Struct):
-    """Steps by name: those that stop for good, then the network's in its order."""
+    """Steps by the process's name: first those that stop and are not desired, then the network's in its order."""
 
-    steps: dict[str, Step] = {}
+    steps: dict[str, PlanStep] = {}
 
-    def of(self, *actions: str) -> list[Step]:
+    def of(self, *actions: str) -> list[PlanStep]:
         return [step for step in self.steps.values() if step.action in actions]
 
     @property
@@ -52,15 +52,15 @@ class Plan(msgspec.Struct):
 def plan(
     network: Network, running: Mapping[str, Running], names: Iterable[str] = (), forced: Collection[str] = ()
 ) -> Plan:
-    """`names` are processes to which it is limited, with all that they are after, and what must follow them; `forced`
-    restart in any case."""
+    """The plan from the actual state, `running`, to the network. `names` limit it to these processes, with all that
+    they are after, and those that must restart with them. `forced` processes restart in any case."""
     chosen = with_dependences(network, names) if names else {process.name for process in network.enabled()}
-    steps: dict[str, Step] = {}
+    steps: dict[str, PlanStep] = {}
     for name in running:
         process = network.processes.get(name)
         if not names and (process is None or not process.enabled):
             reason = "it is no longer part of the deployment" if process is None else "it is disabled"
-            steps[name] = Step(name, STOP, reason, running=running[name])
+            steps[name] = PlanStep(name, STOP, reason, running=running[name])
     digests: dict[str, str] = {}
     for wave in network.order:
         for name in wave:
@@ -73,56 +73,57 @@ def plan(
 
 
 def with_dependences(network: Network, names: Iterable[str]) -> set[str]:
-    """These processes and all that they are after, directly or not."""
+    """The enabled ones of these processes, and of all that they are after, directly or not."""
 
     def after(name: str) -> Iterable[str]:
         return network.processes[name].after if name in network.processes else ()
 
-    return {name for name in reached(names, after) if name in network.processes and network.processes[name].enabled}
+    return {name for name in reachable(names, after) if name in network.processes and network.processes[name].enabled}
 
 
 def with_dependents(after: Mapping[str, Iterable[str]], names: Iterable[str]) -> set[str]:
-    """These processes and all that are after them, directly or not; `after` says of each what it is after."""
+    """These processes and all that are after them, directly or not. `after` has for each process what it is after."""
     behind: dict[str, list[str]] = {}
     for name, before in after.items():
         for other in before:
             behind.setdefault(other, []).append(name)
-    return set(reached(names, lambda name: behind.get(name, ())))
+    return set(reachable(names, lambda name: behind.get(name, ())))
 
 
 def in_order(after: Mapping[str, Iterable[str]]) -> list[str]:
-    """The names, each behind those that it is after; where they form a cycle, behind as many as can be."""
-    return list(inner_first(after, lambda name: [other for other in after[name] if other in after]))
+    """The names, each after those that it is after; in a circle, after as many of them as possible."""
+    return list(postorder(after, lambda name: [other for other in after[name] if other in after]))
 
 
-def _restarting(process: Process, steps: Mapping[str, Step]) -> str:
-    """One that the process must follow, as it cannot connect again by itself."""
+def _restarting(process: Process, steps: Mapping[str, PlanStep]) -> str:
+    """A restarting process with which this one must restart, because it cannot reconnect by itself; '' if there is
+    none."""
     if process.is_ice:
         return ""
     return next((name for name in process.after if name in steps and steps[name].action == RESTART), "")
 
 
-def _step(spec: Spec, running: Running | None, forced: Collection[str], follows: str) -> Step:
+def _step(spec: ProcessSpec, running: Running | None, forced: Collection[str], follows: str) -> PlanStep:
     name = spec.name
     if running is None:
-        return Step(name, START, "it does not run yet", spec=spec)
+        return PlanStep(name, START, "it does not run yet", spec=spec)
     if running.state in (WAITING, GIVEN_UP, LOST):
         how = f": {running.last_exit}" if running.last_exit else ""
-        return Step(name, START, _STATES[running.state] + how, spec=spec, running=running)
+        return PlanStep(name, START, _STATES[running.state] + how, spec=spec, running=running)
     if running.state not in (RUNNING, ENDED):
-        return Step(name, START, "it was stopped", spec=spec, running=running)
+        return PlanStep(name, START, "it was stopped", spec=spec, running=running)
     if running.spec is None:
-        return Step(name, RESTART, "another version of rcyaml started it", spec=spec, running=running)
+        return PlanStep(name, RESTART, "another version of rcyaml started it", spec=spec, running=running)
     changes = tuple(differences(running.spec, spec))
     if name in forced:
-        return Step(name, RESTART, "you asked for it", changes, spec, running)
+        return PlanStep(name, RESTART, "its restart was requested", changes, spec, running)
     if any(not change.is_live for change in changes):
-        return Step(name, RESTART, _first(changes), changes, spec, running)
+        return PlanStep(name, RESTART, _first(changes), changes, spec, running)
     if follows and running.state == RUNNING:
-        return Step(name, RESTART, f"it is after {follows}, which restarts", changes, spec, running)
+        return PlanStep(name, RESTART, f"it is after {follows}, which restarts", changes, spec, running)
     if changes:
-        return Step(name, CHANGE, _first(changes), changes, spec, running)
-    return Step(name, KEEP, "nothing changed", spec=spec, running=running)
+        return PlanStep(name, CHANGE, _first(changes), changes, spec, running)
+    return PlanStep(name, KEEP, "nothing changed", spec=spec, running=running)
 
 
 _STATES = {
@@ -133,7 +134,7 @@ _STATES = {
 
 
 def _first(changes: tuple[Difference, ...]) -> str:
-    """The change that is the reason, and how many more there are."""
+    """The change that is the reason, and the number of further changes."""
     first = next((change for change in changes if not change.is_live), changes[0])
     more = len(changes) - 1
     return f"{first}" + (f", and {more} more" if more else "")

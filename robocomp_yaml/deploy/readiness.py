@@ -1,4 +1,4 @@
-"""Whether a process is ready: what its `Readiness` asks for, looked at until it holds or the time is over."""
+"""Readiness of processes: the condition of a `Readiness` is checked until it holds or the time expires."""
 
 from __future__ import annotations
 
@@ -23,65 +23,65 @@ from robocomp_yaml.deploy.engine import (
     Line,
     Running,
 )  # fmt: skip
-from robocomp_yaml.deploy.spec import Spec
+from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.network.network import ALWAYS
 
 SETTLED = 0.1
-"""Seconds for which a process runs that says nothing of its readiness, before it counts as ready."""
+"""Seconds that a process without a condition must run before it counts as ready."""
 
 LOG_LINES = 1000
-"""Lines of its log in which an older process's sign of readiness is looked for."""
+"""Lines of the log in which the line that makes a running process ready is looked up."""
 
-_SHORTEST, _LONGEST, _SLOWER = 0.02, 0.2, 1.2  # seconds between two looks, and the factor by which they grow
-_ONE_TRY = 2.0  # seconds for an answer
-_END = 0.4  # seconds between two looks whether it has ended
-_NEW = 0.05  # seconds for which what was seen of a process that comes up is good enough
+_SHORTEST, _LONGEST, _SLOWER = 0.02, 0.2, 1.2  # seconds between two checks, and the factor by which they grow
+_ONE_TRY = 2.0  # seconds for one check
+_END = 0.4  # seconds between two checks whether it has ended
+_NEW = 0.05  # the maximum age, in seconds, of an observed state of a starting process
 
 RECENT = 0.2
-"""Seconds for which what was seen of a process is good enough where nobody waits for it to change."""
+"""The maximum age, in seconds, of an observed state if no change is expected."""
 
 State = Callable[[float], Awaitable[Running | None]]
-"""What the engine sees of a process, looked at then (`time.monotonic`) or later."""
+"""The observed state of a process, not older than a time (`time.monotonic`)."""
 
 
-async def holds(engine: Engine, spec: Spec, running: Running) -> bool:
-    """Whether a process is ready now."""
+async def holds(engine: Engine, spec: ProcessSpec, running: Running) -> bool:
+    """Whether a process is ready now. Raises DeployFailed."""
     ready = spec.process.ready
     if running.state == ENDED:
-        return not (ready.pings or ready.port or ready.command or ready.log)
+        return not ready.has_condition
     if running.state != RUNNING:
         return False
     if ready.log:
         async with aclosing(await engine.lines([spec.name], LOG_LINES, False)) as lines:
             texts = [line.text async for line in lines]
         starts = [number for number, text in enumerate(texts) if text.startswith(STARTED)]
-        # One that has written so much since its start has long begun to work.
-        return not starts or any(_is_sign(ready.log, text) for text in texts[starts[-1] :])
-    return await _look(engine, spec, _ONE_TRY) and bool(running.uptime >= SETTLED or ready.pings or ready.port)
+        # A process that has written so many lines since its start is ready.
+        return not starts or any(_matches(ready.log, text) for text in texts[starts[-1] :])
+    return await _check(engine, spec, _ONE_TRY) and bool(running.uptime >= SETTLED or ready.pings or ready.port)
 
 
-def _not_found(spec: Spec) -> str:
+def _hint_for_127(spec: ProcessSpec) -> str:
     document = [shown_path(spec.process.span.file)] if spec.process.span.file else []
     probe = typed("rcyaml", "deploy", "probe", *document, spec.process.host)
-    return f"127 says that a program was not found: `{probe}` tells which ones host '{spec.process.host}' has"
+    return f"exit code 127 means that a program is missing: `{probe}` shows the programs of host '{spec.process.host}'"
 
 
-async def until_ready(engine: Engine, spec: Spec, lines: AsyncIterator[Line], state: State) -> None:
-    """Waits for a process that was just started. Raises DeployFailed where it ends before, or takes too long. `lines`
-    are what it writes, from its start on."""
-    watch = asyncio.create_task(_until_it_ends(spec, state))
-    look = asyncio.create_task(_until_it_holds(engine, spec, lines, state))
+async def until_ready(engine: Engine, spec: ProcessSpec, lines: AsyncIterator[Line], state: State) -> None:
+    """Waits until a process that was just started is ready. Raises DeployFailed if it ends before, or takes too long.
+    `lines` are its output from the start."""
+    end = asyncio.create_task(_until_it_ends(spec, state))
+    ready = asyncio.create_task(_until_it_holds(engine, spec, lines, state))
     try:
-        done, _ = await asyncio.wait((watch, look), timeout=spec.process.ready.within,
+        done, _ = await asyncio.wait((end, ready), timeout=spec.process.ready.within,
                                      return_when=asyncio.FIRST_COMPLETED)  # fmt: skip
-        if look in done:
-            return look.result()
+        if ready in done:
+            return ready.result()
         running = await state(time.monotonic() - _NEW)
-        if watch in done:
-            how = watch.result()
-            hint = _not_found(spec) if "exit code 127" in how else ""
+        if end in done:
+            how = end.result()
+            hint = _hint_for_127(spec) if "exit code 127" in how else ""
             raise DeployFailed(deploying.ENDED_EARLY.at(spec.process.span, name=spec.name, how=how, hint=hint))
         raise DeployFailed(
             deploying.NOT_READY.at(
@@ -89,39 +89,39 @@ async def until_ready(engine: Engine, spec: Spec, lines: AsyncIterator[Line], st
             )
         )
     finally:
-        for task in (watch, look):
+        for task in (end, ready):
             task.cancel()
             with suppress(asyncio.CancelledError, DeployFailed):
                 await task
 
 
-async def _until_it_ends(spec: Spec, state: State) -> str:
-    """Until it has ended, and is not started again; says how."""
+async def _until_it_ends(spec: ProcessSpec, state: State) -> str:
+    """Waits until the process has ended and is not restarted; returns how it ended."""
     began = time.monotonic()
     while True:
-        # First of all: most are ready by then, and the rest is looked at together.
+        # Before the first check: most processes are ready by then, and the others share one observation.
         await asyncio.sleep(_END)
         running = await state(max(began, time.monotonic() - RECENT))
         if running is None or running.state in (GIVEN_UP, STOPPED, LOST):
-            return (running.end if running else "") or "it was stopped meanwhile"
-        if running.state == ENDED and _asks_for_something(spec):
-            # The sign may be its last line, which those who follow the log see a little later.
+            return (running.end if running else "") or "it was stopped in the meantime"
+        if running.state == ENDED and spec.process.ready.has_condition:
+            # Its last line can make it ready, and is read a little later.
             await asyncio.sleep(2 * _LONGEST if spec.process.ready.log else 0)
             return running.last_exit
 
 
-async def _until_it_holds(engine: Engine, spec: Spec, lines: AsyncIterator[Line], state: State) -> None:
+async def _until_it_holds(engine: Engine, spec: ProcessSpec, lines: AsyncIterator[Line], state: State) -> None:
     if spec.process.ready.log:
         async for line in lines:
-            if _is_sign(spec.process.ready.log, line.text):
+            if _matches(spec.process.ready.log, line.text):
                 return
-    is_asked = _asks_for_something(spec)
-    pause = _SHORTEST if is_asked else SETTLED
+    has_condition = spec.process.ready.has_condition
+    pause = _SHORTEST if has_condition else SETTLED
     while True:
         await asyncio.sleep(pause)
         pause = min(pause * _SLOWER, _LONGEST)
-        if is_asked:
-            if await _look(engine, spec, min(_ONE_TRY, spec.process.ready.within)):
+        if has_condition:
+            if await _check(engine, spec, min(_ONE_TRY, spec.process.ready.within)):
                 return
         elif running := await state(time.monotonic() - _NEW):
             if running.state == ENDED and spec.process.restart.policy != ALWAYS:
@@ -132,13 +132,8 @@ async def _until_it_holds(engine: Engine, spec: Spec, lines: AsyncIterator[Line]
                 pause = max(SETTLED - running.uptime, _SHORTEST)
 
 
-def _asks_for_something(spec: Spec) -> bool:
-    ready = spec.process.ready
-    return bool(ready.pings or ready.port or ready.command or ready.log)
-
-
-async def _look(engine: Engine, spec: Spec, within: float) -> bool:
-    """One look at all but the log."""
+async def _check(engine: Engine, spec: ProcessSpec, within: float) -> bool:
+    """Checks any condition but that of the log, once."""
     ready = spec.process.ready
     if ready.pings:
         for proxy in ready.pings:
@@ -153,7 +148,7 @@ async def _look(engine: Engine, spec: Spec, within: float) -> bool:
 
 
 async def listens(host: str, port: int, within: float) -> bool:
-    """Whether something listens at a port."""
+    """Whether something listens on a TCP port; False after `within` seconds."""
     try:
         async with asyncio.timeout(within):
             _, writer = await asyncio.open_connection(host, port)
@@ -163,15 +158,15 @@ async def listens(host: str, port: int, within: float) -> bool:
     return True
 
 
-def _is_sign(pattern: str, text: str) -> bool:
+def _matches(pattern: str, text: str) -> bool:
     return not text.startswith(OWN) and re.search(pattern, text) is not None
 
 
-def why_not(spec: Spec, running: Running | None) -> str:
-    """What is missing for a process to be ready."""
+def why_not(spec: ProcessSpec, running: Running | None) -> str:
+    """Why a process is not ready."""
     ready = spec.process.ready
     if running and running.restarts:
-        return f"it ended meanwhile: {running.end}"
+        return f"it ended in the meantime: {running.end}"
     if ready.pings:
         return "no answer from " + ", ".join(proxy.partition(":")[0].split()[0] for proxy in ready.pings)
     if ready.port:

@@ -1,7 +1,6 @@
-"""What a process is started with: the network's description of it, and what its files held at that time.
+"""What a process is started with: the network's description of it, and the digests of its files at that time.
 
-An engine keeps the spec of each process that it started; a plan compares it, field by field, with what the network
-says now.
+An engine keeps the spec of each process that it started. A plan compares it, field by field, with the current network.
 """
 
 from __future__ import annotations
@@ -17,9 +16,10 @@ from robocomp_yaml.source.regular import regular
 _NOT_KEPT = ("span", "extra", "build")
 
 
-class Spec(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """`command` is the process's own with the path of its configuration put in. `digests` are those of the watched
-    files, '' for one that is not there. Holds the text of the configuration: keep it where only its owner can read."""
+class ProcessSpec(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """`command` is the command of the process with the path of its configuration. `digests` are those of the watched
+    files, '' for a missing one. A spec contains the text of the configuration, and so secrets: only the owner may read
+    it."""
 
     process: Process
     address: str
@@ -32,7 +32,7 @@ class Spec(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         return self.process.name
 
     def as_data(self) -> dict[str, Any]:
-        """As JSON's types; what `of_data` reads."""
+        """The spec in types of JSON, which `of_data` reads."""
         data: dict[str, Any] = msgspec.to_builtins(self)
         for part in (data["process"], *data["process"]["endpoints"]):
             for name in _NOT_KEPT:
@@ -40,18 +40,21 @@ class Spec(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         return data
 
     @classmethod
-    def of_data(cls, data: dict[str, Any]) -> Spec:
-        """Raises ValueError where another version of rcyaml wrote the data."""
-        return msgspec.convert(data, cls)
+    def of_data(cls, data: dict[str, Any]) -> ProcessSpec | None:
+        """The spec; None if another version of rcyaml wrote the data."""
+        try:
+            return msgspec.convert(data, cls)
+        except ValueError:
+            return None
 
 
-def spec_of(network: Network, process: Process, digests: dict[str, str]) -> Spec:
-    """What the process would be started with now. `digests` remembers files that were looked at already."""
+def spec_of(network: Network, process: Process, digests: dict[str, str]) -> ProcessSpec:
+    """The spec with which the process would be started now. `digests` caches digests by path."""
     for path in process.watched:
         if path not in digests:
             digests[path] = _digest_of(path)
     config = network.config_path(process)
-    return Spec(
+    return ProcessSpec(
         process,
         network.address(process),
         process.words(config),
@@ -61,7 +64,7 @@ def spec_of(network: Network, process: Process, digests: dict[str, str]) -> Spec
 
 
 def _digest_of(path: str) -> str:
-    """'' where there is no file, or none that can be read. Special files are never opened: they may block."""
+    """The digest of a file, '' if it cannot be read. Special files are never opened, because they can block."""
     try:
         with open(path, "rb", opener=regular) as file:
             return digest(file.read())

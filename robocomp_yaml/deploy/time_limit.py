@@ -1,14 +1,15 @@
-"""How long bringing a network up may take, all in all."""
+"""Time limits: of a whole operation, and of a wait for a condition."""
 
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 
 import msgspec
 
 
 class TimeLimit(msgspec.Struct, frozen=True):
-    """So many `seconds` from `began` on, by a clock that nobody sets; without a limit where they are None."""
+    """A limit of `seconds` from the time `began`, by a monotonic clock; None is no limit."""
 
     seconds: float | None = None
     began: float = msgspec.field(default_factory=time.monotonic)
@@ -23,3 +24,12 @@ class TimeLimit(msgspec.Struct, frozen=True):
 
     def __str__(self) -> str:
         return f"{self.seconds:g}"
+
+
+def until(condition: Callable[[], bool], within: float, pause: float = 0.01) -> bool:
+    """Waits until a condition holds, and returns whether it did `within` seconds. It is checked at least once, with a
+    `pause` in seconds between two checks."""
+    end = time.monotonic() + within
+    while not (holds := condition()) and time.monotonic() < end:
+        time.sleep(pause)
+    return holds

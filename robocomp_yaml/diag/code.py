@@ -1,4 +1,4 @@
-"""A code: one kind of diagnostic. What it says, and why, stands on a page of `docs/diagnostics/`."""
+"""A code: one kind of diagnostic, which a page of `docs/diagnostics/` describes."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ import msgspec
 
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related, as_facts
 from robocomp_yaml.diag.fix import Fix, Hint
-from robocomp_yaml.diag.page import Entry, Files
+from robocomp_yaml.diag.page import Files, PageEntry
 from robocomp_yaml.diag.page import page as read_page
 from robocomp_yaml.diag.span import Span
 
 
-class _Words(dict[str, str]):
+class _CapitalNames(dict[str, str]):
     def __missing__(self, key: str) -> str:
         return key.upper().replace("_", " ")
 
 
 class Code(msgspec.Struct, frozen=True):
-    """One kind of diagnostic. Ids are never reused. Its page is read when it is first asked for what stands there."""
+    """One kind of diagnostic. Ids are never reused. The page is read on first use."""
 
     id: str
     page: str
@@ -30,22 +30,22 @@ class Code(msgspec.Struct, frozen=True):
 
     @property
     def message(self) -> str:
-        """A format string for the facts given to `at`."""
+        """A format string for the facts that are passed to `at`."""
         return read_page(self.page).messages[self.id]
 
     @property
-    def entry(self) -> Entry:
+    def entry(self) -> PageEntry:
         return read_page(self.page).entry(self.id)
 
     @property
     def why(self) -> str:
-        """The explanation, in Markdown."""
+        """The reason, in Markdown."""
         return self.entry.why
 
     @property
     def wrong(self) -> Files:
-        """A small tree on which `rcyaml COMMAND` (a `*` is what a shell makes of it) gives this diagnostic, and, for
-        `right`, gives none: the tests run both."""
+        """Files for which `rcyaml COMMAND` (a shell expands `*`) reports this code; for those of `right` it reports
+        nothing. The tests run both."""
         return self.entry.wrong
 
     @property
@@ -58,20 +58,20 @@ class Code(msgspec.Struct, frozen=True):
 
     @property
     def says(self) -> tuple[str, ...]:
-        """Where the message leaves all to a fact, the messages that there are: format strings for readers."""
+        """If the message is only a fact: all possible messages, as format strings for readers."""
         return self.entry.says
 
     @property
     def messages(self) -> list[str]:
-        """What it can say, with the facts as words: `{name}` as `NAME`."""
-        return [message.format_map(_Words()) for message in self.says or (self.message,)]
+        """All possible messages, with the facts' names in capitals: `{name}` as `NAME`."""
+        return [message.format_map(_CapitalNames()) for message in self.says or (self.message,)]
 
     def at(
         self, span: Span, *, hint: str | Hint = "", related: Iterable[Related] = (), more: str = "",
         fixes: Iterable[Fix] = (), **facts: object,
     ) -> Diagnostic:  # fmt: skip
-        """The diagnostic of this code at a place; `facts` fill the message. What a hint says was `meant` is a fact and
-        a fix, too."""
+        """The diagnostic of this code at a location; `facts` fill the message. If the hint has a `meant` word, the word
+        becomes a fact and a fix, too."""
         fixes = tuple(fixes)
         if isinstance(hint, Hint):
             facts |= {"meant": hint.meant} if hint.meant else {}
@@ -84,7 +84,7 @@ KNOWN: dict[str, Code] = {}
 
 
 class Family(msgspec.Struct, frozen=True):
-    """The codes of a page: its name, or a plug-in's page itself, as text."""
+    """The codes of a page. `page` is its name, or the text of a plug-in's page."""
 
     page: str
 

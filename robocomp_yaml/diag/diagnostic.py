@@ -1,4 +1,4 @@
-"""A diagnostic: one thing that is wrong, or worth knowing, at one place, as facts. Words are made when it is shown."""
+"""A diagnostic: an error, warning or note with a code and a location, as facts. Its text is made when it is shown."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ SEVERITIES = (ERROR, WARNING, NOTE)
 
 Fact = str | int | float | bool | None | tuple[str | int | float | bool | None, ...]
 Facts = tuple[tuple[str, Fact], ...]
-"""Facts by their names, in order of names: what can be compared, hashed, and said in JSON."""
+"""Facts by their names, sorted: they can be compared, hashed, and written as JSON."""
 
 
 def as_facts(facts: Mapping[str, object]) -> Facts:
-    """Facts of any values; what is neither text nor number is as it reads."""
+    """Facts of any values; a value that is neither text nor number is converted to text."""
     return tuple((name, _fact(facts[name])) for name in sorted(facts))
 
 
 def _fact(value: object) -> Fact:
-    if isinstance(value, list | tuple | set | frozenset):
+    if isinstance(value, (list, tuple, set, frozenset)):
         return tuple(_plain(each) for each in value)
     return _plain(value)
 
@@ -34,17 +34,17 @@ def _plain(value: object) -> str | int | float | bool | None:
 
 
 class Related(msgspec.Struct, frozen=True):
-    """A second place that belongs to a diagnostic, such as the first of two definitions."""
+    """A second location of a diagnostic, such as the first of two definitions."""
 
     message: str
     span: Span
 
 
 class Diagnostic(msgspec.Struct, frozen=True):
-    """`facts` are what is wrong; `hint`, where there is one, says how to mend it, and `fixes` do it.
+    """`facts` describe what is wrong, `hint` suggests a fix, and `fixes` are edits.
 
-    `more` are lines shown under the snippet in text output: a text to paste, for instance. `hidden` are places in the
-    lines shown that hold secrets; None where nobody has looked, and the names in a line say what is hidden.
+    `more` are lines under the snippet in text output, for example a text to paste. `hidden` are the locations of
+    secrets in the lines shown; None if the documents were not searched for secrets, so that the names in a line decide.
     """
 
     code: str
@@ -59,7 +59,7 @@ class Diagnostic(msgspec.Struct, frozen=True):
 
     @property
     def message(self) -> str:
-        """What is wrong in the user's words."""
+        """The message for users."""
         from robocomp_yaml.diag.codes import message_of
 
         return message_of(self.code).format_map(dict(self.facts))
@@ -69,7 +69,7 @@ class Diagnostic(msgspec.Struct, frozen=True):
         return f"{self.span.file}:{self.span.line}:{self.span.column}: {self.severity}[{self.code}]: {self.message}"
 
     def fact(self, name: str) -> Fact:
-        """The fact of this name, None where there is none."""
+        """The fact of this name; None if it is absent."""
         return dict(self.facts).get(name)
 
     def as_severity(self, severity: str) -> Diagnostic:
@@ -81,7 +81,7 @@ class Diagnostic(msgspec.Struct, frozen=True):
 
 
 def in_order(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
-    """Sorted by place, each once."""
+    """The diagnostics sorted by location, each once."""
     return sorted(set(diagnostics), key=lambda d: d.sort_key)
 
 

@@ -1,4 +1,4 @@
-"""How the parts that a program calls say that there is no result."""
+"""The exceptions that the library raises if there is no result."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 
 
 class Refused(Exception):
-    """What was asked for cannot be done as it was asked: a name that is unknown, a file that is none of ours or cannot
+    """A request cannot be carried out, for example because a name is unknown, or because a file is the user's or cannot
     be written. The message is for users."""
 
 
 class Faulty(Exception):
-    """Documents have errors that leave no result. `diagnostics` are all that was found, `documents` is how many were
-    read."""
+    """Documents have errors that leave no result. `diagnostics` are all diagnostics, `documents` is the number of
+    documents that were read."""
 
     def __init__(self, diagnostics: Iterable[Diagnostic], documents: int = 0) -> None:
         self.diagnostics = tuple(diagnostics)

@@ -1,4 +1,4 @@
-"""How something is mended: the words of a hint, and edits of the documents."""
+"""Hints, and fixes: edits of documents."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ IMPORT = "import"
 
 
 class Edit(msgspec.Struct, frozen=True):
-    """Another text at a place of a file; an empty place is where it is put in.
+    """Replaces the text of a span by `text`; an empty span is an insertion.
 
-    Where `how` is given, the edit is meant, and not spelled yet: whoever knows the document's text does that
-    (`source.spelled`). WORD: `word`, which stands at the place or in it, is to be `text`. VALUE: the value
-    there is to be `text`, as YAML. REMOVE: the entry that begins
-    there goes. QUOTE, UNQUOTE: the text that stands there gets quotes, or loses them. LIST: it becomes a list of one.
-    UNTAG: it loses its tag, and a text gets quotes instead. IMPORT: the document imports `text`.
+    If `how` is set, the edit states only the intended meaning; `source.spelled` knows the document's text, and
+    translates it. WORD: the `word` in the span becomes `text`. VALUE: the value in the span becomes `text`, as YAML.
+    REMOVE: the entry that begins at the span is removed. QUOTE, UNQUOTE: quotes are added to the text, or removed.
+    LIST: the value becomes a list of one element. UNTAG: the tag is removed, and a text gets quotes instead. IMPORT:
+    the document imports `text`.
     """
 
     span: Span
@@ -27,7 +27,7 @@ class Edit(msgspec.Struct, frozen=True):
 
 
 class Fix(msgspec.Struct, frozen=True):
-    """Edits that belong together. A `safe` one leaves only one possible meaning; others are a guess."""
+    """Edits that belong together. A `safe` fix leaves only one possible meaning; any other is a guess."""
 
     title: str
     edits: tuple[Edit, ...]
@@ -39,7 +39,7 @@ class Fix(msgspec.Struct, frozen=True):
 
 
 def removal(span: Span, *, safe: bool = True) -> Fix:
-    """Without the entry of a list, or of a mapping, that begins there."""
+    """The fix that removes the entry of a list or mapping that begins at the span."""
     return Fix("remove it", (Edit(span, how=REMOVE),), safe)
 
 
@@ -52,22 +52,22 @@ def listing(span: Span) -> Fix:
 
 
 def unquoting(span: Span) -> Fix:
-    return Fix("take the quotes away", (Edit(span, how=UNQUOTE),), safe=True)
+    return Fix("remove the quotes", (Edit(span, how=UNQUOTE),), safe=True)
 
 
 def replacing(span: Span, word: str, meant: str, *, safe: bool) -> Fix:
-    """`meant` instead of the `word` that stands at a place, or in it."""
+    """The fix that replaces a `word` in the span by `meant`."""
     return Fix(f"write '{meant}'", (Edit(span, meant, WORD, word),), safe)
 
 
 def changing(span: Span, value: str) -> Fix:
-    """Another value, as YAML spells it, instead of the one at a place."""
+    """The fix that replaces the value in the span by another one, written as YAML."""
     return Fix(f"write {value}", (Edit(span, value, VALUE),), safe=True)
 
 
 class Hint(msgspec.Struct, frozen=True):
-    """What may mend something, in words. Where these say which word should stand at the diagnostic's place, `meant` is
-    that word, and `word` the one that stands there. `imports` is what the document has to import."""
+    """A text that suggests a fix. If it suggests to replace a word at the diagnostic's location, `word` is this word,
+    and `meant` the new one. `imports` is what the document must import."""
 
     text: str
     word: str = ""

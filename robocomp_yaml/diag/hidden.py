@@ -1,4 +1,4 @@
-"""What diagnostics do not show: the secrets of the documents that they are about, in their words and in their lines."""
+"""Removes the secrets of documents from diagnostics: from their facts and hints, and from the lines that they quote."""
 
 from __future__ import annotations
 
@@ -15,12 +15,11 @@ from robocomp_yaml.diag.fix import Fix
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.secrets import HIDDEN, Part, url
 
-_LONG = 12  # so much of a text is enough to know it, where a message shortens it
+_LONG = 12  # characters that identify a secret in a message that shortens it
 
 
 class Hidden(msgspec.Struct):
-    """Secrets by the file that they stand in: their places, and what they are. `files` are those that were looked
-    at."""
+    """The locations and texts of secrets, by files. `files` are all files that were searched for secrets."""
 
     files: set[str] = set()
     places: dict[str, list[Span]] = {}
@@ -31,8 +30,8 @@ class Hidden(msgspec.Struct):
         self.texts.setdefault(span.file, set()).add(text.strip())
 
     def veiled(self, diagnostic: Diagnostic) -> Diagnostic:
-        """The diagnostic without the secrets of the files that it is about. A hint that would repeat one is left out:
-        it may say in other words what it is."""
+        """The diagnostic without the secrets of its files. A hint with a secret is dropped, because the rest of it may
+        describe the secret."""
         spans = [diagnostic.span, *(related.span for related in diagnostic.related)]
         texts = {text for span in spans for text in self.texts.get(span.file, ())}
         shown = {(span.file, span.line) for span in spans}
@@ -45,28 +44,27 @@ class Hidden(msgspec.Struct):
         hint = without(diagnostic.hint, texts)
         return replace(
             diagnostic, facts=_facts(diagnostic, texts), hint=hint if hint == url(diagnostic.hint) else "",
-            fixes=tuple(fix for fix in diagnostic.fixes if not _says(fix, texts)),
+            fixes=tuple(fix for fix in diagnostic.fixes if not _contains_secret(fix, texts)),
             more=without(diagnostic.more, texts), related=related, hidden=hidden if is_known else None,
         )  # fmt: skip
 
     def without(self, text: str) -> str:
-        """A text about anything without any of the secrets."""
+        """A text without any of the secrets."""
         return without(text, {secret for texts in self.texts.values() for secret in texts})
 
 
-def _says(fix: Fix, secrets: set[str]) -> bool:
-    """Whether a fix would repeat a secret."""
-    said = [fix.title, *(text for edit in fix.edits for text in (edit.text, edit.word))]
-    return any(text in secrets or without(text, secrets) != text for text in said if text)
+def _contains_secret(fix: Fix, secrets: set[str]) -> bool:
+    texts = [fix.title, *(text for edit in fix.edits for text in (edit.text, edit.word))]
+    return any(text in secrets or without(text, secrets) != text for text in texts if text)
 
 
 def _facts(diagnostic: Diagnostic, secrets: set[str]) -> Facts:
-    """The facts without the secrets, so that the message has none of them either."""
+    """The facts without the secrets, so that the message does not contain them, either."""
     facts = tuple((name, _fact(diagnostic.code, name, fact, secrets)) for name, fact in diagnostic.facts)
     message = message_of(diagnostic.code).format_map(dict(facts))
     if message == without(message, secrets):
         return facts
-    # Several facts make one together: none of its parts is shown.
+    # Several facts together make a secret: none of its parts is shown.
     parts = {name for name, fact in facts if fact and any(str(fact) in secret for secret in secrets)}
     return tuple((name, HIDDEN if name in parts else fact) for name, fact in facts)
 
@@ -83,7 +81,7 @@ def _fact(code: str, name: str, fact: Fact, secrets: set[str]) -> Fact:
 
 
 def without(text: str, secrets: Iterable[str]) -> str:
-    """A text in which these secrets are hidden, however it spells them."""
+    """A text in which these secrets are hidden, also if they are escaped or shortened."""
     text = url(text)
     for secret in sorted((secret for secret in secrets if secret), key=len, reverse=True):
         for spelled in dict.fromkeys((secret, repr(secret)[1:-1], json.dumps(secret)[1:-1], secret.partition("\n")[0])):
@@ -98,12 +96,12 @@ def _without_one(text: str, secret: str) -> str:
         return text
     if len(secret) > 3:
         return re.sub(rf"(?<!\w){re.escape(secret)}(?!\w)", HIDDEN, text)
-    # A short text is in many words: it is hidden where a message quotes a value.
+    # A short text occurs in many words: it is hidden only where a message quotes a value.
     return re.sub(rf"(?<=')({re.escape(secret)})(?=')|(?<=a number, ){re.escape(secret)}\b", HIDDEN, text)
 
 
 def _rest(text: str) -> str:
-    """Matches as much of a text as stands there."""
+    """A pattern that matches the longest possible beginning of a text."""
     made = ""
     for char in reversed(text[:200]):
         made = f"(?:{re.escape(char)}{made})?"
@@ -111,26 +109,26 @@ def _rest(text: str) -> str:
 
 
 def parts(span_line: int, width: int, places: Iterable[Span]) -> list[Part]:
-    """What of a line, as wide as that, is hidden: from, to."""
-    found = []
+    """The hidden parts, as (start, end), of line `span_line`, which has `width` characters."""
+    hidden = []
     for place in places:
         if place.line <= span_line <= place.end_line:
             start = place.column - 1 if place.line == span_line else 0
             end = place.end_column - 1 if place.end_line == span_line else width
             if start < min(end, width):
-                found.append((start, min(end, width)))
-    return found
+                hidden.append((start, min(end, width)))
+    return hidden
 
 
 def hide(text: str, hidden: Iterable[Part], start: int, end: int) -> tuple[str, int, int]:
-    """A line without what is hidden of it, and where a part of it is then."""
+    """A line with its hidden parts replaced, and the new start and end of one part of the line."""
     made, at, first, last = "", 0, start, end
     for begin, finish in sorted(hidden):
         if finish <= at:
             continue
         begin = max(begin, at)
         made += text[at:begin] + HIDDEN
-        shift = len(made) - finish  # of what comes behind
+        shift = len(made) - finish  # of the text after it
         if start >= finish:
             first = start + shift
         elif start >= begin:

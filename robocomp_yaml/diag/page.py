@@ -1,21 +1,21 @@
-"""The pages of diagnostics, `docs/diagnostics/NAME.md`: what each code says, why, and its examples.
+"""Parses the pages of diagnostics, `docs/diagnostics/NAME.md`: messages, reasons and examples of all codes.
 
-A page is read when a diagnostic of it is made, not before. Under the heading of a code stand, in this order:
+A page is read when the first of its diagnostics is made. The heading of a code is followed by these parts, in this
+order:
 
     ## RC0102                          its id
     *error*                            its severity
     ```message                         the message: a format string for the facts
-    ```says                            where the message leaves all to a fact, the messages that there are, one a line
-    Some prose.                        why
-    Wrong, for `rcyaml check *`:       the files on which that command (`check .` where none is named) gives it
-    Right:                             those on which it does not
-    Both beside:                       those that stand beside either
+    ```says                            if the message is only a fact: all possible messages, one on each line
+    Some prose.                        the reason
+    Wrong, for `rcyaml check *`:       files for which that command (by default `check .`) reports the code
+    Right:                             files for which it does not
+    Both beside:                       files that are added to both examples
 
-A file is a fence whose first line names it: ```` ```yaml Speech.idsl.yaml ````, in quotes where it has blanks. Behind
-the path there may be `-> TARGET` (a link), `absent` (of what stands beside all examples of the page, this does not),
-`escaped` (`\\xNN` is a byte), `unended` (the last line has no end) and `×N` (what stands between « and » is there so
-often). A path that ends in a slash is an empty folder. Files under "Beside the examples" stand beside all examples of
-a page.
+A file is a fence with its path in the first line: ```` ```yaml Speech.idsl.yaml ````, in quotes if it has blanks. After
+the path there may be `-> TARGET` (a link), `absent` (this file of "Beside the examples" is not added), `escaped`
+(`\\xNN` is a byte), `unended` (the last line has no end) and `×N` (the text between « and » is repeated N times). A
+path that ends in a slash is an empty folder. Files under "Beside the examples" are added to all examples of a page.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ _ESCAPE = pattern(rb"\\(x[0-9a-f]{2}|\\)")
 
 
 class Repeated(msgspec.Struct, frozen=True):
-    """A text so long that it is made only when somebody asks for it."""
+    """A long text that is made only when it is used."""
 
     before: str
     text: str
@@ -50,15 +50,12 @@ class Repeated(msgspec.Struct, frozen=True):
 
 
 Files = Mapping[str, str | bytes | Repeated | None]
-"""A small tree: text, bytes for what is no text, None for an empty folder, "-> target" for a link."""
+"""Contents by paths: text, bytes if it is not text, None for an empty folder, "-> target" for a link."""
 
 
-class Entry(msgspec.Struct, frozen=True):
-    """What a page says about one code."""
+class PageEntry(msgspec.Struct, frozen=True):
+    """The section of a page about one code."""
 
-    id: str
-    severity: str
-    message: str
     says: tuple[str, ...]
     why: str
     wrong: Files
@@ -67,23 +64,23 @@ class Entry(msgspec.Struct, frozen=True):
 
 
 class Page(msgspec.Struct, frozen=True):
-    """A page, in which each entry is found, but not read further than its severity."""
+    """A page whose severities and messages are parsed; entries are parsed on demand."""
 
     severities: Mapping[str, str]
     messages: Mapping[str, str]
     _texts: Mapping[str, str]
     _shared: str
 
-    def entry(self, id_: str) -> Entry:
-        """All about one code. Raises KeyError, and ValueError where the page is not as it should be."""
+    def entry(self, id_: str) -> PageEntry:
+        """The entry of a code. Raises KeyError if the code is unknown, and ValueError if the page is malformed."""
         prose, *parts = _SECTION.split(self._texts[id_])
         sections = {name: _files(text) for name, text in zip(parts[::3], parts[2::3], strict=True)}
         if [*sections] not in (["Wrong", "Right"], ["Wrong", "Right", "Both beside"]):
             raise ValueError(f"{id_}: its examples are not 'Wrong', 'Right' and perhaps 'Both beside'")
-        said = {kind: body for kind, _, _, body in _FENCE.findall(prose)}
+        fences = {kind: body for kind, _, _, body in _FENCE.findall(prose)}
         beside = {**_files(self._shared), **sections.get("Both beside", {})}
-        return Entry(
-            id_, self.severities[id_], self.messages[id_], tuple(said.get("says", "").splitlines()),
+        return PageEntry(
+            tuple(fences.get("says", "").splitlines()),
             "\n\n".join(" ".join(each.split("\n")) for each in _FENCE.sub("", prose).strip().split("\n\n")),
             _tree(sections["Wrong"], beside), _tree(sections["Right"], beside), parts[1] or COMMAND,
         )  # fmt: skip
@@ -91,32 +88,27 @@ class Page(msgspec.Struct, frozen=True):
 
 @cache
 def page(name: str) -> Page:
-    """The page of this name; a plug-in's page is given as its text."""
+    """The page of this name, or the page with this text, of a plug-in. Raises ValueError if it is malformed."""
     text = name if "\n" in name else resources.text(f"diagnostics/{name}.md")
-    found = list(_ENTRY.finditer(text))
-    ends = [*(match.start() for match in found[1:]), len(text)]
-    texts = {match[1]: text[match.end() : end] for match, end in zip(found, ends, strict=True)}
-    shared = _SHARED.search(text, 0, found[0].start()) if found else None
+    matches = list(_ENTRY.finditer(text))
+    ends = [*(match.start() for match in matches[1:]), len(text)]
+    texts = {match[1]: text[match.end() : end] for match, end in zip(matches, ends, strict=True)}
+    shared = _SHARED.search(text, 0, matches[0].start()) if matches else None
     return Page(
-        {match[1]: match[2] for match in found}, {id_: _message(id_, part) for id_, part in texts.items()}, texts,
+        {match[1]: match[2] for match in matches}, {id_: _message(id_, part) for id_, part in texts.items()}, texts,
         shared[1] if shared else "",
     )  # fmt: skip
-
-
-def names() -> list[str]:
-    """The names of all pages."""
-    return [name.removesuffix(".md") for name in resources.names("diagnostics") if name.endswith(".md")]
 
 
 def _message(id_: str, text: str) -> str:
     head, fence, rest = text.partition("```message\n")
     if not fence or head.strip():
-        raise ValueError(f"{id_}: no message stands under its severity")
+        raise ValueError(f"{id_}: the message is missing after the severity")
     return rest.partition("\n```")[0]
 
 
 class _Absent:
-    """Marks a file that does not stand beside an example."""
+    """Marks a file that is not added to an example."""
 
 
 def _files(text: str) -> dict[str, str | bytes | Repeated | _Absent | None]:
@@ -151,6 +143,6 @@ def _content(path: str, rest: str, body: str) -> str | bytes | Repeated | _Absen
 def _tree(
     own: dict[str, str | bytes | Repeated | _Absent | None], beside: dict[str, str | bytes | Repeated | _Absent | None]
 ) -> Files:
-    """The files of an example, its own first."""
+    """The files of an example: its own, and those beside it."""
     files = {**own, **{path: content for path, content in beside.items() if path not in own}}
     return {path: content for path, content in files.items() if not isinstance(content, _Absent)}

@@ -1,12 +1,12 @@
-r"""Where text meets a terminal: no other module writes to the standard streams.
+r"""Writes to the standard streams; no other module does.
 
-*Words* are for people: messages, tables, logs. They are said line by line, and what stands in a line is not trusted,
-since documents, names of files, logs and answers of other hosts speak in it: whatever would command the terminal, or be
-invisible there, is shown escaped (`\e[31m`, `\n`, `\u202e`; of names that are no UTF-8, the bytes: `\xff`). Only
-`paint` makes text that is coloured.
+*Messages* are for people: diagnostics, tables, logs. They are written line by line. Their content is not trusted,
+because it comes from documents, file names, logs and other hosts: characters that control the terminal, or are
+invisible, are escaped (`\e[31m`, `\n`, `\u202e`; the bytes of names that are not UTF-8: `\xff`). Only `paint` adds
+colours.
 
-*Data* is for programs: configurations, graphs, schemas, JSON. It goes into a file or a pipe byte for byte; a terminal
-gets it escaped, where it is JSON as JSON escapes.
+*Data* is for programs: configurations, graphs, schemas, JSON. It is written to a file or a pipe byte for byte; on a
+terminal it is escaped, in JSON with JSON's escapes.
 """
 
 from __future__ import annotations
@@ -20,8 +20,7 @@ from typing import TextIO
 
 from robocomp_yaml.patterns import pattern
 
-# Controls, formats (Cf), separators of lines, halves of surrogate pairs, what is no character, and fillers that nobody
-# sees.
+# Control characters, formats (Cf), line separators, surrogates, non-characters, and invisible fillers.
 _HARMFUL = (
     "[\x00-\x1f\x7f-\x9f\xad\u034f\u0600-\u0605\u061c\u06dd\u070f\u0890\u0891\u08e2\u115f\u1160\u17b4\u17b5\u180e"
     "\u200b-\u200f\u2028-\u202e\u2060-\u206f\u3164\ud800-\udfff\ufdd0-\ufdef\ufeff\uffa0\ufff9-\ufffb\ufffe\uffff"
@@ -31,23 +30,23 @@ _HARMFUL = (
 )
 _LETTERS = {"\a": r"\a", "\b": r"\b", "\t": r"\t", "\n": r"\n", "\v": r"\v", "\f": r"\f", "\r": r"\r", "\x1b": r"\e"}
 _DIFF_TINTS = {"+": "32", "-": "31", "@": "36"}
-_PLAIN = pattern(r"[\w@%+=:,./-]+")  # what no shell looks into
+_PLAIN = pattern(r"[\w@%+=:,./-]+")  # has no meaning to a shell
 
 
 @cache
 def _harmful() -> re.Pattern[str]:
-    """Compiled where a text is not plain ASCII: that takes a millisecond."""
+    """Compiled only for texts that are not plain ASCII, because that takes a millisecond."""
     return re.compile(_HARMFUL)
 
 
 class Shown(str):
-    """Text of one line that a terminal may be given as it is."""
+    """Text of one line that is safe to write to a terminal."""
 
     __slots__ = ()
 
 
 def shown(text: str, *, tabs: bool = False) -> Shown:
-    """A line as it may be shown; with `tabs`, these stay."""
+    """A line with unsafe characters escaped; `tabs` keeps tabs."""
     if isinstance(text, Shown):
         return text
     if text.isascii() and text.isprintable():
@@ -56,17 +55,17 @@ def shown(text: str, *, tabs: bool = False) -> Shown:
 
 
 def line(*parts: str, tabs: bool = False) -> Shown:
-    """A line of several parts, of which those that are shown already stay so."""
+    """A line of several parts; parts that are already Shown are not escaped again."""
     return Shown("".join(shown(part, tabs=tabs) for part in parts))
 
 
 def paint(text: str, tint: str, color: bool = True) -> Shown:
-    """Text in a colour of our own (`31` is red, `1;31` bold red), if `color`."""
+    """Text in a colour, as an SGR code (`31` is red, `1;31` bold red), if `color`."""
     return Shown(f"\x1b[{tint}m{shown(text)}\x1b[0m") if color else shown(text)
 
 
 def columns(text: str) -> int:
-    """How wide a terminal shows a line that has no colour."""
+    """The width of a line without colours on a terminal, in columns."""
     text = shown(text)
     if text.isascii():
         return len(text)
@@ -74,13 +73,13 @@ def columns(text: str) -> int:
 
 
 def pad(text: str, width: int, *, right: bool = False) -> Shown:
-    """A cell of a table; `right` puts the text at its end."""
+    """A cell of a table, `width` columns wide; `right` aligns the text right."""
     blanks = " " * (width - columns(text))
     return Shown(blanks + shown(text) if right else shown(text) + blanks)
 
 
 def cut(text: str, width: int) -> Shown:
-    """A line without colours, shortened to so many columns."""
+    """A line without colours, shortened to `width` columns."""
     text = shown(text)
     if columns(text) <= width:
         return text
@@ -90,7 +89,7 @@ def cut(text: str, width: int) -> Shown:
 
 
 def typed(*words: str) -> str:
-    """A command as a shell takes it: words that a shell would look into are quoted."""
+    """A command as a user types it in a shell: words with special characters are quoted."""
     return " ".join(_quoted(word) for word in words)
 
 
@@ -109,18 +108,18 @@ def say(*lines: str, err: bool = False) -> None:
 
 
 def say_text(text: str, *, err: bool = False) -> None:
-    """Prints a text of our own that has several lines, such as an explanation."""
+    """Prints a text of several lines, such as an explanation; line ends and tabs stay."""
     _write(sys.stderr if err else sys.stdout, (shown(one, tabs=True) for one in text.splitlines()))
 
 
-def take_away(lines: int) -> None:
-    """Takes back the last lines that a terminal was given."""
+def erase(lines: int) -> None:
+    """Erases the last lines on the terminal."""
     sys.stdout.write(f"\x1b[{lines}A\x1b[J")
     sys.stdout.flush()
 
 
 def diff(texts: Iterable[str], color: bool) -> None:
-    """Prints unified diffs: data, for `patch`; with colours they are for a terminal in the end, whatever they go to."""
+    """Prints unified diffs: as data, for `patch`, or, with colours, as lines for people."""
     for text in texts:
         if not color:
             data(text)
@@ -145,7 +144,7 @@ def data(text: str, *, json: bool = False, err: bool = False) -> None:
 
 
 def as_bytes(text: str) -> bytes:
-    """Text as a file has it; names that are no UTF-8 as the bytes that they are."""
+    """Text as UTF-8; names that are not UTF-8 as their original bytes."""
     try:
         return text.encode("utf-8", "surrogateescape")
     except UnicodeEncodeError:
@@ -157,8 +156,8 @@ def _write(stream: TextIO, lines: Iterable[str]) -> None:
     stream.flush()
 
 
-def _escape(found: re.Match[str]) -> str:
-    c = found[0]
+def _escape(match: re.Match[str]) -> str:
+    c = match[0]
     if c in _LETTERS:
         return _LETTERS[c]
     code = ord(c)
@@ -169,17 +168,17 @@ def _escape(found: re.Match[str]) -> str:
     return f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"
 
 
-def _kept_tabs(found: re.Match[str]) -> str:
-    return "\t" if found[0] == "\t" else _escape(found)
+def _kept_tabs(match: re.Match[str]) -> str:
+    return "\t" if match[0] == "\t" else _escape(match)
 
 
-def _kept_lines(found: re.Match[str]) -> str:
-    return found[0] if found[0] in "\t\n" else _escape(found)
+def _kept_lines(match: re.Match[str]) -> str:
+    return match[0] if match[0] in "\t\n" else _escape(match)
 
 
-def _escape_json(found: re.Match[str]) -> str:
-    c = found[0]
-    if c == "\n":  # between its values: within, it is escaped already
+def _escape_json(match: re.Match[str]) -> str:
+    c = match[0]
+    if c == "\n":  # between values; inside of them it is already escaped
         return c
     units = c.encode("utf-16-be", "surrogatepass")
     return "".join(f"\\u{units[n]:02x}{units[n + 1]:02x}" for n in range(0, len(units), 2))

@@ -1,26 +1,26 @@
-"""From a program to the plan of all files: which output roots there are, and what goes below each.
+"""Makes the plans of all files of a program: the output roots, and the files below each.
 
-An interface's Slice goes to the workspace's slice folder (`-o DIR`: to DIR), with that of all it imports. A component
-goes to its own folder (`-o DIR`: to the same place below DIR), with the Slice that it needs in `slice/`.
+The Slice of an interface and of its imports is written to the workspace's slice folder (`-o DIR`: to DIR). A component
+is written to its own folder (`-o DIR`: to the same path below DIR), with the Slice that it needs in `slice/`.
 """
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 import msgspec
 from msgspec.structs import replace
 
-from robocomp_yaml.diag.codes import cdsl, compiling, idsl, machines
+from robocomp_yaml.diag.codes import cdsl, emitting, idsl, machines
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
-from robocomp_yaml.digraph import inner_first, reached
+from robocomp_yaml.digraph import postorder, reachable
 from robocomp_yaml.emit import slice as slice_target
 from robocomp_yaml.emit.layout import is_settings
-from robocomp_yaml.emit.options import Options
+from robocomp_yaml.emit.options import EmitOptions
 from robocomp_yaml.emit.shared import Shared
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.transactions.plan import FilePlan, RootPlan
@@ -31,15 +31,15 @@ if TYPE_CHECKING:
 
 
 class Build(msgspec.Struct):
-    """The plans, and what kept documents from being compiled; `left_out` are the real paths of those."""
+    """The plans, and diagnostics about documents that cannot be compiled; `skipped` are the real paths of these."""
 
     plans: list[RootPlan] = []
     diagnostics: list[Diagnostic] = []
-    left_out: set[str] = set()
+    skipped: set[str] = set()
 
 
-def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options) -> Build:
-    """Plans for every asked document without errors, in its own text or in what it imports."""
+def build(program: Program, diagnostics: Iterable[Diagnostic], options: EmitOptions) -> Build:
+    """The plans for all requested documents without errors, in the documents and in their imports."""
     result = Build()
     state = _State.of(diagnostics)
     texts: dict[LinkedModule, FilePlan] = {}
@@ -52,70 +52,65 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
             plain = texts[linked]
             yield replace(plain, path=folder + plain.path) if folder else plain
 
-    def slice_root(linked: LinkedModule) -> str:
-        return options.output or options.workspace_of(linked.module.path).slice_folder
+    requested = {program.modules[real]: real for real in program.requested & program.modules.keys()}
+    roots = {linked: options.output or options.workspace_of(linked.module.path).slice_folder for linked in requested}
 
-    asked = {program.modules[real]: real for real in program.asked & program.modules.keys()}
-
-    def beside(root: str) -> Callable[[LinkedModule], bool]:
-        return lambda other: other in asked and slice_root(other) == root
-
-    for linked in sorted(asked, key=lambda linked: linked.module.path):
-        if not options.wants("slice") or options.only:
+    for linked in sorted(requested, key=lambda linked: linked.module.path):
+        if not options.emits("slice") or options.only:
             continue
-        if _usable(linked.module, [linked], state, result):
-            root = slice_root(linked)
-            owner = os.path.relpath(linked.module.path, root)
-            needed = [linked, *_imports(linked, beside(root))]
-            result.plans.append(RootPlan(root, owner, tuple(slices(needed))))
-        else:
-            result.left_out.add(asked[linked])
+        cause = "" if linked.module.path in state.faulty else state.cause(linked)
+        if _unusable(linked.module, cause, state, result):
+            result.skipped.add(requested[linked])
+            continue
+        owner = os.path.relpath(linked.module.path, roots[linked])
+        files = tuple(slices([linked, *_imports(linked, roots)]))
+        result.plans.append(RootPlan(roots[linked], owner, files))
     shared = Shared(options, slices, program.disk)
-    for real in sorted(program.asked_components(), key=lambda r: program.components[r].component.path):
+    for real in sorted(program.requested_components(), key=lambda r: program.components[r].component.path):
         component = program.components[real]
         if options.only and not options.only(component):
             continue
-        if _usable_component(component, state, result):
-            # with the targets, which Slice alone needs not
-            from robocomp_yaml.emit.component import component_plan, component_root, values_of
+        if _unusable(component.component, next(_causes(component, state), ""), state, result):
+            result.skipped.add(real)
+            continue
+        # Slice alone needs no target
+        from robocomp_yaml.emit.component import component_plan, component_root, values_of
 
-            place = shared.layout(component, component_root(component.component.path, options))
-            if not options.only:
-                shared.add(component, place)
-            plan = component_plan(component, options, slices, program, place)
-            sources = _documents_of(component)
-            files = [replace(file, sources=(*sources, *file.sources)) for file in plan.files]
-            if any(document.path in state.faulty for document in values_of(component, program)):
-                # What is wrong has been said; what the values wrote before stays until they are right again.
-                files = [file for file in files if not is_settings(file.path)]
-                plan = replace(plan, partial=True)
-            result.plans.append(replace(plan, files=tuple(files)))
-        else:
-            result.left_out.add(real)
+        layout = shared.layout(component, component_root(component.component.path, options))
+        if not options.only:
+            shared.add(component, layout)
+        plan = component_plan(component, options, slices, program, layout)
+        sources = _documents_of(component)
+        files = tuple(replace(file, sources=(*sources, *file.sources)) for file in plan.files)
+        if any(document.path in state.faulty for document in values_of(component, program)):
+            # The errors are reported already. What values generated before is kept until they have no errors.
+            files = tuple(file for file in files if not is_settings(file.path))
+            plan = replace(plan, partial=True)
+        result.plans.append(replace(plan, files=files))
     result.plans += shared.plans({(plan.root, plan.owner) for plan in result.plans})
-    result.left_out |= _unused(program, state, result.left_out)
+    result.skipped |= _unused(program, state, result.skipped)
     return result
 
 
 def _documents_of(linked: LinkedComponent) -> tuple[str, ...]:
-    """The documents that all of a component is made of."""
+    """The documents from which all files of a component are generated."""
     parameters = linked.parameters.document
     return (linked.component.path, *((parameters.path,) if parameters is not None else ()), *linked.machine_files)
 
 
-def _unused(program: Program, state: _State, left_out: set[str]) -> set[str]:
-    """Other documents that were of no use: they could not be read, they have errors, or their component has."""
-    lost = {program.components[real] for real in left_out & program.components.keys()}
-    broken = {real for real, component in program.documents_of_components().items() if component in lost}
+def _unused(program: Program, state: _State, skipped: set[str]) -> set[str]:
+    """Other documents that are skipped: they cannot be read, they have errors, or their component has."""
+    broken = {program.components[real] for real in skipped & program.components.keys()}
+    theirs = {real for real, component in program.documents_of_components().items() if component in broken}
     paths = {real: linked.document.path for real, linked in program.parameters.items() if linked.document}
     paths |= {real: linked.document.path for real, linked in program.values.items()}
     paths |= {real: linked.deployment.path for real, linked in program.deployments.items()}
-    unread = program.asked - program.modules.keys() - program.components.keys() - paths.keys()
-    return unread | broken | {real for real, path in paths.items() if path in state.faulty}
+    unread = program.requested - program.modules.keys() - program.components.keys() - paths.keys()
+    return unread | theirs | {real for real, path in paths.items() if path in state.faulty}
 
 
 class _State(msgspec.Struct):
-    """Documents by path: those with errors, and those with an unresolved import that was lowered to less."""
+    """Documents by path: those with errors, and those with an unknown import that is not an error."""
 
     faulty: set[str] = set()
     lowered: set[str] = set()
@@ -132,8 +127,8 @@ class _State(msgspec.Struct):
         return state
 
     def cause(self, linked: LinkedModule) -> str:
-        """The document that keeps a module from being compiled: its own, or one that it imports; '' for none."""
-        for scope in inner_first([linked], lambda scope: [o for o in scope.imports if o not in self._causes]):
+        """The document that keeps a module from being compiled: its own or an imported one, '' for none."""
+        for scope in postorder([linked], lambda scope: [o for o in scope.imports if o not in self._causes]):
             if scope.module.path in self.faulty or scope.unresolved:
                 self._causes[scope] = scope.module.path
             else:
@@ -141,58 +136,48 @@ class _State(msgspec.Struct):
         return self._causes[linked]
 
 
-def _imports(linked: LinkedModule, covered: Callable[[LinkedModule], bool]) -> Iterable[LinkedModule]:
-    """What a module imports, directly or not, but for what has a plan of its own for the same folder."""
+def _imports(linked: LinkedModule, roots: Mapping[LinkedModule, str]) -> Iterable[LinkedModule]:
+    """All imports of a module, direct or not, except those that have a plan for the same folder."""
 
     def own(scope: LinkedModule) -> list[LinkedModule]:
-        return [imported for imported in scope.imports if not covered(imported)]
+        return [imported for imported in scope.imports if roots.get(imported) != roots[linked]]
 
-    return reached(own(linked), own)
-
-
-def _usable(document: Module | Component, modules: Iterable[LinkedModule], state: _State, result: Build) -> bool:
-    """Whether a document has no error, nor anything that it imports; when only the latter, says what follows."""
-    if document.path in state.faulty:
-        return False
-    for linked in modules:
-        cause = state.cause(linked)
-        if cause:
-            result.diagnostics.append(_unresolved(document, cause, state))
-            return False
-    return True
+    return reachable(own(linked), own)
 
 
-def _usable_component(linked: LinkedComponent, state: _State, result: Build) -> bool:
-    component = linked.component
-    for file in linked.machine_files:
-        if file in state.faulty:
-            result.diagnostics.append(_unresolved(component, file, state))
-            return False
-    if linked.broken and component.path not in state.faulty:
-        result.diagnostics.append(_unresolved(component, component.path, state))
-        return False
+def _causes(linked: LinkedComponent, state: _State) -> Iterator[str]:
+    """The documents that keep a component from being compiled, except its own if it has errors."""
+    component, document = linked.component, linked.parameters.document
+    is_faulty = component.path in state.faulty
+    yield from (file for file in linked.machine_files if file in state.faulty)
+    if linked.broken and not is_faulty:
+        yield component.path
     if component.gui:
         from robocomp_yaml.check.cdsl.forms import FORM
 
         form = os.path.normpath(os.path.join(os.path.dirname(component.path), FORM))
         if form in state.faulty:
-            result.diagnostics.append(_unresolved(component, form, state))
-            return False
-    document = linked.parameters.document
-    if document is not None and document.path in state.faulty:
-        if component.path not in state.faulty:
-            result.diagnostics.append(_unresolved(component, document.path, state))
-        return False
-    return _usable(component, linked.imports, state, result)
+            yield form
+    if not is_faulty:
+        if document is not None and document.path in state.faulty:
+            yield document.path
+        yield from filter(None, map(state.cause, linked.imports))
+
+
+def _unusable(document: Module | Component, cause: str, state: _State, result: Build) -> bool:
+    """Whether a document cannot be compiled: it has errors, or `cause` has, which is reported."""
+    if cause:
+        result.diagnostics.append(_unresolved(document, cause, state))
+    return bool(cause) or document.path in state.faulty
 
 
 def _unresolved(document: Module | Component, cause: str, state: _State) -> Diagnostic:
-    related = [Related("this document has errors, or imports what is not there", Span(cause))]
-    told = compiling.UNRESOLVED.at(
+    related = [Related("this document has errors, or an unknown import", Span(cause))]
+    diagnostic = emitting.UNRESOLVED.at(
         document.span,
         name=document.name,
         related=related if cause != document.path else (),
-        hint=f"`{typed('rcyaml', 'check', document.path)}` says what is missing; mend that first",
+        hint=f"`{typed('rcyaml', 'check', document.path)}` reports the cause: fix that first",
     )
-    # Where the cause is an error already, this only says what follows from it.
-    return told if cause in state.lowered else told.as_severity(NOTE)
+    # If the cause is reported as an error, this is only a consequence.
+    return diagnostic if cause in state.lowered else diagnostic.as_severity(NOTE)

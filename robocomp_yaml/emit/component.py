@@ -1,4 +1,4 @@
-"""The plan of a component: everything below its folder."""
+"""The plan of a component: all files below its folder."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from robocomp_yaml import resources
 from robocomp_yaml.emit import config, runtime
 from robocomp_yaml.emit.layout import ALONE, CONFIG, GENERATED, SLICE, Layout
 from robocomp_yaml.emit.lowering.component import BEHAVIOR, COMMON
-from robocomp_yaml.emit.options import Options
-from robocomp_yaml.emit.ports import Ports, assign
+from robocomp_yaml.emit.options import EmitOptions
+from robocomp_yaml.emit.ports import assign
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
-from robocomp_yaml.link.workspace import Workspace
-from robocomp_yaml.parameters.schema.json_schema import DOCUMENT, EFFECTIVE, document_schema
+from robocomp_yaml.link.workspace import WorkspaceSettings
+from robocomp_yaml.parameters.json_schema import DOCUMENT, EFFECTIVE, document_schema
 from robocomp_yaml.parameters.specification.document import ValuesDocument
 from robocomp_yaml.plugins import LANGUAGES
 from robocomp_yaml.transactions.plan import FilePlan, RootPlan
@@ -28,44 +28,46 @@ DOCS, EXAMPLE = "generated/parameters.md", "generated/example.config.yaml"
 
 def component_plan(
     linked: LinkedComponent,
-    options: Options,
+    options: EmitOptions,
     slices: Callable[[Iterable[LinkedModule], str], Iterator[FilePlan]],
     program: Program,
     layout: Layout,
 ) -> RootPlan:
-    """The plan of one component: its own Slice and run time where it has them, its language, `etc/config` from its
-    values or a first one, docs."""
+    """The plan of one component: the files of its language, its own Slice and run time if it does not share them,
+    `etc/config` from values or a first one, and documentation."""
     component = linked.component
     root = component_root(component.path, options)
     files: list[FilePlan] = []
-    if options.wants("slice") and layout.has_own_slice:
+    if options.emits("slice") and layout.has_own_slice:
         modules = linked.modules()
         files += slices(modules, f"{SLICE}/")
         if not component.language.target.runtime and all(scope.module.name != BEHAVIOR for scope in modules):
             files.append(FilePlan(f"{SLICE}/{COMMON}", resources.text(f"templates/slice/{COMMON}")))
-    if options.wants(component.language.name):
-        with _telling(linked, options):
+    if options.emits(component.language.name):
+        with _blaming_plugin(linked, options):
             files += of_language(linked, layout)
             if component.sources or component.libraries:
                 from robocomp_yaml.emit import uses
 
-                files += uses.plan(linked, places(linked, options.workspace_of(component.path), root))
-    if options.wants("config"):
+                files += uses.plan(linked, source_folders(linked, options.workspace_of(component.path), root))
+    if options.emits("config"):
         if options.only is None:
             files += schemas(linked)
-        made = list(_configs(linked, program, lambda: options.ports(linked)))
-        files += made
-        if all(file.path != CONFIG for file in made):
+        if program.values:
+            from robocomp_yaml.emit.value_files import configs  # most components have no values
+
+            files += configs(linked, program, lambda: options.ports(linked))
+        if all(file.path != CONFIG for file in files):
             table = assign([linked], program.disk) if _is_complete(root, linked) else options.ports(linked)
             files.append(config.plan(linked, table))
-    if options.wants("docs"):
+    if options.emits("docs"):
         files += _docs(linked)
     owner = os.path.relpath(component.path, root)
     return RootPlan(root, owner, tuple(files), partial=bool(options.targets))
 
 
 def of_language(linked: LinkedComponent, layout: Layout = ALONE) -> list[FilePlan]:
-    """What the component's language makes of it; with the run time, unless that is shared."""
+    """The files of the component's language, with the run time, unless that is shared."""
     target = linked.component.language.target
     part = target.part("plan")
     if not target.runtime:
@@ -79,21 +81,22 @@ def of_language(linked: LinkedComponent, layout: Layout = ALONE) -> list[FilePla
     return files
 
 
-def _telling(linked: LinkedComponent, options: Options) -> AbstractContextManager[None]:
-    """Where the component's language is a plug-in's, what goes wrong is told as the plug-in's fault."""
+def _blaming_plugin(linked: LinkedComponent, options: EmitOptions) -> AbstractContextManager[None]:
+    """If a plug-in has the component's language, reports errors as those of the plug-in."""
     name = linked.component.language.name
     owner = options.workspace_of(linked.component.path).plugins.of(LANGUAGES).get(name)
-    return owner[0].answering(f"language '{name}'") if owner else nullcontext()
+    return owner[0].guarded(f"language '{name}'") if owner else nullcontext()
 
 
-def places(linked: LinkedComponent, workspace: Workspace, root: str) -> list[str]:
-    """Where files of the repository are looked for, relative to `root`: beside the document, then in the workspace."""
+def source_folders(linked: LinkedComponent, workspace: WorkspaceSettings, root: str) -> list[str]:
+    """The folders in which files of the repository are searched, relative to `root`: that of the document, then that of
+    the workspace."""
     folder = os.path.dirname(linked.component.path) or "."
-    return list(dict.fromkeys(os.path.relpath(place, root) for place in (folder, workspace.root or ".")))
+    return list(dict.fromkeys(os.path.relpath(each, root) for each in (folder, workspace.root or ".")))
 
 
 def values_of(linked: LinkedComponent, program: Program) -> list[ValuesDocument]:
-    """Every document that a component's `etc/config` is made of."""
+    """All documents from which a component's `etc/config` is generated."""
     if not program.values:
         return []
     from robocomp_yaml.emit.value_files import documents_of
@@ -102,16 +105,9 @@ def values_of(linked: LinkedComponent, program: Program) -> list[ValuesDocument]
 
 
 def _is_complete(root: str, linked: LinkedComponent) -> bool:
-    """Whether an `etc/config` stands there that leaves no port open, so that those of the neighbours do not matter."""
-    given = config.standing(root)
-    return all(config.stated(given, key) is not None for key in config.needed(linked))
-
-
-def _configs(linked: LinkedComponent, program: Program, table: Callable[[], Ports]) -> Iterator[FilePlan]:
-    if program.values:
-        from robocomp_yaml.emit.value_files import configs  # most components have no values
-
-        yield from configs(linked, program, table)
+    """Whether the existing `etc/config` sets all ports, so that those of other components are not needed."""
+    existing = config.existing(root)
+    return all(config.stated(existing, key) is not None for key in config.needed(linked))
 
 
 def schemas(linked: LinkedComponent) -> Iterator[FilePlan]:
@@ -120,11 +116,11 @@ def schemas(linked: LinkedComponent) -> Iterator[FilePlan]:
     ports = {"endpoints": [*served, "CommonBehavior"], "proxies": [port.name for port in linked.requires]}
     parameters, name = linked.parameters.parameters, linked.component.name
     for path, mode in ((SCHEMA, DOCUMENT), (EFFECTIVE_SCHEMA, EFFECTIVE)):
-        yield FilePlan(path, _a_line_each(document_schema(parameters, name, ports, mode)))
+        yield FilePlan(path, _one_line_per_key(document_schema(parameters, name, ports, mode)))
 
 
-def _a_line_each(schema: dict[str, object]) -> str:
-    """A JSON object with a line for each key: to indent the rest would take ten times as long."""
+def _one_line_per_key(schema: dict[str, object]) -> str:
+    """A JSON object with a line for each key. Indenting the rest would take ten times as long."""
     rows = (f'  "{key}": {msgspec.json.encode(value).decode()}' for key, value in schema.items())
     return "{\n" + ",\n".join(rows) + "\n}\n"
 
@@ -136,21 +132,22 @@ def _docs(linked: LinkedComponent) -> Iterator[FilePlan]:
     from robocomp_yaml.parameters.examples.new import new_document
     from robocomp_yaml.parameters.writing.reference import reference
 
-    parameters, where = linked.parameters.parameters, os.path.basename(linked.component.path)
+    parameters, document = linked.parameters.parameters, os.path.basename(linked.component.path)
     head = (
-        "# An example: every parameter, and what it may be. The first line of your own document names the schema "
+        "# An example with every parameter and its possible values. The first line of your document names the schema "
         "beside this file."
     )
     yield FilePlan(DOCS, reference(parameters, linked.component.name))
-    yield FilePlan(EXAMPLE, new_document(parameters, f"../{where}", head, []))
+    yield FilePlan(EXAMPLE, new_document(parameters, f"../{document}", head, []))
 
 
-def component_root(path: str, options: Options) -> str:
+def component_root(path: str, options: EmitOptions) -> str:
+    """The folder to which the component of a document is compiled."""
     folder = os.path.dirname(path) or "."
     if options.output is None:
         return folder
-    for asked in options.below:
-        relative = os.path.relpath(folder, asked)
+    for requested in options.below:
+        relative = os.path.relpath(folder, requested)
         if not relative.startswith(os.pardir):
             return os.path.normpath(os.path.join(options.output, relative))
     return options.output

@@ -1,4 +1,4 @@
-"""The first `etc/config` of a component: what its user will want to change, each with a word about it."""
+"""The first `etc/config` of a component: the properties that users change, each with a comment."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from robocomp_yaml.emit import ports
 from robocomp_yaml.emit.layout import CONFIG
-from robocomp_yaml.emit.ports import Ports, interface_key
-from robocomp_yaml.emit.specific.entries import spellings
+from robocomp_yaml.emit.ports import PortTable, interface_key
+from robocomp_yaml.emit.specific.config_merge import spellings
 from robocomp_yaml.link.program import LinkedComponent, Port
 from robocomp_yaml.network.port_numbers import default_port
 from robocomp_yaml.parameters.defaults import period
@@ -21,28 +21,30 @@ from robocomp_yaml.transactions.plan import ONCE, FilePlan
 
 _ICE = (
     ("Ice.Warn.Connections", "0", "1: warn when a connection is lost."),
-    ("Ice.Trace.Network", "0", "1 to 3: say when connections open and close, and more."),
-    ("Ice.Trace.Protocol", "0", "1: show every message."),
-    ("Ice.MessageSizeMax", "20004800", "The largest message, in KiB."),
+    ("Ice.Trace.Network", "0", "1 to 3: log opened and closed connections, and more."),
+    ("Ice.Trace.Protocol", "0", "1: log every message."),
+    ("Ice.MessageSizeMax", "20004800", "The size limit of messages, in KiB."),
 )
 
 
-def plan(component: LinkedComponent, table: Ports) -> FilePlan:
-    """`etc/config` of a component; `table` has the ports of its workspace."""
+def plan(component: LinkedComponent, table: PortTable) -> FilePlan:
+    """The plan of a component's first `etc/config`; `table` has the ports of its workspace."""
+    compute = period(component.parameters.parameters)
+    ice = [line for key, value, doc in _ICE for line in (f"# {doc}", entry_line(key, value))]
     sections = (
         _head(component),
-        _offers(component, table),
-        _needs(component, table),
+        _endpoints(component, table),
+        _proxies(component, table),
         _topics(component),
-        _worker(component),
-        _middleware(),
+        ["# Milliseconds from one call of compute() to the next.", entry_line("period.compute", str(compute))],
+        ["# Ice, the middleware.", *ice],
     )
     text = "\n".join("".join(f"{line}\n" for line in section) for section in map(list, sections) if section)
     return FilePlan(CONFIG, text, ONCE)
 
 
 def needed(linked: LinkedComponent) -> list[str]:
-    """The keys without which a component finds no other, or is not found itself."""
+    """The keys without which a component cannot reach others, or cannot be reached."""
     keys = [endpoints(name)[0] for name in ports.adapters(linked)]
     keys += [proxy(port.name)[0] for port in linked.requires]
     if linked.publishes or linked.subscribes:
@@ -50,47 +52,48 @@ def needed(linked: LinkedComponent) -> list[str]:
     return keys
 
 
-def connections(linked: LinkedComponent, table: Ports, standing: Mapping[str, str]) -> dict[str, str]:
-    """The same with their values, as a first `etc/config` has them. Where no component is known that implements what
-    this one requires, what stands in its configuration already is more than a guess."""
-    values = read(plan(linked, table).text).values
-    found = {key: values[key] for key in needed(linked)}
+def connections(linked: LinkedComponent, table: PortTable, existing: Mapping[str, str]) -> dict[str, str]:
+    """The needed keys with the values of a first `etc/config`. A proxy of the existing configuration is kept if no
+    known component implements the interface."""
+    defaults = read(plan(linked, table).text).values
+    values = {key: defaults[key] for key in needed(linked)}
     for port in linked.requires:
         key = proxy(port.name)[0]
-        stands = stated(standing, key)
-        if stands is not None and not _others(linked, port, table):
-            found[key] = stands
-    return found
+        value = stated(existing, key)
+        if value is not None and not _others(linked, port, table):
+            values[key] = value
+    return values
 
 
 def stated(properties: Mapping[str, str], key: str) -> str | None:
-    """The value that a configuration gives a key under any of its spellings."""
+    """The value of a key in a configuration, under any of its spellings; None if it is not set."""
     return next((unquoted(properties[each]) for each in names(key) if properties.get(each)), None)
 
 
 def names(key: str) -> tuple[str, ...]:
+    """All spellings of a key, its own first."""
     return key, *sorted(spellings(key))
 
 
-def standing(folder: str) -> dict[str, str]:
-    """The properties of the `etc/config` in a component's folder; none where there is none."""
+def existing(folder: str) -> dict[str, str]:
+    """The properties of the `etc/config` in a component's folder; empty if it does not exist."""
     return dict(read(text(os.path.join(folder, CONFIG)) or "").values)
 
 
-def _others(linked: LinkedComponent, port: Port, table: Ports) -> list[tuple[LinkedComponent, str]]:
-    """The other components that implement what one requires."""
-    here = ports.document(linked)
-    return [one for one in table.implementers.get(interface_key(port), ()) if ports.document(one[0]) != here]
+def _others(linked: LinkedComponent, port: Port, table: PortTable) -> list[tuple[LinkedComponent, str]]:
+    """The other components that implement the interface of a required port, with the names of their ports."""
+    own = ports.document(linked)
+    return [one for one in table.implementers.get(interface_key(port), ()) if ports.document(one[0]) != own]
 
 
 def _head(linked: LinkedComponent) -> Iterator[str]:
     name = linked.component.name
-    yield f"# Configuration of {name}: one KEY=VALUE a line, as Ice reads it. rcyaml wrote it once; it is yours now."
+    yield f"# Configuration of {name}: one KEY=VALUE per line, as Ice reads it. rcyaml wrote it once; it is yours."
     yield f"# The command line overrides it: bin/{name} --period.compute=50 --Ice.Trace.Network=1"
 
 
-def _offers(linked: LinkedComponent, table: Ports) -> Iterator[str]:
-    yield "# What it offers: where it listens."
+def _endpoints(linked: LinkedComponent, table: PortTable) -> Iterator[str]:
+    yield "# The addresses on which this component listens."
     docs = {port.name: port.interface.doc for port in linked.implements}
     for name in ports.adapters(linked):
         doc = docs.get(name, "State, period, properties and orderly stop of every component.")
@@ -98,32 +101,34 @@ def _offers(linked: LinkedComponent, table: Ports) -> Iterator[str]:
         yield entry_line(endpoints(name)[0], f"tcp -p {table.endpoint(linked, name).port}")
 
 
-def _needs(linked: LinkedComponent, table: Ports) -> Iterator[str]:
+def _proxies(linked: LinkedComponent, table: PortTable) -> Iterator[str]:
     if linked.requires:
-        yield "# What it needs: where the others listen."
+        yield "# The addresses of the components that it requires."
     earlier: dict[tuple[str, str], int] = {}
     for port in linked.requires:
         key = interface_key(port)
         identity = port.interface.name.lower()
-        # A second proxy to an interface is for a second component that implements it, where there is one.
+        # The second proxy of an interface is for the second component that implements it, if there is one.
         count = earlier[key] = earlier.get(key, -1) + 1
-        found = _others(linked, port, table)
+        others = _others(linked, port, table)
         yield from _comment(port.name, port.interface.doc)
-        if found:
-            other, adapter = found[min(count, len(found) - 1)]
-            yield f"# {_implemented(linked, found, other)}"
+        if others:
+            other, adapter = others[min(count, len(others) - 1)]
+            yield f"# {_implemented(linked, others, other)}"
             endpoint = table.endpoint(other, adapter)
         else:
-            yield "# No component of this workspace implements it: set host and port of the one that does."
+            yield "# No component of this workspace implements it: set host and port of one that does."
             endpoint = IceEndpoint(default_port("", port.interface.name))
-        where = f"{endpoint.protocol} -h {endpoint.host or 'localhost'} -p {endpoint.port}"
-        yield entry_line(proxy(port.name)[0], f"{identity}:{where}")
+        address = f"{endpoint.protocol} -h {endpoint.host or 'localhost'} -p {endpoint.port}"
+        yield entry_line(proxy(port.name)[0], f"{identity}:{address}")
 
 
-def _implemented(linked: LinkedComponent, found: Sequence[tuple[LinkedComponent, str]], chosen: LinkedComponent) -> str:
-    here = os.path.dirname(linked.component.path) or "."
-    text = f"Implemented by {chosen.component.name} ({os.path.relpath(chosen.component.path, here)})"
-    also = [other.component.name for other, _ in found if other is not chosen]
+def _implemented(
+    linked: LinkedComponent, others: Sequence[tuple[LinkedComponent, str]], chosen: LinkedComponent
+) -> str:
+    folder = os.path.dirname(linked.component.path) or "."
+    text = f"Implemented by {chosen.component.name} ({os.path.relpath(chosen.component.path, folder)})"
+    also = [other.component.name for other, _ in others if other is not chosen]
     return f"{text}, also by {', '.join(also)}." if also else f"{text}."
 
 
@@ -134,24 +139,12 @@ def _topics(linked: LinkedComponent) -> Iterator[str]:
     yield entry_line(MANAGER[0], "IceStorm/TopicManager:default -p 9999")
     for port in linked.subscribes:
         yield from _comment(port.name, port.interface.doc)
-        yield "# Port 0: any free one; only IceStorm needs to know it."
+        yield "# Port 0: any free port, which only IceStorm has to know."
         yield entry_line(topic_endpoints(port.name)[0], "tcp -p 0")
 
 
-def _worker(linked: LinkedComponent) -> Iterator[str]:
-    yield "# Milliseconds from one call of compute() to the next."
-    yield entry_line("period.compute", str(period(linked.parameters.parameters)))
-
-
-def _middleware() -> Iterator[str]:
-    yield "# Ice, the middleware."
-    for key, value, doc in _ICE:
-        yield f"# {doc}"
-        yield entry_line(key, value)
-
-
 def _comment(name: str, doc: str) -> Iterator[str]:
-    """The first paragraph of a doc text."""
+    """The first paragraph of a documentation text."""
     paragraph = doc.strip().partition("\n\n")[0].splitlines()
     if paragraph:
         yield f"# {name}: {paragraph[0].strip()}"

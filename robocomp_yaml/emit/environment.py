@@ -1,7 +1,7 @@
-"""Whether what `uses:` names is there: asked of CMake, pkg-config, pip's records and the disk.
+"""Checks whether the libraries and sources of `uses:` exist, with CMake, pkg-config, the records of pip, and the disk.
 
-No name reaches a shell: programs are called with lists of arguments, and the schema lets no character through that
-means something to CMake.
+No name reaches a shell: programs are called with lists of arguments, and the schema allows no character that has a
+meaning in CMake.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from importlib import metadata
 
 import msgspec
 
-from robocomp_yaml.diag.codes import uses as codes
+from robocomp_yaml.diag.codes import cdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.emit.uses import constraints
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.link.workspace import Workspace
+from robocomp_yaml.link.workspace import WorkspaceSettings
 from robocomp_yaml.model.component import CMAKE, LINK, PIP, PKG_CONFIG, Library
 
 _SECONDS = 120
@@ -30,109 +30,102 @@ _WORDS = {
 _CLASSES = ("", "classes", "Classes")
 
 
-class Found(msgspec.Struct, frozen=True):
-    """`version` is '' where it is not known; `why` says what kept it from being looked for."""
+class LibraryStatus(msgspec.Struct, frozen=True):
+    """Whether a library is installed. `version` is '' if it is unknown; `why` is the reason why the check failed."""
 
-    there: bool
+    is_installed: bool
     version: str = ""
     why: str = ""
 
 
-class _Looked(msgspec.Struct):
-    """Answers, each asked for once."""
-
-    cmake: dict[tuple[str, str], Found] = {}
-    answers: dict[tuple[str, str], Found] = {}
-
-    def ask(self, library: Library) -> Found:
-        key = (library.kind, library.name)
-        if key not in self.answers:
-            self.answers[key] = _ASK[library.kind](library.name) if library.kind in _ASK else self.cmake[key]
-        return self.answers[key]
-
-
-def missing(components: Iterable[LinkedComponent], workspace_of: Callable[[str], Workspace]) -> Iterator[Diagnostic]:
-    """A warning for each file, folder and library that is not there, or not in a version that will do."""
-    wanted = list(components)
+def missing(
+    components: Iterable[LinkedComponent], workspace_of: Callable[[str], WorkspaceSettings]
+) -> Iterator[Diagnostic]:
+    """A warning for each file, folder and library that is missing, and for each library with another version."""
+    components = list(components)
     native = {
         (library.kind, library.name)
-        for linked in wanted for library in linked.component.libraries
+        for linked in components for library in linked.component.libraries
         if library.kind in (CMAKE, LINK) and library.kind in linked.component.language.target.has
     }  # fmt: skip
-    looked = _Looked(_by_cmake(sorted(native)) if native else {})
-    for linked in wanted:
+    answers = _by_cmake(sorted(native)) if native else {}
+    for linked in components:
         component = linked.component
         has = component.language.target.has
         for library in component.libraries:
             if library.kind in has:
-                yield from _about(library, looked.ask(library))
-        places = (os.path.dirname(component.path), workspace_of(component.path).root)
+                key = (library.kind, library.name)
+                if key not in answers:
+                    answers[key] = (_by_pip if library.kind == PIP else _by_pkg_config)(library.name)
+                yield from _about(library, answers[key])
+        folders = (os.path.dirname(component.path), workspace_of(component.path).root)
         for source in (source for source in component.sources if source.kind in has):
-            befores = _CLASSES if source.is_class else ("",)
-            paths = (os.path.join(place, before, source.path) for place in places for before in befores)
+            prefixes = _CLASSES if source.is_class else ("",)
+            paths = (os.path.join(folder, prefix, source.path) for folder in folders for prefix in prefixes)
             if not any(map(os.path.isdir if source.is_class else os.path.isfile, paths)):
                 what = "folder of classes" if source.is_class else "source"
                 yield codes.NO_SOURCE.at(source.span, what=what, path=source.path)
 
 
-def _about(library: Library, found: Found) -> Iterator[Diagnostic]:
+def _about(library: Library, status: LibraryStatus) -> Iterator[Diagnostic]:
     what = f"{_WORDS[library.kind]} {library.name}"
-    if not found.there:
-        yield codes.NOT_INSTALLED.at(library.span, what=what, why=f": {found.why}" if found.why else "")
-    elif found.version and not _will_do(found.version, library.version):
-        why = f": it is there as {found.version}"
+    if not status.is_installed:
+        yield codes.NOT_INSTALLED.at(library.span, what=what, why=f": {status.why}" if status.why else "")
+    elif status.version and not _is_accepted(status.version, library.version):
+        why = f": version {status.version} is installed"
         yield codes.NOT_INSTALLED.at(library.span, what=f"{what} {library.version.strip()}", why=why)
 
 
-def _will_do(version: str, wanted: str) -> bool:
-    """Numbers are compared; what only pip understands is believed."""
-    have = _numbers(version)
-    for operator, number in constraints(wanted):
+def _is_accepted(version: str, required: str) -> bool:
+    """Whether a version satisfies the constraints. Versions that only pip understands are accepted."""
+    installed = _numbers(version)
+    for operator, number in constraints(required):
         if re.fullmatch(r"[\d.]+", number):
-            need = _numbers(number)
-            width = max(len(have), len(need))
-            a, b = (tuple(numbers) + (0,) * (width - len(numbers)) for numbers in (have, need))
+            limit = _numbers(number)
+            width = max(len(installed), len(limit))
+            a, b = (tuple(numbers) + (0,) * (width - len(numbers)) for numbers in (installed, limit))
             holds = {">=": a >= b, "<=": a <= b, ">": a > b, "<": a < b, "==": a == b, "=": a == b, "!=": a != b,
-                     "~=": a >= b and a[: len(need) - 1] == b[: len(need) - 1]}  # fmt: skip
+                     "~=": a >= b and a[: len(limit) - 1] == b[: len(limit) - 1]}  # fmt: skip
             if not holds[operator]:
                 return False
     return True
 
 
 def _numbers(version: str) -> tuple[int, ...]:
-    found = re.match(r"\d+(\.\d+)*", version)
-    return tuple(int(part) for part in found[0].split(".")) if found else ()
+    match = re.match(r"\d+(\.\d+)*", version)
+    return tuple(int(part) for part in match[0].split(".")) if match else ()
 
 
-def _by_pip(name: str) -> Found:
+def _by_pip(name: str) -> LibraryStatus:
     try:
-        return Found(True, metadata.version(name.partition("[")[0]))
+        return LibraryStatus(True, metadata.version(name.partition("[")[0]))
     except metadata.PackageNotFoundError:
-        return Found(False)
+        return LibraryStatus(False)
 
 
-def _by_pkg_config(name: str) -> Found:
+def _by_pkg_config(name: str) -> LibraryStatus:
     program = shutil.which("pkg-config")
     if program is None:
-        return Found(False, why="pkg-config, which would know it, is missing too")
+        return LibraryStatus(False, why="pkg-config, which would detect it, is missing, too")
     done = _run([program, "--modversion", name])
-    return Found(True, done.stdout.strip()) if done and done.returncode == 0 else Found(False)
+    return LibraryStatus(True, done.stdout.strip()) if done and done.returncode == 0 else LibraryStatus(False)
 
 
-def _by_cmake(wanted: list[tuple[str, str]]) -> dict[tuple[str, str], Found]:
-    """All packages and libraries in one project; one by one where some package ends that with an error."""
+def _by_cmake(libraries: list[tuple[str, str]]) -> dict[tuple[str, str], LibraryStatus]:
+    """The status of packages and libraries: from one project for all; from one for each if a package causes an
+    error."""
     if shutil.which("cmake") is None:
-        return dict.fromkeys(wanted, Found(False, why="CMake, which would find it, is missing too"))
-    answers = _configured(wanted)
-    if answers is None and len(wanted) > 1:
-        return {one: (_configured([one]) or {one: Found(False)})[one] for one in wanted}
-    return answers if answers is not None else dict.fromkeys(wanted, Found(False))
+        return dict.fromkeys(libraries, LibraryStatus(False, why="CMake, which would detect it, is missing, too"))
+    answers = _configured(libraries)
+    if answers is None and len(libraries) > 1:
+        return {one: (_configured([one]) or {one: LibraryStatus(False)})[one] for one in libraries}
+    return answers if answers is not None else dict.fromkeys(libraries, LibraryStatus(False))
 
 
-def _configured(wanted: list[tuple[str, str]]) -> dict[tuple[str, str], Found] | None:
-    """None where CMake stops with an error."""
+def _configured(libraries: list[tuple[str, str]]) -> dict[tuple[str, str], LibraryStatus] | None:
+    """The status of packages and libraries from one project; None if CMake reports an error."""
     lines = ["cmake_minimum_required(VERSION 3.20)", "project(Look LANGUAGES CXX)"]
-    for number, (kind, name) in enumerate(wanted):
+    for number, (kind, name) in enumerate(libraries):
         if kind == CMAKE:
             lines.append(f"find_package({name} QUIET)")
             lines.append(f'if(NOT {name}_VERSION)\nset({name}_VERSION "${{{name}_VERSION_STRING}}")\nendif()')
@@ -145,10 +138,10 @@ def _configured(wanted: list[tuple[str, str]]) -> dict[tuple[str, str], Found] |
         done = _run(["cmake", "-S", folder, "-B", f"{folder}/build"])
     if done is None or done.returncode != 0:
         return None
-    answers = dict.fromkeys(wanted, Found(False))
+    answers = dict.fromkeys(libraries, LibraryStatus(False))
     for number, word, version in re.findall(r"^rcyaml (\d+) (\S*) ?(\S*)$", done.stderr, re.MULTILINE):
         there = bool(word) and word.upper() not in ("0", "FALSE", "OFF", "NO") and not word.endswith("-NOTFOUND")
-        answers[wanted[int(number)]] = Found(there, version)
+        answers[libraries[int(number)]] = LibraryStatus(there, version)
     return answers
 
 
@@ -157,6 +150,3 @@ def _run(command: list[str]) -> subprocess.CompletedProcess[str] | None:
         return subprocess.run(command, capture_output=True, text=True, timeout=_SECONDS, check=False)
     except (OSError, subprocess.TimeoutExpired):
         return None
-
-
-_ASK: dict[str, Callable[[str], Found]] = {PIP: _by_pip, PKG_CONFIG: _by_pkg_config}

@@ -1,4 +1,4 @@
-"""What a compile is asked to emit, and where to."""
+"""The options of a compile: what to emit, and where."""
 
 from __future__ import annotations
 
@@ -8,26 +8,27 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.link.workspace import Workspace
+from robocomp_yaml.link.workspace import WorkspaceSettings
 
 if TYPE_CHECKING:
-    from robocomp_yaml.emit.ports import Ports
+    from robocomp_yaml.emit.ports import PortTable
 
 
-class Options(msgspec.Struct):
-    """`output` is `-o DIR` or None; `below` are the folders that were asked for (`-o` mirrors what lies below them);
-    `targets` what to emit, all when empty; `workspace_of` the workspace of a document; `ports` those of a
-    component's workspace (asked for only where its configuration leaves some open). `only` limits it to some
-    components, for the user's own files there: interfaces and schemas are left out. `standalone`: components have
-    all that they need in their own folders, instead of sharing it."""
+class EmitOptions(msgspec.Struct):
+    """`output` is `-o DIR` or None. `below` are the requested folders, whose structure `-o` mirrors. `targets` are what
+    to emit: everything if empty. `workspace_of` returns the workspace of a document, `ports` the ports of a component's
+    workspace, which are computed only if a configuration does not set all of them. `only` selects components for a
+    review of the user's files: interfaces and schemas are skipped. `standalone`: a component has all its files in its
+    own folder, and shares none."""
 
     output: str | None
     below: Sequence[str]
     targets: frozenset[str]
-    workspace_of: Callable[[str], Workspace]
-    ports: Callable[[LinkedComponent], Ports]
+    workspace_of: Callable[[str], WorkspaceSettings]
+    ports: Callable[[LinkedComponent], PortTable]
     only: Callable[[LinkedComponent], bool] | None = None
     standalone: bool = False
 
-    def wants(self, target: str) -> bool:
+    def emits(self, target: str) -> bool:
+        """Whether a target is emitted."""
         return not self.targets or target in self.targets

@@ -1,8 +1,8 @@
-"""The ports of a workspace: those that values documents give, or that stand in an `etc/config`, else defaults.
+"""The TCP ports of a workspace: those that values documents or an `etc/config` set, else defaults.
 
-A port that a configuration of the workspace names is taken; of two defaults that meet, the later name (component, then
-interface) moves on to the next free port. So the ports depend on the workspace's names alone, and stay once they stand
-in an `etc/config`.
+A default is never a port that a configuration of the workspace uses. If two defaults are equal, the later name
+(component, then interface) gets the next free port. Defaults therefore depend only on names, and do not change once
+they are in an `etc/config`.
 """
 
 from __future__ import annotations
@@ -21,42 +21,42 @@ from robocomp_yaml.network.port_numbers import COMMON_BEHAVIOR, RESERVED, defaul
 from robocomp_yaml.source import properties
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.ice_endpoint import IceEndpoint, parse_endpoint
-from robocomp_yaml.source.properties import Entry
+from robocomp_yaml.source.properties import IceProperty
 
 
-class Ports(msgspec.Struct):
-    """The endpoint of each adapter (real path of the component's document, interface's name) of a workspace, and which
-    components implement an interface (module, name), in order of their paths."""
+class PortTable(msgspec.Struct):
+    """The endpoint of each adapter of a workspace (key: real path of the component's document, name of the interface),
+    and the components that implement an interface (key: module, name), in the order of their paths."""
 
     endpoints: dict[tuple[str, str], IceEndpoint] = {}
     implementers: dict[tuple[str, str], list[tuple[LinkedComponent, str]]] = {}
 
     def endpoint(self, linked: LinkedComponent, name: str) -> IceEndpoint:
+        """The endpoint of an adapter of a component."""
         return self.endpoints[document(linked), name]
 
 
 def document(linked: LinkedComponent) -> str:
-    """What tells a component from another, whatever its path was spelled like."""
+    """The real path of a component's document, which identifies the component."""
     return os.path.realpath(linked.component.path)
 
 
 def adapters(linked: LinkedComponent) -> list[str]:
-    """The names of the adapters that need a port of their own."""
+    """The names of the adapters of a component."""
     return list(dict.fromkeys([*(use.name for use in linked.component.implements), COMMON_BEHAVIOR]))
 
 
-def assign(components: Iterable[LinkedComponent], disk: Disk, values: Iterable[LinkedValues] = ()) -> Ports:
-    """The ports of a workspace's components: those that their values give, those that stand in their `etc/config`,
-    else defaults."""
-    given = {one.parameters.component: one for one in values if one.parameters and is_own(one)}
+def assign(components: Iterable[LinkedComponent], disk: Disk, values: Iterable[LinkedValues] = ()) -> PortTable:
+    """The ports of a workspace's components: those that values documents set, those of `etc/config`, else defaults."""
+    configured = {one.parameters.component: one for one in values if one.parameters and is_own(one)}
     distinct = {document(linked): linked for linked in components}
     ordered = sorted(distinct.items(), key=lambda item: (item[1].component.name, item[0]))
-    result = Ports()
+    result = PortTable()
     taken = set(RESERVED)
     for key, linked in ordered:
         texts = {name: entry.value for name, entry in _written(linked, disk)}
-        if linked in given:  # which `compile` writes there
-            texts |= _given(given[linked])
+        if linked in configured:  # `compile` writes these to etc/config
+            texts |= _set_endpoints(configured[linked])
         for name, text in texts.items():
             endpoint = parse_endpoint(text)
             if endpoint:
@@ -75,11 +75,12 @@ def assign(components: Iterable[LinkedComponent], disk: Disk, values: Iterable[L
 
 
 def interface_key(port: Port) -> tuple[str, str]:
+    """Module and name of the interface of a port."""
     return port.scope.module.name, port.interface.name
 
 
 def clashes(components: Iterable[LinkedComponent], disk: Disk) -> list[Diagnostic]:
-    """Endpoints that stand in the components' `etc/config` and cannot be had at once on one machine."""
+    """Diagnostics about endpoints of `etc/config` that cannot be used on one host at the same time."""
     diagnostics = []
     seen: dict[tuple[bool, int], list[tuple[str, str, Span]]] = {}
     for linked in sorted(components, key=lambda linked: linked.component.path):
@@ -90,29 +91,26 @@ def clashes(components: Iterable[LinkedComponent], disk: Disk) -> list[Diagnosti
             span = Span(config_path(linked), entry.line, entry.column, entry.line, entry.column + len(entry.key))
             who = f"{linked.component.name}'s {name}"
             others = seen.setdefault((endpoint.protocol == "udp", endpoint.port), [])
-            for host, other, place in others:
+            for host, other, location in others:
                 if not host or not endpoint.host or host == endpoint.host:
                     diagnostics.append(
                         codes.PORT_CLASH.at(
-                            span,
-                            port=endpoint.port,
-                            name=who,
-                            other=other,
-                            hint="give one of them another port",
-                            related=[Related("the same port", place)],
+                            span, port=endpoint.port, name=who, other=other, hint="set another port for one of them",
+                            related=[Related("the same port", location)],
                         )
-                    )
+                    )  # fmt: skip
                     break
             others.append((endpoint.host, who, span))
     return diagnostics
 
 
 def config_path(linked: LinkedComponent) -> str:
+    """The path of a component's `etc/config`."""
     return os.path.join(os.path.dirname(linked.component.path), CONFIG)
 
 
 def is_own(values: LinkedValues) -> bool:
-    """Whether they are what the component is configured from: `etc/config.yaml` in its folder."""
+    """Whether a values document is the `etc/config.yaml` of its component."""
     component = values.parameters.component if values.parameters else None
     if component is None:
         return False
@@ -120,15 +118,15 @@ def is_own(values: LinkedValues) -> bool:
     return os.path.realpath(own) == os.path.realpath(values.document.path)
 
 
-def _given(values: LinkedValues) -> dict[str, str]:
-    from robocomp_yaml.parameters.writing.properties import given  # most components have no values
+def _set_endpoints(values: LinkedValues) -> dict[str, str]:
+    from robocomp_yaml.parameters.writing.properties import merged_entries  # most components have no values document
     from robocomp_yaml.source.tree import Scalar
 
-    return {name: node.lexeme for name, node in given(values, "endpoints") if isinstance(node, Scalar)}
+    return {name: node.lexeme for name, node in merged_entries(values, "endpoints") if isinstance(node, Scalar)}
 
 
-def _written(linked: LinkedComponent, disk: Disk) -> Iterator[tuple[str, Entry]]:
-    """The endpoint properties of an `etc/config`, by adapter, in either dialect."""
+def _written(linked: LinkedComponent, disk: Disk) -> Iterator[tuple[str, IceProperty]]:
+    """The endpoint properties of an `etc/config` by adapter, in both dialects."""
     path = config_path(linked)
     raw = disk.read(path)[0] if disk.has_file(path) else None
     for key, entry in properties.read((raw or b"").decode(errors="replace")).last.items():

@@ -1,7 +1,7 @@
-"""Templates rendered from views.
+"""Renders templates from views.
 
-A view is a struct of ready strings (and lists of views); its fields are the template's names. Compiled templates are
-kept in the user's cache folder, since compiling them costs more than all the rest of a run.
+A view is a struct of strings and of lists of views. The template's variables are its fields. Compiled templates are
+cached in the user's cache folder, because compiling them takes longer than the rest of a run.
 """
 
 from __future__ import annotations
@@ -21,20 +21,20 @@ from robocomp_yaml import languages, resources
 
 
 def render(name: str, view: msgspec.Struct) -> str:
-    """The template `templates/NAME`, or `LANGUAGE/NAME` of a language, filled in with the fields of `view`."""
+    """Renders the template `templates/NAME`, or `LANGUAGE/NAME` of a language, with the fields of `view`."""
     return _environment().get_template(name).render(asdict(view))
 
 
 class _Cache(FileSystemBytecodeCache):
-    """Jinja2's, which checks the source's checksum, but a full disk does not end the run."""
+    """The cache of Jinja2, which compares checksums of sources. Errors of the disk are ignored."""
 
     def dump_bytecode(self, bucket: Bucket) -> None:
         with suppress(OSError):
             super().dump_bytecode(bucket)
 
 
-class _OfLanguages(dict[str, BaseLoader]):
-    """The templates of each language; those of plug-ins become known as they come."""
+class _LanguageLoaders(dict[str, BaseLoader]):
+    """The loader of each language's templates, created at its first use, because plug-ins are loaded late."""
 
     def __missing__(self, name: str) -> BaseLoader:
         self[name] = FileSystemLoader(languages.known()[name].templates)
@@ -44,7 +44,7 @@ class _OfLanguages(dict[str, BaseLoader]):
 @cache
 def _environment() -> Environment:
     return Environment(
-        loader=ChoiceLoader([PrefixLoader(_OfLanguages()), FileSystemLoader(resources.folder("templates"))]),
+        loader=ChoiceLoader([PrefixLoader(_LanguageLoaders()), FileSystemLoader(resources.folder("templates"))]),
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
@@ -56,15 +56,15 @@ def _environment() -> Environment:
 
 
 def _bytecode_cache() -> BytecodeCache | None:
-    """None where there is no folder that only this user can write: what is cached is code, and it will be run."""
+    """The cache; None if there is no folder that only this user can write, because cached code is executed."""
     base = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
     folder = os.path.join(base, "rcyaml", "templates")
     try:
         os.makedirs(os.path.dirname(folder), exist_ok=True)
         with suppress(FileExistsError):
             os.mkdir(folder, mode=0o700)
-        found = os.stat(folder)
+        status = os.stat(folder)
     except OSError:
         return None
-    private = stat.S_IMODE(found.st_mode) & 0o077 == 0 and found.st_uid == os.getuid()
+    private = stat.S_IMODE(status.st_mode) & 0o077 == 0 and status.st_uid == os.getuid()
     return _Cache(folder) if private and os.access(folder, os.W_OK) else None

@@ -1,6 +1,6 @@
-"""The run time of a language: the files that are the same in all of its components, as they are copied.
+"""The run time of a language: the files that all of its components share.
 
-It is known by its version, which is made of all that is in it; what is generated says which one it is for.
+Its version is a digest of all its files. Generated code names the version that it needs.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ from robocomp_yaml.transactions.plan import FilePlan
 
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/|\s+", re.DOTALL)
 VERSION = "@RUNTIME_VERSION@"
-"""Stands in a file of the run time for its version."""
+"""The placeholder for the version in files of the run time."""
 
 
 @cache
 def files(name: str) -> tuple[FilePlan, ...]:
-    """The run time of the language called `name`, below its folder."""
+    """The files of the run time of a language, below the folder of the run time."""
     version_ = version(name)
     return tuple(
         FilePlan(path, text.replace(VERSION, version_) if VERSION in text else text) for path, text in _texts(name)
@@ -34,7 +34,7 @@ def files(name: str) -> tuple[FilePlan, ...]:
 
 @cache
 def version(name: str) -> str:
-    """What tells one run time of a language from another."""
+    """The version of the run time of a language."""
     return digest("\0".join(part for file in _texts(name) for part in file).encode())[:12]
 
 
@@ -45,13 +45,14 @@ def _texts(name: str) -> tuple[tuple[str, str], ...]:
     for folder in target.runtime:
         package, _, last = folder.rpartition(".")
         source = os.path.dirname(import_module(folder).__file__ or "") if package else f"{target.templates}/{folder}"
-        place = f"runtime/{last}" if package else folder
-        texts += [(f"{place}/{file}", text) for file, text in resources.files(source)]
+        target_folder = f"runtime/{last}" if package else folder
+        texts += [(f"{target_folder}/{file}", text) for file, text in resources.files(source)]
     return (*texts, (f"slice/{COMMON}", _common()))
 
 
 def has_common(linked: LinkedComponent) -> bool:
-    """Whether the run time's CommonBehavior is also the component's, if it names one itself."""
+    """Whether the component can use the CommonBehavior of the run time: it names none itself, or one with the same
+    meaning."""
     return all(
         slice_target.file_name(scope) == COMMON and _meaning(slice_target.text(scope)) == _meaning(_common())
         for scope in linked.modules()
@@ -65,5 +66,5 @@ def _common() -> str:
 
 
 def _meaning(text: str) -> str:
-    """Slice without comments, blanks and guards."""
+    """Slice without comments, blanks and include guards."""
     return _COMMENT.sub("", re.sub(r"^\s*#.*$", "", text, flags=re.MULTILINE))

@@ -1,4 +1,4 @@
-"""What the components of a workspace share: the Slice of its interfaces, and the run time of each language."""
+"""The files that the components of a workspace share: the Slice of interfaces, and the run time of each language."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Set
 
 from robocomp_yaml.emit import runtime
-from robocomp_yaml.emit.layout import ALONE, Layout, fingerprint, layout, runtime_folder
-from robocomp_yaml.emit.options import Options
+from robocomp_yaml.emit.layout import ALONE, Layout, fingerprint, runtime_folder
+from robocomp_yaml.emit.options import EmitOptions
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule
-from robocomp_yaml.link.workspace import Workspace
+from robocomp_yaml.link.workspace import WorkspaceSettings
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.transactions.plan import FilePlan, RootPlan
@@ -18,58 +18,57 @@ Slices = Callable[[Iterable[LinkedModule]], Iterator[FilePlan]]
 
 
 class Shared:
-    """Gathers, component by component, what is to be there for all of them. `slices` renders modules."""
+    """Collects the shared files, component by component. `slices` renders modules."""
 
-    def __init__(self, options: Options, slices: Slices, disk: Disk) -> None:
+    def __init__(self, options: EmitOptions, slices: Slices, disk: Disk) -> None:
         self._options, self._slices, self._disk = options, slices, disk
         self._runtimes: dict[tuple[str, str], RootPlan] = {}
         self._modules: dict[LinkedModule, str] = {}
 
     def layout(self, linked: LinkedComponent, root: str) -> Layout:
-        """Where the parts of a component are whose folder is `root`."""
-        options = self._options
+        """The layout of the component in the folder `root`."""
+        options, target = self._options, linked.component.language.target
         if options.output is not None or options.standalone:
             return ALONE
         workspace = options.workspace_of(linked.component.path)
+        if not (workspace.declared and target.runtime and runtime.has_common(linked)):
+            return ALONE
+        shared_runtime = os.path.relpath(runtime_folder(workspace, target), root or ".")
         modules = linked.modules()
-        if not all(self._is_of(workspace, one) and not _is_beside(workspace, one, self._disk) for one in modules):
-            return layout(linked, workspace, root, "", "")
-        texts = {file.path: file.text for file in self._slices(linked.modules())}
-        return layout(linked, workspace, root, workspace.slice_folder, fingerprint(texts))
+        if not all(self._is_of(workspace, one) and not _is_hidden(workspace, one, self._disk) for one in modules):
+            return Layout(runtime=shared_runtime)
+        texts = {file.path: file.text for file in self._slices(modules)}
+        return Layout(os.path.relpath(workspace.slice_folder, root or "."), shared_runtime, fingerprint(texts))
 
-    def _is_of(self, workspace: Workspace, scope: LinkedModule) -> bool:
+    def _is_of(self, workspace: WorkspaceSettings, scope: LinkedModule) -> bool:
         other = self._options.workspace_of(scope.module.path)
         return other.declared and os.path.realpath(other.root) == os.path.realpath(workspace.root)
 
-    def add(self, linked: LinkedComponent, place: Layout) -> None:
-        """What this component needs of it."""
+    def add(self, linked: LinkedComponent, layout: Layout) -> None:
+        """Adds the shared files that this component needs."""
         options, component = self._options, linked.component
         workspace = options.workspace_of(component.path)
-        if not place.has_own_slice and options.wants("slice"):
+        if not layout.has_own_slice and options.emits("slice"):
             self._modules.update(dict.fromkeys(linked.modules(), workspace.slice_folder))
         name = component.language.name
-        if not place.has_own_runtime and options.wants(name) and (workspace.root, name) not in self._runtimes:
+        if not layout.has_own_runtime and options.emits(name) and (workspace.root, name) not in self._runtimes:
             root = runtime_folder(workspace, component.language.target)
-            owner = _owner(os.path.join(workspace.root, WORKSPACE_FILE), root)
+            owner = os.path.relpath(os.path.join(workspace.root, WORKSPACE_FILE), root)
             self._runtimes[workspace.root, name] = RootPlan(root, owner, runtime.files(name))
 
     def plans(self, planned: Set[tuple[str, str]]) -> Iterator[RootPlan]:
-        """All of it, but for what has a plan: `planned` are roots with owners."""
+        """The plans of the shared files, except those that are `planned`, as pairs of root and owner."""
         yield from self._runtimes.values()
         for scope, root in self._modules.items():
-            owner = _owner(scope.module.path, root)
+            owner = os.path.relpath(scope.module.path, root)
             if (root, owner) not in planned:
                 yield RootPlan(root, owner, tuple(self._slices([scope])), partial=True)
 
 
-def _is_beside(workspace: Workspace, scope: LinkedModule, disk: Disk) -> bool:
-    """Whether it stands in front of another document of its name, which others import, and which has the place."""
+def _is_hidden(workspace: WorkspaceSettings, scope: LinkedModule, disk: Disk) -> bool:
+    """Whether imports of the workspace resolve the name of this module to another document."""
     name = os.path.basename(scope.module.path)
     for folder in workspace.interfaces:
         if disk.has_file(path := os.path.join(folder, name)):
             return os.path.realpath(path) != os.path.realpath(scope.module.path)
     return False
-
-
-def _owner(document: str, root: str) -> str:
-    return os.path.relpath(document, root)

@@ -1,32 +1,20 @@
-"""The Slice target: a module as the `.ice` file that a person would write.
+"""The Slice target: the `.ice` file of a module, in the style of a person.
 
-Two blanks of indentation, one blank line between definitions, definitions after those that they use and otherwise in
-the author's order. The text depends on the module and its imports alone.
+Indentation is two blanks, and definitions are separated by an empty line. A definition comes after those that it uses,
+else in the author's order. The text depends only on the module and its imports.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 
-from robocomp_yaml.digraph import inner_first
+from robocomp_yaml.digraph import postorder
 from robocomp_yaml.emit.slice_comment import WIDTH, comment, described
 from robocomp_yaml.link.numbers import arrives, compiles, is_integer_literal
 from robocomp_yaml.link.program import Definition, LinkedModule
 from robocomp_yaml.link.references import macro, types_of
-from robocomp_yaml.model.interface import (
-    Constant,
-    Enum,
-    ExceptionType,
-    Interface,
-    Literal,
-    Map,
-    Member,
-    Method,
-    Sequence,
-    Struct,
-    TypeRef,
-)
+from robocomp_yaml.model import interface as model
 
 IN = "  "
 
@@ -34,30 +22,31 @@ _STRING = re.compile(r'"(?:[^"\\]|\\.)*"')
 
 
 def file_name(linked: LinkedModule) -> str:
+    """The name of the file of a module."""
     return f"{linked.module.stem}.ice"
 
 
 def guard(linked: LinkedModule) -> str:
-    """The macro that keeps the file from being read twice. No identifier of Slice ends in an underscore."""
+    """The include guard of the file. No identifier of Slice ends with an underscore."""
     return f"ROBOCOMP{macro(linked.module.stem)}_ICE_"
 
 
 def text(linked: LinkedModule) -> str:
-    """The file's text. The module has passed every check."""
+    """The text of the file of a module without errors."""
     return "\n".join(_File(linked).lines()) + "\n"
 
 
 def in_order(linked: LinkedModule) -> list[Definition]:
-    """The module's definitions, each after those that it uses, else as the author ordered them. Interfaces come last,
-    and nothing uses them."""
+    """The definitions of a module, each after those that it uses, else in the author's order. Interfaces, which no
+    definition uses, are last."""
     module = linked.module
     own: dict[str, Definition] = {d.name: d for d in (*module.constants, *module.types, *module.exceptions)}
 
     def used(name: str) -> list[str]:
-        found = (linked.find(ref) for ref in types_of(own[name]) if not ref.is_basic)
-        return [other[1].name for other in found if other and other[0] is linked and other[1].name in own]
+        definitions = (linked.find(ref) for ref in types_of(own[name]) if not ref.is_basic)
+        return [other[1].name for other in definitions if other and other[0] is linked and other[1].name in own]
 
-    return [*(own[name] for name in inner_first(own, used)), *module.all_interfaces]
+    return [*(own[name] for name in postorder(own, used)), *module.all_interfaces]
 
 
 class _File:
@@ -89,42 +78,33 @@ class _File:
         yield "};"
 
     def _definition(self, definition: Definition) -> Iterator[str]:
-        unit = definition.unit if isinstance(definition, Constant) else ""
+        unit = definition.unit if isinstance(definition, model.Constant) else ""
         yield from comment(definition.doc, IN, unit=unit)
         match definition:
-            case Constant():
+            case model.Constant():
                 value = self._value(definition.type, definition.value)
                 yield f"{IN}const {self._type(definition.type)} {definition.name} = {value};"
-            case Struct():
-                yield from self._members("struct", definition)
-            case ExceptionType():
-                yield from self._members("exception", definition)
-            case Enum():
+            case model.Struct():
+                yield from _braced(f"struct {definition.name}", self._members(definition))
+            case model.ExceptionType():
+                yield from _braced(f"exception {definition.name}", self._members(definition))
+            case model.Enum():
                 yield from _enum(definition)
-            case Sequence():
+            case model.Sequence():
                 yield f"{IN}sequence<{self._type(definition.element)}> {definition.name};"
-            case Map():
+            case model.Map():
                 key, value = self._type(definition.key), self._type(definition.value)
                 yield f"{IN}dictionary<{key}, {value}> {definition.name};"
-            case Interface():
-                yield from self._interface(definition)
+            case model.Interface():
+                yield from _braced(f"interface {definition.name}", self._methods(definition))
 
-    def _members(self, keyword: str, definition: Struct | ExceptionType) -> Iterator[str]:
-        if not definition.members:
-            yield f"{IN}{keyword} {definition.name} {{}};"
-            return
-        yield from (f"{IN}{keyword} {definition.name}", f"{IN}{{")
+    def _members(self, definition: model.Struct | model.ExceptionType) -> Iterator[str]:
         for member in definition.members:
             yield from comment(member.doc, IN * 2, unit=member.unit)
             default = f" = {self._value(member.type, member.default)}" if member.default is not None else ""
             yield f"{IN * 2}{self._type(member.type)} {member.name}{default};"
-        yield f"{IN}}};"
 
-    def _interface(self, interface: Interface) -> Iterator[str]:
-        if not interface.methods:
-            yield f"{IN}interface {interface.name} {{}};"
-            return
-        yield from (f"{IN}interface {interface.name}", f"{IN}{{")
+    def _methods(self, interface: model.Interface) -> Iterator[str]:
         hidden = {method.name.lower() for method in interface.methods}
         documented = False
         for number, method in enumerate(interface.methods):
@@ -134,19 +114,18 @@ class _File:
             yield from doc
             yield from self._method(method, hidden)
             documented = bool(doc)
-        yield f"{IN}}};"
 
-    def _tags(self, method: Method) -> list[tuple[str, str]]:
-        """What is said of parameters, result and, where anything is said at all, exceptions."""
+    def _tags(self, method: model.Method) -> list[tuple[str, str]]:
+        """The tags for parameters and result, and for exceptions if the method has any documentation."""
         tags = [(f"@param {p.name}", described(p.doc, p.unit)) for p in (*method.inputs, *method.outputs)]
         tags.append(("@return", described(method.returns_doc, method.returns_unit)))
-        if (method.doc or any(said for _, said in tags)) and "@throws" not in method.doc:
+        if (method.doc or any(doc for _, doc in tags)) and "@throws" not in method.doc:
             for ref in method.throws:
-                found = self.linked.find(ref)
-                tags.append((f"@throws {self._type(ref)}", described(found[1].doc, "") if found else ""))
+                definition = self.linked.find(ref)
+                tags.append((f"@throws {self._type(ref)}", described(definition[1].doc, "") if definition else ""))
         return tags
 
-    def _method(self, method: Method, hidden: set[str]) -> Iterator[str]:
+    def _method(self, method: model.Method, hidden: set[str]) -> Iterator[str]:
         returns = self._type(method.returns, hidden) if method.returns else "void"
         head = f"{IN * 2}{'idempotent ' if method.idempotent else ''}{returns} {method.name}("
         parameters = [self._parameter(parameter, "", hidden) for parameter in method.inputs]
@@ -163,12 +142,12 @@ class _File:
             yield f"{IN * 3}throws"
             yield from _listed(throws, IN * 4, ";")
 
-    def _parameter(self, parameter: Member, direction: str, hidden: set[str]) -> str:
+    def _parameter(self, parameter: model.Member, direction: str, hidden: set[str]) -> str:
         return f"{direction}{self._type(parameter.type, hidden)} {parameter.name}"
 
-    def _type(self, ref: TypeRef, hidden: Collection[str] = ()) -> str:
-        """A type's name. `hidden` are names, in lower case, that mean something else where it is used. From the root
-        where its first word would be taken for something else."""
+    def _type(self, ref: model.TypeRef, hidden: Collection[str] = ()) -> str:
+        """The name of a type, absolute if its first word has another meaning: `hidden` are the names, in lower case,
+        that have another meaning at this position."""
         if ref.text not in self._names:
             self._names[ref.text] = self._name(ref)
         name, first_word = self._names[ref.text]
@@ -176,21 +155,22 @@ class _File:
             return name
         return f"::{name}" if "::" in name else f"::{self.module.name}::{name}"
 
-    def _name(self, ref: TypeRef) -> tuple[str, str]:
-        """A type's name, and its first word in lower case ('' where that cannot be mistaken)."""
+    def _name(self, ref: model.TypeRef) -> tuple[str, str]:
+        """The name of a type, and its first word in lower case ('' if that cannot have another meaning)."""
         if ref.is_basic:
             return ref.text, ""
-        found = self.linked.find(ref)
-        if found is None:
+        resolved = self.linked.find(ref)
+        if resolved is None:
             return ref.text.replace(".", "::"), ""
-        scope, definition = found
+        scope, definition = resolved
         if scope is self.linked:
             return definition.name, definition.name.lower()
         name, first_word = f"{scope.module.name}::{definition.name}", scope.module.name.lower()
         return (f"::{name}", "") if first_word in self.own_names else (name, first_word)
 
-    def _value(self, type_: TypeRef, value: Literal) -> str:
-        """Enumerators are named with their enum: a member, a type or a module may have an enumerator's name too."""
+    def _value(self, type_: model.TypeRef, value: model.Literal) -> str:
+        """A value in Slice. An enumerator is qualified with its enum, because other definitions may have the same
+        name."""
         return literal(value, type_.text) if type_.is_basic else f"{self._type(type_)}::{value.lexeme}"
 
 
@@ -199,21 +179,26 @@ def _listed(items: list[str], indent: str, end: str) -> Iterator[str]:
         yield f"{indent}{item}{',' if number < len(items) else end}"
 
 
-def _enum(enum: Enum) -> Iterator[str]:
+def _braced(head: str, body: Iterable[str]) -> Iterator[str]:
+    lines = list(body)
+    yield from (f"{IN}{head}", f"{IN}{{", *lines, f"{IN}}};") if lines else (f"{IN}{head} {{}};",)
+
+
+def _enum(enum: model.Enum) -> Iterator[str]:
     names = [e.name if e.value is None else f"{e.name} = {e.value}" for e in enum.enumerators]
     line = f"{IN}enum {enum.name} {{ {', '.join(names)} }};"
     if len(line) <= WIDTH and not any(e.doc for e in enum.enumerators):
         yield line
         return
-    yield from (f"{IN}enum {enum.name}", f"{IN}{{")
+    lines: list[str] = []
     for number, name in enumerate(names, 1):
-        yield from comment(enum.enumerators[number - 1].doc, IN * 2)
-        yield f"{IN * 2}{name}{',' if number < len(names) else ''}"
-    yield f"{IN}}};"
+        lines += comment(enum.enumerators[number - 1].doc, IN * 2)
+        lines.append(f"{IN * 2}{name}{',' if number < len(names) else ''}")
+    yield from _braced(f"enum {enum.name}", lines)
 
 
 def _has_underscores(line: str) -> bool:
-    """Whether a line has names with underscores, which Slice takes only when a file says so."""
+    """Whether a line has names with underscores, which Slice accepts only with a directive."""
     return not line.lstrip().startswith(("/*", "*")) and "_" in _STRING.sub("", line)
 
 
@@ -222,7 +207,7 @@ _REAL = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?\Z"
 _ESCAPES = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t", "\r": "\\r"}
 
 
-def literal(value: Literal, type_name: str) -> str:
+def literal(value: model.Literal, type_name: str) -> str:
     """The literal of a basic type."""
     match type_name:
         case "string":
@@ -236,12 +221,12 @@ def literal(value: Literal, type_name: str) -> str:
 
 
 def quoted(text: str) -> str:
-    """A string literal; `??` is split, since the preprocessor knows trigraphs."""
+    """A string literal, in which `??` is split, because the preprocessor replaces trigraphs."""
     escaped = "".join(_ESCAPES.get(c) or (f"\\{ord(c):03o}" if ord(c) < 0x20 or ord(c) == 0x7F else c) for c in text)
     return '"' + escaped.replace("??", "?\\?") + '"'
 
 
-def _real(value: Literal, type_name: str) -> str:
+def _real(value: model.Literal, type_name: str) -> str:
     number = float(value.value)
     if re.match(_INTEGER, value.lexeme):
         return value.lexeme if is_integer_literal(number) else f"{value.lexeme}.0"

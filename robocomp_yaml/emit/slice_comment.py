@@ -1,7 +1,7 @@
 """Doc comments of Slice: `/** … */`, as slice2cpp, slice2py and doxygen read them.
 
-The text goes through a preprocessor whose line buffer is fixed (it dies of a longer line), and ends up in Python
-docstrings and C++ comments; what would harm there is written so that it reads the same and harms nobody.
+A preprocessor with a fixed line buffer reads the text, and aborts at a longer line. The text is copied to Python
+docstrings and C++ comments. Character sequences with a meaning there are written in a harmless way.
 """
 
 from __future__ import annotations
@@ -13,14 +13,14 @@ from collections.abc import Iterable
 WIDTH = 110
 LONGEST_WORD = 8_000  # characters; the preprocessor's buffer has 65,536 bytes
 
-_HANG = re.compile(r" *(?:[-*+] +|[0-9]+[.)] +)?")  # below what the lines of a paragraph or list item start
+_HANG = re.compile(r" *(?:[-*+] +|[0-9]+[.)] +)?")  # the hanging indent of a paragraph or list item
 _HARMFUL = re.compile('[\x00-\x09\x0b-\x1f\x7f-\x9f\ud800-\udfff]|\\*/|/\\*|\\\\|"""')
 _CONTROL = "[\x00-\x08\x0b-\x1f\x7f\ud800-\udfff]"
 
 
 def comment(doc: str, indent: str = "", *, unit: str = "", tags: Iterable[tuple[str, str]] = ()) -> list[str]:
-    """The lines of a doc comment; none when there is nothing to say. `tags` are such as ('@param speed', 'How fast.');
-    a tag without text is left out."""
+    """The lines of a doc comment; empty if there is no text. `tags` are pairs such as ('@param speed', 'How fast.'); a
+    tag without text is omitted."""
     tags = [tag for tag in tags if tag[1]]
     if not (doc or unit or tags):
         return []
@@ -35,7 +35,7 @@ def comment(doc: str, indent: str = "", *, unit: str = "", tags: Iterable[tuple[
 
 
 def described(doc: str, unit: str) -> str:
-    """A doc with its unit, as one paragraph."""
+    """Documentation with a unit, as one paragraph."""
     if not (doc or unit):
         return ""
     return " ".join(_with_unit(doc, unit).split())
@@ -44,10 +44,10 @@ def described(doc: str, unit: str) -> str:
 def _with_unit(doc: str, unit: str) -> str:
     if not unit:
         return doc
-    said = doc.rstrip()
-    if said and said[-1].isalnum():
-        said += "."
-    return f"{said} Unit: {unit}.".strip()
+    text = doc.rstrip()
+    if text and text[-1].isalnum():
+        text += "."
+    return f"{text} Unit: {unit}.".strip()
 
 
 def _body(doc: str, width: int) -> list[str]:
@@ -72,7 +72,7 @@ def _wrapped(line: str, width: int, indent: str) -> list[str]:
 
 
 def _closed(line: str) -> str:
-    """A backslash at a line's end would join it to the next one."""
+    """A line that does not end with a backslash, which would continue it."""
     return f"{line}." if line.endswith("\\") else line
 
 

@@ -1,4 +1,4 @@
-"""What `compile` makes of values: `etc/config`, and the legacy files that they are carried over to."""
+"""The files that `compile` generates from values documents: `etc/config`, and legacy files."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 
 from robocomp_yaml.emit import config
 from robocomp_yaml.emit.layout import CONFIG
-from robocomp_yaml.emit.ports import Ports
+from robocomp_yaml.emit.ports import PortTable
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Program
 from robocomp_yaml.parameters.writing.properties import (
     CLASSIC,
@@ -23,10 +23,10 @@ from robocomp_yaml.transactions.plan import FilePlan
 
 
 def documents_of(linked: LinkedComponent, program: Program) -> list[LinkedValues]:
-    """The values documents that a component is configured from: `etc/config.yaml`, and those beside it that are
-    written to a legacy file of their own."""
+    """The values documents that configure a component: `etc/config.yaml`, and those beside it with a legacy file of
+    their own."""
     folder = os.path.realpath(os.path.join(os.path.dirname(linked.component.path), "etc"))
-    found = [
+    documents = [
         values
         for real, values in sorted(program.values.items())
         if os.path.dirname(real) == folder
@@ -34,19 +34,19 @@ def documents_of(linked: LinkedComponent, program: Program) -> list[LinkedValues
         and values.parameters.component is linked
         and (os.path.basename(real) == "config.yaml" or legacy_file(values))
     ]
-    joined = {str(layer.value) for values in found for layer in values.document.extends}
-    # The first half of a pair is joined into the other half's file.
-    return [values for values in found if os.path.basename(values.document.path) not in joined]
+    joined = {str(layer.value) for values in documents for layer in values.document.extends}
+    # The first document of a pair is part of the file of the second one.
+    return [values for values in documents if os.path.basename(values.document.path) not in joined]
 
 
-def configs(linked: LinkedComponent, program: Program, table: Callable[[], Ports]) -> Iterator[FilePlan]:
-    """The property files of a component; the documents have been found right. `table` has the ports of the workspace,
-    asked for where a document leaves some open."""
+def configs(linked: LinkedComponent, program: Program, table: Callable[[], PortTable]) -> Iterator[FilePlan]:
+    """The property files of a component, whose documents have no errors. `table` returns the ports of the workspace,
+    and is called only if a document does not set all of them."""
     for values in documents_of(linked, program):
-        found, _ = program.effective(values)
-        if found is None:
+        effective, _ = program.effective(values)
+        if effective is None:
             continue
-        sections, _ = properties(values, found, beside=True)
+        sections, _ = properties(values, effective, beside=True)
         if not legacy_file(values) and dialect(values) == CLASSIC:
             sections = _with_connections(sections, linked, table)
         path = f"etc/{os.path.basename(legacy_file(values))}" if legacy_file(values) else CONFIG
@@ -58,14 +58,15 @@ def configs(linked: LinkedComponent, program: Program, table: Callable[[], Ports
         )  # fmt: skip
 
 
-def _with_connections(sections: list[Section], linked: LinkedComponent, table: Callable[[], Ports]) -> list[Section]:
-    """The endpoints and proxies that the document does not give, as a first `etc/config` would have them: without them
-    nothing would start."""
-    given = {made.key for section in sections for made in section.properties}
-    if given >= set(config.needed(linked)):
+def _with_connections(
+    sections: list[Section], linked: LinkedComponent, table: Callable[[], PortTable]
+) -> list[Section]:
+    """Adds the endpoints and proxies that the document does not set, with the values of a first `etc/config`: without
+    them the component does not start."""
+    keys = {made.key for section in sections for made in section.properties}
+    if keys >= set(config.needed(linked)):
         return sections
-    there = config.standing(os.path.dirname(linked.component.path))
-    missing = [
-        Property(key, value) for key, value in config.connections(linked, table(), there).items() if key not in given
-    ]
-    return [Section("Where this component and the others are, by default", missing), *sections]
+    existing = config.existing(os.path.dirname(linked.component.path))
+    defaults = config.connections(linked, table(), existing)
+    missing = [Property(key, value) for key, value in defaults.items() if key not in keys]
+    return [Section("Endpoints and proxies, by default", missing), *sections]

@@ -1,5 +1,5 @@
-"""What components with a window, or with code for RoboComp's own tool, have besides: files that are the same in all of
-them, and the window's form."""
+"""The further files of components with a window, or with code for RoboComp's own tool: shared folders of the run time,
+and the form of the window."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from robocomp_yaml.transactions.plan import ONCE, FilePlan
 PATH = "src/mainUI.ui"
 
 
-class View(msgspec.Struct, frozen=True):
-    """`base` is a class of Qt; `is_main` says that its widgets stand in a central one."""
+class WindowView(msgspec.Struct, frozen=True):
+    """`base` is a class of Qt; `is_main`: its widgets are in a central widget."""
 
     base: str
     title: str
@@ -21,11 +21,12 @@ class View(msgspec.Struct, frozen=True):
 
 
 def text(base: str, title: str) -> str:
-    return render("qt/mainUI.ui.j2", View(base, title, base == "QMainWindow"))
+    """The text of a form."""
+    return render("qt/mainUI.ui.j2", WindowView(base, title, base == "QMainWindow"))
 
 
 def folders(linked: LinkedComponent) -> set[str]:
-    """The folders of the run time for state machines, Qt, and code for RoboComp's own tool that a component needs."""
+    """The folders of the run time that a component needs for state machines, Qt, and code for RoboComp's own tool."""
     component = linked.component
     needed = {
         "machine": linked.machine or component.compatibility,
@@ -36,6 +37,6 @@ def folders(linked: LinkedComponent) -> set[str]:
 
 
 def form_of(linked: LinkedComponent) -> list[FilePlan]:
-    """The form of the component's window, if it has one."""
+    """The form of the component's window; empty if it has none."""
     gui = linked.component.gui
     return [FilePlan(PATH, text(gui.base, linked.component.name), ONCE)] if gui else []

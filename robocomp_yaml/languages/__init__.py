@@ -1,7 +1,7 @@
-"""The languages that components are written in: one folder each, with a record, `LANGUAGE`, and all that it takes.
+"""The languages that components are written in: a folder each, with its record `LANGUAGE`, its parts and templates.
 
-Whatever depends on the language asks the record: which keys a document may have, what is started, how it is built,
-what the schema proposes. Nothing else knows the languages by name.
+What depends on the language is read from the record: which keys a document may have, which program is started, how it
+is built, what the schema proposes. No other package names a language.
 """
 
 from __future__ import annotations
@@ -18,22 +18,22 @@ DEFAULT = "python"
 
 @cache
 def table() -> dict[str, TargetLanguage]:
-    """Every built-in language by its name, the usual one first."""
-    folders = registry.named(__path__, packages=True)
-    found = [importlib.import_module(f"{__name__}.{name}").LANGUAGE for name in folders]
-    return {one.name: one for one in sorted(found, key=lambda one: (one.name != DEFAULT, one.name))}
+    """Every built-in language by its name, the default first."""
+    folders = registry.module_names(__path__, packages=True)
+    records = [importlib.import_module(f"{__name__}.{name}").LANGUAGE for name in folders]
+    return {one.name: one for one in sorted(records, key=lambda one: (one.name != DEFAULT, one.name))}
 
 
 _ADDED: dict[str, TargetLanguage] = {}
 
 
 def add(record: TargetLanguage) -> None:
-    """Makes a plug-in's language known. Where documents may be in it, their workspace says."""
+    """Makes the language of a plug-in known. The workspace decides whether its documents may use it."""
     _ADDED[record.name] = record
 
 
 def known() -> dict[str, TargetLanguage]:
-    """Every language that some document of this process may be in."""
+    """Every language that a document of this process may use."""
     return {**table(), **_ADDED}
 
 
@@ -42,12 +42,12 @@ def built_in() -> Collection[str]:
 
 
 def language(name: str) -> TargetLanguage:
-    """The language that a document calls so; the schema has seen to it that there is one."""
+    """The language with a name. The schema has already rejected unknown names: for them it raises KeyError."""
     return table().get(name) or _ADDED[name]
 
 
 def with_capability(capability: str, more: Iterable[TargetLanguage] = ()) -> list[TargetLanguage]:
-    """The languages that have it: built-in ones, and of `more`, those of plug-ins."""
+    """The languages that support `capability`: the built-in ones, and those of plug-ins in `more`."""
     return [one for one in (*table().values(), *more) if capability in one.has]
 
 

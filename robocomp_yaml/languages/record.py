@@ -1,4 +1,4 @@
-"""What there is to know of a language: one record a language, which every other place asks."""
+"""The record of a language: all that other packages need to know of it."""
 
 from __future__ import annotations
 
@@ -20,37 +20,37 @@ MERGING = "merging"
 PORTS = (IMPLEMENTS, REQUIRES, PUBLISHES, SUBSCRIBES)
 USES = (SOURCES, CLASSES, CMAKE, PKG_CONFIG, LINK, PIP)
 CAPABILITIES = (*PORTS, PARAMETERS, PERIOD, STATEMACHINE, GUI, COMPATIBILITY, STANDARD, *USES, MERGING)
-"""What a language may have or not, called as the keys of the documents where there is one."""
+"""What a language may support. Where documents have a key for it, the capability has the name of the key."""
 
 
 class TargetLanguage(msgspec.Struct, frozen=True, kw_only=True, eq=False):
     """A language that components are written in.
 
-    `name` is what documents say, `title` what is said of it. `package` holds its parts, modules that are imported when
-    they are asked for: `plan` always; `code` where it has MERGING; `uses` for libraries; `building` where it
-    `has_building`, for builds that are more than the commands of `build`; `checks` for names that it
-    cannot have, where it `has_checks`: they are run where a component is in the language, or always if it
-    `warns_others` (then with `has_taken(module)`, for documents that are migrated). Its templates stand there too, in
-    `templates/`.
+    `name` is the name in documents, `title` the name in messages. `package` holds the language's parts: modules that
+    are imported when they are needed, and `templates/`. `plan` always exists; `code` if the language has MERGING;
+    `uses` if it has libraries or sources; `building` if it `has_building`, for builds that are more than the commands
+    of `build`; `checks` if it `has_checks`, for names that are illegal in the language. The checks run if a component
+    is in the language; if it `warns_others`, they always run, and `checks.has_taken(module)` is called for migrated
+    documents.
 
-    `has` are its capabilities. `ignored` are keys that a document may say all the same, to no effect, since nothing is
-    built there. `datamodels` are those of state machines, the usual one first.
+    `has` are the capabilities. `ignored` are keys that documents may have without effect, because nothing is built.
+    `datamodels` are the data models of state machines, the default first.
 
-    `keywords` are the language's own words; `taken` are names that nothing of the user's can have there, `members` more
+    `keywords` are the keywords of the language, `taken` other names that no document may use in code, `members` names
     that a parameter cannot have in code.
 
-    `runtime` are the folders that are its run time: the same for all of its components, copied as they stand, and
-    shared by those of a workspace; of its templates, or packages of the compiler where they are named with a dot. Where
-    it has some, `plan` is told where they are, and `needs(component)` which files one needs that stands alone.
-    `runtime_root` is where they stand below the workspace's folder for the language.
+    `runtime` are the folders of the run time: in `templates/`, or packages of the compiler (names with a dot). They
+    are copied unchanged, and shared by the components of a workspace, below `runtime_root` in the workspace's folder
+    for the language. With a run time, `plan` is called with a `Layout` too, and `needs(component)` decides which files
+    of the run time a component outside of a workspace needs.
 
-    `states` is the generated file that says which Slice the component was made for, where it may share that.
+    `states` is the generated file that names the Slice for which the component was generated, if it shares the Slice.
 
-    `program` is what is started, relative to the component's folder, with {name} for the component's. `build` are the
-    commands that make it, with {folder} for that folder; none where `compile` writes it. `loaded` are the files that
-    the program reads when it starts: folders, and how the names of the files there end; `made_of` are those that it is
-    built from, in the same way. `suffixes` are those of code,
-    which `code` reads where it has MERGING, and `comment` is how a line of comment begins there.
+    `program` is what is started, relative to the component's folder; {name} is the component's name. `build` are the
+    commands that build it; {folder} is the component's folder. `build` is empty if `compile` writes the program.
+    `loaded` are the files that the program reads when it starts, `made_of` the files that it is built from: folders,
+    and the endings of the file names in them. `suffixes` are those of source files, which `code` parses; `comment`
+    begins a comment.
     """
 
     name: str
@@ -78,21 +78,21 @@ class TargetLanguage(msgspec.Struct, frozen=True, kw_only=True, eq=False):
     warns_others: bool = False
 
     def part(self, name: str) -> ModuleType:
-        """The module of the language that is called so."""
+        """The part of the language in the module `name`."""
         return importlib.import_module(f"{self.package}.{name}")
 
     @property
     def templates(self) -> str:
-        """The folder of its templates, and of files that are copied as they stand."""
+        """The folder of the templates, and of files that are copied unchanged."""
         file = importlib.import_module(self.package).__file__
         assert file is not None
         return os.path.join(os.path.dirname(file), "templates")
 
     def text(self, path: str) -> str:
-        """The text of a file of its templates."""
-        return resources.whole(os.path.join(self.templates, path))
+        """The text of a file in `templates`."""
+        return resources.read(os.path.join(self.templates, path))
 
     def in_code(self, name: str) -> str:
-        """A parameter's name as code spells it: what is reserved gets an underscore."""
+        """The name of a parameter in code: a reserved name gets an underscore."""
         is_reserved = name in self.keywords or name in self.taken or name in self.members
         return f"{name}_" if is_reserved else name

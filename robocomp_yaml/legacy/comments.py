@@ -1,4 +1,4 @@
-"""Where each comment of a legacy file belongs: above, at the end of, or below a construct, or into its `doc:`."""
+"""Assign each comment of a legacy file to a construct: above it, at its end, below it, or in its `doc:`."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from lark import Token, Tree
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.legacy.document import Notes
-from robocomp_yaml.legacy.reading import Source
+from robocomp_yaml.legacy.reading import SourceText
 from robocomp_yaml.legacy.rules import Rules
 from robocomp_yaml.source.yaml_text import escaped
 
@@ -20,26 +20,26 @@ _DOC = re.compile(r"///(?!/)|/\*\*(?![*/])")
 _BEHIND = re.compile(r"///<|/\*\*<")
 
 
-class _Place(msgspec.Struct, eq=False):
-    """A construct that comments can belong to; `parent` is the one around it."""
+class _Construct(msgspec.Struct, eq=False):
+    """A construct that can have comments. `parent` is the construct that contains it."""
 
     start: int
     end: int
     rule: str
-    parent: _Place | None
+    parent: _Construct | None
     notes: Notes
 
 
-class Placed(msgspec.Struct, frozen=True):
-    """The notes of each construct, by its rule and its place, and those around the whole file."""
+class PlacedComments(msgspec.Struct, frozen=True):
+    """The comments of each construct, by its rule and location, and those around the whole file."""
 
-    by_place: dict[tuple[str, int, int], Notes] = {}
+    by_construct: dict[tuple[str, int, int], Notes] = {}
     around: Notes = msgspec.field(default_factory=Notes)
     diagnostics: list[Diagnostic] = []
 
     def of(self, tree: Tree[Token]) -> Notes:
-        found = None if tree.meta.empty else self.by_place.get(_key(tree))
-        return Notes() if found is None else found
+        notes = None if tree.meta.empty else self.by_construct.get(_key(tree))
+        return Notes() if notes is None else notes
 
 
 def _key(tree: Tree[Token]) -> tuple[str, int, int]:
@@ -47,68 +47,130 @@ def _key(tree: Tree[Token]) -> tuple[str, int, int]:
     return str(tree.data), meta.start_pos, meta.end_pos
 
 
-def place(tree: Tree[Token], comments: Sequence[Token], source: Source, rules: Rules) -> Placed:
-    """Every comment ends in the notes of exactly one construct, or around the file."""
-    placed = Placed()
-    places: list[_Place] = []
-    _collect(tree, None, rules, places, placed)
-    starts = [at.start for at in places]
+def place(tree: Tree[Token], comments: Sequence[Token], source: SourceText, rules: Rules) -> PlacedComments:
+    """Assign every comment to exactly one construct, or to the file."""
+    placer = _CommentPlacer(tree, source, rules)
     for comment in _grouped([_Comment(token, source) for token in comments]):
-        if comment.bad:
-            placed.diagnostics.append(
-                codes.REPAIRED.at(source.span(comment.start, comment.end), what=rules.repairs["lenient_control"])
-            )
-        if comment.lines:
-            _put(comment, places, starts, placed, source, rules)
-    return placed
+        placer.put(comment)
+    return placer.placed
 
 
-def _collect(tree: Tree[Token], parent: _Place | None, rules: Rules, places: list[_Place], placed: Placed) -> None:
-    for child in tree.children:
-        if isinstance(child, Tree):
-            inner = parent
-            if child.data in rules.places and not child.meta.empty:
-                inner = _Place(child.meta.start_pos, child.meta.end_pos, str(child.data), parent, Notes())
-                places.append(inner)
-                placed.by_place[_key(child)] = inner.notes
-            _collect(child, inner, rules, places, placed)
+class _CommentPlacer:
+    """Assigns comments to the constructs of a tree."""
+
+    def __init__(self, tree: Tree[Token], source: SourceText, rules: Rules) -> None:
+        self.source, self.rules, self.placed = source, rules, PlacedComments()
+        self.constructs: list[_Construct] = []
+        self._collect(tree, None)
+        self.starts = [construct.start for construct in self.constructs]
+
+    def _collect(self, tree: Tree[Token], parent: _Construct | None) -> None:
+        for child in tree.children:
+            if isinstance(child, Tree):
+                inner = parent
+                if child.data in self.rules.places and not child.meta.empty:
+                    inner = _Construct(child.meta.start_pos, child.meta.end_pos, str(child.data), parent, Notes())
+                    self.constructs.append(inner)
+                    self.placed.by_construct[_key(child)] = inner.notes
+                self._collect(child, inner)
+
+    def put(self, comment: _Comment) -> None:
+        if comment.has_controls:
+            what = self.rules.repairs["lenient_control"]
+            self.placed.diagnostics.append(codes.REPAIRED.at(self.source.span(comment.start, comment.end), what=what))
+        if not comment.lines:
+            return
+        source = self.source
+        before, around, after = self._neighbours(comment)
+        follows = before is not None and source.line(before.end) == comment.first and not comment.is_alone
+        touching = before is not None and follows and source.text[before.end : comment.start].strip() in ("", ";")
+        precedes = after is not None and comment.precedes_code and source.line(after.start) == comment.last
+        inline = precedes and not touching
+        if before is not None and follows and not inline:
+            if source.line(before.start) != comment.first and source.text[before.end - 1] == "}":
+                before.notes.foot += comment.as_head()
+            else:
+                self._at_end(comment, before)
+        elif around is not None and before is None and not comment.is_alone and not inline:
+            self._at_end(comment, around)
+        elif after is not None:
+            first = before is None and around is None
+            self._above(comment, after, self.placed.around if first else after.notes, before is not None)
+        else:
+            _below(comment, around.notes if around else self.placed.around)
+
+    def _neighbours(self, comment: _Comment) -> tuple[_Construct | None, _Construct | None, _Construct | None]:
+        """Return the last construct before a comment, the construct that contains the comment, and the next one in
+        that."""
+        index = bisect.bisect_left(self.starts, comment.start)
+        before: _Construct | None = None
+        around = self.constructs[index - 1] if index else None
+        while around is not None and around.end <= comment.start:
+            before, around = around, around.parent
+        after = self.constructs[index] if index < len(self.constructs) else None
+        if after is not None and around is not None and after.start >= around.end:
+            after = None
+        return before, around, after
+
+    def _above(self, comment: _Comment, target: _Construct, notes: Notes, not_first: bool) -> None:
+        """Add a comment above a construct. Plain comments go to `notes`: the construct's, or at the top of the file,
+        the file's."""
+        if comment.doc and not comment.is_trailing and self.rules.places[target.rule] == "doc":
+            doc = target.notes.doc
+            doc += [*([""] if doc else []), *comment.lines]
+            return
+        if comment.gap_before and ((notes.head and notes.head[-1]) or (not notes.head and not_first)):
+            notes.head.append("")
+        notes.head += comment.as_head()
+        if comment.gap_after:
+            notes.head.append("")
+
+    def _at_end(self, comment: _Comment, target: _Construct) -> None:
+        if comment.doc and self.rules.places[target.rule] == "doc" and not target.notes.doc:
+            target.notes.doc += comment.lines
+            return
+        text = " ".join(line.strip() for line in comment.lines).strip()
+        if text:
+            target.notes.tail.append(text)
 
 
 class _Comment:
-    """A comment's lines without their marks, and how it stands among the lines of the file."""
+    """A comment's lines without comment marks, and its position relative to code and empty lines."""
 
-    def __init__(self, token: Token, source: Source) -> None:
+    def __init__(self, token: Token, source: SourceText) -> None:
         text = str(token)
         self.start, self.end = token.start_pos or 0, token.end_pos or 0
         self.block = text.startswith(("/*", "<!--"))
         self.doc = bool(_DOC.match(text))
-        self.behind = bool(_BEHIND.match(text))
-        raw = _block_lines(text) if self.block else [_one_line(text)]
-        told = [escaped(line) for line in raw]
-        self.lines, self.bad = [line for line, _ in told], any(bad for _, bad in told)
+        self.is_trailing = bool(_BEHIND.match(text))
+        texts = _block_lines(text) if self.block else [_one_line(text)]
+        pairs = [escaped(line) for line in texts]
+        self.lines, self.has_controls = [line for line, _ in pairs], any(bad for _, bad in pairs)
         self.first, self.last = source.line(self.start), source.line(self.end)
-        self.alone = not source.before(self.start).strip()
-        self.more = self.block and bool(source.line_text(self.last)[len(source.before(self.end)) :].strip(" \t;,"))
+        self.is_alone = not source.before(self.start).strip()
+        rest = source.line_text(self.last)[len(source.before(self.end)) :]
+        self.precedes_code = self.block and bool(rest.strip(" \t;,"))
         self.gap_before = self.first > 1 and not source.line_text(self.first - 1).strip()
         self.gap_after = self.last < source.lines and not source.line_text(self.last + 1).strip()
 
     def as_head(self) -> list[str]:
         return [line or " " for line in self.lines]
 
-    def goes_on_in(self, other: _Comment) -> bool:
-        """Whether another one is the next line of the same."""
-        same = (self.block, self.doc, self.behind) == (False, other.doc, other.behind) and not other.block
-        return same and self.alone and other.alone and other.first == self.last + 1
+    def continues_in(self, other: _Comment) -> bool:
+        """Whether another comment is the next line of this one."""
+        same = (self.block, self.doc, self.is_trailing) == (False, other.doc, other.is_trailing) and not other.block
+        return same and self.is_alone and other.is_alone and other.first == self.last + 1
 
 
 def _grouped(comments: Sequence[_Comment]) -> list[_Comment]:
-    """Comments of one line each that stand directly below each other as one, without the indentation they share."""
+    """Join comments of one line each on adjacent lines, and remove their common indentation."""
     groups: list[_Comment] = []
     for comment in comments:
-        if groups and groups[-1].goes_on_in(comment):
+        if groups and groups[-1].continues_in(comment):
             last = groups[-1]
             last.lines = last.lines + comment.lines
-            last.end, last.last, last.bad = comment.end, comment.last, last.bad or comment.bad
+            last.end, last.last = comment.end, comment.last
+            last.has_controls = last.has_controls or comment.has_controls
             last.gap_after = comment.gap_after
         else:
             groups.append(comment)
@@ -124,7 +186,7 @@ def _dedented(lines: list[str]) -> list[str]:
 
 
 def _one_line(text: str) -> str:
-    if text[0] == "#":  # of which each may be meant: `#~`, `##`
+    if text[0] == "#":  # further marks may be content: `#~`, `##`
         body = text[1:].removeprefix(" ")
     else:
         body = re.sub(r"^///?<?", "", text) if _DOC.match(text) else text.lstrip("/")
@@ -133,7 +195,7 @@ def _one_line(text: str) -> str:
 
 
 def _block_lines(text: str) -> list[str]:
-    """The lines of a `/* */` or `<!-- -->`; none of a banner, which has nothing but stars."""
+    """Return the lines of a `/* */` or `<!-- -->`; none of a banner, which consists of stars."""
     is_xml = text.startswith("<!--")
     body = text[4:-3] if is_xml else re.sub(r"^\*+<?", "", re.sub(r"\*+$", "", text[1:-1]))
     lines = [line.expandtabs(4).rstrip() for line in body.split("\n")]
@@ -149,64 +211,6 @@ def _block_lines(text: str) -> list[str]:
     while lines and not lines[-1].strip():
         del lines[-1]
     return lines
-
-
-def _put(
-    comment: _Comment, places: list[_Place], starts: list[int], placed: Placed, source: Source, rules: Rules
-) -> None:
-    before, around, after = _neighbours(comment, places, starts)
-    behind = before is not None and source.line(before.end) == comment.first and not comment.alone
-    touching = before is not None and behind and source.text[before.end : comment.start].strip() in ("", ";")
-    inline = after is not None and comment.more and source.line(after.start) == comment.last and not touching
-    if before is not None and behind and not inline:
-        if source.line(before.start) != comment.first and source.text[before.end - 1] == "}":
-            before.notes.foot += comment.as_head()
-        else:
-            _at_end(comment, before, rules)
-    elif around is not None and before is None and not comment.alone and not inline:
-        _at_end(comment, around, rules)
-    elif after is not None:
-        first = before is None and around is None
-        _above(comment, after, placed.around if first else after.notes, before is not None, rules)
-    else:
-        _below(comment, around.notes if around else placed.around)
-
-
-def _neighbours(
-    comment: _Comment, places: list[_Place], starts: list[int]
-) -> tuple[_Place | None, _Place | None, _Place | None]:
-    """The construct that ended last before a comment, the one around it, and the next one that is inside of that."""
-    index = bisect.bisect_left(starts, comment.start)
-    before: _Place | None = None
-    around = places[index - 1] if index else None
-    while around is not None and around.end <= comment.start:
-        before, around = around, around.parent
-    after = places[index] if index < len(places) else None
-    if after is not None and around is not None and after.start >= around.end:
-        after = None
-    return before, around, after
-
-
-def _above(comment: _Comment, target: _Place, notes: Notes, not_first: bool, rules: Rules) -> None:
-    """`notes` take plain comments: those of the construct below, or at the top of the file, the file's."""
-    if comment.doc and not comment.behind and rules.places[target.rule] == "doc":
-        doc = target.notes.doc
-        doc += [*([""] if doc else []), *comment.lines]
-        return
-    if comment.gap_before and ((notes.head and notes.head[-1]) or (not notes.head and not_first)):
-        notes.head.append("")
-    notes.head += comment.as_head()
-    if comment.gap_after:
-        notes.head.append("")
-
-
-def _at_end(comment: _Comment, target: _Place, rules: Rules) -> None:
-    if comment.doc and rules.places[target.rule] == "doc" and not target.notes.doc:
-        target.notes.doc += comment.lines
-        return
-    text = " ".join(line.strip() for line in comment.lines).strip()
-    if text:
-        target.notes.tail.append(text)
 
 
 def _below(comment: _Comment, notes: Notes) -> None:

@@ -1,13 +1,15 @@
-"""YAML documents to be written: a tree of entries with their comments, and its text.
+"""YAML documents to write: a tree of entries with comments, and its text.
 
-Short mappings and lists stand on one line, in flow style; what is longer, or holds comments, stands in block style.
+Short mappings and lists are written on one line, in flow style; longer ones, and those with comments, in block style.
 """
 
 from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterable, Iterator
+from collections.abc import Mapping as Mapping_
 from functools import lru_cache
+from typing import Any, cast
 
 import msgspec
 
@@ -16,13 +18,13 @@ from robocomp_yaml.source.tree import Mapping, Node, Scalar, mapping_at, scalar_
 from robocomp_yaml.source.yaml_text import escaped, is_printable, text_of
 
 WIDTH = 120
-_NOWHERE = Span("")
-GAP = None  # an empty line between comments; several are one
+_NO_LOCATION = Span("")
+GAP = None  # an empty line between comments; several are written as one
 Line = str | None
 
 
 class Notes(msgspec.Struct):
-    """Comments of an entry, without '#': lines above it ('' is an empty line), at its end, and below all it holds.
+    """Comments of an entry, without '#': the lines above it ('' is an empty line), at its end, and below its content.
     `doc` are the lines of its doc comments."""
 
     head: list[str] = []
@@ -34,12 +36,12 @@ class Notes(msgspec.Struct):
         return bool(self.head or self.tail or self.foot)
 
     def add(self, other: Notes) -> None:
-        """Takes over another entry's comments, which now stand above this one's."""
+        """Append the comments of another entry to the lines above this one."""
         self.head += [*other.head, *other.tail, *other.foot]
 
 
 class Raw(msgspec.Struct, frozen=True):
-    """A scalar as it is spelled: a number, a boolean."""
+    """A number or boolean as it is spelled."""
 
     lexeme: str
 
@@ -47,84 +49,99 @@ class Raw(msgspec.Struct, frozen=True):
 TRUE = Raw("true")
 
 
-class Name(msgspec.Struct):
-    """The name of something, which may turn out to be spelled in another way."""
+class ReferredName(msgspec.Struct):
+    """A reference to a type. Its text is replaced when the reference is resolved."""
 
     text: str
 
 
 class Doc(msgspec.Struct, frozen=True):
-    """A text for people: if it is long it may be folded, and what reads it strips it."""
+    """Documentation. It may be folded, because readers strip it."""
 
     text: str
 
 
 class Map(msgspec.Struct):
-    """`block`: never on one line. `limit`: the longest line that it may stand on, with its key."""
+    """`block`: never on one line. `limit`: the longest line, with the key, in characters."""
 
-    entries: list[Entry] = []
+    entries: list[DocumentEntry] = []
     block: bool = False
     limit: int = WIDTH
 
-    def put(self, key: str, value: Value, notes: Notes | None = None) -> Entry:
-        entry = Entry(key, value, notes or Notes())
+    @classmethod
+    def of(cls, values: Mapping_[str, Value], *, block: bool = False) -> Map:
+        return cls([DocumentEntry(key, value) for key, value in values.items()], block)
+
+    def put(self, key: str, value: Value, notes: Notes | None = None) -> DocumentEntry:
+        entry = DocumentEntry(key, value, notes or Notes())
         self.entries.append(entry)
         return entry
 
+    def get(self, key: str) -> Value:
+        """Return the value of a key; None where the key is missing."""
+        return next((entry.value for entry in self.entries if entry.key == key), None)
+
     def put_some(self, key: str, value: Value, notes: Notes | None = None) -> None:
-        """As `put`, but for what says nothing: None, an empty text, what has no entries."""
+        """As `put`, unless the value is empty: None, an empty text, a mapping or list without entries."""
         if value.entries if isinstance(value, Map) else value.items if isinstance(value, List) else value:
             self.put(key, value, notes)
 
 
 class List(msgspec.Struct):
-    items: list[Entry] = []
+    items: list[DocumentEntry] = []
     block: bool = False
 
     @classmethod
     def of(cls, values: Iterable[Value]) -> List:
-        return cls([Entry("", value) for value in values])
+        return cls([DocumentEntry("", value) for value in values])
 
-    def put(self, value: Value, notes: Notes | None = None) -> Entry:
-        entry = Entry("", value, notes or Notes())
+    def put(self, value: Value, notes: Notes | None = None) -> DocumentEntry:
+        entry = DocumentEntry("", value, notes or Notes())
         self.items.append(entry)
         return entry
 
 
-Value = str | Raw | Name | Doc | Map | List | None
+Value = str | Raw | ReferredName | Doc | Map | List | None
 
 
-class Entry(msgspec.Struct):
+class DocumentEntry(msgspec.Struct):
     key: str
     value: Value
     notes: Notes = msgspec.field(default_factory=Notes)
 
 
 def tree(document: Map) -> Mapping:
-    """What reading the document's text would give, for what needs no places in it."""
+    """Return the tree that parsing the document's text would return, without locations."""
     entries = {entry.key: (_scalar(entry.key), _node(entry.value)) for entry in document.entries}
-    return mapping_at(_NOWHERE, entries)
+    return mapping_at(_NO_LOCATION, entries)
+
+
+def data(document: Map) -> dict[str, Any]:
+    """Return the document as plain data."""
+    return cast("dict[str, Any]", tree(document).data)
 
 
 def _node(value: Value) -> Node:
-    if isinstance(value, Name | Doc):
-        return _scalar(value.text)
-    if isinstance(value, str):
-        return _scalar(value)
+    if isinstance(value, (str, ReferredName, Doc)):
+        return _scalar(_string(value))
     if isinstance(value, Map):
         return tree(value)
     if isinstance(value, List):
-        return sequence_at(_NOWHERE, [_node(item.value) for item in value.items])
-    return scalar_at(_NOWHERE, value.lexeme if value else "")
+        return sequence_at(_NO_LOCATION, [_node(item.value) for item in value.items])
+    return scalar_at(_NO_LOCATION, value.lexeme if value else "")
 
 
-@lru_cache(1024)  # most of a document are words that come again
+def _string(value: str | ReferredName | Doc) -> str:
+    return value if isinstance(value, str) else value.text
+
+
+@lru_cache(1024)  # most words of a document are repeated
 def _scalar(text: str) -> Scalar:
-    return text_at(_NOWHERE, text)
+    return text_at(_NO_LOCATION, text)
 
 
 def text(document: Map, around: Notes) -> str:
-    """The document's text; `around` are the comments above and below all."""
+    """Return the document's text; `around` are the comments above and below the document."""
     lines = [*_comments(around.head, ""), *_map(document, ""), *_comments(around.foot, "")]
     kept = [line for line, before in zip(lines, [GAP, *lines], strict=False) if line is not GAP or before is not GAP]
     return "\n".join(line or "" for line in kept).rstrip("\n") + "\n"
@@ -151,7 +168,7 @@ def _list(node: List, indent: str) -> Iterator[Line]:
             yield from _entry(item, indent, start)
 
 
-def _entry(entry: Entry, indent: str, start: str) -> Iterator[Line]:
+def _entry(entry: DocumentEntry, indent: str, start: str) -> Iterator[Line]:
     tail = "  # " + escaped(" # ".join(entry.notes.tail))[0] if entry.notes.tail else ""
     line = _line(entry.value, start)
     inner = indent + "  "
@@ -161,42 +178,38 @@ def _entry(entry: Entry, indent: str, start: str) -> Iterator[Line]:
         header, body = _block_text(entry.value.text, inner)
         yield f"{start} {header}{tail}"
         yield from body
-    elif isinstance(entry.value, Map):
+    elif isinstance(entry.value, (Map, List)):
         yield start + tail
-        yield from _map(entry.value, inner)
-    elif isinstance(entry.value, List):
-        yield start + tail
-        yield from _list(entry.value, inner)
+        yield from _map(entry.value, inner) if isinstance(entry.value, Map) else _list(entry.value, inner)
     yield from _comments(entry.notes.foot, inner)
 
 
 def _line(value: Value, start: str) -> str | None:
-    """An entry on one line, where it can stand on one."""
+    """Return an entry on one line; None where it needs several."""
     if value is None:
         return start
-    if isinstance(value, Map | List):
+    if isinstance(value, (Map, List)):
         line = _flow(value)
         limit = value.limit if isinstance(value, Map) else WIDTH
         empty = line in ("{}", "[]")
         return f"{start} {line}" if line is not None and (empty or len(start) + 1 + len(line) <= limit) else None
     if isinstance(value, Raw):
         return f"{start} {value.lexeme}"
-    told = value.text if isinstance(value, Doc | Name) else value
-    line = f"{start} {text_of(told)}"
-    as_block = isinstance(value, Doc) and ("\n" in told or (len(line) > WIDTH and " " in told))
-    return None if as_block and is_printable(told) and not told[:1].isspace() else line
+    string = _string(value)
+    line = f"{start} {text_of(string)}"
+    as_block = isinstance(value, Doc) and ("\n" in string or (len(line) > WIDTH and " " in string))
+    return None if as_block and is_printable(string) and not string[:1].isspace() else line
 
 
 def _flow(value: Value) -> str | None:
-    """A value within a line; None where it cannot be."""
+    """Return a value in flow style; None where it cannot be written so."""
     if value is None:
         return "null"
     if isinstance(value, Raw):
         return value.lexeme
-    if isinstance(value, str | Name):
-        return text_of(value if isinstance(value, str) else value.text, in_flow=True)
-    if isinstance(value, Doc):
-        return None if "\n" in value.text else text_of(value.text, in_flow=True)
+    if isinstance(value, (str, ReferredName, Doc)):
+        string = _string(value)
+        return None if isinstance(value, Doc) and "\n" in string else text_of(string, in_flow=True)
     entries = value.entries if isinstance(value, Map) else value.items
     if entries and (value.block or any(entry.notes for entry in entries)):
         return None
@@ -210,7 +223,7 @@ def _flow(value: Value) -> str | None:
 
 
 def _block_text(value: str, indent: str) -> tuple[str, list[str]]:
-    """A text as a block: kept line by line (`|`), or one long line folded (`>`)."""
+    """Return a text as a block scalar: literal (`|`), or one long line folded (`>`)."""
     if "\n" in value or "  " in value or "\t" in value:
         return "|", [(indent + line).rstrip() for line in value.split("\n")]
     width = max(WIDTH - len(indent), 40)
@@ -224,8 +237,8 @@ def _block_text(value: str, indent: str) -> tuple[str, list[str]]:
     )
 
 
-def _head(entry: Entry, first: bool, indent: str) -> Iterator[Line]:
-    """The comments above an entry; the first one of a block stands close to what opens it."""
+def _head(entry: DocumentEntry, first: bool, indent: str) -> Iterator[Line]:
+    """Yield the comments above an entry, without empty lines above the first entry of a block."""
     lines = entry.notes.head
     start = next((at for at, line in enumerate(lines) if line), 0) if first and indent else 0
     yield from _comments(lines[start:], indent)

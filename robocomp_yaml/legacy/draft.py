@@ -1,33 +1,35 @@
-"""What a converter makes of one legacy file: for each kind of file a type of its own, with what a run still needs to
-make a document of it."""
+"""What converters return: a type for each kind of legacy file, with what a run needs to write its document; and what
+converters share."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
+from typing import Any
 
 import msgspec
 from lark import Token, Tree
 
+from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean
-from robocomp_yaml.legacy.comments import Placed
-from robocomp_yaml.legacy.document import Entry, List, Map, Name, Notes, Value
+from robocomp_yaml.legacy.comments import PlacedComments
+from robocomp_yaml.legacy.document import DocumentEntry, List, Map, Notes, ReferredName, Value
 from robocomp_yaml.legacy.grammar import Parsed, token
-from robocomp_yaml.legacy.networks.node import NetworkDraft
-from robocomp_yaml.legacy.reading import Source
+from robocomp_yaml.legacy.networks.node import NetworkDraft, NetworkNode, safe_name
+from robocomp_yaml.legacy.reading import SourceText
 from robocomp_yaml.legacy.rules import Rules
-from robocomp_yaml.legacy.settings.entries import Settings
+from robocomp_yaml.legacy.settings.entries import ConfigSettings
 
 
 class ImportDraft(msgspec.Struct, frozen=True):
-    """An import as the file spells it; `entry` is where its name goes."""
+    """An import as the file spells it. `entry` is the document's entry that gets the resolved name."""
 
     path: str
     span: Span
-    entry: Entry
+    entry: DocumentEntry
 
     @property
     def stem(self) -> str:
@@ -35,16 +37,17 @@ class ImportDraft(msgspec.Struct, frozen=True):
 
 
 class Reference(msgspec.Struct, frozen=True):
-    """A type that a module names: `module` is '' for one of its own. `written` is how the document names it."""
+    """A reference of a module to a type. `module` is '' for a type of the same module; `written` is the name in the
+    document."""
 
     module: str
     name: str
-    written: Name
+    written: ReferredName
     span: Span
 
 
 class ModuleNames(msgspec.Struct):
-    """What a module defines and refers to: enough to tell a reference that leads nowhere."""
+    """What a module defines and refers to, so that unknown references can be reported."""
 
     name: str
     defined: set[str] = set()
@@ -52,63 +55,64 @@ class ModuleNames(msgspec.Struct):
 
 
 class NamedMachine(msgspec.Struct, frozen=True):
-    """The state machine that a component names: its path as the file spells it; `entry` is where the new one goes."""
+    """The state machine of a component: its path as the file spells it. `entry` is the document's entry that gets the
+    path of the SCXML file."""
 
     path: str
     span: Span
-    entry: Entry
+    entry: DocumentEntry
 
     @property
     def document(self) -> str:
-        """The path of what it becomes."""
+        """The path of the SCXML file."""
         return re.sub(r"\.smdsl$", ".scxml", self.path, flags=re.IGNORECASE)
 
 
 class _Document(msgspec.Struct, frozen=True):
-    """A document, as far as its own file says it, and the comments around it."""
+    """A document as far as one file defines it, and the comments around it."""
 
     document: Map
     around: Notes
 
 
 class ModuleDraft(_Document, frozen=True):
-    """Of an interface file: its document, but for what its imports will be called."""
+    """The document of an interface file, with imports that are not resolved yet."""
 
     imports: tuple[ImportDraft, ...]
     names: ModuleNames
 
 
 class ComponentDraft(_Document, frozen=True):
-    """Of a component's file: its document, but for what its imports and its state machine will be called."""
+    """The document of a component, with imports and a state machine that are not resolved yet."""
 
     imports: tuple[ImportDraft, ...]
     machine: NamedMachine | None = None
 
 
 class ParametersDraft(_Document, frozen=True):
-    """Of a file that declares parameters: its document, but for the component that it belongs to."""
+    """The document of a file that declares parameters, without the path of its component."""
 
 
 class ValuesDraft(_Document, frozen=True):
-    """Of the values for such a file: their document, but for the path of what declares them."""
+    """The document of values for declared parameters, without the path of the declaration."""
 
 
 class ConfigDraft(msgspec.Struct, frozen=True):
-    """Of a config: its document is made together with those of the other configs of its component."""
+    """The settings of a config. All configs of a component are converted to documents together."""
 
-    settings: Settings
+    settings: ConfigSettings
     around: Notes
 
 
 class DeploymentDraft(msgspec.Struct, frozen=True):
-    """Of a manager or a launcher: its document is made once the run's components are known."""
+    """The network of a manager or launcher. It is converted when the components of the run are known."""
 
     network: NetworkDraft
     around: Notes
 
 
 class MachineDraft(msgspec.Struct, frozen=True):
-    """Of a state machine: the whole text of its SCXML."""
+    """A state machine as SCXML text."""
 
     text: str
 
@@ -117,85 +121,101 @@ FileDraft = ModuleDraft | ComponentDraft | ParametersDraft | ValuesDraft | Confi
 
 
 class Reader(msgspec.Struct, eq=False):
-    """What converters share: the file, its rules, where its comments belong, and what there is to say about it."""
+    """What converters share: the file, its rules, the comments by construct, and the diagnostics."""
 
-    source: Source
+    source: SourceText
     rules: Rules
     parsed: Parsed
-    placed: Placed
+    placed: PlacedComments
     diagnostics: list[Diagnostic] = []
 
     @property
     def tree(self) -> Tree[Token]:
-        """What was parsed: nobody converts what could not be."""
+        """The parsed tree. Only files that were parsed are converted."""
         assert self.parsed.tree is not None
         return self.parsed.tree
 
     def span(self, node: Tree[Token] | Token) -> Span:
+        """Return the location of a construct or a token."""
         if isinstance(node, Token):
             return self.source.span(node.start_pos or 0, node.end_pos or 0)
         return self.source.span(node.meta.start_pos, node.meta.end_pos)
 
     def notes(self, tree: Tree[Token]) -> Notes:
+        """Return the comments of a construct."""
         return self.placed.of(tree)
 
     def name(self, tree: Tree[Token]) -> str:
-        """The name of a construct."""
+        """Return the name of a construct, '' where it has none."""
         found = token(tree, "NAME")
         return plain(found) if found is not None else ""
 
-    def repaired(self, repair: str, node: Tree[Token] | Token, text: str = "") -> None:
-        what = self.rules.repairs[repair].format(text=text)
-        self.diagnostics.append(codes.REPAIRED.at(self.span(node), what=what))
+    def report(self, code: Code, at: Tree[Token] | Token, **facts: Any) -> None:
+        """Report a diagnostic at the location of a construct or a token."""
+        self.diagnostics.append(code.at(self.span(at), **facts))
 
-    def refused(self, refusal: str, node: Tree[Token] | Token) -> None:
-        self.diagnostics.append(codes.REFUSED.at(self.span(node), reason=self.rules.refusals[refusal]))
+    def repaired(self, repair: str, node: Tree[Token] | Token, text: str = "", **facts: str) -> None:
+        """Report a fault that has one possible meaning, in the words of the rules' `repairs`."""
+        what = self.rules.repairs[repair].format(text=text, **facts)
+        self.report(codes.REPAIRED, node, what=what)
+
+    def refused(self, refusal: str, node: Tree[Token] | Token, text: str = "", **facts: str) -> None:
+        """Report what cannot be converted, in the words of the rules' `refusals`."""
+        reason = self.rules.refusals[refusal]
+        self.report(codes.REFUSED, node, reason=reason.format(text=text, **facts) if text else reason)
+
+    def lost(self, loss: str, node: Tree[Token] | Token, text: str = "", **facts: str) -> None:
+        """Report what no document contains, in the words of the rules' `losses`."""
+        what = self.rules.losses[loss].format(text=text, **facts)
+        self.report(codes.LOST, node, what=what)
 
     def word(self, what: str, text: str, at: Tree[Token] | Token) -> str:
-        """A word in its one spelling; an error for a word that is none of those known."""
+        """Return the canonical spelling of a word; report an unknown word."""
         known = self.rules.values[what]
         if text.lower() not in known:
             hint = did_you_mean(text, known, otherwise="write " + " or ".join(dict.fromkeys(known.values())))
-            self.diagnostics.append(codes.UNKNOWN_VALUE.at(self.span(at), what=what, value=text, hint=hint))
+            self.report(codes.UNKNOWN_VALUE, at, what=what, value=text, hint=hint)
         return known.get(text.lower(), text)
 
     def gui(self, words: list[str], at: list[Tree[Token] | Token]) -> Map:
-        """Toolkit and base class of a window, and where each stands."""
+        """Return the `gui:` of a toolkit and a base class; `at` has the location of each."""
         toolkit = self.word("toolkit", words[0], at[0])
         base = self.word("base", words[1], at[1]) if words[1:] else self.rules.defaults["base"]
-        return Map([Entry("toolkit", toolkit), Entry("base", base)])
+        return Map.of({"toolkit": toolkit, "base": base})
 
     def port(self, interface: str, used: Collection[str], declared: Collection[str], ros: Tree[Token] | None) -> Value:
-        """An entry of a list of ports: a second one of the same interface has a number behind its name. `ros` is what
-        says that it is one of ROS."""
+        """Return an entry of a list of ports. A further port of the same interface has a number behind its name.
+        `ros` is the node that marks the port as one of ROS."""
         name, number = interface, 0
         while name in used or (number and name in declared):
             number += 1
             name = f"{interface}{number}"
         if ros is not None:
-            self.diagnostics.append(codes.MIDDLEWARE.at(self.span(ros), name=interface))
-            return Map([Entry(name, Map([Entry("interface", interface), Entry("x-middleware", "ros")]))])
-        return interface if name == interface else Map([Entry(name, interface)])
+            self.report(codes.MIDDLEWARE, ros, name=interface)
+            return Map.of({name: Map.of({"interface": interface, "x-middleware": "ros"})})
+        return interface if name == interface else Map.of({name: interface})
 
     def doc(self, tree: Tree[Token], *names: str) -> str:
-        """The doc comments of a construct as Markdown; markup that only names it goes."""
+        """Return the doc comments of a construct as Markdown, without the markup that only repeats its name."""
         lines = self.notes(tree).doc
         if not lines:
             return ""
-        drop = self.rules.doc_drop
-        if any(re.match(drop.replace("{name}", "(?:.*)"), line.strip()) for line in lines):  # seldom, for any name
+        drop = self.rules.doc.drop
+        # Such markup is rare: test for any name first, which needs one pattern only.
+        if any(re.match(drop.replace("{name}", "(?:.*)"), line.strip()) for line in lines):
             own = "|".join(re.escape(name) for name in names if name)
             lines = [line for line in lines if not re.match(drop.replace("{name}", f"(?:{own})"), line.strip())]
-        return trimmed(self.rules.doc_strip.sub("", "\n".join(lines).replace("\t", " ")))
+        text = re.sub(self.rules.doc.strip, "", "\n".join(lines).replace("\t", " "), flags=re.MULTILINE)
+        return trimmed(text)
 
     def imports(self, nodes: list[Tree[Token]]) -> tuple[List, list[ImportDraft]]:
-        """The list under `imports:`, each file once."""
+        """Return the list under `imports:`, each file once, and its drafts."""
         listed, drafts = List(), list[ImportDraft]()
         for node in nodes:
             literal = next(child for child in node.children if isinstance(child, Token))
             path = re.sub(r'^[^"<]*["<]|[">]$', "", str(literal)).strip()
             if not base_name(path):
-                self.diagnostics.append(codes.SYNTAX.at(self.span(literal), problem="an import of nothing", hint=""))
+                self.report(codes.SYNTAX, literal, problem="this import has no file name", hint="")
             elif any(known.stem == base_name(path) for known in drafts):
                 self.repaired("lenient_duplicate_import", literal, base_name(path))
                 drafts[-1].entry.notes.tail += [*self.notes(node).head, *self.notes(node).tail]
@@ -205,18 +225,59 @@ class Reader(msgspec.Struct, eq=False):
         return listed, drafts
 
 
+def named_node(
+    reader: Reader, network: NetworkDraft, name: str, at: Tree[Token] | Token, notes: Notes, whole: Tree[Token]
+) -> NetworkNode:
+    """Add a node to a network. `at` is the location of its name, `whole` that of its definition."""
+    node = NetworkNode(name, safe_name(name, [known.name for known in network.nodes]), reader.span(at), notes=notes)
+    if not name.strip():
+        reader.refused("unnamed", whole)
+    if any(name == known.alias for known in network.nodes):
+        reader.report(codes.DUPLICATE, at, name=name)
+    elif node.name != name and name.strip():
+        reader.repaired("name", at, name, name=node.name)
+    network.nodes.append(node)
+    return node
+
+
+class ComponentBuilder:
+    """Builds the document of a component key by key, for all formats."""
+
+    def __init__(self, reader: Reader) -> None:
+        self.reader = reader
+        self.entries: dict[str, DocumentEntry] = {}
+        self.machine: NamedMachine | None = None
+
+    def put(self, key: str, value: Value, notes: Notes | None = None) -> DocumentEntry:
+        self.entries[key] = DocumentEntry(key, value, notes or Notes())
+        return self.entries[key]
+
+    def put_machine(self, path: str, at: Tree[Token] | Token, notes: Notes | None = None) -> None:
+        entry = self.put("statemachine", path, notes)
+        self.machine = NamedMachine(path, self.reader.span(at), entry)
+        entry.value = self.machine.document
+
+    def draft(self, at: Tree[Token] | Token, imports: Iterable[ImportDraft], around: Notes) -> ComponentDraft:
+        """Return the document: the keys in the order of the rules, then all others. `at` is the location of the
+        component's name."""
+        if "language" not in self.entries:
+            self.reader.report(codes.NO_LANGUAGE, at, name=self.entries["component"].value)
+        entries = {key: self.entries[key] for key in self.reader.rules.order if key in self.entries} | self.entries
+        return ComponentDraft(Map([*entries.values()], block=True), around, tuple(imports), self.machine)
+
+
 def plain(name: Token) -> str:
-    """An identifier without the '\\' that lets Slice use a keyword as one."""
+    """Return an identifier without the '\\' with which Slice escapes keywords."""
     return str(name).lstrip("\\")
 
 
 def base_name(path: str) -> str:
-    """`X` for `/a/b/X.idsl`, `X.ice` and `X`."""
+    """Return `X` for `/a/b/X.idsl`, `X.ice` and `X`."""
     return re.sub(r"\.(?:idsl|ice)$", "", re.split(r"[/\\]", path)[-1], flags=re.IGNORECASE)
 
 
 def trimmed(text: str) -> str:
-    """Without blank lines around it, and without blanks around its first and behind each line."""
+    """Strip blank lines around a text, trailing blanks of each line, and the indentation of the first line."""
     lines = [line.rstrip() for line in text.split("\n")]
     while lines and not lines[0]:
         del lines[0]

@@ -1,4 +1,4 @@
-"""A legacy text parsed by its grammar: the tree with what the parser passes over, or every syntax error."""
+"""Parse a legacy text by the grammar of its format: the tree and the tokens that it skips, or all syntax errors."""
 
 from __future__ import annotations
 
@@ -10,26 +10,28 @@ import msgspec
 from lark import Lark, Token, Tree
 from lark.exceptions import UnexpectedInput
 from lark.lexer import PatternRE, PatternStr, TerminalDef
+from lark.tree import Meta
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.legacy import flat, syntax_error
-from robocomp_yaml.legacy.reading import Source
+from robocomp_yaml.legacy import syntax_error
+from robocomp_yaml.legacy.reading import SourceText
 from robocomp_yaml.legacy.rules import Rules
+from robocomp_yaml.source import properties
 
 MAX_ERRORS = 20
-"""As many syntax errors of one file are reported: then it is something else altogether."""
+"""At most this many syntax errors are reported for a file: a file with more is of another format."""
 
 MAX_DEPTH = 150
-"""As deep may constructs stand inside each other; nobody writes a quarter of it."""
+"""At most this deep may constructs be nested. Real files have less than a quarter of it."""
 
 COMMENTS = ("LINE_COMMENT", "BLOCK_COMMENT")
 _IGNORED = re.compile(r"^%ignore (?!BLANK)(\w+)", re.MULTILINE)
 
 
 class Parsed(msgspec.Struct, frozen=True):
-    """`trivia` are comments and other tokens that no rule of the grammar takes, in order. No tree: there are errors."""
+    """`trivia` are the tokens that the grammar ignores, such as comments, in order. Without a tree there are errors."""
 
     tree: Tree[Token] | None
     trivia: tuple[Token, ...] = ()
@@ -40,14 +42,14 @@ class Parsed(msgspec.Struct, frozen=True):
         return [token for token in self.trivia if token.type in COMMENTS]
 
 
-class _Parser(msgspec.Struct, frozen=True):
+class _FormatParser(msgspec.Struct, frozen=True):
     lark: Lark
     trivia: list[Token]
     literals: dict[str, str]
 
 
 @cache
-def _parser(text: str) -> _Parser:
+def _parser(text: str) -> _FormatParser:
     trivia: list[Token] = []
 
     def keep(token: Token) -> Token:
@@ -57,7 +59,7 @@ def _parser(text: str) -> _Parser:
     literals: dict[str, str] = {}
 
     def edit(terminal: TerminalDef) -> None:
-        """Keywords are whole words, also where the grammar takes no name that could end what they begin."""
+        """Match keywords only as whole words, also where no name could follow them."""
         if isinstance(terminal.pattern, PatternStr):
             literals[terminal.name] = terminal.pattern.value
             if terminal.pattern.value.isalpha():
@@ -73,51 +75,76 @@ def _parser(text: str) -> _Parser:
         lexer_callbacks=dict.fromkeys(_IGNORED.findall(text), keep),
         edit_terminals=edit,
     )
-    return _Parser(lark, trivia, literals)
+    return _FormatParser(lark, trivia, literals)
 
 
-def parse(source: Source, rules: Rules) -> Parsed:
-    """After an error, the statement it stands in is blanked out and all is parsed again, for the next one."""
+def parse(source: SourceText, rules: Rules) -> Parsed:
+    """Return the tree of a text, or its syntax errors. After an error, the statement around it is blanked and the
+    text is parsed again, to find the next error."""
     if not rules.grammar:
-        lines, comments = flat.parse(source)
-        return Parsed(lines, tuple(comments))
+        return parse_flat(source.text)
     parser = _parser(rules.grammar)
     text: str | None = source.text
-    said: list[Diagnostic] = []
-    while text is not None and len(said) < MAX_ERRORS:
+    diagnostics: list[Diagnostic] = []
+    while text is not None and len(diagnostics) < MAX_ERRORS:
         parser.trivia.clear()
         try:
             tree = parser.lark.parse(text)
         except UnexpectedInput as error:
-            fault = syntax_error.Explainer(source, rules, parser.literals, text).explain(error)
-            if not (fault.at_end and any(diagnostic.fact("missing") == "}" for diagnostic in said)):
-                said.append(fault.diagnostic)
+            fault = syntax_error.SyntaxExplainer(source, rules, parser.literals, text).explain(error)
+            if not (fault.at_end and any(diagnostic.fact("missing") == "}" for diagnostic in diagnostics)):
+                diagnostics.append(fault.diagnostic)
             text = fault.rest
         else:
-            if not said and depth(tree) > MAX_DEPTH:
-                said.append(codes.SYNTAX.at(Span(source.path), problem="this file nests things too deeply", hint=""))
-            return Parsed(None if said else tree, tuple(parser.trivia), tuple(said))
-    return Parsed(None, (), tuple(said))
+            if not diagnostics and _depth(tree) > MAX_DEPTH:
+                problem = f"this file nests constructs more than {MAX_DEPTH} levels deep"
+                diagnostics.append(codes.SYNTAX.at(Span(source.path), problem=problem, hint=""))
+            return Parsed(None if diagnostics else tree, tuple(parser.trivia), tuple(diagnostics))
+    return Parsed(None, (), tuple(diagnostics))
 
 
-def depth(tree: Tree[Token]) -> int:
-    """How deep the constructs of a file stand inside each other."""
-    found, level = 0, [tree]
+class LineTree(Tree[Token]):
+    """A line that is not blank: an `entry`, or one that Ice ignores (None). `rest` is the text after its `=`, with the
+    comment."""
+
+    def __init__(self, line: properties.PropertyLine, start: int, rest: str) -> None:
+        meta = Meta()  # type: ignore[no-untyped-call]
+        meta.empty, meta.start_pos, meta.end_pos = False, start, line.stop
+        super().__init__("invalid" if line.entry is None else "entry", [], meta)
+        self.entry = line.entry
+        self.rest = rest
+
+
+def parse_flat(text: str) -> Parsed:
+    """Return a flat config as a tree: each line that `source.properties` reads is a construct, which can have
+    comments."""
+    lines: list[LineTree] = []
+    comments: list[Token] = []
+    for line in properties.read(text).lines:
+        if line.entry is not None:
+            lines.append(LineTree(line, line.start, text[line.entry.at : line.end]))
+        elif bare := text[line.start : line.stop].lstrip(" \t\r"):
+            lines.append(LineTree(line, line.stop - len(bare), ""))
+        if line.stop < line.end:
+            comment = text[line.stop : line.end]
+            comments.append(Token("LINE_COMMENT", comment, start_pos=line.stop, end_pos=line.end))
+    return Parsed(Tree("start", list(lines)), tuple(comments))
+
+
+def _depth(tree: Tree[Token]) -> int:
+    """Return how deep the constructs of a file are nested."""
+    count, level = 0, [tree]
     while level:
-        found += 1
+        count += 1
         level = [child for node in level for child in node.children if isinstance(child, Tree)]
-    return found
+    return count
 
 
-def marked(tree: Tree[Token], prefix: str) -> Iterator[tuple[Tree[Token], int, int]]:
-    """The outermost subtrees whose rule's name starts with `prefix`, each with its place.
+def marked(tree: Tree[Token], prefix: str, end: int = 0) -> Iterator[tuple[Tree[Token], int, int]]:
+    """Yield the outermost subtrees whose rule's name starts with `prefix`, each with its start and end.
 
-    An empty one (something is missing there) stands at the end of what is before it.
+    An empty subtree (something is missing) is located at the end of the token before it, or at `end` without one.
     """
-    return _marked(tree, prefix, 0)
-
-
-def _marked(tree: Tree[Token], prefix: str, end: int) -> Iterator[tuple[Tree[Token], int, int]]:
     for child in tree.children:
         if not isinstance(child, Tree):
             end = child.end_pos or end
@@ -125,21 +152,21 @@ def _marked(tree: Tree[Token], prefix: str, end: int) -> Iterator[tuple[Tree[Tok
         if str(child.data).startswith(prefix):
             yield (child, end - 1, end) if child.meta.empty else (child, child.meta.start_pos, child.meta.end_pos)
         else:
-            yield from _marked(child, prefix, child.meta.start_pos if not child.meta.empty else end)
+            yield from marked(child, prefix, child.meta.start_pos if not child.meta.empty else end)
         end = end if child.meta.empty else child.meta.end_pos
 
 
 def words(tree: Tree[Token]) -> str:
-    """The tokens of a subtree, as a message quotes them."""
+    """Return the tokens of a subtree, as a message quotes them."""
     return " ".join(str(token) for token in tree.scan_values(lambda value: isinstance(value, Token)))
 
 
 def token(tree: Tree[Token], kind: str) -> Token | None:
-    """The first token of a kind directly below a tree."""
+    """Return the first token of a kind directly below a tree; None where it has none."""
     return next((child for child in tree.children if isinstance(child, Token) and child.type == kind), None)
 
 
 def trees(tree: Tree[Token], *kinds: str) -> list[Tree[Token]]:
-    """The subtrees of these kinds directly below a tree; all of them, if none is named."""
+    """Return the subtrees of these kinds directly below a tree; without kinds, all of them."""
     below = [child for child in tree.children if isinstance(child, Tree)]
     return [child for child in below if not kinds or child.data in kinds]

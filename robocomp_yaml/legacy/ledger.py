@@ -1,9 +1,9 @@
-"""The ledger: what became of every line of every file, and the totals."""
+"""The ledger: the outcome of every line of every file, and the totals."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 import msgspec
 
@@ -11,8 +11,7 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import ERROR, WARNING, Diagnostic
 from robocomp_yaml.diag.render.json import as_data, dumps
 from robocomp_yaml.legacy.convert import Converted
-from robocomp_yaml.legacy.grammar import Parsed
-from robocomp_yaml.legacy.reading import Source
+from robocomp_yaml.legacy.sources import LegacyFile
 
 CONVERTED, WARNED, REFUSED, SKIPPED = "converted", "warned", "refused", "skipped"
 STATUSES = (CONVERTED, WARNED, REFUSED, SKIPPED)
@@ -21,10 +20,11 @@ CLASSES = ("blank", "converted", "comment", "repaired", "lost", "refused")
 _REPAIRS = {codes.REPAIRED.id: "repaired", codes.OVERLOAD.id: "repaired", codes.LOST.id: "lost"}
 
 
-class Entry(msgspec.Struct):
-    """What became of one file. `skipped`: its document was left as it is, on purpose. `blocked`: it could not be
+class LedgerEntry(msgspec.Struct):
+    """The outcome of one file. `skipped`: its document is kept as it is, on purpose. `blocked`: it could not be
     written."""
 
+    legacy: LegacyFile
     file: Converted
     outputs: list[str] = []
     diagnostics: list[Diagnostic] = []
@@ -45,54 +45,46 @@ class Entry(msgspec.Struct):
         return self.file.rules.title if self.file.rules is not None else "unknown"
 
     def lines(self) -> Counter[str]:
-        """How many lines are in each class; the classes add up to the file's lines."""
-        source = self.file.source
-        if source is None:
-            return Counter()
-        refused = self.status == REFUSED or self.file.parsed is None or self.file.parsed.tree is None
-        return Counter(classify(source, self.file.parsed, self.diagnostics, refused))
+        """Return the number of lines of each class. Their sum is the number of the file's lines."""
+        source, parsed = self.file.source, self.file.parsed
+        texts = source.text.split("\n")[: source.lines] if source is not None else []
+        if source is None or self.status == REFUSED or parsed is None or parsed.tree is None:
+            return Counter("refused" if text.strip() else "blank" for text in texts)
+        bare = list(source.text)
+        commented: set[int] = set()
+        for token in parsed.comments:
+            start, end = token.start_pos or 0, token.end_pos or 0
+            bare[start:end] = [char if char == "\n" else " " for char in bare[start:end]]
+            commented.update(range(source.line(start), source.line(end) + 1))
+        classes = []
+        for number, text in enumerate("".join(bare).split("\n")[: source.lines], 1):
+            classes.append("converted" if text.strip() else "comment" if number in commented else "blank")
+        changed = [(source.line(t.start_pos or 0), source.line(t.end_pos or 0), "lost") for t in parsed.trivia
+                   if t.type == "METADATA"]  # fmt: skip
+        changed += [(d.span.line, d.span.line, _REPAIRS[d.code]) for d in self.diagnostics if d.code in _REPAIRS]
+        for first, last, to in changed:
+            for line in range(first, last + 1):
+                if classes[line - 1] in ("converted", "repaired"):
+                    classes[line - 1] = to
+        return Counter(classes)
 
 
-def classify(source: Source, parsed: Parsed | None, diagnostics: Iterable[Diagnostic], refused: bool) -> list[str]:
-    """The class of each line."""
-    texts = source.text.split("\n")[: source.lines]
-    if refused or parsed is None:
-        return ["refused" if text.strip() else "blank" for text in texts]
-    bare = list(source.text)
-    commented: set[int] = set()
-    for token in parsed.comments:
-        start, end = token.start_pos or 0, token.end_pos or 0
-        bare[start:end] = [char if char == "\n" else " " for char in bare[start:end]]
-        commented.update(range(source.line(start), source.line(end) + 1))
-    classes = []
-    for number, text in enumerate("".join(bare).split("\n")[: source.lines], 1):
-        classes.append("converted" if text.strip() else "comment" if number in commented else "blank")
-    changed = [(source.line(t.start_pos or 0), source.line(t.end_pos or 0), "lost") for t in parsed.trivia
-               if t.type == "METADATA"]  # fmt: skip
-    changed += [(d.span.line, d.span.line, _REPAIRS[d.code]) for d in diagnostics if d.code in _REPAIRS]
-    for first, last, to in changed:
-        for line in range(first, last + 1):
-            if classes[line - 1] in ("converted", "repaired"):
-                classes[line - 1] = to
-    return classes
-
-
-def as_json(entries: Sequence[Entry]) -> str:
-    """The report of `--report`."""
+def as_json(entries: Sequence[LedgerEntry]) -> str:
+    """Return the text of `--report`."""
     totals: dict[str, object] = {"files": len(entries)}
     totals |= {status: sum(entry.status == status for entry in entries) for status in STATUSES}
     lines: Counter[str] = Counter()
     files = []
     for entry in entries:
-        own = entry.lines()
-        lines += own
+        classes = entry.lines()
+        lines += classes
         files.append(
             {
                 "source": entry.file.path,
                 "format": entry.file.rules.name if entry.file.rules is not None else None,
                 "status": entry.status,
                 "outputs": entry.outputs,
-                "lines": _counts(own),
+                "lines": _counts(classes),
                 "diagnostics": [as_data(diagnostic) for diagnostic in entry.diagnostics],
             }
         )

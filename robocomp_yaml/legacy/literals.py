@@ -1,4 +1,4 @@
-"""Slice's literals as YAML scalars, spelled as they were wherever YAML reads the same."""
+"""Convert literals of Slice to YAML scalars, in the same spelling where YAML reads the same value."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _LETTERS = {"n": "\n", "t": "\t", "r": "\r", "a": "\a", "b": "\b", "f": "\f", "v
 
 
 def value(token: Token) -> Value:
-    """A number or a text in quotes."""
+    """Return a number or a text in quotes as a value of a document."""
     if token.type == "STRING":
         return _ESCAPE.sub(_unescaped, str(token)[1:-1])
     lexeme = str(token)
@@ -27,13 +27,13 @@ def value(token: Token) -> Value:
 
 
 def name(qname: Tree[Token]) -> Value:
-    """An enumerator, without what qualifies it; `true` and `false` are booleans."""
+    """Return an enumerator without its qualifiers; `true` and `false` are booleans."""
     last = str([child for child in qname.children if isinstance(child, Token)][-1]).lstrip("\\")
     return Raw(last) if last in ("true", "false") else last
 
 
-def _unescaped(found: re.Match[str]) -> str:
-    code = found[1]
+def _unescaped(match: re.Match[str]) -> str:
+    code = match[1]
     if code[0] in "xuU":
         return chr(int(code[1:], 16))
     if code[0] in "01234567":

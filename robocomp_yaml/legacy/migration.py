@@ -1,4 +1,4 @@
-"""A run of `rcyaml migrate`: files found, converted, linked, named, and written."""
+"""A run of `rcyaml migrate`: discover, convert, link and name files, and plan the documents to write."""
 
 from __future__ import annotations
 
@@ -16,16 +16,17 @@ from robocomp_yaml.legacy import workspaces
 from robocomp_yaml.legacy.convert import convert
 from robocomp_yaml.legacy.document import Notes
 from robocomp_yaml.legacy.draft import ConfigDraft, DeploymentDraft, MachineDraft
-from robocomp_yaml.legacy.ledger import Entry
-from robocomp_yaml.legacy.linking import Neighbours, name_imports, name_machine, not_searched, resolve_references
-from robocomp_yaml.legacy.networks.settle import settle as settle_networks
-from robocomp_yaml.legacy.result import Migration
+from robocomp_yaml.legacy.ledger import LedgerEntry
+from robocomp_yaml.legacy.linking import InterfaceFiles, name_imports, name_machine, not_searched, resolve_references
+from robocomp_yaml.legacy.networks.deployment import build_deployments
+from robocomp_yaml.legacy.result import MigrationRun
 from robocomp_yaml.legacy.rules import Formats, with_plugins
-from robocomp_yaml.legacy.settings.components import Inferred, settle
-from robocomp_yaml.legacy.settings.plan import Guesses
-from robocomp_yaml.legacy.sources import LegacyFile, find, names
+from robocomp_yaml.legacy.settings.components import InferredParameters, build_config_documents
+from robocomp_yaml.legacy.settings.plan import Corrections
+from robocomp_yaml.legacy.sources import LegacyFile, assign_documents, discover
 from robocomp_yaml.legacy.upgrade import upgrade
-from robocomp_yaml.link.workspace import Search, above
+from robocomp_yaml.link import workspace_files
+from robocomp_yaml.link.workspace import ImportSearch, above
 from robocomp_yaml.model.build_interface import build
 from robocomp_yaml.plugins import Plugins
 from robocomp_yaml.source import schema
@@ -33,159 +34,156 @@ from robocomp_yaml.source.discover import WORKSPACE_FILE
 from robocomp_yaml.source.migrated import HEADING
 
 _IMPORTS = (idsl.UNRESOLVED_IMPORT.id, cdsl.UNRESOLVED_IMPORT.id)
-_SAME = {
+_SAME_FAULT = {
     codes.UNKNOWN_TYPE.id: (idsl.UNKNOWN_TYPE.id,),
     codes.IMPORT_UNKNOWN.id: _IMPORTS,
     codes.NOT_SEARCHED.id: _IMPORTS,
     codes.STATE_MACHINE.id: (machines.UNREADABLE.id,),
     codes.NO_PDSL.id: (pdsl.NO_COMPONENT.id,),
-}  # what `migrate` says of what is not there, and what `check` says of it
+}  # by a code of `migrate` for something missing, the codes of `check` for the same
 
 Progress = Callable[[Sequence[LegacyFile]], Iterator[LegacyFile]]
 
 
 def migrate(
     paths: Sequence[str], output: str | None, extra: Sequence[str], *, force: bool, progress: Progress = iter,
-    guesses: Guesses = Guesses(), exact: bool = False,
-) -> Migration:  # fmt: skip
-    """Everything but the writing."""
-    formats, said = _formats(paths)
-    found = find(paths, output, formats)
-    run = Migration(general=[*said, *found.diagnostics])
-    by_file: list[tuple[LegacyFile, Entry]] = []
-    for file in progress(found.files):
-        entry = Entry(convert(file.path, formats), skipped=bool(file.preferred))
+    guesses: Corrections = Corrections(), exact: bool = False,
+) -> MigrationRun:  # fmt: skip
+    """Return the run with all that it would write. Nothing is written but, in a folder where an earlier run was
+    interrupted, its rollback. Raises Faulty where a plug-in's format is not valid."""
+    formats, diagnostics = _formats(paths)
+    discovered = discover(paths, output, formats)
+    run = MigrationRun(general=[*diagnostics, *discovered.diagnostics])
+    for file in progress(discovered.files):
+        entry = LedgerEntry(file, convert(file.path, formats), skipped=bool(file.preferred))
         entry.diagnostics = [*entry.file.diagnostics]
         if file.preferred:
             entry.diagnostics = [codes.PREFERRED.at(Span(file.path), other=file.preferred)]
-        by_file.append((file, entry))
-    run.entries = [entry for _, entry in by_file]
-    good = [(file, entry) for file, entry in by_file if not entry.skipped and not entry.file.refused]
+        run.entries.append(entry)
+    accepted = [entry for entry in run.entries if not entry.skipped and not entry.file.refused]
 
     known = workspaces.Workspaces()
-    for folder in found.workspaces():
+    for folder in discovered.workspaces():
         root = run.root(folder)
-        if workspaces.wants_file(root) and good:
+        if workspaces.needs_file(root) and accepted:
             known.new.append(folder)
-    chosen, said = names([(file, entry.file.rules) for file, entry in good if entry.file.rules is not None])
-    _tell(run, said)
-    _link(run, good, chosen, known, extra)
-    networks = settle_networks([entry for _, entry in good], chosen, known)
-    settled = settle(good, chosen, run.remembers, guesses, exact=exact)
-    _plan(run, good, chosen, known, networks | dict(settled.documents), settled.inferred, force)
+    known_formats = [(entry.legacy, entry.file.rules) for entry in accepted if entry.file.rules is not None]
+    documents, diagnostics = assign_documents(known_formats)
+    by_path = {entry.file.path: entry for entry in accepted}
+    for diagnostic in diagnostics:
+        by_path[diagnostic.span.file].diagnostics.append(diagnostic)
+    _link(run, accepted, documents, known, extra)
+    networks = build_deployments(accepted, documents, known)
+    configs, inferred = build_config_documents(accepted, documents, run.was_written, guesses, exact=exact)
+    _plan(run, accepted, documents, known, networks | configs, inferred, force)
     upgrade(run, paths)
     return run
 
 
 def _formats(paths: Sequence[str]) -> tuple[Formats, list[Diagnostic]]:
-    """The built-in formats, and those of the plug-ins that the workspaces of these paths name."""
-    workspaces_ = {os.path.realpath(made.root): (made, said) for made, said in map(above, paths)}
-    active = {one.name: one for made, _ in workspaces_.values() for one in made.plugins.active}
-    told = [one for made, said in workspaces_.values() if not made.plugins.whole for one in said]
-    return with_plugins(Plugins(tuple(active.values()))), told
+    """Return the built-in formats and those of the plug-ins of the paths' workspaces; and why plug-ins are missing."""
+    by_root = {os.path.realpath(workspace.root): (workspace, found) for workspace, found in map(above, paths)}
+    active = {plugin.name: plugin for workspace, _ in by_root.values() for plugin in workspace.plugins.active}
+    diagnostics = [each for workspace, found in by_root.values() if not workspace.plugins.whole for each in found]
+    return with_plugins(Plugins(tuple(active.values()))), diagnostics
 
 
-def look_back(run: Migration, extra: Sequence[str]) -> None:
-    """Says of each document that was written what `check` says against it, at the legacy file that it comes from."""
+def check_written(run: MigrationRun, extra: Sequence[str]) -> None:
+    """Check the written documents as `rcyaml check` does, and report their errors at the legacy files."""
     documents = [(path, entry) for entry in run.entries if not entry.skipped for path in entry.outputs
                  if path.endswith(".yaml")]  # fmt: skip
     if not documents:
         return
     from robocomp_yaml.pipeline import analyse
 
-    found: dict[str, list[Diagnostic]] = {}
-    for told in analyse([path for path, _ in documents], extra).diagnostics:
-        if told.severity == ERROR:
-            found.setdefault(os.path.realpath(told.span.file), []).append(told)
+    by_file: dict[str, list[Diagnostic]] = {}
+    for diagnostic in analyse([path for path, _ in documents], extra).diagnostics:
+        if diagnostic.severity == ERROR:
+            by_file.setdefault(os.path.realpath(diagnostic.span.file), []).append(diagnostic)
     for path, entry in documents:
-        errors = [told for told in found.get(os.path.realpath(path), []) if not _is_said(told, entry.diagnostics)]
+        found = by_file.get(os.path.realpath(path), [])
+        errors = [error for error in found if not _is_reported(error, entry.diagnostics)]
         if errors:
             first, more = errors[0], f" (and {len(errors) - 1} more)" if errors[1:] else ""
-            entry.diagnostics.append(
-                codes.NOT_ACCEPTED.at(
-                    Span(entry.file.path), path=path, line=first.span.line, reason=first.message + more, hint=first.hint
-                )
-            )
+            at, reason = Span(entry.file.path), first.message + more
+            diagnostic = codes.NOT_ACCEPTED.at(at, path=path, line=first.span.line, reason=reason, hint=first.hint)
+            entry.diagnostics.append(diagnostic)
 
 
-def _is_said(error: Diagnostic, said: Sequence[Diagnostic]) -> bool:
-    """Whether an error of `check` is of what migrating has told already: the same thing that is not there."""
-    for told in said:
-        if error.code in _SAME.get(told.code, ()):
-            name = re.escape(_missing(told).rpartition("::")[2])
-            if re.search(rf"(?<!\w){name}(?!\w)", _missing(error)):
+def _is_reported(error: Diagnostic, diagnostics: Sequence[Diagnostic]) -> bool:
+    """Whether `migrate` has reported an error of `check` already: the same thing is missing."""
+    for diagnostic in diagnostics:
+        if error.code in _SAME_FAULT.get(diagnostic.code, ()):
+            name = re.escape(_missing_name(diagnostic).rpartition("::")[2])
+            if re.search(rf"(?<!\w){name}(?!\w)", _missing_name(error)):
                 return True
     return False
 
 
-def _missing(told: Diagnostic) -> str:
-    """The name or path that is not there."""
-    return str(told.fact("path") if told.fact("name") is None else told.fact("name"))
-
-
-def _tell(run: Migration, said: Sequence[Diagnostic]) -> None:
-    """Each diagnostic to the entry of its file."""
-    by_path = {entry.file.path: entry for entry in run.entries}
-    for diagnostic in said:
-        by_path[diagnostic.span.file].diagnostics.append(diagnostic)
+def _missing_name(diagnostic: Diagnostic) -> str:
+    """Return the name or path that is missing."""
+    return str(diagnostic.fact("path") if diagnostic.fact("name") is None else diagnostic.fact("name"))
 
 
 def _link(
-    run: Migration, good: Sequence[tuple[LegacyFile, Entry]], chosen: dict[str, str], known: workspaces.Workspaces,
+    run: MigrationRun, accepted: Sequence[LedgerEntry], documents: dict[str, str], known: workspaces.Workspaces,
     extra: Sequence[str],
 ) -> None:  # fmt: skip
-    neighbours = Neighbours.of((entry.file for entry in run.entries if not entry.skipped), Search(tuple(extra)))
-    for file, entry in good:
-        document = chosen[file.path]
-        entry.diagnostics += name_imports(entry.file, document, known.of(document), neighbours)
-        entry.diagnostics += name_machine(entry.file, chosen)
-    told: set[tuple[str, str]] = set()
-    for file, entry in good:
-        entry.diagnostics += resolve_references(entry.file, neighbours)
-        workspace = known.of(chosen[file.path])
+    interfaces = InterfaceFiles.of(
+        (entry.file for entry in run.entries if not entry.skipped), ImportSearch(tuple(extra))
+    )
+    for entry in accepted:
+        document = documents[entry.file.path]
+        entry.diagnostics += name_imports(entry.file, document, known.of(document), interfaces)
+        entry.diagnostics += name_machine(entry.file, documents)
+    reported: set[tuple[str, str]] = set()
+    for entry in accepted:
+        entry.diagnostics += resolve_references(entry.file, interfaces)
+        workspace = known.of(documents[entry.file.path])
         if workspace.root in known.new:
             continue
-        for folder, diagnostic in not_searched(entry.file, workspace, chosen, neighbours):
-            if (workspace.root, folder) not in told:  # once for a folder
-                told.add((workspace.root, folder))
+        for folder, diagnostic in not_searched(entry.file, workspace, documents, interfaces):
+            if (workspace.root, folder) not in reported:  # once for a folder
+                reported.add((workspace.root, folder))
                 entry.diagnostics.append(diagnostic)
 
 
 def _plan(
-    run: Migration, good: Sequence[tuple[LegacyFile, Entry]], chosen: dict[str, str], known: workspaces.Workspaces,
-    settled: Mapping[str, yaml.Map], inferred: Sequence[Inferred], force: bool,
+    run: MigrationRun, accepted: Sequence[LedgerEntry], documents: dict[str, str], known: workspaces.Workspaces,
+    settled: Mapping[str, yaml.Map], inferred: Sequence[InferredParameters], force: bool,
 ) -> None:  # fmt: skip
-    """`settled` are the documents that were made for several files together, by the path of each."""
+    """Plan the documents of all files. `settled` are the documents that depend on several files, by the path of
+    each."""
     written: dict[str, list[tuple[str, str, yaml.Map]]] = {folder: [] for folder in known.new}
-    planned: list[tuple[LegacyFile, Entry, str, str, yaml.Map, Notes, str]] = []
-    for file, entry in good:
+    planned: list[tuple[LedgerEntry, str, str, yaml.Map, Notes, str]] = []
+    for entry in accepted:
         rules, draft = entry.file.rules, entry.file.draft
         assert rules is not None and draft is not None
-        kind, document = rules.kind, chosen[file.path]
+        path, document = entry.file.path, documents[entry.file.path]
         if isinstance(draft, MachineDraft):
-            planned.append((file, entry, kind, document, yaml.Map(), Notes(), draft.text))
+            planned.append((entry, rules.kind, document, yaml.Map(), Notes(), draft.text))
         else:
-            content = settled[file.path] if isinstance(draft, ConfigDraft | DeploymentDraft) else draft.document
-            planned.append((file, entry, kind, document, content, draft.around, ""))
-    planned += [(made.file, made.entry, "pdsl", made.path, made.document, Notes(), "") for made in inferred]
-    for file, entry, kind, document, content, around, raw in planned:
+            content = settled[path] if isinstance(draft, (ConfigDraft, DeploymentDraft)) else draft.document
+            planned.append((entry, rules.kind, document, content, draft.around, ""))
+    planned += [(each.entry, "pdsl", each.path, each.document, Notes(), "") for each in inferred]
+    for entry, kind, document, content, around, raw in planned:
         home = known.of(document).root
         gap = "\n" if around.head else ""
-        root = run.root(file.root)
-        heading = HEADING if kind == "idsl" and _has_taken(content) else ""
-        text = raw or _modeline(document, home, kind, content) + heading + gap + yaml.text(content, around)
-        output = root.add(os.path.relpath(document, file.root), text, force=force, sources=(file.path,))
+        root = run.root(entry.legacy.root)
+        heading = HEADING if kind == "idsl" and _has_reserved_names(content) else ""
+        text = raw or f"{_modeline(document, home, kind, content)}\n{heading}{gap}{yaml.text(content, around)}"
+        output = root.add(os.path.relpath(document, entry.legacy.root), text, force=force, sources=(entry.file.path,))
         run.homes.setdefault(home, []).append(output)
         run.add(entry, root, output)
         if home in written and not raw:
             written[home].append((kind, document, content))
-    run.tell_failures()
+    run.report_failures()
     for folder in known.new:
         run.roots[folder].add(WORKSPACE_FILE, workspaces.file_text(folder, written[folder]), force=force)
 
 
-def _has_taken(content: yaml.Map) -> bool:
-    """Whether a document of interfaces has names that some language takes."""
+def _has_reserved_names(content: yaml.Map) -> bool:
+    """Whether a document of interfaces has names that are reserved in a target language."""
     tree = yaml.tree(content)
     if schema.validate("idsl", tree):
         return False
@@ -194,9 +192,10 @@ def _has_taken(content: yaml.Map) -> bool:
 
 
 def _modeline(document: str, home: str, kind: str, content: yaml.Map) -> str:
-    """The first line. What values may be is said by the schema that `compile` makes for their component."""
-    component = next((str(entry.value) for entry in content.entries if entry.key == "component"), "")
+    """Return the first line of a document, which names its schema. Values have the schema that `compile` generates for
+    their component."""
+    component = str(content.get("component"))
     if kind == "config" and component.endswith(".cdsl.yaml"):
         folder = os.path.join(os.path.dirname(document), os.path.dirname(component))
         return workspaces.values_modeline(document, folder)
-    return workspaces.modeline(document, home, kind)
+    return workspace_files.modeline(kind, document, home)

@@ -1,6 +1,6 @@
-"""What a run writes: decided against what stands on the disk, then carried out, all files of a root at once.
+"""The files that a run writes: planned against the disk, then written in one transaction per root.
 
-`.rcyaml/migrated.json` remembers the digest of each file that was written, so that a later run can tell its own files
+`.rcyaml/migrated.json` has the digest of each file that was written, so that a later run distinguishes its own files
 from those that a user wrote or edited.
 """
 
@@ -14,19 +14,18 @@ from robocomp_yaml import secrets
 from robocomp_yaml.diag.render.json import dumps
 from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.migrated import MEMORY
-from robocomp_yaml.transactions.atomic import Batch, Step, WriteFailed, carry_out, recover
+from robocomp_yaml.transactions.atomic import FileStep, WriteFailed, carry_out, recover
 from robocomp_yaml.transactions.changes import unified
-from robocomp_yaml.transactions.places import Root
+from robocomp_yaml.transactions.output_root import Root
 from robocomp_yaml.transactions.plan import rights_of
 
 CREATED, CHANGED, UNCHANGED, EDITED, TAKEN, FAILED = "created", "changed", "unchanged", "edited", "taken", "failed"
 UPGRADED = "upgraded"
-"""An older document of ours, which stays the user's."""
+"""A document of an earlier version, which remains the user's."""
 
 
 class Output(msgspec.Struct):
-    """One file that shall stand at `path` below the root, made of `sources`. `state` says what is, or was, to be done
-    about it."""
+    """One file to write at `path` below the root, converted from `sources`. `state` is what is, or was, to be done."""
 
     path: str
     text: str
@@ -40,14 +39,14 @@ class Output(msgspec.Struct):
         return self.state in (CREATED, CHANGED, EDITED, UPGRADED)
 
     def diff(self, shown: str) -> str:
-        """From what stands there to what shall, as a unified diff; secrets are hidden."""
+        """Return a unified diff from the file on the disk to the output, without secrets."""
         old, new = ("".join(secrets.hidden_lines(text)) for text in (self.before, self.text))
         name = "/dev/null" if self.state == CREATED else shown
         return unified(old, new, name, shown)
 
 
 class OutputRoot(msgspec.Struct):
-    """All that one run writes below one folder."""
+    """All files that one run writes below one folder."""
 
     root: Root
     outputs: list[Output] = []
@@ -57,87 +56,89 @@ class OutputRoot(msgspec.Struct):
 
     @classmethod
     def at(cls, path: str) -> OutputRoot:
-        """The root as it is, put in order if a run was interrupted there."""
-        made = cls(Root(path))
+        """Return the root at a path. If a run was interrupted in it, that run is rolled back first."""
+        root = cls(Root(path))
         try:
-            recover(made.root.real)
+            recover(root.root.real)
         except (OSError, WriteFailed) as error:
-            made.problem = str(error)
-        found = made.root.look(MEMORY)
-        made.remembered = found.data
+            root.problem = str(error)
+        on_disk = root.root.status(MEMORY)
+        root.remembered = on_disk.data
         try:
-            known = json.loads(found.data or b"{}").get("files", {})
-            made.memory = {str(path): str(value) for path, value in known.items()}
-        except (ValueError, AttributeError):  # not ours any more: what stands there is then not known to be ours
-            made.memory = {}
-        return made
+            digests = json.loads(on_disk.data or b"{}").get("files", {})
+            root.memory = {str(path): str(value) for path, value in digests.items()}
+        except (ValueError, AttributeError):  # it was edited: then no file is known as written by a run
+            root.memory = {}
+        return root
 
-    def is_ours(self, path: str) -> bool:
+    def is_unchanged(self, path: str) -> bool:
         """Whether a file is as an earlier run wrote it."""
-        found = self.root.look(path)
-        return found.data is not None and self.memory.get(path) == digest(found.data)
+        on_disk = self.root.status(path)
+        return on_disk.data is not None and self.memory.get(path) == digest(on_disk.data)
 
     def add(self, path: str, text: str, *, force: bool = False, sources: tuple[str, ...] = ()) -> Output:
+        """Plan a file, and return it with its state. `force` overwrites a file that a user edited."""
         output = Output(path, text, sources=sources)
         self.outputs.append(output)
-        found, new = self.root.look(path), text.encode()
-        if found.problem or self.problem:
-            output.state, output.problem = FAILED, found.problem or self.problem
-        elif not found.exists:
+        on_disk, new = self.root.status(path), text.encode()
+        if on_disk.problem or self.problem:
+            output.state, output.problem = FAILED, on_disk.problem or self.problem
+        elif not on_disk.exists:
             output.state = CREATED
         else:
-            data = found.data or b""
+            data = on_disk.data or b""
             output.before = data.decode("utf-8", "replace")
-            known = self.memory.get(path)
+            written = self.memory.get(path)
             if data == new:
                 output.state = UNCHANGED
-            elif known is None:
+            elif written is None:
                 output.state = TAKEN
-            elif known == digest(data) or force:
+            elif written == digest(data) or force:
                 output.state = CHANGED
             else:
                 output.state = EDITED
         return output
 
-    def has_news(self, output: Output) -> bool:
-        """Whether an edited file would get something else than the last run wrote."""
+    def differs_from_last(self, output: Output) -> bool:
+        """Whether an output differs from what the last run wrote."""
         return self.memory.get(output.path) != digest(output.text.encode())
 
     def write(self) -> None:
-        """Writes what is created and changed; a file that cannot be written is marked, and the others go on."""
+        """Write the created and changed files. A file that cannot be written gets the state FAILED, and the others are
+        written."""
         while True:
-            todo = [output for output in self.outputs if output.state in (CREATED, CHANGED, UPGRADED)]
-            steps = [self._step(output) for output in todo]
+            pending = [output for output in self.outputs if output.state in (CREATED, CHANGED, UPGRADED)]
+            steps = [self._step(output) for output in pending]
             memory = self._memory()
             if memory is not None and memory != self.remembered:
-                steps.append(Step(MEMORY, self.remembered, memory))
+                steps.append(FileStep(MEMORY, self.remembered, memory))
             if not steps:
                 return
             try:
-                carry_out([Batch(self.root.real, tuple(steps))])
+                carry_out({self.root.real: steps})
                 return
             except WriteFailed as failed:
                 folder = failed.path.rpartition("/")[0]
-                hit = [o for o in todo if o.path == failed.path or (folder and o.path.startswith(f"{folder}/"))]
-                for output in hit or todo:
+                affected = [o for o in pending if o.path == failed.path or (folder and o.path.startswith(f"{folder}/"))]
+                for output in affected or pending:
                     output.state, output.problem = FAILED, failed.reason
-                if not hit:
+                if not affected:
                     self.problem = failed.reason
                     return
 
-    def _step(self, output: Output) -> Step:
-        found = self.root.look(output.path)
-        before = None if output.state == CREATED else found.data
-        mode = None if output.state == CREATED else found.mode or None
-        return Step(output.path, before, output.text.encode(), mode=mode, rights=rights_of(output.sources))
+    def _step(self, output: Output) -> FileStep:
+        on_disk = self.root.status(output.path)
+        before = None if output.state == CREATED else on_disk.data
+        mode = None if output.state == CREATED else on_disk.mode or None
+        return FileStep(output.path, before, output.text.encode(), mode=mode, rights=rights_of(output.sources))
 
     def _memory(self) -> bytes | None:
-        """What is to be remembered; None where there never was anything."""
-        known = dict(self.memory)
+        """Return the new content of `migrated.json`; None where the file is not needed."""
+        digests = dict(self.memory)
         for output in self.outputs:
-            was_ours = output.state == UPGRADED and known.get(output.path) == digest(output.before.encode())
-            if output.state in (CREATED, CHANGED, UNCHANGED) or was_ours:
-                known[output.path] = digest(output.text.encode())
-        if not known and self.remembered is None:
+            was_written = output.state == UPGRADED and digests.get(output.path) == digest(output.before.encode())
+            if output.state in (CREATED, CHANGED, UNCHANGED) or was_written:
+                digests[output.path] = digest(output.text.encode())
+        if not digests and self.remembered is None:
             return None
-        return dumps({"files": dict(sorted(known.items()))}).encode()
+        return dumps({"files": dict(sorted(digests.items()))}).encode()

@@ -19,15 +19,15 @@ _CONVERTERS = "robocomp_yaml.legacy.converters"
 Texts = Mapping[str, str]
 
 
-class Files(msgspec.Struct, frozen=True, eq=False):
-    """Which files of a folder may be of a format, by their names: surely, or only if their content says so too."""
+class FilePatterns(msgspec.Struct, frozen=True, eq=False):
+    """Which files of a folder have a format by their names: certainly, or only if their content has its signature."""
 
     certain: re.Pattern[str]
     folder: str
     other: re.Pattern[str]
 
     def fit(self, path: str) -> str:
-        """`certain`, `perhaps`, or ''."""
+        """Return `certain`, `perhaps`, or ''."""
         name = os.path.basename(path)
         if self.other.search(name):
             return ""
@@ -36,9 +36,23 @@ class Files(msgspec.Struct, frozen=True, eq=False):
         return "perhaps" if os.path.basename(os.path.dirname(os.path.abspath(path))) == self.folder else ""
 
 
-class Rules(msgspec.Struct, frozen=True, eq=False):
-    """How one legacy format is read. `migrate/README.md` says what each key of the file means. `grammar` is its text,
-    `converter` the name of a module, `plugin` whose it is."""
+class ForeignMark(msgspec.Struct, frozen=True, eq=False):
+    """A mark of another program's files, and the reason to reject them."""
+
+    pattern: re.Pattern[str]
+    reason: str
+
+
+class DocMarkup(msgspec.Struct, frozen=True):
+    """Parts of doc comments that are not documentation: `strip` is markup, `drop` are whole lines."""
+
+    strip: str
+    drop: str
+
+
+class Rules(msgspec.Struct, frozen=True, eq=False, forbid_unknown_fields=True):
+    """How one legacy format is read. `migrate/README.md` documents the keys. `grammar` is the text of the grammar,
+    `converter` the name of a module, `plugin` the plug-in that defines the format."""
 
     name: str
     title: str
@@ -49,8 +63,7 @@ class Rules(msgspec.Struct, frozen=True, eq=False):
     signature: re.Pattern[str]
     converter: str
     names: re.Pattern[str]
-    doc_strip: re.Pattern[str]
-    doc_drop: str
+    doc: DocMarkup
     plugin: Plugin | None = None
     grammar: str = ""
     words: Texts = {}
@@ -67,8 +80,8 @@ class Rules(msgspec.Struct, frozen=True, eq=False):
     weak: bool = False
     keep_suffix: bool = False
     by_content: bool = False
-    files: Files | None = None
-    foreign: tuple[tuple[re.Pattern[str], str], ...] = ()
+    files: FilePatterns | None = None
+    foreign: tuple[ForeignMark, ...] = ()
     invalid: Mapping[str, Any] = {}
     sections: Mapping[str, re.Pattern[str]] = {}
     records: tuple[Mapping[str, Any], ...] = ()
@@ -81,26 +94,26 @@ Formats = tuple[Rules, ...]
 
 def built_in() -> list[str]:
     folder = resources.folder("migrate")
-    return [name for name in sorted(os.listdir(folder)) if os.path.isfile(os.path.join(folder, name, "rules.yaml"))]
+    return [name for name in resources.names("migrate") if os.path.isfile(os.path.join(folder, name, "rules.yaml"))]
 
 
 @cache
 def formats() -> Formats:
-    """Every format that `migrate/` describes, by rank."""
+    """Return every format that `migrate/` describes, by rank."""
     return _by_rank(_rules(name, _data(name), f"{_CONVERTERS}.{{}}") for name in built_in())
 
 
 def with_plugins(plugins: Plugins) -> Formats:
-    """Those, and what plug-ins add: each a module with `RULES` (as `rules.yaml`), `GRAMMAR` (where it has one) and
-    `convert`. Raises Faulty where one of them is not as it should be."""
-    found: list[Rules] = []
+    """Return the built-in formats and those of plug-ins. A plug-in's format is a module with `RULES` (as `rules.yaml`),
+    optionally `GRAMMAR`, and `convert`. Raises Faulty where one of them is not valid."""
+    added: list[Rules] = []
     for name, (plugin, module) in plugins.of(FORMATS).items():
-        with plugin.answering(f"legacy format '{name}'"):
+        with plugin.guarded(f"legacy format '{name}'"):
             data = _read("RULES", module.RULES)
             if hasattr(module, "GRAMMAR"):
                 data["grammar"] = module.GRAMMAR
-            found.append(_rules(name, _over_base(data), module.__name__, plugin))
-    return _by_rank((*formats(), *found)) if found else formats()
+            added.append(_rules(name, _over_base(data), module.__name__, plugin))
+    return _by_rank((*formats(), *added)) if added else formats()
 
 
 def _by_rank(rules: Iterable[Rules]) -> Formats:
@@ -108,35 +121,10 @@ def _by_rank(rules: Iterable[Rules]) -> Formats:
 
 
 def _rules(name: str, data: dict[str, Any], converters: str, plugin: Plugin | None = None) -> Rules:
-    """`converters` says which module a converter is."""
-    doc = data.pop("doc")
-    return Rules(
-        name=name,
-        converter=converters.format(data.pop("converter", "")),
-        plugin=plugin,
-        suffixes=tuple(data.pop("suffixes")),
-        signature=re.compile(data.pop("signature")),
-        names=re.compile(data.pop("names")),
-        doc_strip=re.compile(doc["strip"], re.MULTILINE),
-        doc_drop=doc["drop"],
-        order=tuple(data.pop("order", ())),
-        **_of_lines(data),
-        document=data.pop("document", f".{data['kind']}.yaml"),
-        **data,
-    )
-
-
-def _of_lines(data: dict[str, Any]) -> dict[str, Any]:
-    """What formats of single lines have besides, compiled."""
-    files, counts = data.pop("files", None), data.pop("counts", None)
-    return {
-        "files": Files(re.compile(files["certain"]), files["folder"], re.compile(files["other"])) if files else None,
-        "foreign": tuple((re.compile(item["pattern"]), item["reason"]) for item in data.pop("foreign", ())),
-        "sections": {name: re.compile(pattern) for name, pattern in data.pop("sections", {}).items()},
-        "records": tuple(data.pop("records", ())),
-        "counts": re.compile(counts) if counts else None,
-        "stop": frozenset(data.pop("stop", ())),
-    }
+    """`converters` is the pattern of the converters' module names."""
+    data["converter"] = converters.format(data.get("converter", ""))
+    data.setdefault("document", f".{data['kind']}.yaml")
+    return msgspec.convert({**data, "name": name, "plugin": plugin}, Rules, dec_hook=lambda _, text: re.compile(text))
 
 
 def _data(name: str) -> dict[str, Any]:
@@ -155,6 +143,6 @@ def _read(path: str, text: str) -> dict[str, Any]:
 
 
 def _over_base(data: dict[str, Any]) -> dict[str, Any]:
-    """The rules over those of the format which they extend."""
+    """Return the rules merged over those of the format that they extend."""
     base = data.pop("extends", None)
     return {**(_data(base) if base else {}), **data}

@@ -1,47 +1,48 @@
-"""Which legacy files a run is about, and what each one's document will be called."""
+"""Discover the legacy files of a run, and assign a document to each."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
 import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml.diag.codes import files as file_codes
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.legacy.formats import by_name, candidate
+from robocomp_yaml.legacy.formats import by_name, is_legacy_file
 from robocomp_yaml.legacy.rules import Formats, Rules
 from robocomp_yaml.link.workspace import root_above
 from robocomp_yaml.source.discover import documents_below, kind_of
 from robocomp_yaml.transactions import manifest
-from robocomp_yaml.transactions.places import contents, in_words
+from robocomp_yaml.transactions.output_root import contents, reason_of
 
 _SKIPPED = frozenset(("node_modules", "__pycache__"))
 
 
 class LegacyFile(msgspec.Struct, frozen=True):
-    """A file to migrate. Its document goes to `folder` below `root`, an output root."""
+    """A file to migrate. Its document is written to `folder` below `root`, an output root."""
 
     path: str
     root: str
     folder: str
     preferred: str = ""
-    """The file beside it from which it was made; then it is skipped."""
+    """The file in the same folder that this one was generated from; then this one is skipped."""
 
     def document(self, name: str) -> str:
         return os.path.normpath(os.path.join(self.root, self.folder, name))
 
 
-class Found(msgspec.Struct):
+class LegacyFiles(msgspec.Struct):
     files: list[LegacyFile] = []
     folders: list[str] = []
-    """The output roots of the folders given: each becomes a workspace."""
+    """The output roots of the folders that were passed: each becomes a workspace."""
     diagnostics: list[Diagnostic] = []
 
     def workspaces(self) -> list[str]:
-        """The folders that are not below another one."""
+        """Return the folders that are not below another one."""
         real = {folder: os.path.realpath(folder).rstrip("/") + "/" for folder in self.folders}
         return [
             folder for folder, own in real.items()
@@ -49,51 +50,50 @@ class Found(msgspec.Struct):
         ]  # fmt: skip
 
 
-def find(paths: Sequence[str], output: str | None, known: Formats) -> Found:
-    """The files named, and below the folders named all with a suffix of a legacy format; each once."""
-    found = Found()
+def discover(paths: Sequence[str], output: str | None, known: Formats) -> LegacyFiles:
+    """Return the files that `paths` name, and all legacy files below the folders that they name; each once."""
+    discovered = LegacyFiles()
     seen: set[str] = set()
     for path in paths:
         is_folder = os.path.isdir(path)
         if not is_folder and kind_of(path) is not None and os.path.isfile(path):
-            continue  # a document of ours: it may be an older one
-        below = list(_below(path, found.diagnostics, known)) if is_folder else [os.path.normpath(path)]
-        root = output or (os.path.normpath(path) if is_folder else _root_of(path))
+            continue  # a document, possibly of an earlier version
+        below = list(_below(path, discovered.diagnostics, known)) if is_folder else [os.path.normpath(path)]
+        root = output or (os.path.normpath(path) if is_folder else root_for(path))
         if is_folder:
-            if root not in found.folders:
-                found.folders.append(root)
+            if root not in discovered.folders:
+                discovered.folders.append(root)
             if not below and next(documents_below(path), None) is None:
-                suffixes = "the suffixes are known: " + ", ".join(sorted(_suffixes(known)))
-                found.diagnostics.append(codes.NOTHING_FOUND.at(Span(path), hint=suffixes))
+                suffixes = sorted({suffix for rules in known for suffix in rules.suffixes})
+                hint = f"legacy files have the suffixes {', '.join(suffixes)}"
+                discovered.diagnostics.append(codes.NOTHING_FOUND.at(Span(path), hint=hint))
         for file in below:
             real = os.path.realpath(file)
             if real not in seen:
                 seen.add(real)
                 start = (path if is_folder else os.path.dirname(path)) if output else root
                 folder = os.path.relpath(os.path.dirname(file) or ".", start or ".")
-                found.files.append(LegacyFile(file, root, folder))
-    found.files = list(_preferences(found.files, known))
-    return found
+                discovered.files.append(LegacyFile(file, root, folder))
+    discovered.files = list(_preferences(discovered.files, known))
+    return discovered
 
 
-def _root_of(path: str) -> str:
+def root_for(path: str) -> str:
+    """Return the root of the workspace that contains a file, or the file's folder."""
     folder = os.path.dirname(path)
     return root_above(folder) or folder or "."
 
 
-def _suffixes(known: Formats) -> set[str]:
-    return {suffix for rules in known for suffix in rules.suffixes}
+def _below(folder: str, diagnostics: list[Diagnostic], known: Formats) -> Iterator[str]:
+    """Yield the legacy files below a folder. Links to folders are followed, but no folder is entered twice. Files that
+    `compile` generated are skipped."""
 
-
-def _below(folder: str, said: list[Diagnostic], known: Formats) -> Iterator[str]:
-    """Links to folders are followed, but no folder is entered twice. What `compile` wrote is no source."""
-
-    def closed(error: OSError) -> None:
-        said.append(file_codes.UNREADABLE.at(Span(str(error.filename)), reason=in_words(error)))
+    def report(error: OSError) -> None:
+        diagnostics.append(file_codes.UNREADABLE.at(Span(str(error.filename)), reason=reason_of(error)))
 
     entered: set[tuple[int, int]] = set()
     compiled: set[str] = set()
-    for where, folders, names in os.walk(folder, followlinks=True, onerror=closed):
+    for where, folders, names in os.walk(folder, followlinks=True, onerror=report):
         status = os.stat(where)
         if (status.st_dev, status.st_ino) in entered:
             folders.clear()
@@ -103,14 +103,14 @@ def _below(folder: str, said: list[Diagnostic], known: Formats) -> Iterator[str]
         folders[:] = sorted(name for name in folders if name not in _SKIPPED and not name.startswith("."))
         for name in sorted(names):
             path = os.path.normpath(os.path.join(where, name))
-            # A config that became a document is a source still, though `compile` now writes it.
-            made = path in compiled and (by_name(name, known) is not None or not os.path.exists(f"{path}.yaml"))
-            if not name.startswith(".") and not made and candidate(path, known):
+            # A config that was migrated remains a source, though `compile` now generates it.
+            is_generated = path in compiled and (by_name(name, known) is not None or not os.path.exists(f"{path}.yaml"))
+            if not name.startswith(".") and not is_generated and is_legacy_file(path, known):
                 yield path
 
 
 def _compiled(folder: str) -> set[str]:
-    """The files that `compile` wrote into an output root."""
+    """Return the files that `compile` generated into an output root."""
     try:
         files = manifest.read(contents(os.path.join(folder, manifest.PATH))).files
     except (OSError, manifest.Unusable):
@@ -118,42 +118,42 @@ def _compiled(folder: str) -> set[str]:
     return {os.path.normpath(os.path.join(folder, path)) for path in files}
 
 
-def _preferences(files: Iterable[LegacyFile], known: Formats) -> Iterator[LegacyFile]:
-    """A file that has one of the same stem and kind beside it, of a format with a lower rank, was made from that."""
-    listed = list(files)
-    best: dict[tuple[str, str], tuple[int, str]] = {}
-    for file in listed:
-        rules = by_name(file.path, known)
+def _preferences(files: Sequence[LegacyFile], known: Formats) -> Iterator[LegacyFile]:
+    """Mark files that were generated from another one: with the same stem and kind, of a format with a lower rank."""
+    by_stem: dict[tuple[str, str], list[tuple[int, str]]] = {}
+    named = [(file, by_name(file.path, known)) for file in files]
+    for file, rules in named:
         if rules is not None:
-            key = (os.path.splitext(file.path)[0], rules.kind)
-            best[key] = min(best.get(key, (rules.rank, file.path)), (rules.rank, file.path))
-    for file in listed:
-        rules = by_name(file.path, known)
-        rank, other = best[(os.path.splitext(file.path)[0], rules.kind)] if rules else (0, file.path)
-        better = rules is not None and rules.is_made and rank < rules.rank
-        yield LegacyFile(file.path, file.root, file.folder, other) if better else file
+            by_stem.setdefault((os.path.splitext(file.path)[0], rules.kind), []).append((rules.rank, file.path))
+    for file, rules in named:
+        if rules is not None and rules.is_made:
+            rank, other = min(by_stem[(os.path.splitext(file.path)[0], rules.kind)])
+            yield replace(file, preferred=other) if rank < rules.rank else file
+        else:
+            yield file
 
 
-def names(
+def assign_documents(
     files: Sequence[tuple[LegacyFile, Rules]],
 ) -> tuple[dict[str, str], list[Diagnostic]]:
-    """The document of each file, by the file's path. Where two would meet, the later one keeps its suffix."""
-    taken: dict[str, str] = {}
-    chosen: dict[str, str] = {}
-    said: list[Diagnostic] = []
+    """Return the path of each file's document, by the file's path. Of two files with the same document, the later one
+    keeps its suffix."""
+    by_document: dict[str, str] = {}
+    by_file: dict[str, str] = {}
+    diagnostics: list[Diagnostic] = []
     for file, rules in sorted(files, key=lambda item: (item[1].rank, item[0].path)):
         base = os.path.basename(file.path)
         stem, suffix = os.path.splitext(base)
         drops = suffix.lower() in rules.suffixes and not rules.keep_suffix
         bare = base == rules.kind  # `config` becomes `config.yaml`
         short = file.document(f"{base}.yaml" if bare else f"{stem if drops else base}{rules.document}")
-        own = short if short not in taken else file.document(f"{base}{rules.document}")
+        document = short if short not in by_document else file.document(f"{base}{rules.document}")
         number = 2
-        while own in taken:
-            own = file.document(f"{base}.{number}{rules.document}")
+        while document in by_document:
+            document = file.document(f"{base}.{number}{rules.document}")
             number += 1
-        if own != short:
-            said.append(codes.MEETING.at(Span(file.path), other=taken[short], path=short, own=own))
-        taken[own] = file.path
-        chosen[file.path] = own
-    return chosen, said
+        if document != short:
+            diagnostics.append(codes.MEETING.at(Span(file.path), other=by_document[short], path=short, own=document))
+        by_document[document] = file.path
+        by_file[file.path] = document
+    return by_file, diagnostics

@@ -1,1 +1,1 @@
-"""Documents joined into one program: workspaces, imports, and what each name refers to."""
+"""Links documents to one program: workspaces, imports, and the definition of each name."""

@@ -1,4 +1,4 @@
-"""Documents of parameters and of values, found and joined with their components."""
+"""Discovers parameter documents and values documents, and links them with their components."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.codes import values as value_codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.digraph import reached
+from robocomp_yaml.digraph import reachable
 from robocomp_yaml.link import component_references as references
 from robocomp_yaml.link.component_references import References
 from robocomp_yaml.link.documents import Document, Documents
@@ -19,7 +19,7 @@ from robocomp_yaml.link.knot import grow, tie
 from robocomp_yaml.link.program import LinkedComponent, LinkedParameters, LinkedValues, Tables
 from robocomp_yaml.model.component import Component
 from robocomp_yaml.model.interface import Literal
-from robocomp_yaml.parameters.resolution.resolve import hides_types, of_no_document, resolve
+from robocomp_yaml.parameters.resolution.resolve import leaves_types_unknown, of_no_document, resolve
 from robocomp_yaml.parameters.specification.document import ParameterDocument, ValuesDocument
 from robocomp_yaml.source.discover import kind_of, of_kind
 from robocomp_yaml.source.disk import Disk
@@ -28,17 +28,17 @@ SUFFIX = ".pdsl.yaml"
 
 
 class Attachments(msgspec.Struct):
-    """Follows the references between components, parameters and values. Keys of the tables are real paths; `root_of`
-    gives the folder below which a document's component may be."""
+    """Resolves the references between components, parameters and values. Keys of the tables are real paths. `root_of`
+    returns the folder below which the component of a document is searched."""
 
     documents: Documents
     tables: Tables
     root_of: Callable[[str], str]
     diagnostics: list[Diagnostic] = []
-    _parameters_of: dict[str, list[tuple[str, Span]]] = {}  # component: its PDSLs
-    _component_of: dict[str, str] = {}  # PDSL or values: what `component:` names
+    _parameters_of: dict[str, list[tuple[str, Span]]] = {}  # by component: its parameter documents
+    _component_of: dict[str, str] = {}  # by parameter or values document: what `component:` names
     _extends: dict[str, list[str]] = {}
-    _names: dict[str, dict[str, list[str]]] = {}  # folder: its component documents by name
+    _names: dict[str, dict[str, list[str]]] = {}  # by folder: its component documents by name
 
     @property
     def _disk(self) -> Disk:
@@ -49,11 +49,11 @@ class Attachments(msgspec.Struct):
         return References(self._disk)
 
     def follow(self, document: Document) -> Iterator[Document]:
-        """The documents that a document refers to."""
+        """Yields the documents that a document refers to, and reports references that cannot be resolved."""
         model = document.model
         if isinstance(model, Component):
             yield from self._follow_component(document, model)
-        elif isinstance(model, ParameterDocument | ValuesDocument):
+        elif isinstance(model, (ParameterDocument, ValuesDocument)):
             if isinstance(model, ValuesDocument):
                 self.tables.values[document.real] = LinkedValues(model)
             yield from self._follow_reference(document, model)
@@ -69,9 +69,9 @@ class Attachments(msgspec.Struct):
         if model.parameters:
             path = os.path.normpath(os.path.join(folder, model.parameters))
             if not self._references.is_document(path, ("pdsl",)):
-                advice = self._references.advice(model.parameters, folder, "parameters", ("pdsl",))
-                told = codes.NO_PARAMETERS.at(model.parameters_span, name=model.parameters, hint=advice.hint)
-                self.diagnostics.append(told)
+                advice = self._references.hint_for(model.parameters, folder, "parameters", ("pdsl",))
+                fault = codes.NO_PARAMETERS.at(model.parameters_span, name=model.parameters, hint=advice.hint)
+                self.diagnostics.append(fault)
                 tie(linked.parameters, broken=True)
                 tie(linked, broken=True)
             else:
@@ -85,19 +85,20 @@ class Attachments(msgspec.Struct):
                 yield self.documents.get(values)
 
     def _beside(self, document: Document, folder: str) -> Iterator[Document]:
-        """The documents beside a component that name it as theirs. Where none does, those are read too that may have
-        been meant to: what is wrong with them is told, and the component is not taken to have no parameters."""
+        """The parameter documents beside a component that name the component. If there is none, the parameter documents
+        that name no existing component are read too, so that their errors are reported, and the component does not
+        count as one without parameters."""
         self._disk.has_file(os.path.join(folder, f"{references.stem(document.path)}{SUFFIX}"))
         doubtful = []
         for path in self._references.beside(folder, "pdsl"):
             target = self.documents.glance(path)
-            said = target.component
-            if said and self._is_named(document, folder, said):
-                if target.model is None:  # it will not name the component itself
+            name = target.component
+            if name and self._is_named(document, folder, name):
+                if target.model is None:  # a document with errors is not followed
                     self._parameters_of.setdefault(document.real, []).append((target.real, Span(path)))
                 yield self.documents.get(path)
                 continue
-            named = os.path.normpath(os.path.join(folder, said)) if said is not None else ""
+            named = os.path.normpath(os.path.join(folder, name)) if name is not None else ""
             if not (named and self._references.is_document(named, ("cdsl",))):
                 doubtful.append(target)
         if self._parameters_of.get(document.real) or (doubtful and len(self._references.beside(folder, "cdsl")) > 1):
@@ -107,14 +108,14 @@ class Attachments(msgspec.Struct):
                 self._parameters_of.setdefault(document.real, []).append((target.real, Span(target.path)))
             yield self.documents.get(target.path)
 
-    def _is_named(self, document: Document, folder: str, said: str) -> bool:
-        """Whether this component is meant; by its name too, of which `_follow_reference` says what is wrong with it."""
+    def _is_named(self, document: Document, folder: str, name: str) -> bool:
+        """Whether `component:` refers to this component by path, or by name, which `_follow_reference` reports."""
         names = (document.component, references.stem(document.path))
-        return said in names or os.path.realpath(os.path.join(folder, said)) == document.real
+        return name in names or os.path.realpath(os.path.join(folder, name)) == document.real
 
     def _follow_reference(self, document: Document, model: ParameterDocument | ValuesDocument) -> Iterator[Document]:
-        """The component (or, for values, the parameters) that `component:` names. Parameters of a component that has
-        no document name no document."""
+        """The component (or, for values, the parameters) that `component:` names. Parameters of a component without a
+        document have a plain name there."""
         name, folder = model.component, os.path.dirname(document.path)
         if not name:
             return
@@ -125,40 +126,39 @@ class Attachments(msgspec.Struct):
         if not self._references.is_document(path, kinds):
             root = self.root_of(document.path)
             is_name = os.path.basename(name) == name and not name.endswith((".yaml", ".yml"))
-            found = self._called(name, root) if is_name else []
+            matches = self._with_name(name, root) if is_name else []
             is_plain = is_parameters and "/" not in name and not name.endswith(".yaml")
-            advice = (
-                self._references.advice_for_name(name, folder)
-                if is_plain
-                else (self._references.advice(name, folder, "component", kinds))
-            )
-            if found:
-                told = codes.NAMED.at(span, name=name, hint=references.write(found, folder, "component", name))
-                is_near = not is_parameters or any(os.path.dirname(path) == folder for path in found)
-                # Parameters that stand alone may have a component's name by chance, as migrated ones have.
-                self.diagnostics.append(told if is_near else told.as_severity("warning"))
+            if is_plain:
+                advice = self._references.hint_for_name(name, folder)
+            else:
+                advice = self._references.hint_for(name, folder, "component", kinds)
+            if matches:
+                fault = codes.NAMED.at(span, name=name, hint=references.entry_hint(matches, folder, "component", name))
+                is_near = not is_parameters or any(os.path.dirname(path) == folder for path in matches)
+                # Parameters without a component beside them may have its name by chance, as migrated ones have.
+                self.diagnostics.append(fault if is_near else fault.as_severity("warning"))
                 if not is_near:
                     return
             elif advice.hint or not is_plain:
-                alike = [] if advice.is_known else self._called(os.path.basename(name), root)
-                hint = references.write(alike, folder, "component", name) if alike else advice.hint
+                alike = [] if advice.is_known else self._with_name(os.path.basename(name), root)
+                hint = references.entry_hint(alike, folder, "component", name) if alike else advice.hint
                 self.diagnostics.append(codes.NO_COMPONENT.at(span, name=name, hint=hint))
             else:
                 return
             self._component_of[document.real] = ""
-            found = self._references.beside(folder, "cdsl") if is_parameters and not found else found
-            found = self._references.components_of(document.path) or found
-            if len(found) != 1:
+            matches = self._references.beside(folder, "cdsl") if is_parameters and not matches else matches
+            matches = self._references.components_of(document.path) or matches
+            if len(matches) != 1:
                 return
-            path = found[0]  # what follows is judged as if it were right
+            path = matches[0]  # continue as if the reference were right
         target = self.documents.get(path)
         self._component_of[document.real] = target.real
         if is_parameters:
             self._parameters_of.setdefault(target.real, []).append((document.real, span))
         yield target
 
-    def _called(self, name: str, root: str) -> list[str]:
-        """The documents whose component is called so, or whose file is: below a folder, and in this run."""
+    def _with_name(self, name: str, root: str) -> list[str]:
+        """The component documents with this name, of the component or the file, below a folder and in this run."""
         if root not in self._names:
             known = self._names[root] = {}
             below = of_kind(root, "cdsl", self._disk)
@@ -175,7 +175,7 @@ class Attachments(msgspec.Struct):
             path = os.path.normpath(os.path.join(os.path.dirname(document.path), str(layer.value)))
             if not (path.endswith(".yaml") and disk.has_file(path) and kind_of(path, disk) in ("config", None)):
                 folder = os.path.dirname(document.path)
-                advice = self._references.advice(str(layer.value), folder, "extends", ("config",), document.path)
+                advice = self._references.hint_for(str(layer.value), folder, "extends", ("config",), document.path)
                 self.diagnostics.append(value_codes.NO_LAYER.at(layer.span, name=layer.value, hint=advice.hint))
                 tie(self.tables.values[document.real], broken=True)
                 continue
@@ -184,38 +184,33 @@ class Attachments(msgspec.Struct):
             yield target
 
     def join(self) -> None:
-        """After all documents are read: each component has its parameters, each values document its layers."""
+        """Links components with their parameters, and values with their layers, after all documents are read."""
         for real, component in self.tables.components.items():
             self._join_component(real, component)
         self.diagnostics += self._elsewhere()
         for document in list(self.documents.read.values()):
             if isinstance(document.model, ParameterDocument) and document.real not in self.tables.parameters:
-                parameters, found = resolve(document.model)
-                self.diagnostics += found
-                self.tables.parameters[document.real] = LinkedParameters(
-                    parameters, document.model, broken=hides_types(found)
-                )
+                parameters, faults = resolve(document.model)
+                self.diagnostics += faults
+                linked = LinkedParameters(parameters, document.model, broken=leaves_types_unknown(faults))
+                self.tables.parameters[document.real] = linked
                 self.diagnostics += self._unclaimed(document.model)
         self._join_layers()
 
     def _elsewhere(self) -> Iterator[Diagnostic]:
-        """Parameters that name a component which would not find them by itself."""
+        """Reports parameters whose component is in another folder and does not name them."""
         for real, component in self.tables.components.items():
             for other, span in self._parameters_of.get(real, ()):
                 path, own = self.documents.read[other].path, component.component
                 is_beside = os.path.dirname(other) == os.path.dirname(real)
                 if not is_beside and not own.parameters:
-                    folder = os.path.dirname(own.path)
-                    yield codes.NOT_BESIDE.at(
-                        span,
-                        component=own.name,
-                        related=[Related("the component", own.span)],
-                        hint=f"{references.write([path], folder, 'parameters')} in {own.path}, or move this document "
-                        "beside it",
-                    )
+                    entry = references.entry_hint([path], os.path.dirname(own.path), "parameters")
+                    hint = f"{entry} in {own.path}, or move this document beside it"
+                    related = [Related("the component", own.span)]
+                    yield codes.NOT_BESIDE.at(span, component=own.name, related=related, hint=hint)
 
     def _unclaimed(self, document: ParameterDocument) -> Iterator[Diagnostic]:
-        """Parameters that name no component, beside one that names no parameters."""
+        """Reports parameters that name no component, beside a component without parameters."""
         folder = os.path.dirname(document.path)
         beside = self._references.beside(folder, "cdsl")
         component = self.tables.components.get(os.path.realpath(beside[0])) if len(beside) == 1 else None
@@ -223,7 +218,7 @@ class Attachments(msgspec.Struct):
             yield codes.UNCLAIMED.at(
                 document.span,
                 component=component.component.name,
-                hint=references.write(beside, folder, "component"),
+                hint=references.entry_hint(beside, folder, "component"),
                 related=[Related("the component", component.component.span)],
             )
 
@@ -232,25 +227,23 @@ class Attachments(msgspec.Struct):
         reals = list(dict.fromkeys(other for other, _ in named))
         for other, span in named[1:]:
             if other != reals[0]:
-                first, name = self.documents.read[reals[0]], component.component.name
-                self.diagnostics.append(
-                    codes.DISAGREEMENT.at(
-                        span,
-                        component=name,
-                        other=os.path.basename(first.path),
-                        hint="leave one of them out",
-                        related=[Related("named here", named[0][1])],
-                    )
+                fault = codes.DISAGREEMENT.at(
+                    span,
+                    component=component.component.name,
+                    other=os.path.basename(self.documents.read[reals[0]].path),
+                    hint="remove one of them",
+                    related=[Related("the first reference", named[0][1])],
                 )
+                self.diagnostics.append(fault)
         period = component.component.period
         document = self.documents.read[reals[0]].model if reals else None
         if reals and not isinstance(document, ParameterDocument):
             own = LinkedParameters(of_no_document(period), component=component, broken=True)
             tie(component, parameters=own, broken=True)
         elif isinstance(document, ParameterDocument):
-            parameters, found = resolve(document, period)
-            self.diagnostics += found
-            broken = hides_types(found)
+            parameters, faults = resolve(document, period)
+            self.diagnostics += faults
+            broken = leaves_types_unknown(faults)
             own = LinkedParameters(parameters, document, broken, component=component)
             tie(component, parameters=own, broken=component.broken or broken)
             self.tables.parameters.setdefault(reals[0], component.parameters)
@@ -265,7 +258,7 @@ class Attachments(msgspec.Struct):
                 if other not in values:
                     tie(linked, broken=True)  # the layer has errors of its own
                 elif self._reaches(other, real):
-                    layer = next(x for x in linked.document.extends if leads_to(x, linked.document, other))
+                    layer = next(x for x in linked.document.extends if refers_to(x, linked.document, other))
                     self.diagnostics.append(value_codes.LAYER_CYCLE.at(layer.span, name=layer.value))
                     tie(linked, broken=True)
                 else:
@@ -273,22 +266,22 @@ class Attachments(msgspec.Struct):
                     tie(values[other], is_extended=True)
         for linked in values.values():
             home = self._references.components_of(linked.document.path)
-            here = [found for path in home if (found := self.tables.components.get(os.path.realpath(path)))]
-            for base in reversed(linked.layers()):  # its own component, else that of the nearest layer
+            components = [found for path in home if (found := self.tables.components.get(os.path.realpath(path)))]
+            for base in reversed(linked.layers()):  # its own component, or that of its nearest layer
                 target = self._component_of.get(os.path.realpath(base.document.path))
                 if target is not None:
-                    tie(linked, parameters=self._parameters(target, here))
+                    tie(linked, parameters=self._parameters(target, components))
                     break
             else:
-                if len(home) == len(here) == 1:  # whose else could they be
-                    tie(linked, parameters=here[0].parameters)
-            self.diagnostics += _misplaced(linked, home, here)
+                if len(home) == len(components) == 1:  # `etc/config.yaml` of the only component
+                    tie(linked, parameters=components[0].parameters)
+            self.diagnostics += _misplaced(linked, home, components)
 
-    def _parameters(self, real: str, here: Sequence[LinkedComponent]) -> LinkedParameters | None:
-        """Those that a values document names; of a document that several components share, those of the component
-        at hand."""
+    def _parameters(self, real: str, components: Sequence[LinkedComponent]) -> LinkedParameters | None:
+        """The parameters that a values document names. If several components share the parameter document, those of the
+        component beside the values are returned."""
         document = self.tables.parameters[real].document if real in self.tables.parameters else None
-        for component in here:
+        for component in components:
             if document is not None and component.parameters.document is document:
                 return component.parameters
         if real in self.tables.components:
@@ -296,30 +289,32 @@ class Attachments(msgspec.Struct):
         return self.tables.parameters.get(real)
 
     def _reaches(self, start: str, goal: str) -> bool:
-        return goal in reached([start], lambda real: self._extends.get(real, ()))
+        return goal in reachable([start], lambda real: self._extends.get(real, ()))
 
 
 def _is_compiled(document: Document) -> bool:
-    """Whether values become a file of their own, as those do that were migrated from one."""
+    """Whether values are compiled to a file of their own: they were migrated from one."""
     legacy = document.model.section("legacy") if isinstance(document.model, ValuesDocument) else None
     return legacy is not None and legacy.get("file") is not None
 
 
-def _misplaced(linked: LinkedValues, home: list[str], here: Sequence[LinkedComponent]) -> Iterator[Diagnostic]:
-    """The values that a component would take for its own, and that name another one."""
+def _misplaced(linked: LinkedValues, home: list[str], components: Sequence[LinkedComponent]) -> Iterator[Diagnostic]:
+    """Reports `etc/config.yaml` of a component that names another component."""
     own = linked.parameters
-    if own is None or own.component is None or not here or any(component.parameters is own for component in here):
+    if own is None or own.component is None or not components:
         return
-    folder, whose = os.path.dirname(linked.document.path), own.component.component.name
+    if any(component.parameters is own for component in components):
+        return
+    folder, other = os.path.dirname(linked.document.path), own.component.component.name
     yield codes.MISPLACED.at(
         linked.document.span,
-        component=here[0].component.name,
-        other=whose,
-        hint=references.write(home, folder, "component"),
-        related=[Related("the component", here[0].component.span)],
+        component=components[0].component.name,
+        other=other,
+        hint=references.entry_hint(home, folder, "component"),
+        related=[Related("the component", components[0].component.span)],
     )
 
 
-def leads_to(layer: Literal, document: ValuesDocument, real: str) -> bool:
-    """Whether an entry of a document's `extends:` means the document with this real path."""
+def refers_to(layer: Literal, document: ValuesDocument, real: str) -> bool:
+    """Whether an entry of a document's `extends:` refers to the document with this real path."""
     return os.path.realpath(os.path.join(os.path.dirname(document.path), str(layer.value))) == real

@@ -1,4 +1,4 @@
-"""Which document a `component:` or `parameters:` means; where it is none, what should have been written."""
+"""Resolves `component:`, `parameters:` and `extends:`; for a text that refers to no document, makes the hint."""
 
 from __future__ import annotations
 
@@ -20,21 +20,21 @@ _WORDS = {
 }  # fmt: skip
 
 
-class Advice(msgspec.Struct, frozen=True):
-    """What to write instead of a text that leads to no document; `is_known` where it is known what it leads to."""
+class ReferenceHint(msgspec.Struct, frozen=True):
+    """The hint at a text that refers to no document; `is_known` if the text refers to something else that exists."""
 
     hint: Hint = NO_HINT
     is_known: bool = False
 
 
 class References(msgspec.Struct, frozen=True):
-    """What references lead to, on this disk."""
+    """Resolves references to documents on a disk."""
 
     disk: Disk
 
     def is_document(self, path: str, kinds: tuple[str, ...]) -> bool:
         if os.path.basename(path) == "config.yaml" and self.disk.has_file(path):
-            self.disk.read(path)  # whether it is ours may depend on what stands in it
+            self.disk.read(path)  # its content may decide whether it is a document of rcyaml
         return kind_of(path, self.disk) in kinds and self.disk.has_file(path)
 
     def beside(self, folder: str, kind: str) -> list[str]:
@@ -43,52 +43,52 @@ class References(msgspec.Struct, frozen=True):
         return [path for path in paths if self.is_document(path, (kind,))]
 
     def components_of(self, values: str) -> list[str]:
-        """The component documents that a values document is `etc/config.yaml` of; none for any other."""
+        """The component documents of which a path is `etc/config.yaml`; none for other paths."""
         folder, name = os.path.split(values)
         if name != "config.yaml" or os.path.basename(os.path.abspath(folder)) != "etc":
             return []
         return self.beside(os.path.normpath(os.path.join(folder, os.pardir)), "cdsl")
 
-    def advice(self, text: str, folder: str, key: str, kinds: tuple[str, ...], own: str = "") -> Advice:
-        """What to write behind a key where `text` stands, and leads to no document of these kinds from the folder;
-        never the `own` one, in which it stands."""
+    def hint_for(self, text: str, folder: str, key: str, kinds: tuple[str, ...], own: str = "") -> ReferenceHint:
+        """The hint for `text` under a key, which refers to no document of these kinds, relative to the folder. The hint
+        does not name `own`, the document with the text."""
         path = os.path.normpath(os.path.join(folder, text))
         if meant := self._completed(path, kinds):
-            return Advice(write([meant], folder, key, text, safe=True), is_known=True)
+            return ReferenceHint(entry_hint([meant], folder, key, text, safe=True), is_known=True)
         if self.disk.has_folder(path):
             found = [other for kind in kinds for other in self.beside(path, kind)]
             named = " or ".join(f"NAME.{kind}.yaml" for kind in kinds)
-            said = write(found, folder, key, text)
-            words = f"that is a folder{f': {said}' if found else f', without a {named}'}"
-            return Advice(replace(said, text=words), is_known=True)
+            hint = entry_hint(found, folder, key, text)
+            words = f"that is a folder{f': {hint}' if found else f' without a {named}'}"
+            return ReferenceHint(replace(hint, text=words), is_known=True)
         where = os.path.dirname(path)
         if self.disk.has_file(path):
             kind = kind_of(path, self.disk)
-            what = f"a document of {_WORDS[kind]}" if kind else "no document of rcyaml"
-            near = [other for wanted in kinds for other in self.beside(where, wanted)]
-            said = write(near, folder, key, text)
-            return Advice(replace(said, text=f"that is {what}" + (f"; {said}" if near else "")), is_known=True)
+            what = f"is a document of {_WORDS[kind]}" if kind else "is not a document of rcyaml"
+            near = [other for expected in kinds for other in self.beside(where, expected)]
+            hint = entry_hint(near, folder, key, text)
+            return ReferenceHint(replace(hint, text=f"that {what}" + (f"; {hint}" if near else "")), is_known=True)
         if not self.disk.has_folder(where or "."):
-            return Advice(Hint(f"there is no folder '{where}'"))
+            return ReferenceHint(Hint(f"the folder '{where}' does not exist"))
         names = {os.path.basename(other): other for kind in kinds for other in self.beside(where, kind)}
         names.pop(os.path.basename(own) if os.path.dirname(own) == where else "", None)
-        near_by = suggest(os.path.basename(path), names)
-        return Advice(meaning(text, os.path.relpath(names[near_by], folder or "."))) if near_by else Advice()
+        similar = suggest(os.path.basename(path), names)
+        return ReferenceHint(meaning(text, os.path.relpath(names[similar], folder or ".")) if similar else NO_HINT)
 
-    def advice_for_name(self, name: str, folder: str) -> Advice:
-        """The same for a plain name under `component:` in a document of parameters; none where it may well stand for a
-        component that has no document."""
+    def hint_for_name(self, name: str, folder: str) -> ReferenceHint:
+        """The hint for a plain name under `component:` of a parameter document; none if the name may be that of a
+        component without a document."""
         path = os.path.normpath(os.path.join(folder, name))
         meant = self._completed(path, ("cdsl",))
-        alone = self.beside(folder, "cdsl")
-        if meant or self.disk.has_folder(path) or len(alone) != 1 or len(self.beside(folder, "pdsl")) > 1:
+        components = self.beside(folder, "cdsl")
+        if meant or self.disk.has_folder(path) or len(components) != 1 or len(self.beside(folder, "pdsl")) > 1:
             is_near = meant or self.disk.has_folder(path)
-            return self.advice(name, folder, "component", ("cdsl",)) if is_near else Advice()
-        # The only parameters beside the only component.
-        return Advice(write(alone, folder, "component", name), is_known=True)
+            return self.hint_for(name, folder, "component", ("cdsl",)) if is_near else ReferenceHint()
+        # The folder has one component and one parameter document.
+        return ReferenceHint(entry_hint(components, folder, "component", name), is_known=True)
 
     def _completed(self, path: str, kinds: tuple[str, ...]) -> str:
-        """The document that a path leads to once its end has what it lacks; '' where there is none."""
+        """The document to which a path refers if its suffix is completed; '' if there is none."""
         for kind in kinds:
             for end in (".yaml", ".yml", f".{kind}", f".{kind}.yml", ""):
                 if path.endswith(end) and self.is_document(f"{path.removesuffix(end)}.{kind}.yaml", (kind,)):
@@ -102,8 +102,8 @@ def stem(path: str) -> str:
     return name.removesuffix(f"{kind_of(path) or ''}.yaml").removesuffix(".")
 
 
-def write(paths: list[str], folder: str, key: str, word: str = "", *, safe: bool = False) -> Hint:
-    """The entry that names a document, or one of several; a single one can stand instead of `word`."""
+def entry_hint(paths: list[str], folder: str, key: str, word: str = "", *, safe: bool = False) -> Hint:
+    """A hint to write an entry that names one of these documents. A single document replaces `word` in a fix."""
     entry = f"`{key}: [{{}}]`" if key == "extends" else f"`{key}: {{}}`"
     named = [os.path.relpath(path, folder or ".") for path in paths[:3]]
     meant = named[0] if word and len(named) == 1 else ""
@@ -111,5 +111,5 @@ def write(paths: list[str], folder: str, key: str, word: str = "", *, safe: bool
 
 
 def _plain(path: str) -> str:
-    """A path as YAML takes it."""
+    """A path as a YAML scalar, quoted if necessary."""
     return path if _PLAIN.fullmatch(path) else quoted(path)

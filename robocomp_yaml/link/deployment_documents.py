@@ -1,4 +1,4 @@
-"""The documents that deployments name: components, configurations and other deployments, all of which are read too."""
+"""Follows and links the documents that deployments name: components, configurations and other deployments."""
 
 from __future__ import annotations
 
@@ -11,21 +11,22 @@ from robocomp_yaml.diag.codes import ddsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import Hint
 from robocomp_yaml.diag.suggest import did_you_mean
-from robocomp_yaml.digraph import inner_first
+from robocomp_yaml.digraph import postorder
 from robocomp_yaml.link import deployment_groups
 from robocomp_yaml.link import deployment_paths as paths
-from robocomp_yaml.link.deployment_names import Names
+from robocomp_yaml.link.deployment_names import DeploymentNames
 from robocomp_yaml.link.deployments import LinkedDeployment
 from robocomp_yaml.link.documents import Document, Documents
 from robocomp_yaml.link.expand_deployments import Expansion
 from robocomp_yaml.link.knot import tie
 from robocomp_yaml.link.program import Tables
-from robocomp_yaml.model.deployment import COMPONENT, INDEX, PROCESS, Deployment, Entry, Text
+from robocomp_yaml.model.deployment import COMPONENT, INDEX, PROCESS, Deployment, Entry
+from robocomp_yaml.model.located import Text
 from robocomp_yaml.source.disk import Disk
 
 
 class DeploymentDocuments(msgspec.Struct):
-    """Follows what deployments name."""
+    """Resolves the paths in deployments, and reports paths without a document."""
 
     documents: Documents
     tables: Tables
@@ -33,7 +34,7 @@ class DeploymentDocuments(msgspec.Struct):
     _deployments: dict[str, Deployment] = {}
 
     def follow(self, document: Document) -> Iterator[Document]:
-        """The documents that a deployment names."""
+        """Yields the documents that a deployment names."""
         model = document.model
         assert isinstance(model, Deployment)
         self._deployments[document.real] = model
@@ -49,65 +50,59 @@ class DeploymentDocuments(msgspec.Struct):
                     yield self.documents.get(component)
 
     def _follow_entry(self, model: Deployment, entry: Entry) -> Iterator[Document]:
-        """Each instance has its own component, and its configuration is looked for from there."""
-        found: dict[str, str] = {}
-        for target, config in _counted(entry):
-            if entry.kind == COMPONENT and target.text not in found:
+        """The component and configuration of each instance; the configuration is relative to the component."""
+        components: dict[str, str] = {}
+        for target, config in _of_instances(entry):
+            if entry.kind == COMPONENT and target.text not in components:
                 component = self._component(model, target)
                 if component is None:
                     return
-                found[target.text] = component
+                components[target.text] = component
                 yield self.documents.get(component)
             if config is not None:
-                place = paths.place_of(model, entry, found.get(target.text, ""))
-                path = self._config(model, place, config)
+                folder = paths.entry_folder(model, entry, components.get(target.text, ""))
+                path = self._config(model, folder, config)
                 if path is None:
                     return
                 if entry.kind == COMPONENT and paths.is_values(path):
                     yield self.documents.get(path, "config")
 
     def _component(self, model: Deployment, target: Text) -> str | None:
-        found = paths.components_at(model, target.text, self.documents.disk)
-        if len(found) > 1:
-            names = " or ".join(os.path.join(target.text, os.path.basename(path)) for path in found)
+        components = paths.component_paths(model, target.text, self.documents.disk)
+        if len(components) > 1:
+            names = " or ".join(os.path.join(target.text, os.path.basename(path)) for path in components)
             self.diagnostics.append(codes.SEVERAL_COMPONENTS.at(target.span, path=target.text, hint=f"name {names}"))
-        elif not found:
-            path = paths.joined(paths.folder_of(model), target.text)
-            self.diagnostics.append(
-                codes.NO_COMPONENT.at(target.span, path=target.text, hint=self._nearby(path, ".cdsl.yaml", "cdsl.yaml"))
-            )
-        return found[0] if len(found) == 1 else None
+        elif not components:
+            path = paths.joined(paths.document_folder(model), target.text)
+            hint = self._nearby(path, ".cdsl.yaml", "cdsl.yaml")
+            self.diagnostics.append(codes.NO_COMPONENT.at(target.span, path=target.text, hint=hint))
+        return components[0] if len(components) == 1 else None
 
-    def _config(self, model: Deployment, place: str, config: Text) -> str | None:
-        places = paths.configs_at(model, place, config.text)
-        for path in places:
+    def _config(self, model: Deployment, folder: str, config: Text) -> str | None:
+        candidates = paths.config_paths(model, folder, config.text)
+        for path in candidates:
             if self.documents.disk.has_file(path):
                 return path
-        self.diagnostics.append(
-            codes.NO_CONFIG.at(
-                config.span,
-                path=config.text,
-                places=" and no ".join(dict.fromkeys(places)),
-                hint=self._nearby(places[0]) or self._nearby(places[1]),
-            )
-        )
+        hint = self._nearby(candidates[0]) or self._nearby(candidates[1])
+        listed = " and no ".join(dict.fromkeys(candidates))
+        self.diagnostics.append(codes.NO_CONFIG.at(config.span, path=config.text, places=listed, hint=hint))
         return None
 
     def _follow_include(self, model: Deployment, include: Text) -> Iterator[Document]:
-        found = paths.include_at(model, include.text, self.documents.disk)
-        if found is not None:
-            yield self.documents.get(found)
+        path = paths.include_path(model, include.text, self.documents.disk)
+        if path is not None:
+            yield self.documents.get(path)
             return
-        path = paths.joined(paths.folder_of(model), include.text)
+        path = paths.joined(paths.document_folder(model), include.text)
         hint = self._nearby(path, ".ddsl.yaml", without=model.path)
         self.diagnostics.append(codes.NO_INCLUDE.at(include.span, path=include.text, hint=hint))
 
     def _nearby(self, path: str, *suffixes: str, without: str = "") -> Hint:
-        """What was probably meant: a name in the same folder, but for one document."""
+        """A hint at a similar name in the same folder, other than `without`."""
         folder, name = os.path.split(path)
         disk = self.documents.disk
         if not disk.has_folder(folder or "."):
-            return Hint(f"there is no folder '{folder}'")
+            return Hint(f"the folder '{folder}' does not exist")
         names = disk.names(folder)
         if suffixes:
             names = [n for n in names if n.endswith(suffixes) or disk.has_folder(os.path.join(folder, n))]
@@ -115,27 +110,27 @@ class DeploymentDocuments(msgspec.Struct):
         return did_you_mean(name, [n for n in names if n != own], open_=True)
 
     def join(self) -> None:
-        """After all documents are linked: each deployment with what it includes."""
+        """Links each deployment with what it includes, after all other documents are linked."""
         disk = self.documents.disk
         large = too_large(self._deployments, disk)
-        self.diagnostics += [found for found in large.values() if found is not None]
+        self.diagnostics += [fault for fault in large.values() if fault is not None]
         usable = {real: model for real, model in self._deployments.items() if real not in large}
         for real, model in usable.items():
             linked = self.tables.deployments[real] = LinkedDeployment(model, real)
             expansion = Expansion(linked, self.tables, usable, disk)
             expansion.run()
-            names = Names(linked, expansion.placed, expansion.included)
+            names = DeploymentNames(linked, expansion.documents, expansion.included)
             names.resolve()
             self.diagnostics += expansion.diagnostics + names.diagnostics
-            self.diagnostics += deployment_groups.resolve(linked, expansion.placed)
+            self.diagnostics += deployment_groups.resolve(linked, expansion.documents)
         for model in usable.values():
             for real in _included(model, disk):
                 if real in usable:
                     tie(self.tables.deployments[real], is_included=True)
 
 
-def _counted(entry: Entry) -> Iterator[tuple[Text, Text | None]]:
-    """What an entry names as its target and its configuration; where these count, what each instance does."""
+def _of_instances(entry: Entry) -> Iterator[tuple[Text, Text | None]]:
+    """The target and configuration of an entry; if one contains `{i}`, those of each instance."""
     target, config = entry.target, entry.config
     if entry.instances is None or INDEX not in target.text + (config.text if config else ""):
         yield target, config
@@ -148,32 +143,32 @@ def _of_instance(text: Text, number: int) -> Text:
     return Text(text.text.replace(INDEX, str(number)), span=text.span)
 
 
-MOST = 10_000  # instances of one deployment, all together
-DEEPEST = 50  # includes inside of each other
+MAX_INSTANCES = 10_000  # of one deployment with its includes
+MAX_DEPTH = 50  # of nested includes
 
 
 def too_large(deployments: Mapping[str, Deployment], disk: Disk) -> dict[str, Diagnostic | None]:
-    """The deployments, by real path, that cannot be expanded, with what is wrong with each: nothing more where it only
-    includes such a one."""
+    """The deployments, by real path, that are too large or too deep, each with its diagnostic. The diagnostic is None
+    for those that only include such a deployment, so that the error is reported once."""
     sizes: dict[str, tuple[int, int]] = {}
-    found: dict[str, Diagnostic | None] = {}
+    faults: dict[str, Diagnostic | None] = {}
     included = {real: list(_included(model, disk)) for real, model in deployments.items()}
-    for real in inner_first(deployments, lambda real: [other for other in included[real] if other in included]):
+    for real in postorder(deployments, lambda real: [other for other in included[real] if other in included]):
         model, inner = deployments[real], [other for other in included[real] if other in sizes]
         size = sum(entry.instances or 1 for entry in model.entries) + sum(sizes[other][0] for other in inner)
         depth = 1 + max((sizes[other][1] for other in inner), default=0)
         sizes[real] = size, depth
-        if any(other in found for other in inner):
-            found[real] = None
-        elif size > MOST:
-            found[real] = codes.TOO_LARGE.at(model.span, problem=f"comes to {size} processes, and {MOST} are the most")
-        elif depth > DEEPEST:
-            problem = f"has includes inside of each other {depth} deep, and {DEEPEST} are the most"
-            found[real] = codes.TOO_LARGE.at(model.span, problem=problem)
-    return found
+        if any(other in faults for other in inner):
+            faults[real] = None
+        elif size > MAX_INSTANCES:
+            faults[real] = codes.TOO_LARGE.at(model.span, problem=f"has {size} processes, more than {MAX_INSTANCES}")
+        elif depth > MAX_DEPTH:
+            problem = f"nests includes {depth} deep, more than {MAX_DEPTH}"
+            faults[real] = codes.TOO_LARGE.at(model.span, problem=problem)
+    return faults
 
 
 def _included(model: Deployment, disk: Disk) -> Iterator[str]:
-    """The real paths of what a document includes, as often as it does."""
-    for path in filter(None, (paths.include_at(model, include.text, disk) for include in model.all_includes)):
+    """The real paths of the documents that a document includes, with repetitions."""
+    for path in filter(None, (paths.include_path(model, include.text, disk) for include in model.all_includes)):
         yield os.path.realpath(path)

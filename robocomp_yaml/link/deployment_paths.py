@@ -1,4 +1,4 @@
-"""Where the paths of a deployment's document lead: each as opened, from the document's own folder or another."""
+"""Resolves the paths in a deployment's document. Results are relative to the current folder, or absolute."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ COMPONENT_SUFFIXES = (".cdsl.yaml", os.sep + "cdsl.yaml")
 
 
 def joined(folder: str, text: str) -> str:
-    """`~` is the caller's home, as launchers have it."""
+    """A path relative to `folder`; `~` is the operator's home folder, as in launchers."""
     return os.path.normpath(os.path.join(folder, os.path.expanduser(text)))
 
 
-def folder_of(deployment: Deployment) -> str:
+def document_folder(deployment: Deployment) -> str:
     return os.path.dirname(deployment.path)
 
 
-def components_at(deployment: Deployment, text: str, disk: Disk) -> list[str]:
-    """The component's document at a path, or those in a folder; none where there is nothing of the kind."""
-    path = joined(folder_of(deployment), text)
+def component_paths(deployment: Deployment, text: str, disk: Disk) -> list[str]:
+    """The component document at a path, or all component documents in a folder; none if there is none."""
+    path = joined(document_folder(deployment), text)
     if disk.has_folder(path):
         names = (name for name in disk.documents(path) if name == "cdsl.yaml" or name.endswith(".cdsl.yaml"))
         return [os.path.join(path, name) for name in names]
@@ -29,26 +29,27 @@ def components_at(deployment: Deployment, text: str, disk: Disk) -> list[str]:
     return [path] if is_component else []
 
 
-def place_of(deployment: Deployment, entry: Entry, component: str) -> str:
-    """The folder that an entry's own paths start from: that of its component's document, or where a program runs."""
+def entry_folder(deployment: Deployment, entry: Entry, component: str) -> str:
+    """The folder to which an entry's paths are relative: that of its component document, or the `cwd` of a program."""
     if entry.kind == COMPONENT:
         return os.path.dirname(component)
-    return joined(folder_of(deployment), entry.cwd.text if entry.cwd else "")
+    return joined(document_folder(deployment), entry.cwd.text if entry.cwd else "")
 
 
-def configs_at(deployment: Deployment, place: str, text: str) -> tuple[str, str]:
-    """Where a configuration is looked for: from the entry's folder, then from the deployment's document."""
-    return joined(place, text), joined(folder_of(deployment), text)
+def config_paths(deployment: Deployment, folder: str, text: str) -> tuple[str, str]:
+    """The paths where a configuration may be: from the entry's folder, then from that of the deployment."""
+    return joined(folder, text), joined(document_folder(deployment), text)
 
 
 def is_values(path: str) -> bool:
-    """Whether a configuration is a values document, and no flat file."""
+    """Whether a configuration is a values document, not a flat config."""
     name = os.path.basename(path)
     return name == "config.yaml" or name.endswith(".config.yaml")
 
 
-def include_at(deployment: Deployment, text: str, disk: Disk) -> str | None:
-    path = joined(folder_of(deployment), text)
+def include_path(deployment: Deployment, text: str, disk: Disk) -> str | None:
+    """The path of an included deployment; None if it is not a deployment document."""
+    path = joined(document_folder(deployment), text)
     name = os.path.basename(path)
     is_deployment = name == "ddsl.yaml" or name.endswith(".ddsl.yaml")
     return path if disk.has_file(path) and is_deployment else None

@@ -1,7 +1,7 @@
 """A deployment with all that it includes: every instance with its component and values, every group with its members.
 
-Names are full here: what stands in an include that has a name is called `arm.elbow`, and an entry with instances is
-there once for each, with `{i}` filled in everywhere. Ports and connections are derived from this, by `network`.
+Names are full names: an entry `elbow` of an include called `arm` is `arm.elbow`. An entry with `instances:` is one
+`LinkedInstance` for each number, with `{i}` replaced. `network` derives processes and connections from these.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from robocomp_yaml.model.deployment import Deployment, Entry, Exposed, Group, Ho
 
 
 class LinkedInstance(msgspec.Struct, frozen=True, eq=False):
-    """An instance of an entry of `components:`. `entry` has this instance's texts (only its ports are not counted up);
-    `number` counts from 0, None for an entry without `instances:`. `scope` is what full names begin with where the
-    entry stands: '' or `arm.`; `document` is where that is.
+    """An instance of an entry of `components:`. `entry` has the texts of this instance (only its TCP ports are as
+    written); `number` counts from 0, None for an entry without `instances:`. `document` contains the entry, and `scope`
+    is the prefix of full names in that document: '' or `arm.`.
 
-    `component` is None for a program, and for a document with errors. `values` are those of the document that
-    `config:` names, else of the component's `etc/config.yaml`; `flat` is the path (as opened) of a configuration file
-    that is none of our documents. `folder` is where the component's document stands, or where a program runs.
-    `host` is None for this machine. `process` is the instance that a PROCESS entry is a second name of.
+    `component` is None for a program, and for a document with errors. `values` is the document that `config:` names, or
+    the component's `etc/config.yaml`; `flat` is the path (as opened) of a flat config. `folder` is that of the
+    component's document, or the working folder of a program. `host` is None for this machine. `process` is the instance
+    of which a PROCESS entry is a second name.
     """
 
     name: str
@@ -39,7 +39,7 @@ class LinkedInstance(msgspec.Struct, frozen=True, eq=False):
     after: tuple[LinkedInstance | LinkedStorm, ...] = ()
     groups: tuple[LinkedGroup, ...] = ()
     broken: bool = False
-    """Whether something about it has been reported, so that what depends on it is not judged."""
+    """Whether an error in the instance is reported, so that nothing that depends on it is checked."""
 
 
 class LinkedStorm(msgspec.Struct, frozen=True, eq=False):
@@ -54,9 +54,9 @@ class LinkedStorm(msgspec.Struct, frozen=True, eq=False):
 
 
 class Served(msgspec.Struct, frozen=True):
-    """An interface that a group serves: `name` to those outside, `adapter` to the member `instance`, which has an entry
-    of this name under `implements` (its `port`) or, for a program, under `endpoints:`. `rule` is the entry of `expose:`
-    with a rate or access rule, else None."""
+    """An interface that a group serves under `name`. `adapter` is the name that the member `instance` has for it, under
+    `implements` (its `port`) or, for a program, under `endpoints:`. `rule` is the entry of `expose:` with a rate or
+    access rule, else None."""
 
     name: str
     instance: LinkedInstance
@@ -66,8 +66,8 @@ class Served(msgspec.Struct, frozen=True):
 
 
 class LinkedGroup(msgspec.Struct, frozen=True, eq=False):
-    """A group by its full name. `members` are all instances in it, those of the groups `inner` too, which are all that
-    it holds. `serves` is what a closed group offers; what an open one does is whatever its members implement."""
+    """A group by its full name. `members` are all instances in the group, including those of the groups `inner`, at any
+    depth. `serves` is what a closed group offers; an open group offers what its members implement."""
 
     name: str
     group: Group
@@ -85,11 +85,11 @@ class LinkedGroup(msgspec.Struct, frozen=True, eq=False):
 
     @property
     def breadth(self) -> tuple[int, int]:
-        """A group that holds another one has more of it, even if both have the same members."""
+        """Sorts groups: a group that contains another one is greater, even if both have the same members."""
         return len(self.members), len(self.inner)
 
     def offers(self) -> Iterator[Served]:
-        """What can be connected to through the group."""
+        """The interfaces to which others can connect through the group."""
         if self.is_closed:
             yield from self.serves
             return
@@ -98,7 +98,7 @@ class LinkedGroup(msgspec.Struct, frozen=True, eq=False):
 
 
 def offers(instance: LinkedInstance) -> Iterator[Served]:
-    """What an instance serves by its component, or else by its endpoints."""
+    """The interfaces that an instance serves: those of its component, or of a program's endpoints."""
     if instance.component is not None:
         for port in instance.component.implements:
             yield Served(port.name, instance, port.name, port)
@@ -111,10 +111,10 @@ Target = LinkedInstance | LinkedStorm | LinkedGroup
 
 
 class LinkedDeployment(msgspec.Struct, frozen=True, eq=False):
-    """One DDSL document with its includes, in the order of the documents. `real` is its real path. `hosts` is empty
-    where everything runs on this machine. `names` are, by scope, the names that stand in it and what they mean: an
-    entry with instances stands for all of them. `is_included` when another document builds on this one, so that what
-    it requires may be there."""
+    """One DDSL document with its includes, in the order of the documents. `real` is its real path. `hosts` is empty if
+    all runs on this machine. `names` maps each scope to its names, and each name to its targets: the name of an entry
+    with instances has all of them. `is_included` holds if another document includes this one, and may define what this
+    one requires."""
 
     deployment: Deployment
     real: str
@@ -128,8 +128,8 @@ class LinkedDeployment(msgspec.Struct, frozen=True, eq=False):
     broken: bool = False
 
     def find(self, text: str, scope: str) -> tuple[tuple[Target, ...], str]:
-        """What a text such as `speech`, `speech.Speech` or `arm.elbow.Motor` means where names begin with `scope`: the
-        targets of the longest name that is there, and what is left behind it (an interface, or '')."""
+        """Resolves a text such as `speech`, `speech.Speech` or `arm.elbow.Motor` in a scope. Returns the targets of the
+        longest prefix that is a name, and the rest of the text (an interface, or '')."""
         name, behind = text, ""
         while True:
             found = self._named(name, scope)
@@ -145,24 +145,24 @@ class LinkedDeployment(msgspec.Struct, frozen=True, eq=False):
             found = self.names.get(f"{scope}{inner}.", {}).get(last)
         return found or ()
 
-    def closed_around(self, target: Target, source: LinkedInstance) -> list[LinkedGroup]:
-        """The closed groups that hold the target but not `source`, the outermost first."""
-        held = _instances(target)
-        around = [
+    def closed_groups_of(self, target: Target, source: LinkedInstance) -> list[LinkedGroup]:
+        """The closed groups that contain the target but not `source`, the outermost first."""
+        members = _instances(target)
+        groups = [
             group
-            for group in (held[0].groups if held else ())
+            for group in (members[0].groups if members else ())
             if group is not target
             and group.is_closed
             and group not in source.groups
-            and all(group in member.groups for member in held)
+            and all(group in member.groups for member in members)
             and not (isinstance(target, LinkedGroup) and group.breadth <= target.breadth)
         ]
-        return sorted(around, key=lambda group: group.breadth, reverse=True)
+        return sorted(groups, key=lambda group: group.breadth, reverse=True)
 
     def storms_for(self, source: LinkedInstance) -> list[LinkedStorm]:
-        """The IceStorms whose scope `source` stands in, the nearest scope first."""
-        around = [storm for storm in self.storms.values() if source.scope.startswith(storm.scope)]
-        return sorted(around, key=lambda storm: -len(storm.scope))
+        """The IceStorms in the scopes around `source`, the innermost scope first."""
+        storms = [storm for storm in self.storms.values() if source.scope.startswith(storm.scope)]
+        return sorted(storms, key=lambda storm: -len(storm.scope))
 
 
 def _instances(target: Target) -> tuple[LinkedInstance, ...]:

@@ -1,4 +1,4 @@
-"""Each document read once: bytes to tree to shape to model."""
+"""Reads each document once: decode, parse, validate, build."""
 
 from __future__ import annotations
 
@@ -41,16 +41,24 @@ _BUILDERS = {
 
 @cache
 def builder(kind: str) -> Callable[[Mapping, str], Model]:
-    """What makes the model of a document that has the shape of its kind."""
+    """The function that builds the model of a document that fits the schema of its kind."""
     module, _, function = _BUILDERS[kind].rpartition(".")
     build: Callable[[Mapping, str], Model] = getattr(importlib.import_module(f"robocomp_yaml.{module}"), function)
     return build
 
 
+def read_tree(path: str, disk: Disk) -> tuple[Node | None, list[Diagnostic]]:
+    """The tree of a YAML file, None if it cannot be read, decoded or parsed, and diagnostics."""
+    raw, diagnostics = disk.read(path)
+    text, in_text = decode(path, raw) if raw is not None else (None, [])
+    tree, in_tree = parse(path, text) if text is not None else (None, [])
+    return tree, [*diagnostics, *in_text, *in_tree]
+
+
 class Document(msgspec.Struct, frozen=True, eq=False):
-    """A document as far as it could be read: `model` is None where it has errors of its own, `tree` where it is no
-    YAML. `real` is its real path, `module` the name of the module it defines, as far as that can be told;
-    `component` is what it says under `component:`, and None where it cannot be read at all."""
+    """A document as far as it can be read. `model` is None if it does not fit its schema, `tree` if it is no YAML.
+    `real` is its real path, `module` the name of the module that it defines, or ''; `component` is the text under
+    `component:`, and None if the document cannot be parsed."""
 
     path: str
     real: str
@@ -62,8 +70,8 @@ class Document(msgspec.Struct, frozen=True, eq=False):
 
 
 class Documents(msgspec.Struct):
-    """The documents of a run by real path, with all that is wrong with each by itself. `plugins_of` says which plug-ins
-    count for a document."""
+    """The documents of a run by real path, with the diagnostics of each by itself. `plugins_of` returns the plug-ins of
+    a document's workspace; `on_read` is called with the path of each document."""
 
     disk: Disk = msgspec.field(default_factory=Disk)
     on_read: Callable[[str], None] = lambda path: None
@@ -73,16 +81,16 @@ class Documents(msgspec.Struct):
     _glanced: dict[str, tuple[Document, list[Diagnostic]]] = {}
 
     def get(self, path: str, kind: str = "") -> Document:
-        """The document at a path, read at the first call; `kind` is for one whose name does not say it."""
+        """The document at a path, which becomes part of the run. `kind` is for a name that does not have the kind."""
         document = self.glance(path, kind)
         if document.real not in self.read:
-            self.read[document.real], found = self._glanced.pop(document.real)
-            self.diagnostics += found
+            self.read[document.real], diagnostics = self._glanced.pop(document.real)
+            self.diagnostics += diagnostics
             self.on_read(path)
         return document
 
     def glance(self, path: str, kind: str = "") -> Document:
-        """The same for one that may prove to be none of this run: what is wrong with it is told once it is got."""
+        """The document at a path, which may be no part of the run: its diagnostics are not reported before `get`."""
         real = os.path.realpath(path)
         document = self.read.get(real)
         if document is not None:
@@ -92,41 +100,32 @@ class Documents(msgspec.Struct):
         return self._glanced[real][0]
 
     def trees(self) -> dict[str, Node | None]:
-        """The trees of the documents that were got, by their paths."""
+        """The trees of the documents of the run, by their paths."""
         return {document.path: document.tree for document in self.read.values()}
 
     def _load(self, path: str, real: str, kind: str) -> tuple[Document, list[Diagnostic]]:
-        """Bytes → text → tree → shape → model, as far as it goes."""
-        nothing = Document(path, real, kind)
-        raw, said = self.disk.read(path)
-        if raw is None:
-            return nothing, said
-        text, more = decode(path, raw)
-        said = [*said, *more]
-        if text is None:
-            return nothing, said
-        tree, more = parse(path, text)
-        said += more
+        """Decodes, parses, validates and builds, until a pass reports an error."""
+        tree, diagnostics = read_tree(path, self.disk)
         if tree is None:
-            return nothing, said
+            return Document(path, real, kind), diagnostics
         misfits = self._misfits(path, kind, tree)
         model = None
         if not has_errors(misfits):
             assert isinstance(tree, Mapping)
             model = builder(kind)(tree, path)
         module, component = text_at_top(tree, "module"), text_at_top(tree, COMPONENT)
-        told = [one for one in misfits if not self._is_of_a_plugin(path, kind, tree, one)]
-        return Document(path, real, kind, model, module, component, tree), [*said, *told]
+        diagnostics += (misfit for misfit in misfits if not self._is_of_a_plugin(path, kind, tree, misfit))
+        return Document(path, real, kind, model, module, component, tree), diagnostics
 
-    def _is_of_a_plugin(self, path: str, kind: str, tree: Node, said: Diagnostic) -> bool:
-        """Whether an unknown language may be that of a plug-in which cannot be had: that is told already."""
+    def _is_of_a_plugin(self, path: str, kind: str, tree: Node, misfit: Diagnostic) -> bool:
+        """Whether an unknown language may be that of a plug-in that cannot be loaded, which is reported already."""
         if kind not in MARKED or not isinstance(tree, Mapping) or self.plugins_of(path).whole:
             return False
         language = tree.get("language")
-        return said.code == codes.WRONG_SHAPE.id and language is not None and language.span.holds(said.span)
+        return misfit.code == codes.WRONG_SHAPE.id and language is not None and language.span.holds(misfit.span)
 
     def _misfits(self, path: str, kind: str, tree: Node) -> list[Diagnostic]:
-        """What of a document's shape is not as its kind wants it."""
+        """Validates a document by the schema of its kind."""
         more = self.plugins_of(path).languages if kind in MARKED else ()
         diagnostics = schema.validate(kind, tree, more)
         if not diagnostics and kind == "idsl" and isinstance(tree, Mapping):
@@ -135,7 +134,7 @@ class Documents(msgspec.Struct):
 
 
 def _kinds_of_types(tree: Mapping) -> Iterator[Diagnostic]:
-    """Each type is of exactly one kind: a rule that a schema can state, but not explain."""
+    """Checks that each type has exactly one kind. The schema could say so, but not with a helpful message."""
     for key, node in build_interface.entries(tree, "types"):
         assert isinstance(node, Mapping)
         kinds = [kind for kind in build_interface.TYPE_KINDS if kind in node.entries]

@@ -1,6 +1,6 @@
-"""Linked documents lead to each other: a component has its parameters, and these have their component.
+"""Linked documents refer to each other: a component has its parameters, and the parameters have their component.
 
-They are frozen, so the knots are tied here, while a program is linked and nobody else has it. Only this package may.
+Linked documents are frozen. Only this package may change them, and only while a program is linked and not yet returned.
 """
 
 from __future__ import annotations
@@ -10,11 +10,11 @@ from msgspec.structs import force_setattr
 
 
 def tie(linked: msgspec.Struct, **facts: object) -> None:
-    """Gives a linked document what is known of it only now."""
+    """Sets fields of a linked document."""
     for name, value in facts.items():
         force_setattr(linked, name, value)
 
 
 def grow(linked: msgspec.Struct, name: str, *more: object) -> None:
-    """Adds to one of its tuples."""
+    """Adds items to the tuple `name` of a linked document."""
     force_setattr(linked, name, (*getattr(linked, name), *more))

@@ -1,9 +1,10 @@
-"""Imports resolved and names looked up: documents become one program."""
+"""Resolves imports and interfaces: documents become one program."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 from itertools import pairwise
 from types import ModuleType
 from typing import TYPE_CHECKING, cast
@@ -14,36 +15,40 @@ from robocomp_yaml import digraph
 from robocomp_yaml.diag.codes import cdsl, idsl
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.fix import Hint, removal
-from robocomp_yaml.diag.suggest import did_you_mean
+from robocomp_yaml.diag.suggest import did_you_mean, meaning, suggest
 from robocomp_yaml.link.documents import Document, Documents
 from robocomp_yaml.link.knot import tie
-from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program, Tables
-from robocomp_yaml.link.workspace import SUFFIX, Search, Workspace, read, root_above
-from robocomp_yaml.model.interface import Import, Module
+from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port, Program, Tables
+from robocomp_yaml.link.workspace import SUFFIX, ImportSearch, WorkspaceSettings, read, root_above
+from robocomp_yaml.model.interface import Import, Interface, Module
 from robocomp_yaml.plugins import Plugins
 
 if TYPE_CHECKING:
     from robocomp_yaml.link.attachments import Attachments
     from robocomp_yaml.link.deployment_documents import DeploymentDocuments
-    from robocomp_yaml.model.component import Component
+    from robocomp_yaml.model.component import Component, Use
+
+_ADD_FOLDER = (
+    "put its document beside this one, or list its folder under `interfaces:` in rcyaml.yaml, or pass it with -I"
+)
 
 
 class Linker(msgspec.Struct):
-    """Links the documents of one run; `diagnostics` collects what is wrong with references."""
+    """Links the documents of one run; `diagnostics` collects the errors in references."""
 
     documents: Documents
-    search: Search
+    search: ImportSearch
     tables: Tables = msgspec.field(default_factory=Tables)
-    workspaces: dict[str, Workspace] = {}
+    workspaces: dict[str, WorkspaceSettings] = {}
     diagnostics: list[Diagnostic] = []
-    _by_folder: dict[str, Workspace] = {}
-    _found: dict[str, list[str]] = {}  # real path: those of the modules it imports
+    _by_folder: dict[str, WorkspaceSettings] = {}
+    _imported: dict[str, list[str]] = {}  # by real path: the real paths of the imported modules
 
     def link(self, paths: Iterable[str]) -> Program:
-        """The program of these documents and of all that they import."""
+        """Returns the program of these documents and of all documents to which they refer."""
         self.documents.plugins_of = self._plugins_of
         todo = [self.documents.get(path) for path in paths]
-        asked = frozenset(document.real for document in todo)
+        requested = frozenset(document.real for document in todo)
         components: list[tuple[Document, LinkedComponent]] = []
         attachments: Attachments | None = None
         deployments: DeploymentDocuments | None = None
@@ -60,7 +65,10 @@ class Linker(msgspec.Struct):
                 tie(linked, unresolved=frozenset(unresolved))
                 continue
             if document.kind == "ddsl" and document.model is not None:
-                deployments = deployments or self._deployments()
+                if deployments is None:
+                    from robocomp_yaml.link.deployment_documents import DeploymentDocuments  # most runs have none
+
+                    deployments = DeploymentDocuments(self.documents, self.tables, self.diagnostics)
                 todo += deployments.follow(document)
                 continue
             if document.kind == "cdsl" and document.model is not None:
@@ -69,70 +77,52 @@ class Linker(msgspec.Struct):
                 unresolved = set()
                 todo += self._imports(document, component.component.imports, unresolved, cdsl)
                 tie(component, broken=bool(unresolved))
-            attachments = attachments or self._attachments()
+            if attachments is None:
+                from robocomp_yaml.link.attachments import Attachments  # interfaces alone have none
+
+                attachments = Attachments(self.documents, self.tables, self._root_of, self.diagnostics)
             todo += attachments.follow(document)
         self._join()
         if attachments is not None:
             attachments.join()
         for document, component in sorted(components, key=lambda pair: pair[0].path):
-            self._link_ports(document, component)
+            self.diagnostics += _link_ports(component, partial(self._importable, document))
             self._read_machine(component)
         if deployments is not None:
             deployments.join()
-        tables = self.tables
         return Program(
-            tables.modules,
-            tables.components,
-            tables.parameters,
-            tables.values,
-            tables.deployments,
-            asked,
-            len(self.documents.read),
-            self.documents.disk,
-            self._plugins_of,
+            **msgspec.structs.asdict(self.tables),
+            requested=requested,
+            documents=len(self.documents.read),
+            disk=self.documents.disk,
+            plugins_of=self._plugins_of,
         )
 
     def _plugins_of(self, path: str) -> Plugins:
         return self.workspace_of(path).plugins
 
     def _expanded(self, component: Component) -> LinkedComponent:
-        """A component with what its options add."""
-        if not component.options:
-            return LinkedComponent(component)
-        from robocomp_yaml.link import options  # of legacy components
+        """The component with the interfaces that its options add."""
+        if component.options:
+            from robocomp_yaml.link import options  # of legacy components
 
-        model, diagnostics = options.expanded(component)
-        self.diagnostics += diagnostics
-        return LinkedComponent(model)
-
-    def _link_ports(self, document: Document, component: LinkedComponent) -> None:
-        from robocomp_yaml.link.ports import link_ports
-
-        self.diagnostics += link_ports(component, self._suggest_import(document))
-
-    def _attachments(self) -> Attachments:
-        from robocomp_yaml.link.attachments import Attachments  # interfaces alone have none
-
-        return Attachments(self.documents, self.tables, self._root_of, self.diagnostics)
+            component, diagnostics = options.expanded(component)
+            self.diagnostics += diagnostics
+        return LinkedComponent(component)
 
     def _root_of(self, path: str) -> str:
-        """The folder that a document's workspace consists of; without a declared one, that of its component."""
+        """The root of a document's workspace; without a declared workspace, the folder of its component."""
         workspace = self.workspace_of(path)
         is_deep = not workspace.declared and os.path.basename(os.path.abspath(workspace.root or ".")) == "etc"
         return os.path.normpath(os.path.join(workspace.root, os.pardir)) if is_deep else workspace.root
 
-    def _deployments(self) -> DeploymentDocuments:
-        from robocomp_yaml.link.deployment_documents import DeploymentDocuments  # most runs have none
-
-        return DeploymentDocuments(self.documents, self.tables, self.diagnostics)
-
-    def workspace_of(self, path: str) -> Workspace:
-        """The workspace that a document belongs to; without a declared one, its own folder."""
+    def workspace_of(self, path: str) -> WorkspaceSettings:
+        """The settings of a document's workspace; without a declared workspace, its root is the document's folder."""
         folder = os.path.dirname(path)
         if folder not in self._by_folder:
             root = root_above(folder, self.documents.disk)
             if root is None:
-                self._by_folder[folder] = Workspace(folder)
+                self._by_folder[folder] = WorkspaceSettings(folder)
             else:
                 real = os.path.realpath(root)
                 if real not in self.workspaces:
@@ -145,71 +135,53 @@ class Linker(msgspec.Struct):
         if linked.component.machine is not None or not linked.component.statemachine:
             tie(linked, machine=linked.component.machine)
             return
-        from robocomp_yaml.link.machines import MachineReader  # with XML, which few need
+        from robocomp_yaml.link.machines import MachineReader  # it imports the parser of XML, which few runs need
 
         reader = MachineReader(self.documents.disk)
         machine = reader.of(linked.component)
-        tie(
-            linked, machine=machine, machine_files=tuple(reader.files), broken=linked.broken or machine is None
-        )  # fmt: skip
+        tie(linked, machine=machine, machine_files=tuple(reader.files), broken=linked.broken or machine is None)
         self.diagnostics += reader.diagnostics
 
     def _imports(
         self, document: Document, imports: tuple[Import, ...], unresolved: set[str], codes: ModuleType
     ) -> list[Document]:
-        """The documents that imports name. What an import that cannot be used might have defined goes to
+        """The imported documents. The names of modules that imports without a usable document might define are added to
         `unresolved`."""
         workspace = self.workspace_of(document.path)
-        found: dict[str, Document] = {}
+        documents: dict[str, Document] = {}
         for imported in imports:
             path, other_case = self.search.find(imported.text, document.path, workspace)
             if path is None:
                 self._unresolved(document, imported, {other.text for other in imports}, workspace, codes)
-                unresolved.update(_names(imported.text))
+                unresolved.update(_names(imported))
                 continue
             target = self.documents.get(path)
             name = os.path.basename(path).removesuffix(SUFFIX)
             if other_case:
-                self.diagnostics.append(
-                    codes.IMPORT_CASE.at(
-                        imported.span,
-                        name=imported.text,
-                        found=name,
-                        hint=Hint(
-                            f"write '{name}'", os.path.basename(imported.text).removesuffix(SUFFIX), name, safe=True
-                        ),
-                    )
-                )
-            if target.real in found or target.real == document.real:
-                self.diagnostics.append(
-                    codes.DUPLICATE_IMPORT.at(imported.span, name=imported.text, fixes=[removal(imported.span)])
-                )
+                hint = Hint(f"write '{name}'", imported.stem, name, safe=True)
+                self.diagnostics.append(codes.IMPORT_CASE.at(imported.span, name=imported.text, found=name, hint=hint))
+            if target.real in documents or target.real == document.real:
+                fix = removal(imported.span)
+                self.diagnostics.append(codes.DUPLICATE_IMPORT.at(imported.span, name=imported.text, fixes=[fix]))
                 continue
-            found[target.real] = target
+            documents[target.real] = target
             if not isinstance(target.model, Module):
-                unresolved.update(_names(imported.text), {target.module} - {""})
-        self._found[document.real] = [real for real in found if isinstance(found[real].model, Module)]
-        return list(found.values())
+                unresolved.update(_names(imported), {target.module} - {""})
+        self._imported[document.real] = [real for real, target in documents.items() if isinstance(target.model, Module)]
+        return list(documents.values())
 
     def _unresolved(
-        self, document: Document, imported: Import, given: set[str], workspace: Workspace, codes: ModuleType
+        self, document: Document, imported: Import, others: set[str], workspace: WorkspaceSettings, codes: ModuleType
     ) -> None:
         itself = os.path.basename(document.path).removesuffix(SUFFIX)
         known = [name for name in self.search.known(document.path, workspace) if name != itself]
-        hint = did_you_mean(
-            imported.text,
-            known,
-            given,
-            open_=True,
-            otherwise="put its document beside this one, or name its folder under `interfaces:` in rcyaml.yaml, or "
-            "with -I",
-        )
+        hint = did_you_mean(imported.text, known, others, open_=True, otherwise=_ADD_FOLDER)
         self.diagnostics.append(codes.UNRESOLVED_IMPORT.at(imported.span, name=imported.text, hint=hint))
 
     def _join(self) -> None:
-        """Modules point at the modules they import, but for imports in a circle, which are reported."""
+        """Links modules with the modules that they import, except for imports on a circle, which are reported."""
         graph = {
-            real: [other for other in self._found.get(real, ()) if other in self.tables.modules]
+            real: [other for other in self._imported.get(real, ()) if other in self.tables.modules]
             for real in self.tables.modules
         }
         in_circle = self._circles(graph)
@@ -219,49 +191,98 @@ class Linker(msgspec.Struct):
             names = {name for imported in circular for name in (imported.name, imported.stem)}
             tie(linked, imports=tuple(direct), unresolved=linked.unresolved | names)
         for real, component in self.tables.components.items():
-            tie(component, imports=tuple(self.tables.modules[other] for other in self._found.get(real, ())))
+            tie(component, imports=tuple(self.tables.modules[other] for other in self._imported.get(real, ())))
 
     def _circles(self, graph: dict[str, list[str]]) -> set[tuple[str, str]]:
-        """The imports that lie on a circle, each circle reported once, at the first of its documents."""
+        """The imports on circles. Each circle is reported once, at the first of its documents."""
         circles: set[tuple[str, str]] = set()
-        for members in digraph.knots(graph):
+        for members in digraph.cyclic_components(graph):
             circles |= {(real, other) for real in members for other in graph[real] if other in members}
             first = min(members, key=lambda real: self.tables.modules[real].module.path)
-            around = [self.tables.modules[real].module for real in (*digraph.circle(graph, members, first), first)]
-            places = [
-                Related(f"{one.stem} imports {next_.stem}", _import_of(one, next_).span)
-                for one, next_ in pairwise(around)
+            circle = [
+                self.tables.modules[real].module for real in (*digraph.cycle_through(graph, members, first), first)
             ]
-            self.diagnostics.append(
-                idsl.IMPORT_CYCLE.at(
-                    places[0].span,
-                    cycle=" → ".join(module.stem for module in around),
-                    related=places[1:],
-                    hint="move what both need to a third document",
-                )
-            )
+            steps = [
+                Related(f"{one.stem} imports {next_.stem}", _import_of(one, next_).span)
+                for one, next_ in pairwise(circle)
+            ]
+            cycle = " → ".join(module.stem for module in circle)
+            hint = "move the definitions that both need to a third document"
+            self.diagnostics.append(idsl.IMPORT_CYCLE.at(steps[0].span, cycle=cycle, related=steps[1:], hint=hint))
         return circles
 
-    def _suggest_import(self, document: Document) -> Callable[[str], str | None]:
-        """Says which document to import for an interface that no import defines."""
-
-        def importable(interface: str) -> str | None:
-            for linked in sorted(self.tables.modules.values(), key=lambda m: m.module.path):
-                if any(i.name == interface for i in linked.module.all_interfaces):
-                    return linked.module.stem
-            known = self.search.known(document.path, self.workspace_of(document.path))
-            return next((name for name in known if name == interface), None)
-
-        return importable
+    def _importable(self, document: Document, interface: str) -> str | None:
+        """The document to import for an interface that no imported module defines; None if it is unknown."""
+        for linked in sorted(self.tables.modules.values(), key=lambda m: m.module.path):
+            if any(i.name == interface for i in linked.module.all_interfaces):
+                return linked.module.stem
+        known = self.search.known(document.path, self.workspace_of(document.path))
+        return interface if interface in known else None
 
 
-def _names(imported: str) -> set[str]:
-    stem = imported.rpartition("/")[2].removesuffix(SUFFIX)
-    return {stem, f"RoboComp{stem}"}
+def _names(imported: Import) -> set[str]:
+    return {imported.stem, f"RoboComp{imported.stem}"}
 
 
 def _import_of(module: Module, other: Module) -> Import:
-    for imported in module.imports:
-        if imported.text.rpartition("/")[2].removesuffix(SUFFIX).lower() == other.stem.lower():
-            return imported
-    return module.imports[0]
+    named = (imported for imported in module.imports if imported.stem.lower() == other.stem.lower())
+    return next(named, module.imports[0])
+
+
+def _link_ports(linked: LinkedComponent, importable: Callable[[str], str | None]) -> Iterator[Diagnostic]:
+    """Resolves the interfaces of a component's ports; an unknown one makes the component `broken`. `importable` returns
+    the document to import for an interface, or None."""
+    from robocomp_yaml.model.component import LISTS  # interfaces alone need no components
+
+    component = linked.component
+    for list_ in LISTS:
+        ports = []
+        for use in getattr(component, list_):
+            matches = list(_lookup(linked, use))
+            if len(matches) == 1:
+                ports.append(Port(use, matches[0][1], matches[0][0]))
+                continue
+            if matches:
+                names = " or ".join(f"{scope.module.name}.{interface.name}" for scope, interface in matches)
+                yield cdsl.AMBIGUOUS_INTERFACE.at(use.span, name=use.interface, hint=f"write {names}")
+            elif not linked.broken or not _may_be_missing(linked):
+                yield cdsl.UNKNOWN_INTERFACE.at(
+                    use.span,
+                    component=component.name,
+                    verb="subscribes to" if list_ == "subscribes" else list_,
+                    name=use.interface,
+                    hint=_hint(linked, use, importable, {other.interface for other in getattr(component, list_)}),
+                )
+            tie(linked, broken=True)
+        tie(linked, **{list_: tuple(ports)})
+
+
+def _lookup(linked: LinkedComponent, use: Use) -> Iterator[tuple[LinkedModule, Interface]]:
+    qualifier, _, name = use.interface.rpartition(".")
+    for scope in linked.imports:
+        if qualifier in ("", scope.module.name, scope.module.stem):
+            for interface in scope.module.all_interfaces:
+                if interface.name == name:
+                    yield scope, interface
+                    break
+
+
+def _may_be_missing(linked: LinkedComponent) -> bool:
+    """Whether an import without a usable document may define an unknown name."""
+    return len(linked.imports) < len({imported.text for imported in linked.component.imports})
+
+
+def _hint(linked: LinkedComponent, use: Use, importable: Callable[[str], str | None], others: set[str]) -> Hint:
+    """The hint at an unknown interface; `others` are the interfaces in the same list."""
+    name = use.interface.rpartition(".")[2]
+    document = importable(name)
+    imported = {scope.module.stem for scope in linked.imports}
+    if document and document not in imported:
+        return Hint(f"add '{document}' to `imports`", imports=document)
+    where = {i.name: scope.module.path for scope in linked.imports for i in scope.module.all_interfaces}
+    meant = suggest(name, (one for one in where if one not in others))
+    if meant:
+        return meaning(name, meant, more=f" ({where[meant]})", safe=meant.lower() == name.lower())
+    if meant := suggest(name, others & where.keys()):
+        return Hint(f"the list already has '{meant}'")
+    return Hint(f"the imported modules define: {', '.join(where)}" if where else "import the module that defines it")

@@ -1,4 +1,4 @@
-"""The linked program: what checks read and targets emit from."""
+"""The linked program, which checks read and emitters lower."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from robocomp_yaml.digraph import inner_first
+from robocomp_yaml.digraph import postorder
 from robocomp_yaml.model.interface import (
     Constant,
     ExceptionType,
@@ -31,47 +31,41 @@ Definition = Constant | TypeDefinition | ExceptionType | Interface
 
 
 class LinkedModule(msgspec.Struct, frozen=True, eq=False):
-    """A module with its direct imports, in the document's order. Compared by identity: two documents may define a
-    module of the same name, and each importer sees the one that it imports.
+    """A module with its direct imports, in the order of the document. Modules are compared by identity: two documents
+    may define modules of the same name, and each importer sees the one that it imports.
 
-    `unresolved` holds the names by which imports that could not be found might have been called (stem and
-    `RoboComp` + stem), so that what they might have defined is not reported again.
+    `unresolved` has the possible module names of unknown imports (stem and `RoboComp` + stem), so that types from these
+    modules are not reported too.
     """
 
     module: Module
     imports: tuple[LinkedModule, ...] = ()
     unresolved: frozenset[str] = frozenset()
     _own: dict[str, Definition] = {}
-    _found: dict[str, tuple[LinkedModule, Definition] | None] = {}
+    _resolved: dict[str, tuple[LinkedModule, Definition] | None] = {}
 
     def __post_init__(self) -> None:
         for definition in self.module.definitions:
             self._own.setdefault(definition.name, definition)
 
     def find(self, ref: TypeRef) -> tuple[LinkedModule, Definition] | None:
-        """The definition that a reference of this module names, with the module it stands in; None for a basic type
-        and for what is not there. Own names need no qualifier; a name of an imported module needs one.
+        """Resolves a reference in this module. Returns the defining module and the definition; None for basic types and
+        unknown names. Own names need no qualifier, names of imported modules do.
 
-        Answers are kept: names are looked up once the imports are joined, and often."""
-        if ref.text not in self._found:
-            self._found[ref.text] = self._look_up(ref)
-        return self._found[ref.text]
-
-    def _look_up(self, ref: TypeRef) -> tuple[LinkedModule, Definition] | None:
-        qualifier = ref.module
-        for scope in (self, *self.imports):
-            known_as = (*([""] if scope is self else []), scope.module.name, scope.module.stem)
-            if qualifier in known_as and ref.name in scope._own:
-                return scope, scope._own[ref.name]
-        return None
+        Results are cached, because references are resolved often, and only after the imports are linked."""
+        if ref.text not in self._resolved:
+            qualified = (s for s in (self, *self.imports) if ref.module in (s.module.name, s.module.stem))
+            scopes = (s for s in (qualified if ref.module else [self]) if ref.name in s._own)
+            self._resolved[ref.text] = next(((s, s._own[ref.name]) for s in scopes), None)
+        return self._resolved[ref.text]
 
     def closure(self) -> list[LinkedModule]:
-        """This module and all that it imports, directly or not: imported ones first, each once."""
-        return list(inner_first([self], lambda scope: scope.imports))
+        """This module and all that it imports, directly or not, once each. Importers follow the modules they import."""
+        return list(postorder([self], lambda scope: scope.imports))
 
 
 class Port(msgspec.Struct, frozen=True):
-    """An entry of a component's four lists with the interface it names. `scope` is the module that defines it."""
+    """A port of a component with its interface. `scope` is the module that defines the interface."""
 
     use: Use
     interface: Interface
@@ -83,26 +77,27 @@ class Port(msgspec.Struct, frozen=True):
 
 
 class LinkedParameters(ResolvedParameters, frozen=True, eq=False):
-    """A component's parameters. `component` is None for a document that no component was found for."""
+    """A component's parameters. `component` is None for a parameter document without a component."""
 
     component: LinkedComponent | None = None
 
 
-def _only_the_period() -> LinkedParameters:
+def _no_parameters() -> LinkedParameters:
     from robocomp_yaml.parameters.resolution.resolve import of_no_document
 
     return LinkedParameters(of_no_document(None))
 
 
 class LinkedValues(LayeredValues, frozen=True, eq=False):
-    """A values document with its layers, and the parameters of the component that it belongs to."""
+    """A values document with its layers, and the parameters of its component."""
 
     parameters: LinkedParameters | None = None
 
 
 class LinkedComponent(msgspec.Struct, frozen=True, eq=False):
-    """A component whose names are resolved; `broken` when some could not be (then it cannot be compiled). `machine` is
-    its state machine, from `machine_files` where it does not stand in the component's document."""
+    """A component with resolved names; `broken` if a name is unknown, so that the component cannot be compiled.
+    `machine` is its state machine; `machine_files` are the SCXML files of a machine that is not in the component's
+    document."""
 
     component: Component
     imports: tuple[LinkedModule, ...] = ()
@@ -111,7 +106,7 @@ class LinkedComponent(msgspec.Struct, frozen=True, eq=False):
     publishes: tuple[Port, ...] = ()
     subscribes: tuple[Port, ...] = ()
     broken: bool = False
-    parameters: LinkedParameters = msgspec.field(default_factory=_only_the_period)
+    parameters: LinkedParameters = msgspec.field(default_factory=_no_parameters)
     machine: StateMachine | None = None
     machine_files: tuple[str, ...] = ()
 
@@ -123,12 +118,12 @@ class LinkedComponent(msgspec.Struct, frozen=True, eq=False):
         yield from self.subscribes
 
     def modules(self) -> list[LinkedModule]:
-        """Every module that the component's Slice needs, imported ones first, each once."""
+        """Every module that the component's Slice needs, once each. Importers follow what they import."""
         return list(dict.fromkeys(needed for scope in self.imports for needed in scope.closure()))
 
 
 class Tables(msgspec.Struct):
-    """A program while it is linked; keys are real paths."""
+    """The tables of a program that is being linked. Keys are real paths."""
 
     modules: dict[str, LinkedModule] = {}
     components: dict[str, LinkedComponent] = {}
@@ -138,23 +133,24 @@ class Tables(msgspec.Struct):
 
 
 class Program(msgspec.Struct, frozen=True):
-    """All documents of a run. Keys are real paths; `asked` are those that the user named (the rest was imported).
-    Checks read other files through `disk`; `plugins_of` says which plug-ins count for a document."""
+    """All documents of a run. Keys are real paths. `requested` are the documents that the user named; the others are
+    there because requested ones refer to them. `documents` is the number of all. Checks read other files through
+    `disk`; `plugins_of` returns the plug-ins of a document's workspace."""
 
     modules: Mapping[str, LinkedModule] = {}
     components: Mapping[str, LinkedComponent] = {}
     parameters: Mapping[str, LinkedParameters] = {}
     values: Mapping[str, LinkedValues] = {}
     deployments: Mapping[str, LinkedDeployment] = {}
-    asked: Set[str] = frozenset()
+    requested: Set[str] = frozenset()
     documents: int = 0
     disk: Disk = msgspec.field(default_factory=Disk)
     plugins_of: Callable[[str], Plugins] = lambda path: NONE
     _effective: dict[LayeredValues, tuple[Effective | None, Sequence[Diagnostic]]] = {}
 
     def effective(self, values: LayeredValues) -> tuple[Effective | None, Sequence[Diagnostic]]:
-        """What is in effect by a values document, and what is wrong with it: worked out once, when it is first asked
-        for, for all that read it."""
+        """The effective values of a values document, None if there are errors, and their diagnostics. They are computed
+        at the first call, and cached."""
         if values not in self._effective:
             from robocomp_yaml.parameters.layers.effective import effective  # most components have no values
 
@@ -162,25 +158,25 @@ class Program(msgspec.Struct, frozen=True):
         return self._effective[values]
 
     def documents_of_components(self) -> dict[str, LinkedComponent | None]:
-        """The documents of parameters and of values, each with its component."""
+        """The parameter and values documents by real path, each with its component."""
         documents = {real: linked.component for real, linked in self.parameters.items()}
         return documents | {
             real: linked.parameters.component for real, linked in self.values.items() if linked.parameters
         }
 
-    def asked_components(self) -> set[str]:
-        """The components that the user named, be it by their parameters, their values or a deployment of them."""
+    def requested_components(self) -> set[str]:
+        """The real paths of requested components, also those whose parameters, values or deployment are requested."""
         documents = self.documents_of_components()
-        wanted = {documents[real] for real in self.asked & documents.keys()}
-        wanted |= {
+        components = {documents[real] for real in self.requested & documents.keys()}
+        components |= {
             instance.component
-            for real in self.asked & self.deployments.keys()
+            for real in self.requested & self.deployments.keys()
             for instance in self.deployments[real].instances.values()
         }
-        named = {real for real, linked in self.components.items() if linked in wanted}
-        return {*(self.asked & self.components.keys()), *named}
+        indirect = {real for real, linked in self.components.items() if linked in components}
+        return {*(self.requested & self.components.keys()), *indirect}
 
     def parameter_documents(self) -> Iterator[LinkedParameters]:
-        """Every document of parameters, once for each component that has it."""
+        """Every parameter document, once for each component with it."""
         every = (*self.parameters.values(), *(component.parameters for component in self.components.values()))
         yield from (linked for linked in dict.fromkeys(every) if linked.document is not None)

@@ -1,4 +1,4 @@
-"""The workspace: the nearest folder above a document that holds `rcyaml.yaml`, and where imports are looked for."""
+"""Workspaces: their roots and settings, and the search path of imports."""
 
 from __future__ import annotations
 
@@ -10,21 +10,21 @@ import msgspec
 
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import SEVERITIES, Diagnostic
+from robocomp_yaml.link.documents import read_tree
 from robocomp_yaml.model.build_interface import entries, items
 from robocomp_yaml.plugins import NONE, Plugins
 from robocomp_yaml.source import schema
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 from robocomp_yaml.source.disk import Disk
-from robocomp_yaml.source.text import decode
-from robocomp_yaml.source.tree import Mapping, Scalar, parse
+from robocomp_yaml.source.tree import Mapping, Scalar
 
 SUFFIX = ".idsl.yaml"
 
 
-class Workspace(msgspec.Struct, frozen=True):
-    """`root` is the workspace's folder; `declared` says whether it has an `rcyaml.yaml`. `interfaces` are folders to
-    look for imports in, `output` those of outputs where it names some (both joined with the root), `lint` a severity
-    (or 'off') by code; `plugins` are those that it names."""
+class WorkspaceSettings(msgspec.Struct, frozen=True):
+    """The settings of a workspace. `root` is its folder; `declared` says whether it has an `rcyaml.yaml`. `interfaces`
+    are folders of the search path, `output` maps kinds of output to folders (both joined with the root), `lint` maps
+    codes to severities or 'off'; `plugins` are the plug-ins of the workspace."""
 
     root: str
     declared: bool = False
@@ -35,45 +35,41 @@ class Workspace(msgspec.Struct, frozen=True):
 
     @property
     def slice_folder(self) -> str:
-        """Where the Slice of its interfaces goes."""
+        """The folder of the Slice that is generated from interfaces."""
         return self.output.get("slice") or os.path.join(self.root, "slice")
 
     @property
     def runtime_folder(self) -> str:
-        """Where the run time goes that its components share, a folder for each language."""
+        """The folder of the run time that components share; it has a folder for each language."""
         return self.output.get("runtime") or os.path.join(self.root, "runtime")
 
 
 def root_above(folder: str, disk: Disk | None = None) -> str | None:
-    """The nearest folder at or above one that holds `rcyaml.yaml`, spelled relative where `folder` is."""
+    """The root of the workspace of `folder`: the nearest folder, it or above, with an `rcyaml.yaml`. None if there is
+    none. A relative folder gives a relative root."""
     disk = disk or Disk()
-    here = folder or "."
-    for _ in range(len(os.path.abspath(here).split(os.sep)) + 1):
-        if disk.has_file(os.path.join(here, WORKSPACE_FILE)):
-            return os.path.normpath(here)
-        here = os.path.join(here, os.pardir)
+    root = folder or "."
+    for _ in range(len(os.path.abspath(root).split(os.sep)) + 1):
+        if disk.has_file(os.path.join(root, WORKSPACE_FILE)):
+            return os.path.normpath(root)
+        root = os.path.join(root, os.pardir)
     return None
 
 
-def named_from_here(name: str, document: str) -> str:
-    """A component as a command takes it that is typed here: by its name in its own workspace, else by its document."""
-    here, there = root_above(""), root_above(os.path.dirname(document))
-    is_here = here is not None and there is not None and os.path.realpath(here) == os.path.realpath(there)
-    return name if is_here else document
+def component_argument(name: str, document: str) -> str:
+    """The argument that means a component in a command typed in the current folder: the component's name if the folder
+    is in the same workspace, else its document."""
+    current, own = root_above(""), root_above(os.path.dirname(document))
+    is_same = current is not None and own is not None and os.path.realpath(current) == os.path.realpath(own)
+    return name if is_same else document
 
 
-def read(root: str, disk: Disk | None = None) -> tuple[Workspace, list[Diagnostic]]:
-    """The workspace that `root/rcyaml.yaml` declares; an empty file is one without settings."""
+def read(root: str, disk: Disk | None = None) -> tuple[WorkspaceSettings, list[Diagnostic]]:
+    """Reads `root/rcyaml.yaml`. Returns its settings, none for an empty or wrong file, and diagnostics."""
     disk = disk or Disk()
-    workspace = Workspace(root, declared=True)
+    workspace = WorkspaceSettings(root, declared=True)
     path = os.path.normpath(os.path.join(root, WORKSPACE_FILE))
-    raw, diagnostics = disk.read(path)
-    if raw is None:
-        return workspace, diagnostics
-    content, diagnostics = decode(path, raw)
-    if content is None:
-        return workspace, diagnostics
-    tree, diagnostics = parse(path, content)
+    tree, diagnostics = read_tree(path, disk)
     if tree is None:
         return workspace, [d for d in diagnostics if d.code != codes.EMPTY.id]
     diagnostics = schema.validate("workspace", tree)
@@ -81,8 +77,8 @@ def read(root: str, disk: Disk | None = None) -> tuple[Workspace, list[Diagnosti
         return workspace, diagnostics
     named = (node.lexeme for node in items(tree, "interfaces") if isinstance(node, Scalar))
     output = ((key.lexeme, node.lexeme) for key, node in entries(tree, "output") if isinstance(node, Scalar))
-    plugins, said = _plugins(tree)
-    workspace = Workspace(
+    plugins, diagnostics = _plugins(tree)
+    workspace = WorkspaceSettings(
         root,
         True,
         tuple(os.path.normpath(os.path.join(root, folder)) for folder in named),
@@ -90,50 +86,51 @@ def read(root: str, disk: Disk | None = None) -> tuple[Workspace, list[Diagnosti
         {key.lexeme: str(value.data) for key, value in entries(tree, "lint") if value.data is not None},
         plugins,
     )
-    return workspace, [*said, *_idle_settings(tree, workspace, disk)]
+    return workspace, [*diagnostics, *_ineffective_settings(tree, workspace, disk)]
 
 
 def _plugins(tree: Mapping) -> tuple[Plugins, list[Diagnostic]]:
     named = [(node.lexeme, node.span) for node in items(tree, "plugins") if isinstance(node, Scalar)]
     if not named:
         return NONE, []
-    from robocomp_yaml.plugins import finding  # most workspaces name none
+    from robocomp_yaml.plugins import loading  # most workspaces name none
 
-    return finding.found(named)
+    return loading.resolve(named)
 
 
-def above(path: str, disk: Disk | None = None) -> tuple[Workspace, list[Diagnostic]]:
-    """The workspace that a folder, or a file, belongs to; without a declared one, that folder."""
+def above(path: str, disk: Disk | None = None) -> tuple[WorkspaceSettings, list[Diagnostic]]:
+    """The settings of the workspace of a folder or file, and diagnostics. Without a declared workspace, that folder is
+    the root."""
     folder = path if os.path.isdir(path) else os.path.dirname(path)
     root = root_above(folder, disk)
-    return (Workspace(folder), []) if root is None else read(root, disk)
+    return (WorkspaceSettings(folder), []) if root is None else read(root, disk)
 
 
-def _idle_settings(tree: Mapping, workspace: Workspace, disk: Disk) -> Iterator[Diagnostic]:
+def _ineffective_settings(tree: Mapping, workspace: WorkspaceSettings, disk: Disk) -> Iterator[Diagnostic]:
     from robocomp_yaml.diag.codes import table
 
     root = workspace.root
     for node in items(tree, "interfaces"):
         if isinstance(node, Scalar) and not disk.has_folder(os.path.join(root, node.lexeme)):
-            yield codes.WORKSPACE_SETTING.at(node.span, problem=f"there is no folder '{node.lexeme}'")
+            yield codes.WORKSPACE_SETTING.at(node.span, problem=f"the folder '{node.lexeme}' does not exist")
     for key, value in entries(tree, "lint"):
         if key.lexeme not in table() and key.lexeme not in workspace.plugins.codes and workspace.plugins.whole:
             yield codes.WORKSPACE_SETTING.at(
-                key.span, problem=f"no diagnostic is called {key.lexeme}", hint="`rcyaml explain` lists them"
+                key.span, problem=f"unknown code {key.lexeme}", hint="`rcyaml explain` lists them"
             )
         elif value.data not in (*SEVERITIES, "off"):
-            yield codes.WORKSPACE_SETTING.at(value.span, problem=f"'{value.data}' is no severity")
+            yield codes.WORKSPACE_SETTING.at(value.span, problem=f"unknown severity '{value.data}'")
 
 
-class Search(msgspec.Struct):
-    """Looks imports up: beside the document, in the workspace's folders, then in the extra ones (`-I`, RCYAML_PATH)."""
+class ImportSearch(msgspec.Struct):
+    """Resolves imports: in the document's folder, the workspace's folders, then `extra` (`-I`, RCYAML_PATH)."""
 
     extra: tuple[str, ...] = ()
     disk: Disk = msgspec.field(default_factory=Disk)
     _names: dict[str, tuple[frozenset[str], dict[str, str]]] = {}
 
-    def find(self, name: str, document: str, workspace: Workspace) -> tuple[str | None, bool]:
-        """The path of an imported document, or None; and whether its name differs in case."""
+    def find(self, name: str, document: str, workspace: WorkspaceSettings) -> tuple[str | None, bool]:
+        """Returns the path of an imported document, or None, and whether only its case differs from the import."""
         beside = os.path.dirname(document)
         tail = name if name.endswith(SUFFIX) else name + SUFFIX
         folders = [beside]
@@ -149,14 +146,14 @@ class Search(msgspec.Struct):
                 return os.path.join(os.path.dirname(path), actual), True
         return None, False
 
-    def known(self, document: str, workspace: Workspace) -> list[str]:
-        """The names that an import of this document could have."""
+    def known(self, document: str, workspace: WorkspaceSettings) -> list[str]:
+        """The names of all documents that a document can import."""
         folders = [os.path.dirname(document), *workspace.interfaces, *self.extra]
         names = {n for f in folders for n in self._listed(os.path.join(f, "x"))[0] if n.endswith(SUFFIX)}
         return sorted(name.removesuffix(SUFFIX) for name in names)
 
     def _listed(self, path: str) -> tuple[frozenset[str], dict[str, str]]:
-        """The names in a path's folder, and the same by their lower case."""
+        """The names in the folder of a path, and a map from their lower case to these names."""
         folder = os.path.dirname(path)
         if folder not in self._names:
             names = self.disk.documents(folder)

@@ -1,4 +1,4 @@
-"""What a workspace holds for editors: the schemas, each document's modeline, and VS Code's settings."""
+"""The files and lines for editors in a workspace: schemas, the modeline of documents, and VS Code's settings."""
 
 from __future__ import annotations
 
@@ -24,31 +24,32 @@ GLOBS = {
     "workspace": ["rcyaml.yaml"],
     "mock": ["*.mock.yaml"],
 }
-"""The file names of each kind, as VS Code's `yaml.schemas` takes them."""
+"""The file names of each kind, as patterns for VS Code's `yaml.schemas`."""
 
 
 def schema_path(kind: str) -> str:
-    """Where the schema of a kind stands in a workspace."""
+    """The path of the schema of a kind, relative to the workspace."""
     return f"{FOLDER}/{kind}.schema.json"
 
 
 def schema_of(kind: str, plugins: Plugins) -> str:
-    """The text of the schema of a kind in a workspace with these plug-ins."""
+    """The text of the schema of a kind, with the languages of these plug-ins."""
     return schema_text(kind, plugins.languages if kind in MARKED else ())
 
 
 def modeline(kind: str, document: str, workspace: str) -> str:
-    """The first line of a document, without its line end: it tells editors which schema to use."""
+    """The first line of a document, without its line end: it names the schema for editors."""
     path = os.path.relpath(os.path.join(workspace, schema_path(kind)), os.path.dirname(document) or ".")
     return f"# yaml-language-server: $schema={path}"
 
 
 def install(folder: str, plugins: Plugins | None = None) -> list[str]:
-    """Brings the editor's files of a workspace up to date; gives those that changed. `plugins` are the workspace's,
-    where they are known already; while one of them cannot be had, what depends on them stays as it is.
+    """Brings the editor's files of a workspace up to date, and returns the paths of those that changed. `plugins` are
+    the workspace's, if they are loaded already. If one of them cannot be loaded, schemas that depend on plug-ins are
+    not changed.
 
-    What the user has in VS Code's settings stays as it is, comments included; `settings_problem` says why nothing
-    could be added. Raises OSError where the folder cannot be written, or a link leads out of it.
+    The user's own VS Code settings and comments are not changed; `settings_problem` returns why the schemas could not
+    be added. Raises OSError if the folder cannot be written, or a link leads out of the workspace.
     """
     schemas = {kind: os.path.normpath(os.path.join(folder, schema_path(kind))) for kind in GLOBS}
     for kind, path in schemas.items():
@@ -61,24 +62,24 @@ def install(folder: str, plugins: Plugins | None = None) -> list[str]:
         if (plugins.whole or kind not in MARKED) and _write(path, schema_of(kind, plugins))
     ]
     try:
-        wired = _wired(folder)
+        text = _settings_text(folder)
     except Unreadable:
         return changed
     settings = os.path.normpath(os.path.join(folder, SETTINGS))
-    return [*changed, settings] if _write(settings, wired) else changed
+    return [*changed, settings] if _write(settings, text) else changed
 
 
 def settings_problem(folder: str) -> str:
-    """Why `install` leaves VS Code's settings as they are, or ''."""
+    """Why `install` does not change VS Code's settings, or ''."""
     try:
-        _wired(folder)
+        _settings_text(folder)
     except Unreadable as error:
-        return f"{SETTINGS} is left as it is, since {error}: documents with a modeline are checked all the same"
+        return f"{SETTINGS} is not changed, because {error}; documents with a modeline are checked nevertheless"
     return ""
 
 
-def _wired(folder: str) -> str:
-    """The text of VS Code's settings with our schemas in `yaml.schemas`."""
+def _settings_text(folder: str) -> str:
+    """The text of VS Code's settings with the schemas in `yaml.schemas`. Raises Unreadable if they cannot be added."""
     settings = os.path.join(folder, SETTINGS)
     if os.path.islink(settings):
         raise Unreadable("it is a link")
@@ -91,12 +92,12 @@ def _wired(folder: str) -> str:
         text = ""
     except ValueError:
         raise Unreadable("it is not UTF-8 text") from None
-    ours = {schema_path(kind): globs for kind, globs in GLOBS.items()}
-    return with_members(text if text.strip() else "{}\n", "yaml.schemas", ours)
+    schemas = {schema_path(kind): globs for kind, globs in GLOBS.items()}
+    return with_members(text if text.strip() else "{}\n", "yaml.schemas", schemas)
 
 
 def _write(path: str, text: str) -> bool:
-    """Writes a file whole or not at all, and only if that changes it."""
+    """Writes a file atomically, if its content changes. Returns whether it does."""
     data = text.encode("utf-8")
     try:
         with open(path, "rb", opener=regular) as file:

@@ -1,5 +1,5 @@
 """The documents as typed, immutable objects.
 
 The model knows nothing of YAML's syntax, of middleware or of target languages. Names are as the author wrote them;
-references (`TypeRef`, `Use`) are resolved by `link`, not here. Spans take no part in equality.
+references (`TypeRef`, `Use`) are resolved by `link`, not in this package. Spans are ignored when values are compared.
 """

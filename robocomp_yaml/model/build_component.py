@@ -1,4 +1,4 @@
-"""A CDSL document's tree as a `Component`. The tree has the schema's shape."""
+"""Builds a `Component` from the tree of a CDSL document. The tree fits the schema."""
 
 from __future__ import annotations
 
@@ -6,21 +6,8 @@ import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from robocomp_yaml.model.build_interface import doc, imports, items, span_of, text
-from robocomp_yaml.model.component import (
-    CMAKE,
-    LINK,
-    PIP,
-    PKG_CONFIG,
-    WAIT,
-    Component,
-    Gui,
-    Language,
-    Library,
-    Option,
-    Source,
-    Use,
-)
+from robocomp_yaml.model import component as model
+from robocomp_yaml.model.build_interface import doc, imports, items, span_of, text, texts
 from robocomp_yaml.source.tree import Mapping, Node, Scalar
 
 if TYPE_CHECKING:
@@ -30,15 +17,15 @@ _SECONDS = {"us": 1e-6, "ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}
 _DURATION = r"(\d+(?:\.\d*)?|\.\d+)\s*(us|ms|s|min|h)"
 
 
-def build(root: Mapping, path: str) -> Component:
-    """The component of a document that fits `cdsl.schema.json`."""
+def build(root: Mapping, path: str) -> model.Component:
+    """Returns the component of a document that fits `cdsl.schema.json`; `path` is the document as opened."""
     machine = root.get("statemachine")
     period = seconds(root.get("period"))
-    return Component(
+    return model.Component(
         name=text(root, "component"),
         path=path,
         language=_language(root),
-        imports=tuple(imports(root)),
+        imports=imports(root),
         implements=tuple(_uses(root, "implements")),
         requires=tuple(_uses(root, "requires")),
         publishes=tuple(_uses(root, "publishes")),
@@ -48,9 +35,7 @@ def build(root: Mapping, path: str) -> Component:
         statemachine=text(root, "statemachine"),
         machine=_machine(machine, text(root, "component"), path) if isinstance(machine, Mapping) else None,
         gui=_gui(root.get("gui")),
-        options=tuple(
-            Option(item.lexeme, span=item.span) for item in items(root, "options") if isinstance(item, Scalar)
-        ),
+        options=tuple(texts(root, "options")),
         compatibility=text(root, "compatibility"),
         sources=tuple(_sources(root.get("uses"))),
         libraries=tuple(_libraries(root.get("uses"))),
@@ -69,75 +54,79 @@ def _machine(node: Mapping, name: str, path: str) -> StateMachine:
 
 
 def seconds(node: Node | None) -> float | None:
-    """A duration in seconds: `100 ms`, `10 s`, or a bare number of milliseconds."""
+    """The seconds of `100 ms`, `10 s`, or of a plain number, which counts milliseconds. None for any other node."""
     if not isinstance(node, Scalar) or node.data is None:
         return None
-    if isinstance(node.data, int | float):
+    if isinstance(node.data, (int, float)):
         return node.data / 1000
     return duration(node.lexeme)
 
 
 def duration(text: str) -> float | None:
-    """The seconds of `100 ms`, `10 s` or `2min`."""
+    """The seconds of `100 ms`, `10 s` or `2min`; None if the text is not a duration."""
     parts = re.fullmatch(_DURATION, text.strip())
     return float(parts[1]) * _SECONDS[parts[2]] if parts else None
 
 
-def _language(root: Mapping) -> Language:
+def _language(root: Mapping) -> model.Language:
     node = root.get("language")
     if isinstance(node, Mapping):
         standard = node.data.get("standard")  # type: ignore[attr-defined]
-        return Language(
+        return model.Language(
             text(node, "name"),
             None if standard is None else int(standard),
             span=node.span,
             standard_span=span_of(node, "standard"),
         )
     assert isinstance(node, Scalar)
-    return Language(node.lexeme, span=node.span)
+    return model.Language(node.lexeme, span=node.span)
 
 
-def _gui(node: Node | None) -> Gui | None:
-    return Gui(text(node, "toolkit", "qt"), text(node, "base", "QWidget"), span=node.span) if node else None
+def _gui(node: Node | None) -> model.Gui | None:
+    return model.Gui(text(node, "toolkit", "qt"), text(node, "base", "QWidget"), span=node.span) if node else None
 
 
-def _uses(root: Mapping, key: str) -> Iterator[Use]:
+def _uses(root: Mapping, key: str) -> Iterator[model.Use]:
     for item in items(root, key):
         if isinstance(item, Scalar):
-            yield Use(item.lexeme.rpartition(".")[2], item.lexeme, span=item.span)
+            yield model.Use(item.lexeme.rpartition(".")[2], item.lexeme, span=item.span)
         elif isinstance(item, Mapping):
             for name, node in item.items():
                 yield _named_use(name, node)
 
 
-def _named_use(name: Scalar, node: Node) -> Use:
+def _named_use(name: Scalar, node: Node) -> model.Use:
     if isinstance(node, Scalar):
-        return Use(name.lexeme, node.lexeme, span=node.span)
-    return Use(
+        return model.Use(name.lexeme, node.lexeme, span=node.span)
+    return model.Use(
         name.lexeme,
         text(node, "interface", name.lexeme),
-        absent=text(node, "absent", WAIT),
+        absent=text(node, "absent", model.WAIT),
         timeout=seconds(node.get("timeout")),
         doc=doc(node),
         span=span_of(node, "interface"),
     )
 
 
-def _sources(uses: Node | None) -> Iterator[Source]:
+def _sources(uses: Node | None) -> Iterator[model.Source]:
     for key in ("sources", "classes"):
-        for item in items(uses, key):
-            if isinstance(item, Scalar):
-                yield Source(item.lexeme, key == "classes", span=item.span)
+        for path in texts(uses, key):
+            yield model.Source(path.text, key == "classes", span=path.span)
 
 
-def _libraries(uses: Node | None) -> Iterator[Library]:
-    """One for each place that an entry names; a check says that it may name but one."""
+def _libraries(uses: Node | None) -> Iterator[model.Library]:
+    """One library for each kind that an entry names. A check reports entries that name several."""
     for number, item in enumerate(items(uses, "libraries")):
         if isinstance(item, Mapping):
             version = text(item, "version")
             for key, node in item.items():
-                if key.lexeme in (CMAKE, PKG_CONFIG, LINK, PIP):
-                    given = item.get("version") or node
-                    yield Library(
-                        key.lexeme, text(item, key.lexeme), version, number, span=node.span, version_span=given.span
+                if key.lexeme in (model.CMAKE, model.PKG_CONFIG, model.LINK, model.PIP):
+                    version_span = (item.get("version") or node).span
+                    yield model.Library(
+                        key.lexeme,
+                        text(item, key.lexeme),
+                        version,
+                        number,
+                        span=node.span,
+                        version_span=version_span,
                     )

@@ -1,4 +1,4 @@
-"""A DDSL document's tree as a `Deployment`. The tree has the schema's shape."""
+"""Builds a `Deployment` from the tree of a DDSL document. The tree fits the schema."""
 
 from __future__ import annotations
 
@@ -6,32 +6,16 @@ import shlex
 from collections.abc import Iterator
 
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.model import deployment as model
 from robocomp_yaml.model.build_component import seconds
-from robocomp_yaml.model.build_interface import doc, entries, items, span_of, sure, text
-from robocomp_yaml.model.deployment import (
-    COMPONENT,
-    ON_FAILURE,
-    PROCESS,
-    PROGRAM,
-    Deployment,
-    Entry,
-    Exposed,
-    Group,
-    Host,
-    Number,
-    Pair,
-    Ready,
-    Restart,
-    Storm,
-    Text,
-    Variable,
-)
+from robocomp_yaml.model.build_interface import as_text, doc, entries, required, span_of, text, texts
+from robocomp_yaml.model.located import Text
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 
-def build(root: Mapping, path: str) -> Deployment:
-    """The deployment of a document that fits `ddsl.schema.json`."""
-    return Deployment(
+def build(root: Mapping, path: str) -> model.Deployment:
+    """Returns the deployment of a document that fits `ddsl.schema.json`; `path` is the document as opened."""
+    return model.Deployment(
         name=text(root, "deployment"),
         path=path,
         hosts=tuple(_host(key, node) for key, node in entries(root, "hosts")),
@@ -39,45 +23,35 @@ def build(root: Mapping, path: str) -> Deployment:
         entries=tuple(_entry(key, node) for key, node in entries(root, "components")),
         groups=(
             *(_group(key, node) for key, node in entries(root, "groups")),
-            *(Group(key.lexeme, include=_as_text(node), span=key.span) for key, node in entries(root, "include")),
+            *(model.Group(key.lexeme, include=as_text(node), span=key.span) for key, node in entries(root, "include")),
         ),
-        includes=tuple(_texts(root, "include")),
+        includes=tuple(texts(root, "include")),
         extra=_extra(root.get("x-rcmanager")),
         doc=doc(root),
         span=span_of(root, "deployment"),
     )
 
 
-def _as_text(node: Node | None) -> Text | None:
-    return Text(node.lexeme, span=node.span) if isinstance(node, Scalar) and node.data is not None else None
-
-
 def _text(parent: Node, key: str) -> Text | None:
-    return _as_text(parent.get(key))
-
-
-def _texts(parent: Node, key: str) -> Iterator[Text]:
-    for item in items(parent, key):
-        if isinstance(item, Scalar):
-            yield Text(item.lexeme, span=item.span)
+    return as_text(parent.get(key))
 
 
 def _integer(parent: Node | None, key: str) -> int | None:
-    """A whole number; YAML may spell it as a float, which the schema allows."""
+    """An integer. The schema also allows a float without a fraction, such as `3.0`."""
     node = parent.get(key) if parent else None
-    return int(node.data) if isinstance(node, Scalar) and isinstance(node.data, int | float) else None
+    return int(node.data) if isinstance(node, Scalar) and isinstance(node.data, (int, float)) else None
 
 
-def _host(key: Scalar, node: Node) -> Host:
-    address = sure(_as_text(node) or _text(node, "address"))
-    return Host(key.lexeme, address, text(node, "user"), doc(node), span=key.span)
+def _host(key: Scalar, node: Node) -> model.Host:
+    address = required(as_text(node) or _text(node, "address"))
+    return model.Host(key.lexeme, address, text(node, "user"), doc(node), span=key.span)
 
 
-def _storm(key: Scalar, node: Node) -> Storm:
+def _storm(key: Scalar, node: Node) -> model.Storm:
     inner = node.get("icestorm")
     if not isinstance(inner, Mapping):
-        return Storm(key.lexeme, doc=doc(node), span=key.span, port_span=key.span)
-    return Storm(
+        return model.Storm(key.lexeme, doc=doc(node), span=key.span, port_span=key.span)
+    return model.Storm(
         key.lexeme,
         _text(inner, "host"),
         _integer(inner, "port"),
@@ -87,25 +61,22 @@ def _storm(key: Scalar, node: Node) -> Storm:
     )
 
 
-def _entry(key: Scalar, node: Node) -> Entry:
+def _entry(key: Scalar, node: Node) -> model.Entry:
     assert isinstance(node, Mapping)
-    kind = next(kind for kind in (COMPONENT, PROGRAM, PROCESS) if kind in node.entries)
+    kind = next(kind for kind in (model.COMPONENT, model.PROGRAM, model.PROCESS) if kind in node.entries)
     settings = node.get("set")
     port = node.get("port")
-    return Entry(
+    return model.Entry(
         name=key.lexeme,
         kind=kind,
-        target=sure(_text(node, kind)),
+        target=required(_text(node, kind)),
         executable=_text(node, "executable"),
-        args=tuple(_texts(node, "args")),
+        args=tuple(texts(node, "args")),
         cwd=_text(node, "cwd"),
         env=tuple(_variable(name, value) for name, value in entries(node, "env")),
         host=_text(node, "host"),
-        port=None if port is None else Number("", _integer(node, "port") or 0, span=port.span, name_span=port.span),
-        ports=tuple(
-            Number(name.lexeme, int(value.data), span=value.span, name_span=name.span)  # type: ignore[call-overload]
-            for name, value in entries(node, "ports")
-        ),
+        port=None if port is None else _port("", port, port.span),
+        ports=tuple(_port(name.lexeme, value, name.span) for name, value in entries(node, "ports")),
         config=_text(node, "config"),
         config_as=_text(node, "config-as"),
         connect=tuple(_pairs(node, "connect")),
@@ -114,7 +85,7 @@ def _entry(key: Scalar, node: Node) -> Entry:
         restart=_restart(node.get("restart")),
         ready=_ready(node.get("ready")),
         endpoints=tuple(_pairs(node, "endpoints")),
-        after=tuple(_texts(node, "after")),
+        after=tuple(texts(node, "after")),
         enabled=node.data.get("enabled") is not False,  # type: ignore[attr-defined]
         instances=_integer(node, "instances"),
         extra=_extra(node.get("x-rcmanager")),
@@ -124,74 +95,73 @@ def _entry(key: Scalar, node: Node) -> Entry:
     )
 
 
-def _pairs(node: Node, key: str) -> Iterator[Pair]:
+def _port(interface: str, node: Node, name_span: Span) -> model.Number:
+    return model.Number(interface, int(node.data), span=node.span, name_span=name_span)  # type: ignore[call-overload]
+
+
+def _pairs(node: Node, key: str) -> Iterator[model.Pair]:
     for name, value in entries(node, key):
         if isinstance(value, Scalar):
-            yield Pair(name.lexeme, value.lexeme, span=value.span, name_span=name.span)
+            yield model.Pair(name.lexeme, value.lexeme, span=value.span, name_span=name.span)
 
 
-def _variable(name: Scalar, value: Node) -> Variable:
+def _variable(name: Scalar, value: Node) -> model.Variable:
     if isinstance(value, Mapping):
-        return Variable(name.lexeme, source=text(value, "env"), file=text(value, "file"), span=name.span)
+        return model.Variable(name.lexeme, source=text(value, "env"), file=text(value, "file"), span=name.span)
     assert isinstance(value, Scalar)
-    return Variable(name.lexeme, value.lexeme, span=name.span)
+    return model.Variable(name.lexeme, value.lexeme, span=name.span)
 
 
-def _restart(node: Node | None) -> Restart | None:
+def _restart(node: Node | None) -> model.Restart | None:
     if node is None:
         return None
     if isinstance(node, Scalar):
-        return Restart(node.lexeme, span=node.span)
+        return model.Restart(node.lexeme, span=node.span)
     delay, within = seconds(node.get("delay")), seconds(node.get("within"))
-    return Restart(text(node, "policy", ON_FAILURE), delay, _integer(node, "tries"), within, span=node.span)
+    return model.Restart(text(node, "policy", model.ON_FAILURE), delay, _integer(node, "tries"), within, span=node.span)
 
 
-def _ready(node: Node | None) -> Ready | None:
+def _ready(node: Node | None) -> model.Ready | None:
     if node is None:
         return None
     if not isinstance(node, Mapping):
-        return Ready(seconds(node), span=node.span)
-    return Ready(
+        return model.Ready(seconds(node), span=node.span)
+    return model.Ready(
         seconds(node.get("within")),
         _integer(node, "port"),
         _command(node.get("command")),
         text(node, "log"),
-        span=_said(node),
+        span=next((node.entries[key][1].span for key in ("port", "command", "log") if key in node.entries), node.span),
     )
-
-
-def _said(node: Mapping) -> Span:
-    """Where it stands how readiness is told."""
-    return next((node.entries[key][1].span for key in ("port", "command", "log") if key in node.entries), node.span)
 
 
 def _command(node: Node | None) -> tuple[str, ...]:
     if isinstance(node, Scalar):
         try:
             return tuple(shlex.split(node.lexeme))
-        except ValueError:  # an open quote stands for itself
+        except ValueError:  # an unclosed quote is a plain character
             return tuple(node.lexeme.split())
     parts = node.items if isinstance(node, Sequence) else []
     return tuple(part.lexeme for part in parts if isinstance(part, Scalar))
 
 
 def _extra(node: Node | None) -> tuple[tuple[str, object], ...]:
-    return tuple((key.lexeme, _as_spelled(value)) for key, value in node.items()) if isinstance(node, Mapping) else ()
+    return tuple((key.lexeme, _plain_data(value)) for key, value in node.items()) if isinstance(node, Mapping) else ()
 
 
-def _as_spelled(node: Node) -> object:
-    """Plain data in which every scalar is its text: an exporter writes numbers as they were."""
+def _plain_data(node: Node) -> object:
+    """Plain data in which every scalar is its text, so that exporters write numbers as the document spells them."""
     if isinstance(node, Mapping):
-        return {key.lexeme: _as_spelled(value) for key, value in node.items()}
+        return {key.lexeme: _plain_data(value) for key, value in node.items()}
     if isinstance(node, Sequence):
-        return [_as_spelled(item) for item in node.items]
+        return [_plain_data(item) for item in node.items]
     return node.lexeme if isinstance(node, Scalar) else None
 
 
-def _group(key: Scalar, node: Node) -> Group:
-    return Group(
+def _group(key: Scalar, node: Node) -> model.Group:
+    return model.Group(
         name=key.lexeme,
-        members=tuple(_texts(node, "components")),
+        members=tuple(texts(node, "components")),
         include=_text(node, "include"),
         facade=_text(node, "as"),
         exposed=tuple(_exposed(name, value) for name, value in entries(node, "expose")),
@@ -201,15 +171,15 @@ def _group(key: Scalar, node: Node) -> Group:
     )
 
 
-def _exposed(name: Scalar, node: Node) -> Exposed:
-    member = sure(_as_text(node) or _text(node, "member"))
+def _exposed(name: Scalar, node: Node) -> model.Exposed:
+    member = required(as_text(node) or _text(node, "member"))
     if not isinstance(node, Mapping):
-        return Exposed(name.lexeme, member, span=name.span)
+        return model.Exposed(name.lexeme, member, span=name.span)
     rate = node.get("rate")
-    return Exposed(
+    return model.Exposed(
         name.lexeme,
         member,
         rate=float(rate.data) if rate else None,  # type: ignore[arg-type]
-        allow=tuple(_texts(node, "allow")) if "allow" in node.entries else None,
+        allow=tuple(texts(node, "allow")) if "allow" in node.entries else None,
         span=name.span,
     )

@@ -1,8 +1,8 @@
-"""The little language of the data model `null`, which both C++ and Python have.
+"""The expression language of the data model `null`, which all languages with state machines have.
 
-A condition is `In('state')`, the name of a guard of the worker (`low`, or `low()`), `true` or `false`, joined by `and`,
-`or`, `not` and parentheses (or `&&`, `||`, `!`). A value is a text in quotes, a number, `true` or `false`. A script is
-a list of names of actions of the worker: `park; beep()`.
+A condition consists of `In('state')`, names of the worker's guards (`low` or `low()`), `true` and `false`, joined by
+`and`, `or`, `not` and parentheses (or `&&`, `||`, `!`). A value is a quoted text, a number, `true` or `false`. A script
+is a list of names of the worker's actions: `park; beep()`.
 """
 
 from __future__ import annotations
@@ -28,12 +28,12 @@ _ACTION = re.compile(r"([A-Za-z_][A-Za-z0-9_]*)\s*(?:\(\s*\))?")
 MAX_PARTS = 200
 
 
-class NotInLanguage(ValueError):
-    """The text is not of this language; the message says what is not."""
+class NullSyntaxError(ValueError):
+    """The text is not in this language. The message is the reason."""
 
 
 class Condition(msgspec.Struct, frozen=True):
-    """`name` is a guard's, or a state's."""
+    """A node of a parsed condition; `name` is that of the guard or state."""
 
     kind: str
     name: str = ""
@@ -41,40 +41,40 @@ class Condition(msgspec.Struct, frozen=True):
 
 
 def condition(text: str) -> Condition:
-    """Raises NotInLanguage."""
-    parser = _Parser(list(_tokens(text)))
-    found = parser.either()
+    """Returns a parsed condition. Raises NullSyntaxError if the text is none."""
+    parser = _ConditionParser(list(_tokens(text)))
+    parsed = parser.either()
     if parser.rest:
-        raise NotInLanguage(f"'{parser.rest[0][1]}' is not expected here")
-    return found
+        raise NullSyntaxError(f"unexpected '{parser.rest[0][1]}'")
+    return parsed
 
 
-def names(found: Condition, kind: str) -> Iterator[str]:
-    """All guards, or all states, of a condition."""
-    if found.kind == kind:
-        yield found.name
-    for part in found.parts:
+def names(condition: Condition, kind: str) -> Iterator[str]:
+    """The names of a condition's guards (GUARD) or states (IN)."""
+    if condition.kind == kind:
+        yield condition.name
+    for part in condition.parts:
         yield from names(part, kind)
 
 
-def always(found: Condition) -> bool:
-    """Whether it holds whatever guards and states say, as `true` and `not false` do."""
-    return _is_constant(found, True)
+def always(condition: Condition) -> bool:
+    """Whether the condition holds for all guards and states, such as `true` and `not false`."""
+    return _is_constant(condition, True)
 
 
-def _is_constant(found: Condition, value: bool) -> bool:
-    match found.kind:
+def _is_constant(condition: Condition, value: bool) -> bool:
+    match condition.kind:
         case "not":
-            return _is_constant(found.parts[0], not value)
+            return _is_constant(condition.parts[0], not value)
         case "and" | "or":
-            some = any if value == (found.kind == OR) else all
-            return some(_is_constant(part, value) for part in found.parts)
+            some = any if value == (condition.kind == OR) else all
+            return some(_is_constant(part, value) for part in condition.parts)
         case _:
-            return found.kind == (ALWAYS if value else NEVER)
+            return condition.kind == (ALWAYS if value else NEVER)
 
 
 def literal(text: str) -> str:
-    """A value as JSON. Raises NotInLanguage."""
+    """A value as JSON text. Raises NullSyntaxError if the text is no value."""
     text = text.strip()
     if text in _CONSTANTS:
         return text.lower()
@@ -83,7 +83,7 @@ def literal(text: str) -> str:
     if _NUMBER.fullmatch(text):
         number = float(text)
         return json.dumps(int(number) if number.is_integer() and abs(number) < 1e15 else number)
-    raise NotInLanguage(f"'{text}' is no text in quotes, number, true or false")
+    raise NullSyntaxError(f"'{text}' is not a quoted text, a number, true or false")
 
 
 def quoted(text: str) -> str:
@@ -91,15 +91,15 @@ def quoted(text: str) -> str:
 
 
 def script(text: str) -> list[str]:
-    """The names of actions. Raises NotInLanguage."""
-    found: list[str] = []
+    """The names of a script's actions. Raises NullSyntaxError if a part of the text is not a name."""
+    actions: list[str] = []
     for part in re.split(r"[;\n]", text):
         if part := part.strip():
             match = _ACTION.fullmatch(part)
             if not match:
-                raise NotInLanguage(f"'{part[:40]}' is no name of an action")
-            found.append(match[1])
-    return found
+                raise NullSyntaxError(f"'{part[:40]}' is not the name of an action")
+            actions.append(match[1])
+    return actions
 
 
 def _tokens(text: str) -> Iterator[tuple[str, str]]:
@@ -108,12 +108,12 @@ def _tokens(text: str) -> Iterator[tuple[str, str]]:
     while at < len(text):
         match = _TOKEN.match(text, at)
         if not match:
-            raise NotInLanguage(f"'{text[at:].strip()[:40]}' is no name of a guard, nor In('state')")
+            raise NullSyntaxError(f"'{text[at:].strip()[:40]}' is neither the name of a guard nor In('state')")
         at = match.end()
         if match["in"]:
             yield IN, match["state"]
         elif match["name"] == "In":
-            raise NotInLanguage("In() wants the name of a state in quotes")
+            raise NullSyntaxError("In() requires the name of a state in quotes")
         elif match["op"]:
             yield _WORDS.get(match["op"], match["op"]), match["op"]
         elif match["name"] in _WORDS and not match["call"]:
@@ -122,10 +122,10 @@ def _tokens(text: str) -> Iterator[tuple[str, str]]:
             yield _CONSTANTS.get(match["name"], GUARD), match["name"]
 
 
-class _Parser:
+class _ConditionParser:
     def __init__(self, tokens: list[tuple[str, str]]) -> None:
         if len(tokens) > MAX_PARTS:
-            raise NotInLanguage(f"it has more than {MAX_PARTS} words")
+            raise NullSyntaxError(f"a condition has at most {MAX_PARTS} words")
         self.rest = tokens
 
     def either(self) -> Condition:
@@ -149,13 +149,13 @@ class _Parser:
 
     def _one(self) -> Condition:
         if not self.rest:
-            raise NotInLanguage("something is missing at its end")
+            raise NullSyntaxError("unexpected end")
         kind, text = self.rest.pop(0)
         if kind == "(":
             inner = self.either()
             if not self.rest or self.rest.pop(0)[0] != ")":
-                raise NotInLanguage("a ')' is missing")
+                raise NullSyntaxError("missing ')'")
             return inner
         if kind in (IN, GUARD, ALWAYS, NEVER):
             return Condition(kind, text if kind in (IN, GUARD) else "")
-        raise NotInLanguage(f"'{text}' is not expected here")
+        raise NullSyntaxError(f"unexpected '{text}'")

@@ -1,12 +1,12 @@
-"""The DDSL model: which components and programs make a network, where they run and how they are connected.
+"""The DDSL model: the components and programs of a network, their hosts and connections.
 
-Names and paths are as written; `{i}` still stands in the strings of an entry that has instances.
+Names and paths are as written; the texts of an entry with `instances:` still contain `{i}`.
 """
 
 from __future__ import annotations
 
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.model.located import Located
+from robocomp_yaml.model.located import Spanned, Text
 from robocomp_yaml.source.tree import Mapping
 
 COMPONENT, PROGRAM, PROCESS = "component", "program", "process"
@@ -14,92 +14,78 @@ NEVER, ON_FAILURE, ALWAYS = "no", "on-failure", "always"
 ARGUMENT = "argument"
 INDEX = "{i}"
 CONFIG = "{config}"
-"""In an argument: the path of the process's configuration."""
+"""A placeholder in arguments: the path of the process's configuration."""
 
 
-class Text(Located, frozen=True):
-    """A text of the document and its place: a path, a name, an argument."""
-
-    text: str
-    span: Span = Span("")
-
-
-class Host(Located, frozen=True):
-    """An entry of `hosts:`. `user` is for ssh, '' for the caller's own."""
+class Host(Spanned, frozen=True):
+    """An entry of `hosts:`. `user` is for ssh; '' is the operator's own."""
 
     name: str
     address: Text
     user: str = ""
     doc: str = ""
-    span: Span = Span("")
 
 
-class Storm(Located, frozen=True):
-    """An entry of `services:`: an IceStorm. `port` is None where none is given."""
+class Storm(Spanned, frozen=True):
+    """An entry of `services:`: an IceStorm. `port` is None if it is not set."""
 
     name: str
     host: Text | None = None
     port: int | None = None
     doc: str = ""
-    span: Span = Span("")
     port_span: Span = Span("")
 
 
-class Variable(Located, frozen=True):
-    """A variable of the environment: `value`, or the caller's variable `source`, or the text of `file`."""
+class Variable(Spanned, frozen=True):
+    """An environment variable: `value`, or the operator's variable `source`, or the text of `file`."""
 
     name: str
     value: str = ""
     source: str = ""
     file: str = ""
-    span: Span = Span("")
 
 
-class Number(Located, frozen=True):
-    """A port: that of the interface `name`, which is '' for `port:`."""
+class Number(Spanned, frozen=True):
+    """The TCP port of the interface `name`, which is '' for `port:`."""
 
     name: str
     number: int
-    span: Span = Span("")
     name_span: Span = Span("")
 
 
-class Pair(Located, frozen=True):
-    """A key and its text: of `connect`, `topics`, `endpoints` or `expose`. `span` is the text's place."""
+class Pair(Spanned, frozen=True):
+    """A key and its text under `connect`, `topics` or `endpoints`. `span` is that of the text."""
 
     name: str
     text: str
-    span: Span = Span("")
     name_span: Span = Span("")
 
 
-class Ready(Located, frozen=True):
-    """When others may start: `port` listens, `command` exits with 0, a line of output matches `log`; with none of
-    these, what is served answers a ping. `within` are seconds, None where nothing is said."""
+class Ready(Spanned, frozen=True):
+    """When a process is ready: `port` accepts connections, `command` exits with 0, or a line of output matches `log`.
+    If none is set, all that the process serves must answer a ping. `within` is in seconds, None if it is not set."""
 
     within: float | None = None
     port: int | None = None
     command: tuple[str, ...] = ()
     log: str = ""
-    span: Span = Span("")
 
 
-class Restart(Located, frozen=True):
-    """`policy` is NEVER, ON_FAILURE or ALWAYS; the others are None where nothing is said. Times are seconds."""
+class Restart(Spanned, frozen=True):
+    """`policy` is NEVER, ON_FAILURE or ALWAYS; the others are None if they are not set. Times are in seconds."""
 
     policy: str = ON_FAILURE
     delay: float | None = None
     tries: int | None = None
     within: float | None = None
-    span: Span = Span("")
 
 
-class Entry(Located, frozen=True):
-    """An entry of `components:`. `kind` is the key that says what it is: COMPONENT, PROGRAM, or PROCESS (a second name
-    of another entry's process); `target` is that key's value. `program` of a component is its `executable:`.
+class Entry(Spanned, frozen=True):
+    """An entry of `components:`. `kind` is the key that defines the entry: COMPONENT, PROGRAM, or PROCESS (a second
+    name of another entry's process); `target` is that key's value. `executable` replaces the program of a component.
 
     `settings` is the tree of `set:`. `config_as` is ARGUMENT or an option such as `--Ice.Config`. `instances` is None
-    where the key does not stand. `extra` is the data of `x-rcmanager:`, every scalar as spelled.
+    if the key is missing. `extra` is the data of `x-rcmanager:`, every scalar as spelled.
     """
 
     name: str
@@ -125,29 +111,23 @@ class Entry(Located, frozen=True):
     instances: int | None = None
     extra: tuple[tuple[str, object], ...] = ()
     doc: str = ""
-    span: Span = Span("")
     instances_span: Span = Span("")
 
 
-class Exposed(Located, frozen=True):
-    """An entry of a group's `expose:`: `name` is served by a member (`member.Interface` where its interface's name
-    differs). A `rate` (calls a second, at most) or `allow` (the methods that may be called; None: all) asks for a
-    proxy in between."""
+class Exposed(Spanned, frozen=True):
+    """An entry of a group's `expose:`: a member serves `name` (`member.Interface` if the interface has another name).
+    `rate` is in calls per second; `allow` are the methods that may be called (None: all). Each of the two requires a
+    gate between the group and its callers."""
 
     name: str
     member: Text
     rate: float | None = None
     allow: tuple[Text, ...] | None = None
-    span: Span = Span("")
-
-    @property
-    def has_rule(self) -> bool:
-        return self.rate is not None or self.allow is not None
 
 
-class Group(Located, frozen=True):
-    """An entry of `groups:`, or of `include:` in its form with names. `members` are names of this document, and
-    `include` another deployment's document; `facade` is the CDSL of `as:`. `host` is for members that name none."""
+class Group(Spanned, frozen=True):
+    """An entry of `groups:`, or a named entry of `include:`. `members` are names in this document, `include` is the
+    path of another deployment, `facade` is the component document of `as:`. `host` is for members without a host."""
 
     name: str
     members: tuple[Text, ...] = ()
@@ -156,17 +136,16 @@ class Group(Located, frozen=True):
     exposed: tuple[Exposed, ...] = ()
     host: Text | None = None
     doc: str = ""
-    span: Span = Span("")
 
     @property
     def is_closed(self) -> bool:
-        """Whether what is outside reaches the members only through the group."""
+        """Whether processes outside the group can connect to its members only through the group."""
         return self.facade is not None or bool(self.exposed)
 
 
-class Deployment(Located, frozen=True):
-    """One DDSL document. `includes` are those without a name: what they hold counts as if it stood here. `extra` is the
-    plain data of `x-rcmanager:`."""
+class Deployment(Spanned, frozen=True):
+    """One DDSL document. `includes` are the paths without a name: the entries of those documents count as entries of
+    this one. `extra` is the plain data of `x-rcmanager:`."""
 
     name: str
     path: str
@@ -177,9 +156,8 @@ class Deployment(Located, frozen=True):
     includes: tuple[Text, ...] = ()
     extra: tuple[tuple[str, object], ...] = ()
     doc: str = ""
-    span: Span = Span("")
 
     @property
     def all_includes(self) -> tuple[Text, ...]:
-        """Those of groups, too."""
+        """All included paths: those of `include:` and of groups."""
         return (*self.includes, *(group.include for group in self.groups if group.include))

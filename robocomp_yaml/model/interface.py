@@ -1,20 +1,17 @@
-"""The IDSL model: what a module defines."""
+"""The IDSL model: modules."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.model.located import Located
+from robocomp_yaml.model.located import Spanned, Text
 
 BASIC_TYPES = ("bool", "byte", "short", "int", "long", "float", "double", "string")
 
 
-class TypeRef(Located, frozen=True):
+class TypeRef(Text, frozen=True):
     """A type as a document names it: `float`, `Pose`, `CommonTypes.Pose` or `RoboCompCommonTypes.Pose`."""
-
-    text: str
-    span: Span = Span("")
 
     @property
     def is_basic(self) -> bool:
@@ -22,7 +19,7 @@ class TypeRef(Located, frozen=True):
 
     @property
     def module(self) -> str:
-        """What stands before the dot, or ''."""
+        """The part before the last dot, or ''."""
         return self.text.rpartition(".")[0]
 
     @property
@@ -30,15 +27,14 @@ class TypeRef(Located, frozen=True):
         return self.text.rpartition(".")[2]
 
 
-class Literal(Located, frozen=True):
-    """A value as spelled (`lexeme`: `.9`, `2000.`, `True`, without quotes) and as understood."""
+class Literal(Spanned, frozen=True):
+    """A value as spelled (`lexeme`: `.9`, `2000.`, `True`, without quotes) and as parsed."""
 
     value: bool | int | float | str
     lexeme: str
-    span: Span = Span("")
 
 
-class Member(Located, frozen=True):
+class Member(Spanned, frozen=True):
     """A member of a struct or exception, or a parameter of a method (which has no default)."""
 
     name: str
@@ -46,71 +42,64 @@ class Member(Located, frozen=True):
     doc: str = ""
     unit: str = ""
     default: Literal | None = None
-    span: Span = Span("")
 
 
-class Struct(Located, frozen=True):
-    """`list_span` is the place of the word `struct`."""
+class Struct(Spanned, frozen=True):
+    """`list_span` is the span of the key `struct`."""
 
     name: str
     members: tuple[Member, ...]
     doc: str = ""
-    span: Span = Span("")
     list_span: Span = Span("")
 
 
-class Enumerator(Located, frozen=True):
-    """`value` is None where the author gave none (then: one more than the one before, from 0)."""
+class Enumerator(Spanned, frozen=True):
+    """`value` is None if it is not written; then it is the value of the enumerator before, plus 1, or 0 for the
+    first."""
 
     name: str
     value: int | None = None
     doc: str = ""
-    span: Span = Span("")
 
 
-class Enum(Located, frozen=True):
+class Enum(Spanned, frozen=True):
     name: str
     enumerators: tuple[Enumerator, ...]
     doc: str = ""
-    span: Span = Span("")
     list_span: Span = Span("")
 
 
-class Sequence(Located, frozen=True):
+class Sequence(Spanned, frozen=True):
     name: str
     element: TypeRef
     doc: str = ""
-    span: Span = Span("")
 
 
-class Map(Located, frozen=True):
+class Map(Spanned, frozen=True):
     name: str
     key: TypeRef
     value: TypeRef
     doc: str = ""
-    span: Span = Span("")
 
 
 TypeDefinition = Struct | Enum | Sequence | Map
 
 
-class ExceptionType(Located, frozen=True):
+class ExceptionType(Spanned, frozen=True):
     name: str
     members: tuple[Member, ...]
     doc: str = ""
-    span: Span = Span("")
 
 
-class Constant(Located, frozen=True):
+class Constant(Spanned, frozen=True):
     name: str
     type: TypeRef
     value: Literal
     doc: str = ""
     unit: str = ""
-    span: Span = Span("")
 
 
-class Method(Located, frozen=True):
+class Method(Spanned, frozen=True):
     """`returns` is None for a method that returns nothing."""
 
     name: str
@@ -122,35 +111,35 @@ class Method(Located, frozen=True):
     doc: str = ""
     returns_doc: str = ""
     returns_unit: str = ""
-    span: Span = Span("")
 
     @property
     def can_be_published(self) -> bool:
-        """Topics carry one way: no result, no `out`, no exceptions."""
+        """Whether a topic can have the method: it returns nothing, has no `out` and throws nothing."""
         return self.returns is None and not self.outputs and not self.throws
 
 
-class Interface(Located, frozen=True):
+class Interface(Spanned, frozen=True):
     """An entry of `interfaces:`, or of `topics:` (`is_topic`)."""
 
     name: str
     methods: tuple[Method, ...]
     is_topic: bool = False
     doc: str = ""
-    span: Span = Span("")
 
 
-class Import(Located, frozen=True):
+class Import(Text, frozen=True):
     """An entry of `imports:`: a name without suffix, or a path, as written."""
 
-    text: str
-    span: Span = Span("")
+    @property
+    def stem(self) -> str:
+        """The name of the imported document, without folder and suffix."""
+        return self.text.rpartition("/")[2].removesuffix(".idsl.yaml")
 
 
-class Module(Located, frozen=True):
-    """One IDSL document. `path` is the document as opened; `stem` its name without `.idsl.yaml`.
+class Module(Spanned, frozen=True):
+    """One IDSL document. `path` is the document as opened; `stem` is its name without `.idsl.yaml`.
 
-    Each tuple keeps the author's order.
+    Each tuple has the order of the document.
     """
 
     name: str
@@ -162,7 +151,6 @@ class Module(Located, frozen=True):
     interfaces: tuple[Interface, ...] = ()
     topics: tuple[Interface, ...] = ()
     doc: str = ""
-    span: Span = Span("")
 
     @property
     def stem(self) -> str:
@@ -174,7 +162,7 @@ class Module(Located, frozen=True):
 
     @property
     def definitions(self) -> Iterator[Constant | TypeDefinition | ExceptionType | Interface]:
-        """All that the module defines, in one name space."""
+        """All definitions of the module, which share one name space."""
         yield from self.constants
         yield from self.types
         yield from self.exceptions

@@ -1,4 +1,4 @@
-"""What the parts of a state machine are called in code: the same in every language."""
+"""The names of a state machine's parts in generated code, which are the same in every language."""
 
 from __future__ import annotations
 
@@ -8,97 +8,96 @@ from collections.abc import Callable, Iterator
 import msgspec
 
 from robocomp_yaml.model import conditions
-from robocomp_yaml.model.machine_index import MachineIndex
-from robocomp_yaml.model.statemachine import HISTORY, PYTHON, If, Script, State, StateMachine, Text
+from robocomp_yaml.model.located import Text
+from robocomp_yaml.model.machine_index import MachineIndex, indexes
+from robocomp_yaml.model.statemachine import HISTORY, PYTHON, If, Script, State, StateMachine
 
 STATE, GUARD, ACTION, EVENT = "the state", "the guard", "the action", "the event"
 
-# Methods that every worker has and an action may call.
+# Methods of every worker that an action may call.
 CALLABLE = frozenset(["compute", "killYourSelf"])
 
-# What the worker of code for RoboComp's own tool has besides what every worker has, or calls of Qt.
-ROBOCOMPS = frozenset(
+# Further names that a worker has, or gets from Qt, if its code is like that of RoboComp's own generator.
+ROBOCOMP_NAMES = frozenset(
     "Period close configLoader connect disconnect emergency event hibernation hibernationCheck hibernationChecker kill "
     "parent restore setParams setupUi show startup_check states timer ui".split()
 )
 _DEFAULT_MACHINE = "defaultMachine"
 
 
-class Named(msgspec.Struct, frozen=True):
-    """A part of a machine, under the name that it has in the document and in code."""
+class NamedPart(msgspec.Struct, frozen=True):
+    """A part of a machine: `text` is its name in the document, `name` its name in code."""
 
     kind: str
     text: Text
     name: str
 
 
-def entered(state: str) -> str:
-    """RoboComp's name for the method that is called when a state is entered."""
+def entry_handler(state: str) -> str:
+    """The name of the method that is called when a state is entered, as in RoboComp."""
     return f"sm_{state}"
 
 
-def left(state: str) -> str:
+def exit_handler(state: str) -> str:
     return f"sm_{state}_exit"
 
 
-def every_period(state: str) -> str:
+def period_handler(state: str) -> str:
     return f"sm_{state}_period"
 
 
-def robocomps_machine(machine: StateMachine) -> str:
-    """The member that RoboComp's code starts: it has the name that the machine has in its own file."""
-    taken = ROBOCOMPS | {"communicator", "events", "log", "mutex", "parameters", "statemachine"}
+def robocomp_machine(machine: StateMachine) -> str:
+    """The member with which RoboComp's code starts the machine: the name in the SCXML file, if it is a legal one."""
+    taken = ROBOCOMP_NAMES | {"communicator", "events", "log", "mutex", "parameters", "statemachine"}
     is_name = not machine.inline and re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", machine.name) and machine.name not in taken
     return machine.name if is_name else _DEFAULT_MACHINE
 
 
-def robocomps_signals(machine: StateMachine) -> list[str]:
-    """The events that RoboComp's code emits as signals: each is named after where the machine goes."""
+def robocomp_signals(machine: StateMachine) -> list[str]:
+    """The events that RoboComp's code emits as signals: `t_SOURCE_to_TARGET`."""
     return [event.name for event in events(machine) if re.fullmatch(r"t_\w+_to_\w+", event.name)]
 
 
-def with_handler(machine: StateMachine) -> list[State]:
-    """The states that have handlers."""
+def states_with_handlers(machine: StateMachine) -> list[State]:
+    """The states with handler methods: those with an id, without histories."""
     return [state for state in machine.states if state.id and state.kind != HISTORY]
 
 
-def events(machine: StateMachine) -> list[Named]:
-    """What the component's code may fire: what transitions wait for, unless it comes from the machine itself."""
-    found: dict[str, Named] = {}
+def events(machine: StateMachine) -> list[NamedPart]:
+    """The events that the component's code may fire: those that transitions wait for, without the machine's own."""
+    found: dict[str, NamedPart] = {}
     listed = [event for _, transition in MachineIndex(machine).transitions() for event in transition.events]
     for event in (*machine.events, *listed):
         name = event.text.removesuffix(".*").rstrip(".")
         if name not in ("", "*", "error") and not name.startswith(("done.", "error.")):
-            found.setdefault(name, Named(EVENT, Text(name, event.span), re.sub(r"[.-]", "_", name)))
+            found.setdefault(name, NamedPart(EVENT, Text(name, span=event.span), re.sub(r"[.-]", "_", name)))
     return list(found.values())
 
 
-def guards(machine: StateMachine) -> list[Named]:
-    """Methods that say whether a condition holds."""
+def guards(machine: StateMachine) -> list[NamedPart]:
+    """The guards: methods that return whether a condition holds."""
     return list({named.name: named for named in _methods(machine) if named.kind == GUARD}.values())
 
 
-def actions(machine: StateMachine) -> list[Named]:
-    """Methods that do something on the way."""
+def actions(machine: StateMachine) -> list[NamedPart]:
+    """The actions: methods that transitions and handlers call."""
     return list({named.name: named for named in _methods(machine) if named.kind == ACTION}.values())
 
 
-def _methods(machine: StateMachine) -> Iterator[Named]:
-    index = MachineIndex(machine)
-    if machine.datamodel != PYTHON:
+def _methods(machine: StateMachine) -> Iterator[NamedPart]:
+    for index in indexes(machine):
+        if index.machine.datamodel == PYTHON:
+            continue
         texts = [transition.condition for _, transition in index.transitions()]
         for action in index.actions():
             if isinstance(action, If):
                 texts += [condition for condition, _ in action.branches]
             elif isinstance(action, Script):
                 for name in _read(conditions.script, action.code):
-                    yield Named(ACTION, Text(name, action.code.span), name)
-        for text in texts:
-            if text is not None:
-                for name in _read(_guards, text):
-                    yield Named(GUARD, Text(name, text.span), name)
-    for invoked in index.invoked():
-        yield from _methods(invoked)
+                    yield NamedPart(ACTION, Text(name, span=action.code.span), name)
+        for text in filter(None, texts):
+            for name in _read(_guards, text):
+                yield NamedPart(GUARD, Text(name, span=text.span), name)
 
 
 def _guards(text: str) -> list[str]:
@@ -106,8 +105,8 @@ def _guards(text: str) -> list[str]:
 
 
 def _read(read: Callable[[str], list[str]], text: Text) -> list[str]:
-    """Nothing where the text is wrong, of which another one tells."""
+    """The names in a text; none if the text is wrong, which a check reports."""
     try:
         return read(text.text)
-    except conditions.NotInLanguage:
+    except conditions.NullSyntaxError:
         return []

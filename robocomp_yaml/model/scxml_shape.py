@@ -1,4 +1,4 @@
-"""The shape of SCXML: which element may stand where, with which attributes. What a schema is for YAML."""
+"""The shape of SCXML: which elements may contain which, with which attributes. It is what a schema is for YAML."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from robocomp_yaml.semantics.events import seconds
 from robocomp_yaml.source.xml import Element
 
 SCXML = "http://www.w3.org/2005/07/scxml"
-OURS = "urn:robocomp:statemachine"
+ROBOCOMP = "urn:robocomp:statemachine"
 
 
 class Shape(msgspec.Struct, frozen=True):
-    """`one` are groups of attributes of which at most one is given; a group that starts with '!' needs one."""
+    """Each group in `one` has attributes that exclude each other; if it starts with '!', one of them is required."""
 
     attributes: str = ""
     children: str = ""
@@ -71,54 +71,59 @@ _VALUES: dict[tuple[str, str], tuple[str, ...]] = {
 }
 
 
-def misshapen(root: Element) -> Iterator[Diagnostic]:
-    """Everything that is not as SCXML wants it. Elements of other namespaces are notes of other tools."""
+def shape_faults(root: Element) -> Iterator[Diagnostic]:
+    """Reports all that SCXML 1.0 does not allow. Elements of other namespaces are skipped."""
     if root.name != "scxml" or root.namespace not in (SCXML, ""):
         yield codes.NOT_SCXML.at(root.span, name=root.name)
     else:
         if root.namespace == "":
             yield codes.NO_NAMESPACE.at(root.span, hint=f'write <scxml xmlns="{SCXML}" …>')
-        yield from _misshapen(root)
+        yield from _element_faults(root)
 
 
-def ours(parent: Element) -> Iterator[Element]:
-    """The children that are SCXML's."""
+def scxml_children(parent: Element) -> Iterator[Element]:
+    """The children in the namespace of SCXML."""
     return (child for child in parent.children if child.namespace in (SCXML, ""))
 
 
-def _misshapen(element: Element) -> Iterator[Diagnostic]:
+def _element_faults(element: Element) -> Iterator[Diagnostic]:
     shape = SHAPES[element.name]
     known = shape.attributes.split()
     for name in element.attributes:
         if name not in known and " " not in name:
-            hint = did_you_mean(name, known, element.attributes, otherwise=f"it has {', '.join(known) or 'none'}")
+            hint = did_you_mean(
+                name, known, element.attributes, otherwise=f"it has {', '.join(known) or 'no attributes'}"
+            )
             yield codes.UNKNOWN_ATTRIBUTE.at(element.place(name), name=name, element=element.name, hint=hint)
     for name in shape.required.split():
         if not (element.get(name) or "").strip():
             yield codes.MISSING_ATTRIBUTE.at(element.span, name=name, element=element.name)
     for group in shape.one:
         names = group.lstrip("!").split()
-        given = [name for name in names if element.get(name) is not None]
-        if len(given) > 1:
-            yield codes.TWO_ATTRIBUTES.at(element.place(given[1]), first=given[0], second=given[1])
-        elif not given and group.startswith("!"):
+        present = [name for name in names if element.get(name) is not None]
+        if len(present) > 1:
+            yield codes.TWO_ATTRIBUTES.at(element.place(present[1]), first=present[0], second=present[1])
+        elif not present and group.startswith("!"):
             yield codes.MISSING_ATTRIBUTE.at(element.span, name="' or '".join(names), element=element.name)
     yield from _values(element)
     allowed = shape.children.split()
     if allowed == ["*"]:
-        for child in ours(element):
+        for child in scxml_children(element):
             if child.name == "scxml":
-                yield from _misshapen(child)
+                yield from _element_faults(child)
         return
-    for child in ours(element):
+    for child in scxml_children(element):
         if child.name not in allowed:
             close = suggest(child.name, allowed)
-            holds = f"it holds {', '.join(allowed)}" if allowed else ""
+            otherwise = f"it may contain {', '.join(allowed)}" if allowed else ""
             yield codes.UNKNOWN_ELEMENT.at(
-                child.span, name=child.name, parent=element.name, hint=f"did you mean <{close}>?" if close else holds
+                child.span,
+                name=child.name,
+                parent=element.name,
+                hint=f"did you mean <{close}>?" if close else otherwise,
             )
         else:
-            yield from _misshapen(child)
+            yield from _element_faults(child)
     if stray := element.text.strip():
         yield codes.STRAY_TEXT.at(element.span, text=stray.split()[0][:40], element=element.name)
     yield from _counts(element)
@@ -126,27 +131,30 @@ def _misshapen(element: Element) -> Iterator[Diagnostic]:
 
 def _values(element: Element) -> Iterator[Diagnostic]:
     for name, value in element.attributes.items():
-        wanted = _VALUES.get((element.name, name))
-        if wanted and value not in wanted:
-            yield codes.BAD_VALUE.at(element.place(name), name=name, value=value, hint=f"write {' or '.join(wanted)}")
+        allowed = _VALUES.get((element.name, name))
+        if allowed and value not in allowed:
+            yield codes.BAD_VALUE.at(element.place(name), name=name, value=value, hint=f"write {' or '.join(allowed)}")
     delay = element.get("delay")
     if element.name == "send" and delay is not None and seconds(delay) is None:
         yield codes.BAD_VALUE.at(element.place("delay"), name="delay", value=delay, hint="write 100ms or 1.5s")
     if element.name == "send" and delay is not None and element.get("target") == "#_internal":
         yield codes.BAD_VALUE.at(
-            element.place("delay"), name="delay", value=delay, hint="what goes to #_internal goes at once"
+            element.place("delay"),
+            name="delay",
+            value=delay,
+            hint="an event to #_internal is sent at once: remove the delay, or the target",
         )
 
 
 def _counts(element: Element) -> Iterator[Diagnostic]:
-    """What may stand there once."""
-    names = [child.name for child in ours(element)]
+    """Elements that may occur once only."""
+    names = [child.name for child in scxml_children(element)]
     if element.name in ("initial", "history") and names.count("transition") != 1:
         yield codes.ONE_TRANSITION.at(element.span, element=element.name)
     for name in ("initial", "donedata", "datamodel", "finalize", "content"):
         if names.count(name) > 1:
-            second = [child for child in ours(element) if child.name == name][1]
+            second = [child for child in scxml_children(element) if child.name == name][1]
             yield codes.TWICE.at(second.span, name=name, element=element.name)
     if "content" in names and "param" in names and element.name != "invoke":
-        content = next(child for child in ours(element) if child.name == "content")
+        content = next(child for child in scxml_children(element) if child.name == "content")
         yield codes.TWO_ATTRIBUTES.at(content.span, first="param", second="content")

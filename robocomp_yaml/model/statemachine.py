@@ -1,8 +1,7 @@
-"""The model of a state machine: what SCXML says (https://www.w3.org/TR/scxml/), from a file or written in the CDSL.
+"""The model of a state machine, as SCXML defines it (https://www.w3.org/TR/scxml/): from an SCXML file or a CDSL.
 
-Expressions are kept as they are spelled: what they mean depends on the data model. `null` is the one that both
-languages have: conditions are names of guards joined by `and`, `or` and `not`, values are literals, a script is a list
-of names of actions. With `python`, expressions are Python's, run by the component.
+Expressions are kept as spelled, because their meaning depends on the data model. With `null`, which every language
+has, they are what `conditions` parses. With `python` they are Python, which the component runs.
 """
 
 from __future__ import annotations
@@ -15,67 +14,53 @@ import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.model.located import Located
+from robocomp_yaml.model.located import Spanned, Text
 
 STATE, PARALLEL, FINAL, HISTORY = "state", "parallel", "final", "history"
 NULL, PYTHON = "null", "python"
 
 
-class Text(Located, frozen=True):
-    """A piece of the document with its place: a name, or an expression."""
-
-    text: str
-    span: Span = Span("")
-
-    def __str__(self) -> str:
-        return self.text
-
-
 def words(text: str, span: Span) -> tuple[Text, ...]:
-    """The words of a text that stands here, each at its own place where nothing in it is escaped or on a line of its
-    own."""
+    """The words of a text with the span `span`. Each word has its own span, unless the text has escapes or more than
+    one line."""
     quotes = span.end_column - span.column - len(text)
     is_plain = span.line == span.end_line and quotes in (0, 2)
     start = span.column + quotes // 2
 
-    def place(found: re.Match[str]) -> Span:
-        return replace(span, column=start + found.start(), end_column=start + found.end()) if is_plain else span
+    def span_of(word: re.Match[str]) -> Span:
+        return replace(span, column=start + word.start(), end_column=start + word.end()) if is_plain else span
 
-    return tuple(Text(found[0], place(found)) for found in re.finditer(r"\S+", text))
+    return tuple(Text(word[0], span=span_of(word)) for word in re.finditer(r"\S+", text))
 
 
-class Value(Located, frozen=True):
-    """What may be given as an expression or as it stands; `machine` where it is a whole machine."""
+class Value(Spanned, frozen=True):
+    """A value: an expression, a literal, or a whole `machine`."""
 
     expr: Text | None = None
     literal: str | None = None
     machine: StateMachine | None = None
-    span: Span = Span("")
 
 
-class Param(Located, frozen=True):
-    """A named value of an event or of an invocation; from `location` where it has no value."""
+class Param(Spanned, frozen=True):
+    """A named value of an event or of an invocation."""
 
     name: str
     value: Value
-    span: Span = Span("")
 
 
 class Payload(msgspec.Struct, frozen=True):
-    """What goes along: named values, or one content."""
+    """The data of an event or invocation: named values, or one content."""
 
     params: tuple[Param, ...] = ()
     content: Value | None = None
 
 
-class Raise(Located, frozen=True):
+class Raise(Spanned, frozen=True):
     event: Text
-    span: Span = Span("")
 
 
-class Send(Located, frozen=True):
-    """`event`, `target`, `type` and `delay` are literals or, in the fields beside them, expressions. `delay` is as
-    spelled: `100ms`, `1.5s`."""
+class Send(Spanned, frozen=True):
+    """`delay` is as spelled: `100ms`, `1.5s`."""
 
     event: Value
     target: Value
@@ -84,71 +69,63 @@ class Send(Located, frozen=True):
     id: str = ""
     id_location: Text | None = None
     payload: Payload = Payload()
-    span: Span = Span("")
 
 
-class Cancel(Located, frozen=True):
+class Cancel(Spanned, frozen=True):
     id: Value
-    span: Span = Span("")
 
 
-class Log(Located, frozen=True):
+class Log(Spanned, frozen=True):
     label: str
     value: Value | None = None
-    span: Span = Span("")
 
 
-class Assign(Located, frozen=True):
+class Assign(Spanned, frozen=True):
     location: Text
     value: Value
-    span: Span = Span("")
 
 
-class Script(Located, frozen=True):
-    """A piece of the data model's language; with `null`, names of actions."""
+class Script(Spanned, frozen=True):
+    """Code in the language of the data model; with `null`, names of actions."""
 
     code: Text
-    span: Span = Span("")
 
 
-class If(Located, frozen=True):
-    """Conditions with what is done under them; the last one may have none."""
+class If(Spanned, frozen=True):
+    """Conditions with their actions; the last branch may have no condition."""
 
     branches: tuple[tuple[Text | None, Block], ...]
-    span: Span = Span("")
 
 
-class Foreach(Located, frozen=True):
+class Foreach(Spanned, frozen=True):
     array: Text
     item: Text
     index: Text | None
     actions: Block
-    span: Span = Span("")
 
 
 Action = Raise | Send | Cancel | Log | Assign | Script | If | Foreach
 Block = tuple[Action, ...]
 
 
-class Transition(Located, frozen=True):
-    """Without `events` it is taken as soon as its condition holds; without `targets` the state stays."""
+class Transition(Spanned, frozen=True):
+    """Without `events`, the transition is taken as soon as its condition holds; without `targets`, the state is not
+    left."""
 
     events: tuple[Text, ...] = ()
     condition: Text | None = None
     targets: tuple[Text, ...] = ()
     internal: bool = False
     actions: Block = ()
-    span: Span = Span("")
 
 
-class Data(Located, frozen=True):
+class Data(Spanned, frozen=True):
     id: Text
     value: Value
-    span: Span = Span("")
 
 
-class Invoke(Located, frozen=True):
-    """A machine that runs while its state is active."""
+class Invoke(Spanned, frozen=True):
+    """An invoked machine, which runs while its state is active."""
 
     type: Value
     source: Value
@@ -157,13 +134,12 @@ class Invoke(Located, frozen=True):
     payload: Payload = Payload()
     autoforward: bool = False
     finalize: Block | None = None
-    span: Span = Span("")
 
 
-class State(Located, frozen=True):
-    """A state, of a `kind`; `id` is '' where it has none. `initial` is what is entered with it, `final` what the CDSL
-    names as the one that ends it. A history's `initial` is what it stands for before anything is remembered. `number`
-    tells it from all others of its machine: its place in the document's order, with the root as 0."""
+class State(Spanned, frozen=True):
+    """A state; `id` is '' if it has none. `initial` leads to the states that are entered by default, or, for a history,
+    to those that are entered as long as it remembers nothing. `final` is the state that `final:` of the CDSL names.
+    `number` identifies the state in its machine: its position in the document's order, with the root as 0."""
 
     id: str
     kind: str = STATE
@@ -179,13 +155,12 @@ class State(Located, frozen=True):
     done: Payload = Payload()
     doc: str = ""
     number: int = 0
-    span: Span = Span("")
 
 
-class StateMachine(Located, frozen=True):
-    """`root` holds the states. `events` are those that the component's code is said to fire; empty: any. `inline` where
-    the machine stands in the CDSL, the document at `path`; `strays` are then names under `transitions:` that no state
-    has."""
+class StateMachine(Spanned, frozen=True):
+    """`root` contains the states. `events` are those that the component's code fires; empty means any. `inline` holds
+    if the machine is written in the CDSL; then `strays` are the names under `transitions:` that no state has. `path` is
+    the document with the machine."""
 
     name: str
     path: str
@@ -196,17 +171,16 @@ class StateMachine(Located, frozen=True):
     events: tuple[Text, ...] = ()
     inline: bool = False
     strays: tuple[Text, ...] = ()
-    span: Span = Span("")
     datamodel_span: Span = Span("")
 
     @property
     def states(self) -> Iterator[State]:
-        """All states in the document's order, without the root."""
+        """All states in the order of the document, without the root."""
         yield from walk(self.root.states)
 
 
 def numbered(root: State) -> State:
-    """A whole tree of states with their numbers."""
+    """The same tree with numbered states."""
     numbers = count()
 
     def with_number(state: State) -> State:
@@ -223,7 +197,7 @@ def walk(states: tuple[State, ...]) -> Iterator[State]:
 
 
 def blocks(state: State) -> Iterator[Block]:
-    """Every block of actions of a state, not of those in it."""
+    """Every block of actions of a state, without those of the states inside."""
     yield from state.entry
     yield from state.exit
     for transition in (*state.transitions, *((state.initial,) if state.initial else ())):
@@ -233,7 +207,7 @@ def blocks(state: State) -> Iterator[Block]:
 
 
 def actions(block: Block) -> Iterator[Action]:
-    """The actions of a block with those inside of them."""
+    """The actions of a block, and those inside of them."""
     for action in block:
         yield action
         if isinstance(action, If):

@@ -1,1 +1,1 @@
-"""What a deployment means: processes on hosts, with their commands, configurations, connections and order."""
+"""The network that is derived from a deployment: processes, with commands, configurations, connections and order."""

@@ -1,7 +1,7 @@
-"""The configuration of each process, as text: what it is built on, what `set:` says, and all that was derived.
+"""The configuration of each process as text: its base, the values of `set:`, and what is derived.
 
-For a values document, what is derived is one more layer, so that it is judged and written as `compile` does it. A flat
-file stays as it is, and what is derived follows it: of two lines for one property, Ice takes the last.
+For a values document, what is derived is one more layer, which is judged and written as `compile` does. A flat config
+stays unchanged, and what is derived follows it: of two lines for one property, Ice uses the last.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from msgspec.structs import replace
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues, Program
-from robocomp_yaml.network.base import Base
-from robocomp_yaml.network.draft import Draft, Given, listening
+from robocomp_yaml.network.configuration_base import ConfigurationBase
+from robocomp_yaml.network.draft import Draft, LocatedText, listening
 from robocomp_yaml.parameters.layers.effective import document_faults
-from robocomp_yaml.parameters.layers.merge import Place, data_of, merged
+from robocomp_yaml.parameters.layers.merge import MergedValue, data_of, merged
 from robocomp_yaml.parameters.layers.overlay import overlay
 from robocomp_yaml.parameters.specification.document import ValuesDocument
 from robocomp_yaml.parameters.writing.properties import (
@@ -38,10 +38,10 @@ _TITLE = "Where this component and the others are"
 
 
 class Configuration(msgspec.Struct):
-    """The text for one draft, None where something is wrong with it."""
+    """The configuration of one draft. `text` is None after an error, `secrets` are its secret properties."""
 
     draft: Draft
-    base: Base
+    base: ConfigurationBase
     program: Program
     text: str | None = None
     secrets: tuple[str, ...] = ()
@@ -49,9 +49,10 @@ class Configuration(msgspec.Struct):
 
     def make(self) -> None:
         values = self.base.values
-        linked = values.parameters if values is not None else self._own_parameters()
+        component = self.draft.instance.component
+        linked = values.parameters if values is not None else component.parameters if component is not None else None
         if values is not None and linked is None:
-            return  # that nobody knows its parameters has been said
+            return  # unknown parameters have been reported
         if self.base.flat is not None:
             sections = self._on_flat(linked)
         elif linked is not None:
@@ -67,14 +68,10 @@ class Configuration(msgspec.Struct):
         if self.base.flat is None:
             self.text = head + section_text(sections)
         elif not sections:
-            self.text = self.base.flat  # which need not be Ice's, then
+            self.text = self.base.flat  # in any format
         else:
             flat = self.base.flat if self.base.flat.endswith("\n") else f"{self.base.flat}\n"
             self.text = f"{flat}\n{head}{section_text(sections)}"
-
-    def _own_parameters(self) -> LinkedParameters | None:
-        component = self.draft.instance.component
-        return component.parameters if component is not None else None
 
     def _on_values(self, linked: LinkedParameters) -> list[Section] | None:
         base = self.base.values
@@ -115,7 +112,7 @@ class Configuration(msgspec.Struct):
         return self.draft.instance.document.path
 
     def _layer(self, linked: LinkedParameters, base: LinkedValues) -> Mapping:
-        """What is derived, as the values document that it could have been."""
+        """What is derived, as a values document."""
         span, entries = self.draft.span, dict[str, tuple[Scalar, Node]]()
         settings = self.draft.instance.entry.settings
         if settings is not None:
@@ -136,7 +133,7 @@ class Configuration(msgspec.Struct):
                 entries[name] = (text_at(span, name), mapping_at(span, section))
         return mapping_at(span, entries)
 
-    def _parameters(self, linked: LinkedParameters, settings: Mapping, below: Place | None) -> Mapping:
+    def _parameters(self, linked: LinkedParameters, settings: Mapping, below: MergedValue | None) -> Mapping:
         laid = overlay(settings, linked.parameters.root, below)
         self.diagnostics += [
             codes.NO_ENTRY.at(fault.key.span, path=fault.key.lexeme, problem=fault.problem) for fault in laid.faults
@@ -144,17 +141,17 @@ class Configuration(msgspec.Struct):
         key = text_at(settings.span, "parameters")
         return mapping_at(settings.span, {"parameters": (key, laid.root)})
 
-    def _endpoints(self) -> Iterator[tuple[str, Given]]:
+    def _endpoints(self) -> Iterator[tuple[str, LocatedText]]:
         draft = self.draft
         for adapter in draft.adapters:
-            yield adapter.adapter.rpartition(".")[2], Given(adapter.text, adapter.span)
-        component, given = draft.instance.component, {adapter.adapter for adapter in draft.hears}
+            yield adapter.adapter.rpartition(".")[2], LocatedText(adapter.text, adapter.span)
+        component, given = draft.instance.component, {adapter.adapter for adapter in draft.subscribers}
         for port in component.subscribes if component else ():
             if f"{port.name}Topic" not in given:
-                yield f"{port.name}Topic", Given(listening(draft.host, 0), draft.span)
+                yield f"{port.name}Topic", LocatedText(listening(draft.host, 0), draft.span)
 
-    def _proxy(self, name: str, given: Given) -> tuple[Scalar, Node]:
-        """Under the property that the configuration has for it."""
+    def _proxy(self, name: str, given: LocatedText) -> tuple[Scalar, Node]:
+        """A proxy, under the property that the base has for it."""
         key, node = _entry(name, given)
         own = self.base.proxy_key(name)
         if own is None:
@@ -163,7 +160,7 @@ class Configuration(msgspec.Struct):
         return key, mapping_at(given.span, words)
 
     def _topics(self) -> dict[str, tuple[Scalar, Node]]:
-        """A topic that has a name here has no prefix any more."""
+        """The section for topics. A topic with a name in this section has no prefix."""
         made: dict[str, tuple[Scalar, Node]] = {}
         if self.draft.manager is not None:
             made["manager"] = _entry("manager", self.draft.manager)
@@ -171,18 +168,15 @@ class Configuration(msgspec.Struct):
         if names:
             span = next(iter(names.values())).span
             made["name"] = _entry("name", mapping_at(span, {name: _entry(name, to) for name, to in names.items()}))
-            none = {
-                f"{name}{end}": _entry(f"{name}{end}", Given("", to.span))
-                for name, to in names.items()
-                for end in ("", "Pub")
-            }
+            ends = {f"{name}{end}": LocatedText("", to.span) for name, to in names.items() for end in ("", "Pub")}
+            none = {name: _entry(name, given) for name, given in ends.items()}
             made["prefix"] = _entry("prefix", mapping_at(span, none))
         return made
 
     def _connections(self, dialect: str) -> list[Property]:
-        """All that is derived as properties, in Ice's own spelling, which comes first for every generated component;
-        and behind it in the file's, if that is another."""
-        draft, made = self.draft, list[tuple[str, str, Given]]()
+        """All derived properties, in Ice's spelling, which every generated component reads first, followed by those in
+        the base's dialect, if that is different."""
+        draft, made = self.draft, list[tuple[str, str, LocatedText]]()
         made += [(*connections.endpoints(name), given) for name, given in self._endpoints()]
         made += [(*connections.proxy(name), given) for name, given in draft.proxies.items()]
         if draft.manager is not None:
@@ -192,7 +186,7 @@ class Configuration(msgspec.Struct):
         if dialect != CLASSIC:
             lines |= {other: Property(other, _quoted(given.text), given.span) for _, other, given in made}
         prefixes = [connections.prefix(f"{name}{end}") for name in draft.topics for end in ("", "Pub")]
-        # an empty value takes back what the file says
+        # an empty value overrides the value in the base
         lines |= {key: Property(key, '""') for key in prefixes if key in self.base.properties}
         return list(lines.values())
 
@@ -201,6 +195,6 @@ def _quoted(text: str) -> str:
     return text if '"' in text else f'"{text}"'
 
 
-def _entry(name: str, given: Given | Mapping) -> tuple[Scalar, Node]:
+def _entry(name: str, given: LocatedText | Mapping) -> tuple[Scalar, Node]:
     node = given if isinstance(given, Mapping) else text_at(given.span, given.text)
     return text_at(node.span, name), node

@@ -1,4 +1,4 @@
-"""Who serves what each component requires: as `connect:` says, else the one that serves an equal interface."""
+"""Connections of what each component requires: as `connect:` says, else to the process with an equal interface."""
 
 from __future__ import annotations
 
@@ -9,40 +9,39 @@ import msgspec
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic, Related
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.link.deployments import LinkedInstance
+from robocomp_yaml.diag.suggest import did_you_mean
+from robocomp_yaml.link.deployments import LinkedGroup, LinkedInstance, LinkedStorm, Target
 from robocomp_yaml.link.program import Port
 from robocomp_yaml.model.component import IGNORE
 from robocomp_yaml.model.deployment import Pair
-from robocomp_yaml.network import ice_texts
-from robocomp_yaml.network.contents import Contents, name_of
-from robocomp_yaml.network.draft import Draft, Given, Offer
-from robocomp_yaml.network.drafts import Drafts, is_broken
+from robocomp_yaml.network.draft import Draft, Drafts, LocatedText, Offer, is_broken, text_fault
 from robocomp_yaml.network.gates import Gates
+from robocomp_yaml.network.interface_comparison import InterfaceComparison, name_of
 from robocomp_yaml.network.network import Connection
-from robocomp_yaml.network.order import Need
-from robocomp_yaml.network.targets import Targets
-from robocomp_yaml.source.ice_options import BLANKS, Refused
+from robocomp_yaml.network.order import Dependence
+from robocomp_yaml.source.ice_options import BLANKS, InvalidIceText
 from robocomp_yaml.source.ice_proxy import parse_proxy
 
 
 class Providers(msgspec.Struct):
-    """Offers by interface; `_within` has them by interface and by what holds them, an include or a closed group, so
-    that a large deployment of many alike is searched as fast as a small one."""
+    """Offers by interface. `_within` has them by interface and by the include or closed group that contains them, so
+    that a large deployment of many equal components is searched as fast as a small one."""
 
     _every: dict[str, list[Offer]] = {}
     _within: dict[tuple[str, str], list[Offer]] = {}
 
     def add(self, draft: Draft) -> None:
-        """Takes in what a component implements, and what a program has an endpoint for."""
+        """Adds what a component implements, and what a program has an endpoint for."""
         around = _around(draft.instance)
         for offer in draft.offers:
-            if offer.port or offer.given:
+            if offer.port or offer.explicit:
                 self._every.setdefault(offer.interface, []).append(offer)
                 for holder in around:
                     self._within.setdefault((offer.interface, holder), []).append(offer)
 
     def rings(self, draft: Draft, interface: str) -> Iterator[list[Offer]]:
-        """What could be connected to a draft: what shares most with it first. None of what closed groups hide."""
+        """The candidates for a draft, except those that closed groups hide. The first list shares the most includes
+        and closed groups with the draft, the last list none."""
         shared: dict[Offer, int] = {}
         for holder in _around(draft.instance):
             for offer in self._within.get((interface, holder), ()):
@@ -53,14 +52,15 @@ class Providers(msgspec.Struct):
 
 
 def _around(instance: LinkedInstance) -> list[str]:
-    """The includes and closed groups that hold an instance."""
+    """The includes and closed groups that contain an instance."""
     steps = instance.scope.split(".")[:-1]
     includes = [".".join(steps[:n]) for n in range(1, len(steps) + 1)]
     return includes + [f"group {group.name}" for group in instance.groups if group.is_closed]
 
 
 def _reaches(draft: Draft, offer: Offer) -> bool:
-    """Whether an offer is another one's, and every closed group around it that the draft is outside of exposes it."""
+    """Whether an offer is of another process, and is exposed by every closed group that contains it, but not the
+    draft."""
     source, target = draft.instance, offer.owner.instance
     return offer.owner is not draft and all(
         any(
@@ -76,14 +76,13 @@ _MANY = 6
 
 
 class Connections(msgspec.Struct):
-    """`found` are the lines of the graph, `needs` says who waits for whom."""
+    """Connects what is required. `connections` are the connections, `needs` the dependences that follow."""
 
     drafts: Drafts
-    contents: Contents
+    comparison: InterfaceComparison
     gates: Gates
-    targets: Targets
-    found: list[Connection] = []
-    needs: list[Need] = []
+    connections: list[Connection] = []
+    needs: list[Dependence] = []
     diagnostics: list[Diagnostic] = []
     _providers: Providers = msgspec.field(default_factory=Providers)
 
@@ -92,27 +91,29 @@ class Connections(msgspec.Struct):
             if not self.gates.is_gate(draft):
                 self._providers.add(draft)
         for draft in self.drafts.drafts.values():
-            component, given = draft.instance.component, {pair.name: pair for pair in draft.instance.entry.connect}
+            component, explicit = draft.instance.component, {pair.name: pair for pair in draft.instance.entry.connect}
             for port in component.requires if component else ():
-                pair = given.get(port.name)
+                pair = explicit.get(port.name)
                 if pair is not None:
-                    self._given(draft, pair, port)
+                    self._explicit(draft, pair, port)
                 else:
-                    self._look_for(draft, port)
-            for pair in given.values() if component is None else ():
-                self._given(draft, pair, None)
+                    self._implicit(draft, port)
+            for pair in explicit.values() if component is None else ():
+                self._explicit(draft, pair, None)
 
-    def _given(self, draft: Draft, pair: Pair, port: Port | None) -> None:
-        """`port` is None for a program, of which nothing but the proxy's name is known."""
+    def _explicit(self, draft: Draft, pair: Pair, port: Port | None) -> None:
+        """Connects as `connect:` says. `port` is None for a program, of which only the proxy's name is known."""
         interface = port.interface.name if port else pair.name
         if is_proxy(pair.text):
             self.diagnostics += _faults(draft, pair)
-            proxy = pair.text.strip(BLANKS)  # they mean nothing there, and no property's value can end with a tab
-            draft.proxies[pair.name] = Given(proxy, pair.span)
-            self.found.append(Connection(draft.name, pair.name, interface, "", proxy=proxy, span=pair.span))
+            proxy = pair.text.strip(BLANKS)  # Ice ignores them, and the value of a property cannot end with a tab
+            draft.proxies[pair.name] = LocatedText(proxy, pair.span)
+            self.connections.append(Connection(draft.name, pair.name, interface, "", proxy=proxy, span=pair.span))
             return
-        target = self.targets.named(draft, pair)
-        if target is None:
+        target = named(self.drafts, draft, pair)
+        if isinstance(target, Diagnostic):
+            self.diagnostics.append(target)
+        if not isinstance(target, ConnectTarget):
             return
         behind = target.interface
         fitting = [offer for offer in target.chosen() if offer.interface == interface or (port is None and behind)]
@@ -127,18 +128,14 @@ class Connections(msgspec.Struct):
         elif fitting and port is not None:
             self._mismatch(draft, port, fitting[0], pair.span)
         else:
-            served = ", ".join(dict.fromkeys(name for name, _ in target.served))
-            self.diagnostics.append(
-                codes.NOT_SERVED.at(
-                    pair.span,
-                    target=pair.text,
-                    interface=interface,
-                    hint=f"it serves {served}" if served else "it serves nothing",
-                )
+            served = ", ".join(dict.fromkeys(name for name, _ in target.served)) or "nothing"
+            not_served = codes.NOT_SERVED.at(
+                pair.span, target=pair.text, interface=interface, hint=f"it serves {served}"
             )
+            self.diagnostics.append(not_served)
 
-    def _look_for(self, draft: Draft, port: Port) -> None:
-        """Connects a port that nothing is said of: the nearest that serve an equal interface decide."""
+    def _implicit(self, draft: Draft, port: Port) -> None:
+        """Connects a port without an entry in `connect:` to the nearest process that serves an equal interface."""
         other: Offer | None = None
         for ring in self._providers.rings(draft, port.interface.name):
             equal = [offer for offer in ring if self._is_equal(port, offer)]
@@ -159,50 +156,46 @@ class Connections(msgspec.Struct):
         if offer.port is None:
             module = offer.adapter.rpartition(".")[0]
             return module in ("", *name_of(port)[:1], port.scope.module.stem)
-        return name_of(offer.port) == name_of(port) and self.contents.difference(port, offer.port) is None
+        return name_of(offer.port) == name_of(port) and self.comparison.difference(port, offer.port) is None
 
     def _connect(self, draft: Draft, name: str, interface: str, offer: Offer, span: Span, port: Port | None) -> None:
         offer = self.gates.through(offer, draft.instance)
         target = offer.owner
-        if offer.endpoint is None:  # the document's endpoint is none, which has been said
+        if offer.endpoint is None:  # the endpoint is not valid, which has been reported
             return
-        draft.proxies[name] = Given(offer.proxy, span)
-        self.found.append(Connection(draft.name, name, interface, target.name, proxy=offer.proxy, span=span))
+        draft.proxies[name] = LocatedText(offer.proxy, span)
+        self.connections.append(Connection(draft.name, name, interface, target.name, proxy=offer.proxy, span=span))
         if target is not draft:
-            self.needs.append(Need(draft.name, target.name, port.use.absent if port else "", name, span))
+            self.needs.append(Dependence(draft.name, target.name, port.use.absent if port else "", name, span))
         if draft.instance.entry.enabled and not target.instance.entry.enabled and not _may_be_absent(port):
-            self.diagnostics.append(
-                codes.NOT_ENABLED.at(
-                    span,
-                    source=draft.name,
-                    interface=interface,
-                    target=target.name,
-                    related=[Related("not enabled here", target.span)],
-                )
+            related = [Related("not enabled here", target.span)]
+            off = codes.NOT_ENABLED.at(
+                span, source=draft.name, interface=interface, target=target.name, related=related
             )
+            self.diagnostics.append(off)
 
     def _ambiguous(
         self, draft: Draft, name: str, interface: str, offers: list[Offer], span: Span, port: Port | None = None
     ) -> None:
-        shown = [self._called(offer, draft) for offer in offers]
-        more = f" and {len(shown) - _MANY} more" if len(shown) > _MANY else ""
-        places = {offer.span: word for word, offer in reversed(list(zip(shown, offers[:_MANY], strict=False)))}
-        related = [Related(f"'{word}' serves it", span) for span, word in reversed(places.items())]
+        names = [self._name(offer, draft) for offer in offers]
+        more = f" and {len(names) - _MANY} more" if len(names) > _MANY else ""
+        by_span = {offer.span: name for name, offer in reversed(list(zip(names, offers[:_MANY], strict=False)))}
+        related = [Related(f"'{name}' serves it", span) for span, name in reversed(by_span.items())]
         self.diagnostics.append(
             codes.AMBIGUOUS.at(
                 span,
                 source=draft.name,
                 port=name,
                 interface=interface,
-                candidates=", ".join(shown[:_MANY]) + more,
-                hint=f"write `connect: {{{name}: {shown[0]}}}`, or another",
+                candidates=", ".join(names[:_MANY]) + more,
+                hint=f"write `connect: {{{name}: {names[0]}}}`, or another one",
                 related=related + _required(port),
             )
         )
 
-    def _called(self, offer: Offer, draft: Draft) -> str:
-        """As `connect:` may name it: a member of a closed group by the group."""
-        for group in self.drafts.linked.closed_around(offer.owner.instance, draft.instance)[:1]:
+    def _name(self, offer: Offer, draft: Draft) -> str:
+        """The name of an offer in `connect:`; a member of a closed group is named by the group."""
+        for group in self.drafts.linked.closed_groups_of(offer.owner.instance, draft.instance)[:1]:
             for served in group.serves:
                 if self.drafts.of(served.instance) is offer.owner and served.adapter == offer.adapter:
                     return f"{group.name}.{served.name}"
@@ -212,7 +205,7 @@ class Connections(msgspec.Struct):
         if offer.port is None:
             self._unresolved(draft, port)
             return
-        found = self.contents.difference(port, offer.port)
+        found = self.comparison.difference(port, offer.port)
         if found is not None:
             self.diagnostics.append(
                 codes.MISMATCH.at(
@@ -228,44 +221,35 @@ class Connections(msgspec.Struct):
 
     def _unresolved(self, draft: Draft, port: Port) -> None:
         linked, name = self.drafts.linked, port.interface.name
-        self.found.append(Connection(draft.name, port.name, name, "", span=draft.span))
+        self.connections.append(Connection(draft.name, port.name, name, "", span=draft.span))
         if linked.is_included or not self.drafts.complete:
             return
-        told = codes.UNRESOLVED.at(
+        unresolved = codes.UNRESOLVED.at(
             draft.span,
             source=draft.name,
             interface=name,
             related=_required(port),
-            hint=f"add a component that implements {name}, or say where it is: "
+            hint=f"add a component that implements {name}, or name its proxy: "
             f'`connect: {{{port.name}: "{name.lower()}:tcp -h HOST -p PORT"}}`',
         )
-        self.diagnostics.append(told.as_severity(WARNING) if _may_be_absent(port) else told)
+        self.diagnostics.append(unresolved.as_severity(WARNING) if _may_be_absent(port) else unresolved)
 
 
 def is_proxy(text: str) -> bool:
-    """Whether `connect:` names something outside, by its proxy."""
+    """Whether a text of `connect:` is the proxy of an external server."""
     return text[:1] in "\"'" or any(char in text for char in f":@{BLANKS}")
 
 
 def _faults(draft: Draft, pair: Pair) -> Iterator[Diagnostic]:
-    """What Ice would refuse, and what it would pass over."""
+    """What Ice would reject, and what it would ignore."""
     try:
         found = parse_proxy(pair.text)
-    except Refused as refused:
-        usual = f'a proxy is spelled as Ice has it: `"{pair.name.lower()}:tcp -h HOST -p PORT"`'
-        yield codes.BAD_PROXY.at(
-            ice_texts.place(draft, pair.span, pair.text, refused),
-            text=pair.text,
-            problem=refused.problem,
-            hint=ice_texts.hint(draft, pair.text, refused, usual),
-        )
+    except InvalidIceText as refused:
+        usual = f'write it in the syntax of Ice: `"{pair.name.lower()}:tcp -h HOST -p PORT"`'
+        yield text_fault(codes.BAD_PROXY, draft, pair.span, pair.text, refused, usual, text=pair.text)
         return
     for unknown in found.unknown:
-        yield codes.PASSED_OVER.at(
-            ice_texts.place(draft, pair.span, pair.text, unknown),
-            problem=unknown.problem,
-            hint=ice_texts.hint(draft, pair.text, unknown, ""),
-        )
+        yield text_fault(codes.IGNORED_ENDPOINT, draft, pair.span, pair.text, unknown)
 
 
 def _may_be_absent(port: Port | None) -> bool:
@@ -278,3 +262,79 @@ def _required(port: Port | None) -> list[Related]:
 
 def _is_only(offer: Offer) -> bool:
     return sum(other.interface == offer.interface for other in offer.owner.offers) == 1
+
+
+class ConnectTarget(msgspec.Struct, frozen=True):
+    """What `connect:` names. `served` are offers by the names under which they are served. `interface` is the interface
+    after the target's name, or ''."""
+
+    served: tuple[tuple[str, Offer], ...]
+    interface: str
+
+    def chosen(self) -> list[Offer]:
+        """The offers of the named interface; all offers if no interface is named."""
+        return [
+            offer
+            for name, offer in self.served
+            if not self.interface or self.interface in (name, offer.adapter, offer.interface)
+        ]
+
+
+def named(drafts: Drafts, draft: Draft, pair: Pair) -> ConnectTarget | Diagnostic | None:
+    """What an entry of `connect:` names, or the diagnostic of what is wrong; None if that has been reported."""
+    linked, instance = drafts.linked, draft.instance
+    targets, behind = linked.find(pair.text, instance.scope)
+    if not targets:
+        return None if instance.broken else _unknown(drafts, draft, pair)
+    served: list[tuple[str, Offer]] = []
+    for target in targets:
+        around = linked.closed_groups_of(target, instance)
+        if isinstance(target, LinkedStorm):
+            hint = "it is an IceStorm, which carries topics"
+            return codes.NOT_SERVED.at(pair.span, target=pair.text, interface=pair.name, hint=hint)
+        if around:
+            group = around[0].name
+            hint = f"connect to '{group}', which serves what it exposes"
+            return codes.CLOSED_GROUP.at(pair.span, target=pair.text, group=group, hint=hint)
+        if _is_incomplete(drafts, target):
+            return None
+        served += _of_group(drafts, target, draft) if isinstance(target, LinkedGroup) else _of(drafts, target)
+    return ConnectTarget(tuple(served), behind)
+
+
+def _unknown(drafts: Drafts, draft: Draft, pair: Pair) -> Diagnostic:
+    proxy = f'"{pair.name.lower()}:tcp -h HOST -p PORT"'
+    names = drafts.linked.names.get(draft.instance.scope, {})
+    hint = did_you_mean(pair.text, names, otherwise=f"name an external server by its proxy, in quotes: {proxy}")
+    return codes.NO_TARGET.at(pair.span, name=pair.text, hint=hint)
+
+
+def _is_incomplete(drafts: Drafts, target: Target) -> bool:
+    """Whether something that the target serves could not be read."""
+    if isinstance(target, LinkedGroup):
+        return is_broken(target) or any(_is_incomplete(drafts, member) for member in target.members)
+    if isinstance(target, LinkedInstance):
+        is_read = drafts.of(target) is not None and not target.broken
+        return not is_read or bool(target.component and target.component.broken)
+    return False
+
+
+def _of(drafts: Drafts, instance: LinkedInstance) -> Iterator[tuple[str, Offer]]:
+    """What an entry serves. A second name of a process serves its own endpoints, or without any what the process
+    serves."""
+    owner = drafts.of(instance)
+    own = {pair.name for pair in instance.entry.endpoints} if instance.process else set()
+    for offer in owner.offers if owner else ():
+        if not own or offer.adapter in own:
+            yield offer.adapter, offer
+
+
+def _of_group(drafts: Drafts, group: LinkedGroup, draft: Draft) -> Iterator[tuple[str, Offer]]:
+    """What a group serves: to processes outside what it exposes, under its own names; to its members, everything."""
+    is_outside = group.is_closed and draft.instance not in group.members
+    names = {(one.instance.process or one.instance, one.adapter): one.name for one in group.serves}
+    owners = dict.fromkeys(owner for member in group.members if (owner := drafts.of(member)))
+    for offer in (offer for owner in owners for offer in owner.offers):
+        name = names.get((offer.owner.instance, offer.adapter))
+        if name is not None if is_outside else offer.port or offer.explicit:
+            yield name or offer.adapter, offer

@@ -1,4 +1,4 @@
-"""From a linked deployment to its network: ports, connections, topics, configurations and order, in this order."""
+"""From a linked deployment to its network: TCP ports, connections, topics, configurations and order, in this order."""
 
 from __future__ import annotations
 
@@ -12,54 +12,52 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedStorm
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.model.deployment import PROGRAM, Text
-from robocomp_yaml.network import ice_texts, ports, processes
-from robocomp_yaml.network.base import Base, base_of
+from robocomp_yaml.model.deployment import PROGRAM
+from robocomp_yaml.model.located import Text
+from robocomp_yaml.network import processes
 from robocomp_yaml.network.configuration import Configuration
+from robocomp_yaml.network.configuration_base import ConfigurationBase, base_of
 from robocomp_yaml.network.connections import Connections
-from robocomp_yaml.network.contents import Contents
-from robocomp_yaml.network.draft import Draft, Offer
-from robocomp_yaml.network.drafts import Drafts, drafts_of
+from robocomp_yaml.network.draft import Draft, Drafts, assign_ports, drafts_of, text_fault
 from robocomp_yaml.network.gates import Gates
+from robocomp_yaml.network.interface_comparison import InterfaceComparison
 from robocomp_yaml.network.network import FOLDER, Network, Process
-from robocomp_yaml.network.order import AFTER, Need, optional, ordered
-from robocomp_yaml.network.targets import Targets
-from robocomp_yaml.network.topics import Topics
+from robocomp_yaml.network.order import AFTER, Dependence, optional, ordered
+from robocomp_yaml.network.topics import TopicConnections
 from robocomp_yaml.source.file_names import LONGEST_NAME, is_too_long, path_fault, shortened, size
 from robocomp_yaml.source.ice_endpoint import fixed_endpoint
-from robocomp_yaml.source.ice_options import LAST_PORT, Refused
+from robocomp_yaml.source.ice_options import LAST_PORT, InvalidIceText
 
 
 def derive(linked: LinkedDeployment, program: Program) -> tuple[Network, list[Diagnostic]]:
-    """The network of a deployment, as far as it can be told, and all that is wrong with it. Flat configuration
-    files are read from the program's disk."""
+    """The network of a deployment, as far as it can be derived, and its diagnostics. Flat configs are read from the
+    program's disk."""
     deployment = linked.deployment
     folder = os.path.abspath(os.path.join(os.path.dirname(deployment.path), FOLDER, deployment.name))
     drafts = drafts_of(linked)
     network = Network(deployment.name, os.path.abspath(deployment.path), folder, drafts.hosts, extra=deployment.extra)
     gates = Gates(drafts)
-    gates.place()
-    ports.assign(drafts)
-    bases: dict[Draft, Base] = {}
+    gates.add()
+    assign_ports(drafts)
+    bases: dict[Draft, ConfigurationBase] = {}
 
-    def base(draft: Draft) -> Base:
+    def base(draft: Draft) -> ConfigurationBase:
         if draft not in bases:
             bases[draft] = base_of(draft.instance, program.disk)
         return bases[draft]
 
-    contents = Contents()
-    targets = Targets(drafts)
-    connections, topics = Connections(drafts, contents, gates, targets), Topics(drafts, contents, base)
+    comparison = InterfaceComparison()
+    connections, topics = Connections(drafts, comparison, gates), TopicConnections(drafts, comparison, base)
     connections.resolve()
     gates.connect()
     topics.resolve()
-    network.connections = [*connections.found, *gates.found, *topics.found]
-    diagnostics = [*endpoint_faults(drafts), *targets.diagnostics, *connections.diagnostics, *topics.diagnostics]
-    needs = [*_said(drafts, gates), *connections.needs, *gates.needs, *topics.needs]
+    network.connections = [*connections.connections, *gates.connections, *topics.connections]
+    diagnostics = [*endpoint_faults(drafts), *connections.diagnostics, *topics.diagnostics]
+    needs = [*_explicit(drafts, gates), *connections.needs, *gates.needs, *topics.needs]
     enabled = {draft.name for draft in drafts.drafts.values() if draft.instance.entry.enabled}
-    wanted = {need.target for need in needs if need.source in enabled}
+    needed = {need.target for need in needs if need.source in enabled}
     for storm in drafts.storms.values():
-        network.processes[storm.name] = processes.of_storm(storm, folder, enabled=storm.name in wanted)
+        network.processes[storm.name] = processes.of_storm(storm, folder, enabled=storm.name in needed)
     known: dict[str, tuple[str, ...]] = {}
     for draft in drafts.drafts.values():
         if gates.is_gate(draft):
@@ -76,21 +74,21 @@ def derive(linked: LinkedDeployment, program: Program) -> tuple[Network, list[Di
     return network, diagnostics
 
 
-def _said(drafts: Drafts, gates: Gates) -> Iterable[Need]:
-    """What the document says by `after:`. A group is ready when those can reach it that are outside."""
+def _explicit(drafts: Drafts, gates: Gates) -> Iterable[Dependence]:
+    """The dependences of `after:`. A group is ready when processes outside can reach it, that is, with its gates."""
     for draft in drafts.drafts.values():
         texts = draft.instance.entry.after
         for text in texts:
             for gate in gates.before(draft.instance, text.text):
-                yield Need(draft.name, gate.name, "", AFTER, text.span)
+                yield Dependence(draft.name, gate.name, "", AFTER, text.span)
         for target in draft.instance.after:
             name = target.name if isinstance(target, LinkedStorm) else (target.process or target).name
             span = next((text.span for text in texts if text.text == target.name), draft.span)
             if name != draft.name:
-                yield Need(draft.name, name, "", AFTER, span)
+                yield Dependence(draft.name, name, "", AFTER, span)
 
 
-def _put_in_order(network: Network, needs: Sequence[Need]) -> list[Diagnostic]:
+def _put_in_order(network: Network, needs: Sequence[Dependence]) -> list[Diagnostic]:
     waves, after, diagnostics = ordered((process.name for process in network.enabled()), needs)
     network.order = waves
     can_be_absent = optional(needs)
@@ -102,31 +100,17 @@ def _put_in_order(network: Network, needs: Sequence[Need]) -> list[Diagnostic]:
 
 
 def endpoint_faults(drafts: Drafts) -> Iterator[Diagnostic]:
-    for draft in drafts.drafts.values():
-        for offer in draft.adapters:
-            if offer.given:
-                yield from _of_text(draft, offer)
-            elif offer.number > LAST_PORT:
-                yield codes.PORT_TOO_HIGH.at(
-                    offer.span,
-                    name=draft.name,
-                    port=offer.number,
-                    hint="begin with a lower one, or use fewer instances",
-                )
-
-
-def _of_text(draft: Draft, offer: Offer) -> Iterator[Diagnostic]:
-    try:
-        fixed_endpoint(offer.given)
-    except Refused as refused:
-        usual = f"write a protocol and a port from 1 to {LAST_PORT}, such as `tcp -p 10003`"
-        yield codes.BAD_ENDPOINT.at(
-            ice_texts.place(draft, offer.span, offer.given, refused),
-            name=offer.adapter,
-            text=offer.given,
-            problem=refused.problem,
-            hint=ice_texts.hint(draft, offer.given, refused, usual),
-        )
+    usual = f"write a protocol and a port from 1 to {LAST_PORT}, such as `tcp -p 10003`"
+    for offer in (offer for draft in drafts.drafts.values() for offer in draft.adapters):
+        if offer.explicit:
+            try:
+                fixed_endpoint(offer.explicit)
+            except InvalidIceText as refused:
+                facts = {"name": offer.adapter, "text": offer.explicit}
+                yield text_fault(codes.BAD_ENDPOINT, offer.owner, offer.span, offer.explicit, refused, usual, **facts)
+        elif offer.number > LAST_PORT:
+            hint = "begin with a lower port, or use fewer instances"
+            yield codes.PORT_TOO_HIGH.at(offer.span, name=offer.owner.name, port=offer.number, hint=hint)
 
 
 def length_faults(linked: LinkedDeployment, drafts: Drafts, network: Network) -> Iterator[Diagnostic]:
@@ -139,7 +123,7 @@ def length_faults(linked: LinkedDeployment, drafts: Drafts, network: Network) ->
             yield _too_long("host", host.name, host.name, host.span)
     for process in network.processes.values():
         for name in (process.name, *process.aliases):
-            unit = f"{deployment.name}-{name}.service"  # the longest of its files
+            unit = f"{deployment.name}-{name}.service"  # the longest name of its files
             if is_too_long(unit):
                 yield _too_long("entry", name, unit, process.span)
     for draft in drafts.drafts.values():
@@ -164,8 +148,8 @@ def _too_long(what: str, name: str, file: str, span: Span) -> Diagnostic:
 def _paths(draft: Draft, process: Process) -> Iterator[Diagnostic]:
     entry = draft.instance.entry
     program = entry.target if entry.kind == PROGRAM else entry.executable
-    given: list[tuple[Text | None, str]] = [(program, process.command[0]), (entry.cwd, process.cwd)]
-    for text, path in given:
+    paths: list[tuple[Text | None, str]] = [(program, process.command[0]), (entry.cwd, process.cwd)]
+    for text, path in paths:
         fault = path_fault(path)
         if text is not None and fault:
             yield codes.PATH_TOO_LONG.at(text.span, path=shortened(text.text), problem=fault)

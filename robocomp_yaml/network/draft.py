@@ -1,28 +1,38 @@
-"""What a network is derived from step by step: each instance and each IceStorm, with what they serve and are given."""
+"""Drafts of processes, from which a network is derived step by step: each instance and each IceStorm on its host, with
+what it serves, its TCP ports, and what its configuration gets."""
 
 from __future__ import annotations
 
-import msgspec
+from collections.abc import Iterator
+from typing import Any
 
+import msgspec
+from msgspec.structs import replace
+
+from robocomp_yaml.diag.code import Code
+from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.link.deployments import LinkedInstance, LinkedStorm
+from robocomp_yaml.diag.suggest import did_you_mean
+from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance, LinkedStorm
 from robocomp_yaml.link.program import Port
-from robocomp_yaml.network.network import LOOPBACK, Endpoint, Host
-from robocomp_yaml.network.port_numbers import COMMON_BEHAVIOR
+from robocomp_yaml.model import deployment as model
+from robocomp_yaml.network.network import LOOPBACK, Endpoint, NetworkHost, is_loopback
+from robocomp_yaml.network.port_numbers import COMMON_BEHAVIOR, RESERVED, default_port, next_free
 from robocomp_yaml.source.ice_endpoint import IceEndpoint, parse_endpoint, spelled_host
-from robocomp_yaml.source.ice_options import BLANKS
+from robocomp_yaml.source.ice_options import BLANKS, InvalidIceText
 
 MANAGER, PUBLISH = "TopicManager", "Publish"
 STORM_INSTANCE = "IceStorm"
+STORM_PORT = 9999
+"""The port of a topic manager without a port of its own. In an include with a name, which can be included several
+times, a default port replaces it."""
+
+_ANY_TEXT = "for any other text to a program that does not use Ice, use `args:` or `env:`"
 
 
-def is_loopback(address: str) -> bool:
-    return address in (LOOPBACK, "::1", "ip6-localhost") or address.startswith("127.")
-
-
-def listening(host: Host, number: int) -> str:
-    """Where an adapter listens: on a machine that others reach, on all its interfaces. `localhost` may also mean ::1,
-    which a machine without IPv6 cannot listen on."""
+def listening(host: NetworkHost, number: int) -> str:
+    """The endpoint of an adapter: on a host that others reach, on all network interfaces. An endpoint never contains
+    `localhost`, which can mean ::1: a machine without IPv6 cannot listen on that."""
     if not is_loopback(host.address):
         return f"tcp -p {number}"
     address = "127.0.0.1" if host.address == LOOPBACK else host.address
@@ -30,9 +40,9 @@ def listening(host: Host, number: int) -> str:
 
 
 class Offer(msgspec.Struct, eq=False):
-    """An interface that a draft serves on the adapter `adapter`. `port` is the entry of the component's `implements`;
-    None where only a name is known: of a program's endpoint, and of CommonBehavior. `given` is the endpoint as the
-    document spells it; else `number` is its port, 0 as long as it has none."""
+    """An interface that a draft serves on the adapter `adapter`. `port` is the entry of the component's `implements`,
+    None for an endpoint of a program and for CommonBehavior, of which only the name is known. `explicit` is the
+    endpoint in the document; without one, `number` is its TCP port, 0 until it is assigned."""
 
     owner: Draft
     adapter: str
@@ -40,22 +50,22 @@ class Offer(msgspec.Struct, eq=False):
     span: Span
     port: Port | None = None
     number: int = 0
-    given: str = ""
+    explicit: str = ""
 
     @property
     def full_name(self) -> str:
-        """As `connect:` may name it."""
+        """As `connect:` can name it."""
         return f"{self.owner.name}.{self.adapter}"
 
     @property
     def endpoint(self) -> IceEndpoint | None:
-        """None where the document's spelling is none."""
-        return parse_endpoint(self.given) if self.given else IceEndpoint(self.number)
+        """None if the endpoint in the document is not valid."""
+        return parse_endpoint(self.explicit) if self.explicit else IceEndpoint(self.number)
 
     @property
     def text(self) -> str:
         """The value of the adapter's property."""
-        return self.given.strip(BLANKS) or listening(self.owner.host, self.number)
+        return self.explicit.strip(BLANKS) or listening(self.owner.host, self.number)
 
     @property
     def proxy(self) -> str:
@@ -64,34 +74,36 @@ class Offer(msgspec.Struct, eq=False):
         return f"{self.interface.lower()}:{endpoint.reached_at(self.owner.host.address)}"
 
     def resolved(self) -> Endpoint:
-        found = self.endpoint or IceEndpoint(0)
+        endpoint = self.endpoint or IceEndpoint(0)
         module = self.port.scope.module.name if self.port else ""
         if self.port is None and self.interface == COMMON_BEHAVIOR:
             module = f"RoboComp{COMMON_BEHAVIOR}"
-        return Endpoint(self.adapter, self.interface.lower(), found.port, self.text, found.protocol, module, self.span)
+        return Endpoint(
+            self.adapter, self.interface.lower(), endpoint.port, self.text, endpoint.protocol, module, self.span
+        )
 
 
-class Given(msgspec.Struct, frozen=True):
-    """A text that a configuration gets, and the place in the deployment that it comes from."""
+class LocatedText(msgspec.Struct, frozen=True):
+    """A text for a configuration, and the location in the deployment that it comes from."""
 
     text: str
     span: Span
 
 
 class Draft(msgspec.Struct, eq=False):
-    """An instance on its way to become a process. `aliases` are the entries that are a second name of it. `hears` are
-    the adapters for events of topics that the document gives ports to; nobody else needs to know them. `proxies` by
-    proxy name, `topics` (full names by the port's name) and `manager` (the proxy of its IceStorm) are what its
-    configuration gets."""
+    """An instance that becomes a process. `aliases` are the entries that are second names of it. `subscribers` are the
+    adapters that receive events of topics, if the document sets their ports; no other process needs these. For its
+    configuration it has `proxies` (by the proxy's name), `topics` (full names by the port's name), and `manager` (the
+    proxy of its IceStorm)."""
 
     instance: LinkedInstance
-    host: Host
+    host: NetworkHost
     aliases: list[LinkedInstance] = []
     offers: list[Offer] = []
-    hears: list[Offer] = []
-    proxies: dict[str, Given] = {}
-    topics: dict[str, Given] = {}
-    manager: Given | None = None
+    subscribers: list[Offer] = []
+    proxies: dict[str, LocatedText] = {}
+    topics: dict[str, LocatedText] = {}
+    manager: LocatedText | None = None
 
     @property
     def name(self) -> str:
@@ -103,14 +115,14 @@ class Draft(msgspec.Struct, eq=False):
 
     @property
     def adapters(self) -> list[Offer]:
-        return [*self.offers, *self.hears]
+        return [*self.offers, *self.subscribers]
 
 
 class StormDraft(msgspec.Struct, eq=False):
-    """An IceStorm, with the ports of its topic manager and of its publishers."""
+    """An IceStorm, with the TCP ports of its topic manager and of its publishers."""
 
     linked: LinkedStorm
-    host: Host
+    host: NetworkHost
     manager: int = 0
     publish: int = 0
 
@@ -137,3 +149,154 @@ class StormDraft(msgspec.Struct, eq=False):
             span=storm.port_span if storm.port else storm.span,
         )
         return manager, Endpoint(PUBLISH, "", self.publish, listening(self.host, self.publish), span=storm.span)
+
+
+class Drafts(msgspec.Struct):
+    """Instances and IceStorms in the documents' order. `complete` is False if something could not be read: then what
+    is missing may be in it."""
+
+    linked: LinkedDeployment
+    hosts: dict[str, NetworkHost] = {}
+    drafts: dict[LinkedInstance, Draft] = {}
+    storms: dict[LinkedStorm, StormDraft] = {}
+    complete: bool = True
+
+    def of(self, instance: LinkedInstance) -> Draft | None:
+        """The draft of an instance's process, also for a second name. None if it has no draft."""
+        return self.drafts.get(instance.process or instance)
+
+
+def drafts_of(linked: LinkedDeployment) -> Drafts:
+    """Drafts of all processes of a deployment, still without ports and connections."""
+    result = Drafts(linked, {name: _host(host) for name, host in linked.hosts.items()})
+    result.complete = not (linked.broken or any(map(is_broken, linked.groups.values())))
+    for storm in linked.storms.values():
+        result.storms[storm] = StormDraft(storm, _placed(result.hosts, storm.host))
+        result.complete &= not storm.broken
+    for instance in linked.instances.values():
+        is_known = instance.component is not None or instance.entry.kind != model.COMPONENT
+        result.complete &= is_known and not instance.broken
+        if is_known and instance.entry.kind != model.PROCESS:
+            draft = result.drafts[instance] = Draft(instance, _placed(result.hosts, instance.host))
+            draft.offers, draft.subscribers = list(_offers(draft)), list(_subscribers(draft))
+            result.complete &= instance.component is None or not instance.component.broken
+    for instance in linked.instances.values():
+        owner = result.drafts.get(instance.process) if instance.process else None
+        if owner is not None:
+            owner.aliases.append(instance)
+            owner.offers += _endpoints(owner, instance)
+    return result
+
+
+def is_broken(group: LinkedGroup) -> bool:
+    """Whether an error in a group has been reported, so that what it serves is unknown."""
+    return group.broken or len(group.serves) < len(group.group.exposed)
+
+
+def _host(host: model.Host) -> NetworkHost:
+    return NetworkHost(host.name, host.address.text, host.user, host.address.span)
+
+
+def _placed(hosts: dict[str, NetworkHost], host: model.Host | None) -> NetworkHost:
+    if host is not None:
+        return hosts.setdefault(host.name, _host(host))
+    return hosts.setdefault(LOOPBACK, NetworkHost(LOOPBACK))
+
+
+def _offers(draft: Draft) -> Iterator[Offer]:
+    component = draft.instance.component
+    if component is None:
+        yield from _endpoints(draft, draft.instance)
+        return
+    endpoints = {pair.name: pair for pair in draft.instance.entry.endpoints}
+    served: list[tuple[str, str, Port | None]] = [(p.name, p.interface.name, p) for p in component.implements]
+    if all(port.name != COMMON_BEHAVIOR for port in component.implements):
+        served.append((COMMON_BEHAVIOR, COMMON_BEHAVIOR, None))
+    for name, interface, port in served:
+        pair = endpoints.get(name)
+        yield Offer(draft, name, interface, pair.span if pair else draft.span, port, explicit=pair.text if pair else "")
+
+
+def _subscribers(draft: Draft) -> Iterator[Offer]:
+    entry, component = draft.instance.entry, draft.instance.component
+    endpoints = {pair.name: pair for pair in entry.endpoints}
+    fixed = {number.name: number for number in entry.ports}
+    for port in component.subscribes if component else ():
+        where = endpoints.get(port.name) or fixed.get(port.name)
+        if where is not None:
+            text = endpoints[port.name].text if port.name in endpoints else ""
+            yield Offer(draft, f"{port.name}Topic", port.interface.name, where.span, port, explicit=text)
+
+
+def _endpoints(owner: Draft, instance: LinkedInstance) -> Iterator[Offer]:
+    """What a program serves by the `endpoints:` of an entry; a module can qualify the name."""
+    for pair in instance.entry.endpoints:
+        yield Offer(owner, pair.name, pair.name.rpartition(".")[2], pair.span, explicit=pair.text)
+
+
+def text_fault(
+    code: Code, draft: Draft, span: Span, written: str, refused: InvalidIceText, otherwise: str = "", **facts: Any
+) -> Diagnostic:
+    """What Ice would reject in a text of the document, with its location. `otherwise` is the hint without a suggestion.
+    The location in the text of an instance is unknown, because `{i}` in it has been replaced."""
+    where = span if draft.instance.number is not None else span.inside(written, refused.start, refused.end)
+    hint = did_you_mean(written[refused.start : refused.end], refused.meant, otherwise=otherwise)
+    if draft.instance.component is None:
+        hint = replace(hint, text=f"{hint}; {_ANY_TEXT}")
+    return code.at(where, problem=refused.problem, hint=hint, **facts)
+
+
+def assign_ports(drafts: Drafts) -> None:
+    """Assigns a TCP port to everything that is served. A port that the document does not set is a hash of the names of
+    the instance and the adapter. If two are equal on one host, the later name gets the next free port, so that ports
+    depend on names, not on the order of the document."""
+    taken: dict[str, set[int]] = {host.address: set(RESERVED) for host in drafts.hosts.values()}
+    for storm in drafts.storms.values():
+        storm.manager = storm.linked.storm.port or (0 if storm.linked.scope else STORM_PORT)
+        if storm.manager:
+            taken[storm.host.address].add(storm.manager)
+    for draft in drafts.drafts.values():
+        for offer in draft.adapters:
+            _fix(draft, offer)
+            if offer.endpoint is not None and (offer.explicit or offer.number):
+                taken[draft.host.address].add(offer.endpoint.port)
+    for name, served in sorted(_unassigned(drafts), key=lambda pair: pair[0]):
+        ports = taken[served.host.address if isinstance(served, StormDraft) else served.owner.host.address]
+        number = next_free(default_port(*name), ports)
+        ports.add(number)
+        if isinstance(served, Offer):
+            served.number = number
+        elif name[1] == MANAGER:
+            served.manager = number
+        else:
+            served.publish = number
+
+
+def _unassigned(drafts: Drafts) -> Iterator[tuple[tuple[str, str], Offer | StormDraft]]:
+    """Everything without a port, with the names from which its default is computed."""
+    for draft in drafts.drafts.values():
+        for offer in draft.offers:
+            if not offer.explicit and not offer.number:
+                yield (draft.name, offer.adapter), offer
+    for storm in drafts.storms.values():
+        yield (storm.name, f"{MANAGER}.{PUBLISH}"), storm
+        if not storm.manager:
+            yield (storm.name, MANAGER), storm
+
+
+def _fix(draft: Draft, offer: Offer) -> None:
+    """Sets the port that the document sets. `port:` is for the first interface; instances count all ports up."""
+    entry = draft.instance.entry
+    name = offer.adapter.removesuffix("Topic") if offer in draft.subscribers else offer.adapter
+    fixed = next((number for number in entry.ports if number.name == name), None)
+    if fixed is None and entry.port is not None and offer is draft.offers[0] and not offer.explicit:
+        fixed = entry.port
+    if fixed is not None:
+        offer.number = fixed.number + _step(draft.instance)
+        offer.span = fixed.span
+
+
+def _step(instance: LinkedInstance) -> int:
+    """The difference between the ports of an instance and those of the first instance."""
+    entry = instance.entry
+    return (instance.number or 0) * (len(entry.ports) + (1 if entry.port is not None else 0))

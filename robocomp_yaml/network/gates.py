@@ -1,7 +1,7 @@
-"""Gates: a process between a group and those outside, where `expose:` has a rate or an access rule.
+"""Gates. A gate is a process between a group and the processes outside, if `expose:` has a rate or an access rule.
 
-A gate is a small program of ours that passes calls on, whatever their interface; its configuration is the program
-itself, with the rules in it, so that it runs wherever there is Python with Ice.
+A gate is a small program of rcyaml that forwards calls of any interface. Its configuration is the program itself, with
+the rules in it, so that it runs on every host with Python and Ice.
 """
 
 from __future__ import annotations
@@ -14,25 +14,25 @@ from robocomp_yaml import resources
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.deployments import LinkedGroup, LinkedInstance, Served
 from robocomp_yaml.model import deployment as model
-from robocomp_yaml.network.draft import Draft, Given, Offer
-from robocomp_yaml.network.drafts import Drafts
+from robocomp_yaml.model.located import Text
+from robocomp_yaml.network.draft import Draft, Drafts, LocatedText, Offer
 from robocomp_yaml.network.network import Connection
-from robocomp_yaml.network.order import Need
+from robocomp_yaml.network.order import Dependence
 
 PROGRAM = "templates/gate/gate.py"
 _TABLE = "SERVED = ()\n"
 
 
 class Gates(msgspec.Struct):
-    """The gates of a network, by group. `found` and `needs` are theirs, as those of `Connections`."""
+    """The gates of a network, by group, with their `connections` and the dependences `needs`."""
 
     drafts: Drafts
-    found: list[Connection] = []
-    needs: list[Need] = []
+    connections: list[Connection] = []
+    needs: list[Dependence] = []
     _of: dict[LinkedGroup, Draft] = {}
 
-    def place(self) -> None:
-        """Adds a draft for each gate, on the host of the member that it leads to first."""
+    def add(self) -> None:
+        """Adds a draft for each gate, on the host of the first member that it forwards to."""
         for group in self.drafts.linked.groups.values():
             ruled = [(served, owner) for served in _ruled(group) if (owner := self.drafts.of(served.instance))]
             if not ruled:
@@ -41,27 +41,21 @@ class Gates(msgspec.Struct):
             name = f"{group.name}.gate"
             while name in self.drafts.linked.instances:
                 name += "_"
-            entry = model.Entry(
-                name,
-                model.PROGRAM,
-                model.Text("python3"),
-                config_as=model.Text(model.ARGUMENT),
-                enabled=any(owner.instance.entry.enabled for _, owner in ruled),
-                span=group.group.span,
-            )
-            instance = LinkedInstance(
-                name, entry, group.document, group.scope, folder=first.instance.folder, groups=(group,)
-            )
+            python, how, span = Text("python3"), Text(model.ARGUMENT), group.group.span
+            enabled = any(owner.instance.entry.enabled for _, owner in ruled)
+            entry = model.Entry(name, model.PROGRAM, python, config_as=how, enabled=enabled, span=span)
+            folder = first.instance.folder
+            instance = LinkedInstance(name, entry, group.document, group.scope, folder=folder, groups=(group,))
             draft = self._of[group] = self.drafts.drafts[instance] = Draft(instance, first.host)
             for served, owner in ruled:
                 interface = next((o.interface for o in owner.offers if o.adapter == served.adapter), served.name)
-                draft.offers.append(Offer(draft, served.name, interface, _place(served), served.port))
+                draft.offers.append(Offer(draft, served.name, interface, _span(served), served.port))
 
     def is_gate(self, draft: Draft) -> bool:
         return draft in self._of.values()
 
     def before(self, source: LinkedInstance, name: str) -> Iterator[Draft]:
-        """The gates of what `source`, which stands outside, calls a group, and of the groups inside of that."""
+        """The gates of the group `name`, and of the groups in it, that `source` outside the group has to pass."""
         if not self._of:
             return
         for group in self.drafts.linked.find(name, source.scope)[0]:
@@ -70,8 +64,8 @@ class Gates(msgspec.Struct):
                 yield from (gate for inner, gate in self._of.items() if set(inner.members) <= set(members))
 
     def through(self, offer: Offer, source: LinkedInstance, *, inside: LinkedGroup | None = None) -> Offer:
-        """What `source` is connected to in place of a member's offer: the outermost gate on the way. `inside` is a
-        group whose own gate asks."""
+        """What `source` is connected to instead of a member's offer: the outermost gate on the way. `inside` is the
+        group of a gate, for which the connection is."""
         if not self._of:
             return offer
         around = [group for group in self._outermost_first if group in offer.owner.instance.groups]
@@ -89,27 +83,21 @@ class Gates(msgspec.Struct):
 
     @property
     def _outermost_first(self) -> list[LinkedGroup]:
-        """Of groups that have the same members, and do not hold each other, the later one is taken to be the outer."""
+        """The groups, the outermost first. Of two groups with the same members, of which none contains the other, the
+        later one counts as the outer one."""
         return sorted(self.drafts.linked.groups.values(), key=lambda group: group.breadth)[::-1]
 
     def connect(self) -> None:
-        """Each gate to the members behind it, or to the gates of groups inside."""
+        """Connects each gate to the members behind it, or to the gates of inner groups."""
         for group, gate in self._of.items():
             for served, offer in self._behind(group):
                 if offer.endpoint is None:
                     continue
-                gate.proxies[served.name] = Given(offer.proxy, _place(served))
-                self.found.append(
-                    Connection(
-                        gate.name,
-                        served.name,
-                        offer.interface,
-                        offer.owner.name,
-                        proxy=offer.proxy,
-                        span=_place(served),
-                    )
-                )
-                self.needs.append(Need(gate.name, offer.owner.name, "", served.name, _place(served)))
+                target, proxy, span = offer.owner.name, offer.proxy, _span(served)
+                gate.proxies[served.name] = LocatedText(proxy, span)
+                connection = Connection(gate.name, served.name, offer.interface, target, proxy=proxy, span=span)
+                self.connections.append(connection)
+                self.needs.append(Dependence(gate.name, target, "", served.name, span))
 
     def _behind(self, group: LinkedGroup) -> Iterator[tuple[Served, Offer]]:
         for served in _ruled(group):
@@ -119,7 +107,7 @@ class Gates(msgspec.Struct):
                     yield served, self.through(offer, served.instance, inside=group)
 
     def program(self, draft: Draft) -> str:
-        """The text of a gate's program."""
+        """The text of the program of a gate."""
         group = next(group for group, gate in self._of.items() if gate is draft)
         rows = []
         for served in _ruled(group):
@@ -127,14 +115,8 @@ class Gates(msgspec.Struct):
             if offer is None or served.rule is None or served.name not in draft.proxies:
                 continue
             allowed = None if served.rule.allow is None else tuple(method.text for method in served.rule.allow)
-            row = (
-                served.name,
-                offer.interface.lower(),
-                offer.text,
-                draft.proxies[served.name].text,
-                served.rule.rate,
-                allowed,
-            )
+            proxy = draft.proxies[served.name].text
+            row = (served.name, offer.interface.lower(), offer.text, proxy, served.rule.rate, allowed)
             rows.append(f"    {row!r},\n")
         return resources.text(PROGRAM).replace(_TABLE, f"SERVED = (\n{''.join(rows)})\n")
 
@@ -143,5 +125,5 @@ def _ruled(group: LinkedGroup) -> list[Served]:
     return [served for served in group.serves if served.rule is not None]
 
 
-def _place(served: Served) -> Span:
+def _span(served: Served) -> Span:
     return served.rule.span if served.rule is not None else served.instance.entry.span

@@ -1,7 +1,7 @@
 """The network that a deployment describes: what runs where, with which command and configuration, and after what.
 
-Everything is resolved: instances are counted out, includes and groups expanded, ports given, connections found. What
-starts, shows or exports a network reads this and no document. Paths are absolute; times are seconds.
+Everything is resolved: instances, includes and groups are expanded, ports assigned, ports of components connected. What
+starts, shows or exports a network reads this, and no document. Paths are absolute; times are in seconds.
 """
 
 from __future__ import annotations
@@ -19,12 +19,16 @@ NEVER, ON_FAILURE, ALWAYS = "no", "on-failure", "always"
 PROXY, TOPIC = "proxy", "topic"
 LOOPBACK = "localhost"
 FOLDER = ".rcyaml/deployments"
-"""Where deployments have their own folders, beside their documents."""
+"""The folder, beside a deployment's document, that contains the deployment's own folder."""
 
 
-class Host(Located, frozen=True):
-    """A machine; `address` is a name or an IP address, LOOPBACK where the document names no hosts. `user` is for ssh,
-    '' for the caller's own."""
+def is_loopback(address: str) -> bool:
+    return address in (LOOPBACK, "::1", "ip6-localhost") or address.startswith("127.")
+
+
+class NetworkHost(Located, frozen=True):
+    """A machine. `address` is a name or an IP address, LOOPBACK if the document has no hosts. `user` is the user for
+    ssh, '' for the operator's own name."""
 
     name: str
     address: str = LOOPBACK
@@ -32,10 +36,10 @@ class Host(Located, frozen=True):
     span: Span = Span("")
 
 
-class Variable(msgspec.Struct, frozen=True):
-    """A variable of a process's environment: `value`, or that of the caller's variable `source`, or the text of `file`
-    on the process's host. Both are read when the process starts, and never written or printed. `file` is absolute, or
-    begins with `~/`, the home of whoever runs the process; one line end at its end does not count."""
+class EnvironmentVariable(msgspec.Struct, frozen=True):
+    """A variable of a process's environment: `value`, or the value of the operator's variable `source`, or the text of
+    `file` on the process's host. The latter two are read when the process starts, and never written or printed. `file`
+    is absolute, or begins with `~/`, the home of the user that runs the process. A line end at its end is ignored."""
 
     name: str
     value: str = ""
@@ -44,15 +48,16 @@ class Variable(msgspec.Struct, frozen=True):
 
     @property
     def shown(self) -> str:
-        """As a document says it."""
+        """As in a document; no value of `source` or `file` is shown."""
         if self.file:
             return f"{{file: {self.file}}}"
         return f"{{env: {self.source}}}" if self.source else self.value
 
 
 class Endpoint(Located, frozen=True):
-    """What a process serves: an interface at an address. `identity` is Ice's identity, '' for a plain port; `module`
-    is the interface's module, '' where it is not known. `text` is the adapter's own spelling: `tcp -p 10001`."""
+    """What a process serves: an interface at an address. `identity` is Ice's identity, '' for a plain TCP port.
+    `module` is the interface's module, '' if it is unknown. `text` is the value of the adapter's property:
+    `tcp -p 10001`."""
 
     interface: str
     identity: str
@@ -64,9 +69,9 @@ class Endpoint(Located, frozen=True):
 
 
 class Readiness(msgspec.Struct, frozen=True):
-    """What must hold before those that depend on a process start: every proxy of `pings` answers, or something listens
-    on `port`, or `command` exits with 0, or a line of output matches the regular expression `log`. With none of these
-    a process is ready once it runs. `within` are seconds."""
+    """When a process is ready: every proxy of `pings` answers, or something listens on `port`, or `command` exits with
+    0, or a line of its output matches the regular expression `log`. Without a condition, a process is ready when it
+    runs. `within` is the limit in seconds."""
 
     within: float = 10.0
     pings: tuple[str, ...] = ()
@@ -74,10 +79,15 @@ class Readiness(msgspec.Struct, frozen=True):
     command: tuple[str, ...] = ()
     log: str = ""
 
+    @property
+    def has_condition(self) -> bool:
+        return bool(self.pings or self.port or self.command or self.log)
 
-class Restart(msgspec.Struct, frozen=True):
-    """What happens when a process ends by itself: `policy` is NEVER, ON_FAILURE or ALWAYS. Restarts wait `delay`
-    seconds, twice as long each time up to `longest`, and stop after `tries` within `window` seconds."""
+
+class RestartRule(msgspec.Struct, frozen=True):
+    """What happens when a process ends by itself. `policy` is NEVER, ON_FAILURE or ALWAYS. The first restart waits
+    `delay` seconds, each further one twice as long, at most `longest`. After `tries` restarts within `window` seconds
+    the process is given up."""
 
     policy: str = ON_FAILURE
     delay: float = 0.1
@@ -87,9 +97,8 @@ class Restart(msgspec.Struct, frozen=True):
 
 
 class ConfigFile(msgspec.Struct, frozen=True):
-    """A file written for one process in the deployment's own folder, below `config/`; `path` is relative to that
-    folder. It may hold what nobody else should read: its mode is 0600. `secrets` are the properties in it that are not
-    to be shown."""
+    """The configuration of one process. `path` is relative to the deployment's own folder, and below `config/`. The
+    file may contain secrets: its mode is 0600. `secrets` are the names of its secret properties."""
 
     path: str
     text: str
@@ -97,12 +106,13 @@ class ConfigFile(msgspec.Struct, frozen=True):
 
 
 class Process(Located, frozen=True, forbid_unknown_fields=True):
-    """One process of the network. `command` is the program and its arguments (no shell ever sees them), its first an
-    absolute path, or a bare name that PATH finds; the placeholder CONFIG in an argument stands for the absolute path
-    of `config`. `after` are the processes that must be ready before; where one of these that is `optional` fails, this
-    one starts all the same. `aliases` are further names of the same process. `watched` are the files whose change is a
-    reason to restart it (its executable, code and configuration). `is_ice` is False for a program that knows nothing of
-    Ice. `folders` are to be there before it starts.
+    """One process of the network.
+
+    `command` is the program and its arguments, without a shell. The program is an absolute path, or a bare name that is
+    resolved in PATH. CONFIG in an argument is replaced by the absolute path of `config`. `after` are the processes that
+    must be ready before this one starts; if one of them fails that is also in `optional`, this one starts anyway.
+    `aliases` are further names of the process. When one of the `watched` files changes (executable, code), the process
+    is restarted. `is_ice` is False for a program that does not use Ice. `folders` must exist before it starts.
     """
 
     name: str
@@ -110,13 +120,13 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
     command: tuple[str, ...]
     cwd: str
     kind: str = COMPONENT
-    env: tuple[Variable, ...] = ()
+    env: tuple[EnvironmentVariable, ...] = ()
     config: ConfigFile | None = None
     endpoints: tuple[Endpoint, ...] = ()
     after: tuple[str, ...] = ()
     optional: tuple[str, ...] = ()
     ready: Readiness = Readiness()
-    restart: Restart = Restart()
+    restart: RestartRule = RestartRule()
     watched: tuple[str, ...] = ()
     folders: tuple[str, ...] = ()
     aliases: tuple[str, ...] = ()
@@ -124,25 +134,25 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
     enabled: bool = True
     is_ice: bool = True
     secrets: tuple[str, ...] = ()
-    """Names that stand for secrets in its arguments, beside those that say so themselves."""
+    """Names of secret arguments, in addition to names that suggest a secret."""
     component: str = ""
-    """The component's name in its CDSL, '' for other programs."""
+    """The component's name in its CDSL document, '' for other programs."""
     build: str = ""
-    """What brings about a component's executable where there is none: a hint, as its user would type it from here."""
+    """How to build a component whose executable is missing: a hint with commands, relative to the working folder."""
     extra: tuple[tuple[str, object], ...] = ()
-    """What only an exporter needs: the entries of `x-rcmanager`; below `aliases`, those of its other names."""
+    """What only exports need: the entries of `x-rcmanager`; those of its aliases are below `aliases`."""
     span: Span = Span("")
 
     def words(self, config: str) -> tuple[str, ...]:
-        """The program and its arguments; `config` is where its configuration will be."""
+        """The program and its arguments, with the path of its configuration, `config`."""
         program, *arguments = self.command
         return program, *(word.replace(CONFIG, config) for word in arguments)
 
 
 class Connection(Located, frozen=True):
-    """A line of the graph: the process `source` uses the interface that `target` serves, through its proxy `port`
-    (`kind` PROXY); or it publishes (`is_out`) or is subscribed to the topic `topic` by `port`, and `target` is the
-    IceStorm that carries it (TOPIC). `target` is '' for something outside, which `proxy` names."""
+    """A line of the graph. With the `kind` PROXY, the process `source` uses the interface that `target` serves, through
+    its proxy `port`. With TOPIC, it publishes (`is_out`) or subscribes to `topic` by `port`, and `target` is the
+    IceStorm that carries the topic. `target` is '' for an external server, which `proxy` names."""
 
     source: str
     port: str
@@ -156,19 +166,19 @@ class Connection(Located, frozen=True):
 
 
 class Network(msgspec.Struct):
-    """A deployment's processes by name, in the document's order. `path` is its document; `folder` is the deployment's
-    own folder, where all that is derived, logged and remembered of it lies. `order` are the enabled processes in
-    waves: each process stands in the first wave behind all that it is `after`."""
+    """A deployment's processes by name, in the document's order. `path` is its document. `folder` is the deployment's
+    own folder, with its configurations, logs and state. `order` are the enabled processes in waves: each process is in
+    the first wave after the waves of all that it is `after`."""
 
     name: str
     path: str
     folder: str
-    hosts: dict[str, Host] = {}
+    hosts: dict[str, NetworkHost] = {}
     processes: dict[str, Process] = {}
     connections: list[Connection] = []
     order: list[tuple[str, ...]] = []
     extra: tuple[tuple[str, object], ...] = ()
-    """What only an exporter needs of the document as such: the entries of its `x-rcmanager`."""
+    """What only exports need of the document: the entries of its `x-rcmanager`."""
 
     def enabled(self) -> Iterator[Process]:
         return (process for process in self.processes.values() if process.enabled)
@@ -178,13 +188,18 @@ class Network(msgspec.Struct):
         return len({process.host for process in self.enabled()}) > 1
 
     def config_path(self, process: Process) -> str:
-        """The absolute path of a process's configuration; '' without one."""
+        """The absolute path of a process's configuration, '' if it has none."""
         return f"{self.folder}/{process.config.path}" if process.config else ""
+
+    def span_of(self, name: str) -> Span:
+        """The location of the process of that name; the document if it has none."""
+        process = self.processes.get(name)
+        return process.span if process and process.span.file else Span(self.path)
 
     def address(self, process: Process) -> str:
         return self.hosts[process.host].address
 
     def find(self, name: str) -> Process | None:
-        """The process of that name or alias."""
-        found = self.processes.get(name)
-        return found or next((process for process in self.processes.values() if name in process.aliases), None)
+        """The process of that name or alias, None if it is unknown."""
+        aliased = (process for process in self.processes.values() if name in process.aliases)
+        return self.processes.get(name) or next(aliased, None)

@@ -1,4 +1,4 @@
-"""The networks of a program: each deployment's, derived."""
+"""The networks of all deployments of a program."""
 
 from __future__ import annotations
 
@@ -14,26 +14,26 @@ if TYPE_CHECKING:
     from robocomp_yaml.network.network import Network
 
 
-class Derived(msgspec.Struct, frozen=True):
-    """Every deployment's network by its real path, and what is wrong with each. `judged` are those to be checked: a
-    document that another one includes is judged as part of that one."""
+class DerivedNetworks(msgspec.Struct, frozen=True):
+    """Every deployment's network by its real path, and the diagnostics of all. `judged` are the deployments to check:
+    one that another deployment includes is checked as a part of the other."""
 
     networks: Mapping[str, Network] = {}
     diagnostics: tuple[Diagnostic, ...] = ()
     judged: tuple[str, ...] = ()
 
 
-def networks_of(program: Program) -> Derived:
+def networks_of(program: Program) -> DerivedNetworks:
     if not program.deployments:  # most programs have none
-        return Derived()
+        return DerivedNetworks()
     from robocomp_yaml.network.derive import derive
 
     networks: dict[str, Network] = {}
-    said: list[Diagnostic] = []
+    diagnostics: list[Diagnostic] = []
     judged: list[str] = []
     for real, linked in sorted(program.deployments.items(), key=lambda item: item[1].deployment.path):
-        networks[real], found = derive(linked, program)
+        networks[real], reported = derive(linked, program)
         if not linked.is_included:
-            said += found
+            diagnostics += reported
             judged.append(real)
-    return Derived(networks, tuple(said), tuple(judged))
+    return DerivedNetworks(networks, tuple(diagnostics), tuple(judged))

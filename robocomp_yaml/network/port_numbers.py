@@ -1,6 +1,6 @@
-"""Default ports: a hash of two names, and what moves on when two of them meet.
+"""Default TCP ports: a hash of two names, or the next free port if another process has it.
 
-The range 10000–29999 lies above IceStorm's usual 9999 and RoboComp's habits, and below the ports that Linux hands out
+The range 10000–29999 is above IceStorm's usual 9999 and RoboComp's usual ports, and below the ports that Linux assigns
 by itself (32768 and up).
 """
 
@@ -12,15 +12,16 @@ FIRST, COUNT = 10000, 20000
 COMMON_BEHAVIOR = "CommonBehavior"
 
 RESERVED = frozenset((11311, 11345))
-"""The masters of ROS 1 and Gazebo, which often run beside."""
+"""The ports of the masters of ROS 1 and Gazebo, which often run on the same machine."""
 
 
 def default_port(owner: str, interface: str) -> int:
-    """`owner` is a component's name, or that of its instance in a deployment."""
+    """A port by two names. `owner` is the name of a component, or of its instance in a deployment."""
     return FIRST + zlib.crc32(f"{owner}/{interface}".encode()) % COUNT
 
 
 def next_free(port: int, taken: set[int]) -> int:
+    """This port, or the first after it that is not taken; the port after the last is the first."""
     while port in taken:
         port = FIRST + (port + 1 - FIRST) % COUNT
     return port

@@ -1,4 +1,4 @@
-"""A draft as the process that it comes to: command, folder, environment, readiness, restarts."""
+"""From a draft to its process: command, folder, environment, readiness, restarts."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.link.workspace import named_from_here
+from robocomp_yaml.link.workspace import component_argument
 from robocomp_yaml.model import deployment as model
 from robocomp_yaml.model.deployment import CONFIG
 from robocomp_yaml.network.draft import MANAGER, PUBLISH, STORM_INSTANCE, Draft, StormDraft
@@ -16,21 +16,22 @@ from robocomp_yaml.network.network import (
     ICESTORM,
     PROGRAM,
     ConfigFile,
+    EnvironmentVariable,
     Process,
     Readiness,
-    Restart,
-    Variable,
+    RestartRule,
 )
-from robocomp_yaml.parameters.hidden import declared
+from robocomp_yaml.parameters.hidden import secret_names
 from robocomp_yaml.source.properties import entry_line
 
-_DEFAULTS = Restart()
+_DEFAULTS = RestartRule()
 
 
 def of_draft(
     draft: Draft, text: str | None, known: dict[str, tuple[str, ...]], secrets: tuple[str, ...] = ()
 ) -> Process:
-    """`text` is its configuration, with `secrets`; `known` remembers the code of each component's folder."""
+    """The process of a draft. `text` is its configuration, with the names of the `secrets` in it. `known` caches the
+    code of each component's folder."""
     instance, entry = draft.instance, draft.instance.entry
     component = instance.component
     program = program_of(draft)
@@ -38,7 +39,8 @@ def of_draft(
     if component is not None and entry.cwd is not None:
         folder = os.path.abspath(os.path.join(os.path.dirname(instance.document.path), entry.cwd.text))
     command = tuple(_command(draft, program))
-    is_told = any(CONFIG in part for part in command[1:])
+    reads_config = any(CONFIG in part for part in command[1:])
+    of_aliases = {alias.name: dict(alias.entry.extra) for alias in draft.aliases if alias.entry.extra}
     return Process(
         draft.name,
         draft.host.name,
@@ -46,7 +48,7 @@ def of_draft(
         folder,
         PROGRAM if component is None else COMPONENT,
         env=tuple(_variable(one, instance.document.path) for one in entry.env),
-        config=ConfigFile(f"config/{draft.name}", text, secrets) if text is not None and is_told else None,
+        config=ConfigFile(f"config/{draft.name}", text, secrets) if text is not None and reads_config else None,
         endpoints=tuple(adapter.resolved() for adapter in draft.adapters),
         ready=_ready(draft),
         restart=_restart(entry.restart),
@@ -55,29 +57,23 @@ def of_draft(
         groups=tuple(group.name for group in instance.groups),
         enabled=entry.enabled,
         is_ice=component is not None or bool(draft.offers or entry.config_as or entry.connect),
-        secrets=tuple(sorted(set(declared(component.parameters.parameters.root)))) if component is not None else (),
+        secrets=tuple(sorted(set(secret_names(component.parameters.parameters.root)))) if component is not None else (),
         component=component.component.name if component is not None else "",
         build=_build(draft),
-        extra=(*entry.extra, *_of_aliases(draft)),
+        extra=(*entry.extra, ("aliases", of_aliases)) if of_aliases else entry.extra,
         span=entry.span,
     )
 
 
-def _variable(given: model.Variable, document: str) -> Variable:
+def _variable(given: model.Variable, document: str) -> EnvironmentVariable:
     file = given.file
     if file and not file.startswith("~/"):
         file = os.path.abspath(os.path.join(os.path.dirname(document), file))
-    return Variable(given.name, given.value, given.source, file)
-
-
-def _of_aliases(draft: Draft) -> Iterator[tuple[str, object]]:
-    given = {alias.name: dict(alias.entry.extra) for alias in draft.aliases if alias.entry.extra}
-    if given:
-        yield "aliases", given
+    return EnvironmentVariable(given.name, given.value, given.source, file)
 
 
 def program_of(draft: Draft) -> str:
-    """The absolute path of what is started; a bare name is found by PATH."""
+    """The absolute path of the program, or a bare name, which is resolved in PATH."""
     instance, entry = draft.instance, draft.instance.entry
     component = instance.component
     if component is None:
@@ -97,7 +93,7 @@ def _build(draft: Draft) -> str:
     compile_ = f"`{typed('rcyaml', 'compile', path)}`"
     if not component.component.language.target.build:
         return f"{compile_} writes it"
-    name = named_from_here(component.component.name, path)
+    name = component_argument(component.component.name, path)
     return f"{compile_}, then `{typed('rcyaml', 'build', name)}`"
 
 
@@ -106,12 +102,12 @@ def _program(component: LinkedComponent) -> str:
 
 
 def _command(draft: Draft, program: str) -> Iterator[str]:
-    """The path of the configuration is the first argument, or stands as `config-as:` or an argument says; a program
-    that has none gets none."""
+    """The program and its arguments. The path of the configuration is the first argument, unless `config-as:` or an
+    argument has it elsewhere; a program without a configuration gets none."""
     entry = draft.instance.entry
     has_one = draft.instance.component is not None or entry.config is not None
-    stands = any(CONFIG in argument.text for argument in entry.args)
-    how = entry.config_as.text if entry.config_as else model.ARGUMENT if has_one and not stands else ""
+    in_arguments = any(CONFIG in argument.text for argument in entry.args)
+    how = entry.config_as.text if entry.config_as else model.ARGUMENT if has_one and not in_arguments else ""
     yield program
     if how == model.ARGUMENT:
         yield CONFIG
@@ -121,7 +117,8 @@ def _command(draft: Draft, program: str) -> Iterator[str]:
 
 
 def _ready(draft: Draft) -> Readiness:
-    """What it serves answers a ping; of a program, of which nobody knows whether it does, the port is open."""
+    """By default, everything that a component serves answers a ping. A program may not use Ice, so that only its first
+    TCP port must be open."""
     given = draft.instance.entry.ready
     within = given.within if given and given.within is not None else Readiness().within
     if given and (given.port is not None or given.command or given.log):
@@ -132,11 +129,11 @@ def _ready(draft: Draft) -> Readiness:
     return Readiness(within, port=ports[0] if ports else None)
 
 
-def _restart(given: model.Restart | None) -> Restart:
+def _restart(given: model.Restart | None) -> RestartRule:
     if given is None:
         return _DEFAULTS
     delay = _DEFAULTS.delay if given.delay is None else given.delay
-    return Restart(
+    return RestartRule(
         given.policy,
         delay,
         max(delay, _DEFAULTS.longest),
@@ -146,25 +143,25 @@ def _restart(given: model.Restart | None) -> Restart:
 
 
 def _code(folder: str, component: LinkedComponent | None, known: dict[str, tuple[str, ...]]) -> tuple[str, ...]:
-    """The files that a component reads when it starts."""
+    """The files of code that a component loads when it starts."""
     loaded = component.component.language.target.loaded if component is not None else {}
     if not loaded:
         return ()
     if folder not in known:
-        known[folder] = tuple(
-            sorted(
-                os.path.abspath(os.path.join(where, name))
-                for below, endings in loaded.items()
-                for where, _, names in os.walk(os.path.join(folder, below))
-                for name in names
-                if name.endswith(endings)
-            )
+        files = (
+            os.path.abspath(os.path.join(where, name))
+            for below, endings in loaded.items()
+            for where, _, names in os.walk(os.path.join(folder, below))
+            for name in names
+            if name.endswith(endings)
         )
+        known[folder] = tuple(sorted(files))
     return known[folder]
 
 
 def of_storm(storm: StormDraft, folder: str, *, enabled: bool) -> Process:
-    """IceStorm in icebox, with its database in the deployment's own folder; not `enabled` where nobody needs it."""
+    """The process of an IceStorm, in icebox, with its database in the deployment's own folder. It is not `enabled` if
+    no enabled process needs it."""
     database = f"{folder}/state/{storm.name}"
     manager, publish = storm.endpoints()
     settings = {
@@ -181,8 +178,8 @@ def of_storm(storm: StormDraft, folder: str, *, enabled: bool) -> Process:
         storm.name,
         storm.host.name,
         ("icebox", f"--Ice.Config={CONFIG}"),
-        "/",
-        ICESTORM,  # its paths are absolute
+        "/",  # its paths are absolute
+        ICESTORM,
         config=ConfigFile(f"config/{storm.name}", text),
         endpoints=(manager, publish),
         ready=Readiness(pings=(storm.proxy,)),

@@ -1,8 +1,9 @@
-"""The full names of topics: what an include both publishes and subscribes to is its own, and is called after it.
+"""The full names of topics. A topic that an include both publishes and subscribes to belongs to the include, and its
+full name begins with the include's name.
 
-Each end calls its topic by a name that is looked up from the scope that it stands in, outwards: the first scope in
-which somebody else is at the other end keeps the topic. What has no other end in an include meets what is around it. An
-end may also name a topic of an include in its scope (`left/State`), or one of no include (`/State`).
+An end of a topic is a publisher or a subscriber. Its name for the topic is looked up from its own scope outwards: the
+topic belongs to the first scope in which another process is at the other end. An end may also name a topic of an
+include in its scope (`left/State`), or a topic outside all includes (`/State`).
 """
 
 from __future__ import annotations
@@ -14,7 +15,8 @@ from msgspec.structs import replace
 
 
 class NamedEnd(msgspec.Struct, frozen=True):
-    """An end of a topic: `name` is how its document calls it, in `scope` ('' or `arm.hand.`)."""
+    """An end of a topic. `name` is the topic's name in its document, `scope` the scope of the end ('' or `arm.hand.`).
+    `is_out` is True for a publisher."""
 
     owner: str
     scope: str
@@ -22,9 +24,9 @@ class NamedEnd(msgspec.Struct, frozen=True):
     is_out: bool
 
 
-class _Visit(msgspec.Struct, frozen=True):
-    """An end that looks for others in `scope` by `name`. Where it finds none in a scope that its own name led it to, it
-    goes back to `home`, where it is called `spelled`, and from there outwards."""
+class _Lookup(msgspec.Struct, frozen=True):
+    """The lookup of an end in `scope` under `name`. If a scope to which its own name leads has no other end, the lookup
+    returns to `home`, where the name is `spelled`, and continues outwards."""
 
     index: int
     scope: str
@@ -34,9 +36,9 @@ class _Visit(msgspec.Struct, frozen=True):
 
 
 def full_names(ends: Sequence[NamedEnd], scopes: Collection[str], outermost: str = "") -> list[str]:
-    """The name of each end's topic in its IceStorm, which serves the scope `outermost` and those inside."""
+    """The name of each end's topic in its IceStorm, which serves the scope `outermost` and all scopes in it."""
     names = [""] * len(ends)
-    waiting: dict[tuple[str, str], list[_Visit]] = {}
+    waiting: dict[tuple[str, str], list[_Lookup]] = {}
     for index, end in enumerate(ends):
         visit = _first(index, end, scopes, outermost)
         waiting.setdefault((visit.scope, visit.name), []).append(visit)
@@ -54,8 +56,8 @@ def full_names(ends: Sequence[NamedEnd], scopes: Collection[str], outermost: str
     return names
 
 
-def _first(index: int, end: NamedEnd, scopes: Collection[str], outermost: str) -> _Visit:
-    """Where a name leads: into an include that it begins with, or out of all of them."""
+def _first(index: int, end: NamedEnd, scopes: Collection[str], outermost: str) -> _Lookup:
+    """The scope in which the lookup of a name begins: an include that the name begins with, or outside all includes."""
     outside = end.name.lstrip("/")
     is_absolute = outside not in ("", end.name)
     home, spelled = (outermost, outside) if is_absolute else (end.scope, end.name)
@@ -63,11 +65,11 @@ def _first(index: int, end: NamedEnd, scopes: Collection[str], outermost: str) -
     while True:
         first, slash, rest = name.partition("/")
         if not (slash and rest and f"{scope}{first}." in scopes):
-            return _Visit(index, scope, name, home, spelled)
+            return _Lookup(index, scope, name, home, spelled)
         scope, name = f"{scope}{first}.", rest
 
 
-def _following(visit: _Visit) -> _Visit:
+def _following(visit: _Lookup) -> _Lookup:
     if len(visit.scope) > len(visit.home):
         return replace(visit, scope=visit.home, name=visit.spelled)
     outer = visit.scope[: visit.scope.rstrip(".").rfind(".") + 1]
@@ -75,9 +77,10 @@ def _following(visit: _Visit) -> _Visit:
 
 
 def _is_closed(ends: Iterable[NamedEnd]) -> bool:
-    """Whether one publishes what another one hears; what talks to its like only wants company from outside."""
+    """Whether one process publishes what another one subscribes to. Only publishers, or only subscribers, look for the
+    other end outside."""
     out: set[str] = set()
-    heard: set[str] = set()
+    subscribed: set[str] = set()
     for end in ends:
-        (out if end.is_out else heard).add(end.owner)
-    return bool(out and heard) and len(out | heard) > 1
+        (out if end.is_out else subscribed).add(end.owner)
+    return bool(out and subscribed) and len(out | subscribed) > 1

@@ -1,4 +1,4 @@
-"""Topics: their names after renames and prefixes, the IceStorm that carries each, and who is at the other end."""
+"""Topics: their names after renames and prefixes, the IceStorm that carries each, and who publishes and subscribes."""
 
 from __future__ import annotations
 
@@ -11,20 +11,19 @@ from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.deployments import LinkedStorm
 from robocomp_yaml.link.program import Port
-from robocomp_yaml.network.base import Base
-from robocomp_yaml.network.contents import Contents
-from robocomp_yaml.network.draft import Draft, Given, StormDraft
-from robocomp_yaml.network.drafts import Drafts
+from robocomp_yaml.network.configuration_base import ConfigurationBase
+from robocomp_yaml.network.draft import Draft, Drafts, LocatedText, StormDraft
+from robocomp_yaml.network.interface_comparison import InterfaceComparison
 from robocomp_yaml.network.network import TOPIC, Connection
-from robocomp_yaml.network.order import Need
+from robocomp_yaml.network.order import Dependence
 from robocomp_yaml.network.topic_names import NamedEnd, full_names
 
 _MANY = 6
 
 
-class _End(msgspec.Struct, frozen=True):
-    """A port at one end of the topic that its document calls `name`; `storm` is None, and `manager` given, where the
-    IceStorm is none of ours."""
+class _TopicEnd(msgspec.Struct, frozen=True):
+    """A port that publishes or subscribes to a topic, which its document calls `name`. For an external IceStorm,
+    `storm` is None, and `manager` is the proxy of its topic manager."""
 
     draft: Draft
     port: Port
@@ -39,29 +38,29 @@ class _End(msgspec.Struct, frozen=True):
         return NamedEnd(self.draft.name, self.draft.instance.scope, self.name, self.is_out)
 
 
-class Topics(msgspec.Struct):
-    """As `Connections`: `found` are the lines of the graph, `needs` says who waits for whom."""
+class TopicConnections(msgspec.Struct):
+    """Connects publishers and subscribers. `connections` are the connections, `needs` the dependences that follow."""
 
     drafts: Drafts
-    contents: Contents
-    base_of: Callable[[Draft], Base]
-    found: list[Connection] = []
-    needs: list[Need] = []
+    comparison: InterfaceComparison
+    base_of: Callable[[Draft], ConfigurationBase]
+    connections: list[Connection] = []
+    needs: list[Dependence] = []
     diagnostics: list[Diagnostic] = []
-    _ends: dict[tuple[str, str], list[_End]] = {}
+    _ends: dict[tuple[str, str], list[_TopicEnd]] = {}
     _several: list[list[LinkedStorm]] = []
     _without: list[Draft] = []
 
     def resolve(self) -> None:
-        every: list[_End] = []
+        every: list[_TopicEnd] = []
         for draft in self.drafts.drafts.values():
             component = draft.instance.component
             if component is None or not (component.publishes or component.subscribes):
                 continue
             storm, manager = self._storm(draft)
             if storm is not None:
-                draft.manager = Given(storm.proxy, draft.span)
-                self.needs.append(Need(draft.name, storm.name, "", "TopicManager", draft.span))
+                draft.manager = LocatedText(storm.proxy, draft.span)
+                self.needs.append(Dependence(draft.name, storm.name, "", "TopicManager", draft.span))
             elif not manager:
                 continue
             every += [self._end(draft, port, storm, manager, is_out=True) for port in component.publishes]
@@ -74,31 +73,26 @@ class Topics(msgspec.Struct):
             self.diagnostics.append(self._no_storm())
 
     def _storm(self, draft: Draft) -> tuple[StormDraft | None, str]:
-        """The IceStorm of the deployment, else the proxy of one outside that the configuration names."""
+        """The IceStorm of the deployment, else the proxy of an external one, which the configuration names."""
         near = self.drafts.linked.storms_for(draft.instance)
         nearest = [storm for storm in near if storm.scope == near[0].scope]
-        here = [storm for storm in nearest if self.drafts.storms[storm].host is draft.host]
-        chosen = nearest if len(nearest) == 1 else here
+        of_host = [storm for storm in nearest if self.drafts.storms[storm].host is draft.host]
+        chosen = nearest if len(nearest) == 1 else of_host
         if len(chosen) == 1:
             return self.drafts.storms[chosen[0]], ""
         manager = self.base_of(draft).manager
         if nearest and nearest not in self._several:
             self._several.append(nearest)
-            self.diagnostics.append(
-                codes.TWO_STORMS.at(
-                    draft.span,
-                    source=draft.name,
-                    storms=", ".join(storm.name for storm in nearest),
-                    hint="leave one of them: it serves all hosts",
-                    related=[Related(f"'{storm.name}'", storm.storm.span) for storm in nearest],
-                )
-            )
+            hint, storms = "keep only one of them: it serves all hosts", ", ".join(storm.name for storm in nearest)
+            related = [Related(f"'{storm.name}'", storm.storm.span) for storm in nearest]
+            several = codes.SEVERAL_STORMS.at(draft.span, hint=hint, related=related, source=draft.name, storms=storms)
+            self.diagnostics.append(several)
         elif not nearest and not manager and not self.drafts.linked.is_included and self.drafts.complete:
             self._without.append(draft)
         return None, manager
 
     def _no_storm(self) -> Diagnostic:
-        """One for all: they lack the same."""
+        """One diagnostic for all components without an IceStorm."""
         first, *others = self._without
         component = first.instance.component
         assert component is not None
@@ -109,20 +103,19 @@ class Topics(msgspec.Struct):
             does="publishes" if port in component.publishes else "subscribes to",
             topic=port.name,
             hint="add an IceStorm: `services: {storm: {icestorm: {}}}`" + _too(others),
-            related=[Related(f"{port.name} stands here", port.use.span)],
+            related=[Related(f"{port.name} is here", port.use.span)],
         )
 
-    def _end(self, draft: Draft, port: Port, storm: StormDraft | None, manager: str, *, is_out: bool) -> _End:
-        rename = next((pair for pair in draft.instance.entry.topics if pair.name == port.name), None)
-        if rename is not None:
-            draft.topics[port.name] = Given(rename.text, rename.span)
-            return _End(draft, port, is_out, rename.text, rename.span, storm, manager)
+    def _end(self, draft: Draft, port: Port, storm: StormDraft | None, manager: str, *, is_out: bool) -> _TopicEnd:
+        for rename in (pair for pair in draft.instance.entry.topics if pair.name == port.name):
+            draft.topics[port.name] = LocatedText(rename.text, rename.span)
+            return _TopicEnd(draft, port, is_out, rename.text, rename.span, storm, manager)
         name = self.base_of(draft).topic(port.name, port.interface.name, is_out=is_out)
-        return _End(draft, port, is_out, name, draft.span, storm, manager)
+        return _TopicEnd(draft, port, is_out, name, draft.span, storm, manager)
 
-    def _topics(self, every: list[_End]) -> list[str]:
-        """The full names of their topics. An IceStorm that is none of ours has others besides us, who know them by the
-        names that they have in the documents."""
+    def _topics(self, every: list[_TopicEnd]) -> list[str]:
+        """The full names of the ends' topics. With an external IceStorm, the names stay as in the documents, because
+        other programs use them, too."""
         topics = [end.name for end in every]
         for storm in self.drafts.storms.values():
             carried = [index for index, end in enumerate(every) if end.storm is storm]
@@ -132,58 +125,41 @@ class Topics(msgspec.Struct):
                 topics[index] = name
         return topics
 
-    def _meet(self, end: _End, topic: str) -> None:
+    def _meet(self, end: _TopicEnd, topic: str) -> None:
         draft, port, storm = end.draft, end.port, end.storm
         if topic != end.name:
-            draft.topics[port.name] = Given(topic, end.span)
-        carrier = storm.name if storm else ""
-        self.found.append(
-            Connection(
-                draft.name,
-                port.name,
-                port.interface.name,
-                carrier,
-                TOPIC,
-                topic,
-                end.is_out,
-                storm.proxy if storm else end.manager,
-                end.span,
-            )
-        )
+            draft.topics[port.name] = LocatedText(topic, end.span)
+        carrier, proxy = (storm.name, storm.proxy) if storm else ("", end.manager)
+        interface = port.interface.name
+        connection = Connection(draft.name, port.name, interface, carrier, TOPIC, topic, end.is_out, proxy, end.span)
+        self.connections.append(connection)
         self._ends.setdefault((carrier or f":{end.manager}", topic), []).append(end)
 
-    def _compare(self, topic: str, ends: list[_End]) -> None:
-        """Every end of a topic must mean the same interface; what is subscribed should be published."""
+    def _compare(self, topic: str, ends: list[_TopicEnd]) -> None:
+        """All ends of a topic must have the same interface, and a topic with subscribers should have a publisher."""
         first = next((end for end in ends if end.is_out), ends[0])
         for end in ends:
-            found = self.contents.difference(first.port, end.port)
+            found = self.comparison.difference(first.port, end.port)
             if found is not None:
-                self.diagnostics.append(
-                    codes.TOPIC_MISMATCH.at(
-                        end.span,
-                        topic=topic,
-                        source=end.draft.name,
-                        target=first.draft.name,
-                        difference=found.message,
-                        hint="let both import the same document, or rename one topic",
-                        related=found.sides(first.draft.name, end.draft.name),
-                    )
-                )
+                hint = "let both import the same document, or rename one topic"
+                source, target = end.draft.name, first.draft.name
+                mismatch = codes.TOPIC_MISMATCH.at(
+                    end.span, topic=topic, source=source, target=target, difference=found.message, hint=hint,
+                    related=found.sides(target, source),
+                )  # fmt: skip
+                self.diagnostics.append(mismatch)
         is_closed = self.drafts.complete and not self.drafts.linked.is_included
-        if first.is_out or not is_closed or not all(c.target for c in self.found if c.topic == topic):
+        if first.is_out or not is_closed or not all(c.target for c in self.connections if c.topic == topic):
             return
-        self.diagnostics.append(
-            codes.NOBODY_PUBLISHES.at(
-                first.span,
-                source=first.draft.name,
-                topic=topic,
-                hint=self._other_names(first) + _too([end.draft for end in ends[1:]]),
-                related=[Related(f"{first.port.name} is subscribed to here", first.port.use.span)],
-            )
-        )
+        hint = self._other_names(first) + _too([end.draft for end in ends[1:]])
+        related = [Related(f"subscribes to {first.port.name} here", first.port.use.span)]
+        source = first.draft.name
+        silent = codes.NOT_PUBLISHED.at(first.span, hint=hint, related=related, source=source, topic=topic)
+        self.diagnostics.append(silent)
 
-    def _other_names(self, end: _End) -> str:
-        """Where the same interface is published: under another name, or with another IceStorm."""
+    def _other_names(self, end: _TopicEnd) -> str:
+        """The hint for a topic that is not published: its interface is published under another name, or through another
+        IceStorm."""
         names, storms = set(), set()
         for (_, topic), ends in self._ends.items():
             for other in ends:
@@ -196,14 +172,16 @@ class Topics(msgspec.Struct):
             first = min(names)
             is_inside = end.storm is not None and end.draft.instance.scope != end.storm.linked.scope
             written = f"/{first}" if is_inside else first
-            return f"it is published as {', '.join(sorted(names))}: `topics: {{{end.port.name}: {written}}}`"
+            return f"the interface is published as {', '.join(sorted(names))}: `topics: {{{end.port.name}: {written}}}`"
         if storms:
-            return f"it is published with the IceStorm {', '.join(sorted(storms))}: where there is one only, all meet"
+            return (
+                f"the interface is published through the IceStorm {', '.join(sorted(storms))}: use one IceStorm for all"
+            )
         return "add the component that publishes it"
 
 
 def _too(others: list[Draft]) -> str:
-    """What lacks the same is told once, with all that do."""
+    """The end of a hint that names further components with the same fault."""
     if not others:
         return ""
     shown = [f"'{other.name}'" for other in others[:_MANY]]

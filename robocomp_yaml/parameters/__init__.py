@@ -1,23 +1,23 @@
-"""All about parameters: what documents say of them, their types, their values, and what is made of these.
+"""Parameters: their specification, their types, their values, and what is generated from these.
 
-From the bottom to the top, each part using those before it:
+From the bottom to the top, each part uses those above it in this list:
 
-    specification  a document as written             patterns     what texts may be
-    types          resolved: every limit joined      kinds        the same as components have them
-    defaults       what there is when nobody gives a value
-    spelling       references of documents, rows and keys of properties by their types
-    documents      of parameters and of values, as the linker joined them
-    hidden         which values are secret           words        types and parameters in words
-    verdict        the judge: what is wrong with a value, in words, at its place
-    expressions    constraints: typed, evaluated
+    specification  a document as written             patterns     patterns of texts
+    types          resolved types with all limits    kinds        the same types as components have them
+    defaults       the values that no document sets
+    spelling       references in documents, and rows and keys of properties by their types
+    documents      linked documents of parameters and of values
+    hidden         secret values                     words        types and parameters in words
+    verdict        the judge: the problems of a value, as diagnostics
+    expressions    constraints: their types and values
     resolution     from `specification` to `types`
-    examples       values that fit, and first documents
-    schema         JSON Schemas for editors and tools, and the gate that they are
-    layers         documents merged, judged and completed: the values in effect
-    writing        those as properties, TOML and reference
-    editing        those looked at, and changed in their document
+    examples       examples of values, and first documents
+    json_schema    JSON Schemas for editors and tools, and the gate
+    layers         documents merged, judged and completed: the effective values
+    writing        effective values as properties and TOML, and the reference of parameters
+    editing        effective values with their origin, and edits of their documents
 
-The gate says whether values are right, fast; where they are not, the judge says why. Cerberus completes what is given.
-Tests hold gate, judge, the types of components (`kinds`) and Cerberus's own verdict against each other. What texts,
-limits and constraints mean is shared with components, in `semantics`.
+The gate is a compiled schema that decides fast whether values are valid; if they are not, the judge reports why.
+Cerberus completes records. Tests compare the gate, the judge, the types of components (`kinds`) and Cerberus's own
+verdict. The meaning of texts, limits and constraints is in `semantics`, which components share.
 """

@@ -1,4 +1,4 @@
-"""Defaults filled in by hand: what there is when nobody gives a value."""
+"""Values from defaults alone."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ from typing import Any
 from robocomp_yaml.parameters.types import ListType, MapType, Parameters, RecordType, Type
 
 PERIOD, EMERGENCY = 100, 500
-"""How often compute() and emergency() run where nobody says it, in milliseconds."""
+"""The default periods of compute() and emergency(), in milliseconds."""
 
 
 def period(parameters: Parameters) -> int:
-    """How often compute() runs where no values say it, in milliseconds."""
-    given = defaults(parameters.root).get("period")
-    return int(given.get("compute", PERIOD)) if isinstance(given, dict) else PERIOD
+    """The period of compute() that the defaults set, in milliseconds."""
+    group = defaults(parameters.root).get("period")
+    return int(group.get("compute", PERIOD)) if isinstance(group, dict) else PERIOD
 
 
 def defaults(record: RecordType) -> dict[str, Any]:
-    """The values that there are when nobody gives any; what has no default is left out."""
+    """The values of a record that no document sets. Members without a default are omitted."""
     data: dict[str, Any] = {}
     for member in record.members:
         if member.default is not None:
@@ -28,11 +28,11 @@ def defaults(record: RecordType) -> dict[str, Any]:
 
 
 def with_defaults(type_: Type, data: Any) -> Any:
-    """A value with the defaults of what it leaves out."""
+    """A value, completed with defaults at every level."""
     match type_:
         case RecordType() if isinstance(data, dict):
-            given = {m.name: with_defaults(m.type, data[m.name]) for m in type_.members if m.name in data}
-            return {**defaults(type_), **given}
+            own = {m.name: with_defaults(m.type, data[m.name]) for m in type_.members if m.name in data}
+            return {**defaults(type_), **own}
         case ListType(element=element) if isinstance(data, list):
             return [with_defaults(element, item) for item in data]
         case MapType(element=element) if isinstance(data, dict):

@@ -1,4 +1,4 @@
-"""Documents of parameters and of values as the linker has joined them; `link` adds whose they are."""
+"""Linked documents of parameters and of values. `link` extends them with their components."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 import msgspec
+
+from robocomp_yaml.diag.span import Span
 
 if TYPE_CHECKING:
     from robocomp_yaml.parameters.specification.document import ParameterDocument, ValuesDocument
@@ -15,8 +17,8 @@ Made = TypeVar("Made")
 
 
 class ResolvedParameters(msgspec.Struct, frozen=True, eq=False):
-    """Parameters with their document, if there is one; `broken` when some have no usable type (then values are not
-    judged)."""
+    """Parameters with their document, if they have one. `broken`: some have no valid type, so that values are not
+    judged."""
 
     parameters: Parameters
     document: ParameterDocument | None = None
@@ -24,7 +26,7 @@ class ResolvedParameters(msgspec.Struct, frozen=True, eq=False):
     _made: dict[object, Any] = {}
 
     def once(self, name: object, make: Callable[[], Made]) -> Made:
-        """What is made of the parameters once, and used often: validators, say."""
+        """The result of `make`, cached by name: validators, for example."""
         if name not in self._made:
             self._made[name] = make()
         made: Made = self._made[name]
@@ -32,9 +34,9 @@ class ResolvedParameters(msgspec.Struct, frozen=True, eq=False):
 
 
 class LayeredValues(msgspec.Struct, frozen=True, eq=False):
-    """A values document with the documents that it extends, the most general first. `parameters` is None where the
-    component is not known; `is_extended` when another document builds on this one, so that it need not be complete;
-    `broken` when a layer is missing."""
+    """A values document with the documents that it extends, the most general first. `parameters` is None if the
+    component is unknown. `is_extended`: another document extends this one, so that this one may be incomplete.
+    `broken`: a layer is missing."""
 
     document: ValuesDocument
     extends: tuple[Self, ...] = ()
@@ -42,7 +44,14 @@ class LayeredValues(msgspec.Struct, frozen=True, eq=False):
     is_extended: bool = False
     broken: bool = False
 
+    @property
+    def head(self) -> Span:
+        """The location of the first key of values, for diagnostics without a location of their own."""
+        root = self.document.root
+        entry = root.entries.get("parameters") or root.entries.get("component")
+        return entry[0].span if entry else Span(root.file)
+
     def layers(self) -> list[Self]:
-        """This document and all that it builds on: the most general first, each once, this one last."""
+        """All layers, each once: the most general first, this document last."""
         below = [layer for base in self.extends for layer in base.layers()]
         return list(dict.fromkeys([*below, self]))

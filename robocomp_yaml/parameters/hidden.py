@@ -1,4 +1,4 @@
-"""Values by their types, with what is secret among them hidden: for whatever shows values to people."""
+"""Secret values, by types and names: found and hidden, for all output that people read."""
 
 from __future__ import annotations
 
@@ -6,40 +6,27 @@ from collections.abc import Collection, Iterator
 from typing import Any
 
 from robocomp_yaml import secrets
-from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, RecordType, Type, below
+from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, RecordType, Type, below, nested
 from robocomp_yaml.semantics import paths
 from robocomp_yaml.semantics.references import is_sound
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 
 def holds_secret(type_: Type) -> bool:
-    """Whether a plain value is a secret, or anything that is inside."""
-    match type_:
-        case BasicType() | EnumType():
-            return type_.secret
-        case ListType(element=element) | MapType(element=element):
-            return holds_secret(element)
-        case _:
-            return any(holds_secret(member.type) for member in type_.members)
+    """Whether a value of a type is secret or contains a secret."""
+    return any(isinstance(each, (BasicType, EnumType)) and each.secret for each in nested(type_))
 
 
-def declared(type_: Type) -> Iterator[str]:
-    """The names of members that a document calls secret."""
-    match type_:
-        case ListType(element=element) | MapType(element=element):
-            yield from declared(element)
-        case RecordType(members=members):
-            for member in members:
-                if member.secret:
-                    yield member.name
-                yield from declared(member.type)
-        case _:
-            return
+def secret_names(type_: Type) -> Iterator[str]:
+    """The names of members with `secret: true`."""
+    for record in nested(type_):
+        if isinstance(record, RecordType):
+            yield from (member.name for member in record.members if member.secret)
 
 
 def hidden(type_: Type, data: Any) -> Any:
-    """The data with its secrets hidden. References that can be followed stay: they say where a value comes from, not
-    what it is."""
+    """The data with its secrets hidden. Valid references stay, because they show the source of a value, not the
+    value."""
     match type_:
         case BasicType() | EnumType():
             return plain(type_, data)
@@ -56,19 +43,19 @@ def hidden(type_: Type, data: Any) -> Any:
 
 
 def plain(type_: Type, data: Any) -> Any:
-    """One plain value; passwords in URLs are hidden, whatever the type says."""
-    if isinstance(type_, BasicType | EnumType) and type_.secret:
+    """One plain value, hidden if it is secret. Passwords in URLs are always hidden."""
+    if isinstance(type_, (BasicType, EnumType)) and type_.secret:
         return data if data is None or data == "" or is_sound(data) else secrets.HIDDEN
     return secrets.url(data) if isinstance(data, str) else data
 
 
 def _is_named(key: str, data: Any) -> bool:
-    """Whether an entry of a map is a secret by its own name."""
+    """Whether an entry of a map is secret by its own name."""
     return isinstance(data, str) and data != "" and secrets.is_secret(key)
 
 
 def nodes(type_: Type, node: Node) -> Iterator[Scalar]:
-    """Every plain value below a node that is a secret. Wherever a node does not fit the type, names alone count."""
+    """Every secret plain value below a node. Where a node does not fit its type, only names decide."""
     match type_:
         case BasicType() | EnumType():
             if type_.secret and not is_sound(node.data):
@@ -89,11 +76,11 @@ def nodes(type_: Type, node: Node) -> Iterator[Scalar]:
 
 
 def _of_member(record: RecordType, key: Scalar, value: Node) -> Iterator[Scalar]:
-    """What a key of a record gives a value to: it may be a path, as under `set:`."""
+    """The secrets in an entry of a record. The key may be a path, as under `set:`."""
     steps = [key.lexeme] if record.member(key.lexeme) else paths.parse(key.lexeme) or [key.lexeme]
     type_: Type | None = record
     for step in steps:
-        type_ = below(type_, 0 if isinstance(type_, ListType) else step)  # whatever is meant by it, is hidden
+        type_ = below(type_, 0 if isinstance(type_, ListType) else step)  # any step into a list counts as an index
     if type_ is not None and not (isinstance(value.data, str) and secrets.is_secret(steps[-1])):
         yield from nodes(type_, value)
     elif type_ is not None or secrets.is_secret(key.lexeme) or _is_close(record, key.lexeme):
@@ -103,15 +90,15 @@ def _of_member(record: RecordType, key: Scalar, value: Node) -> Iterator[Scalar]
 
 
 def _is_close(record: RecordType, name: str) -> bool:
-    """Whether a name that there is not is a secret's with a slip in it."""
-    from difflib import get_close_matches  # few need it
+    """Whether an unknown name is probably a misspelled name of a secret."""
+    from difflib import get_close_matches  # rarely needed, slow to import
 
     known = [member.name.lower() for member in record.members if holds_secret(member.type)]
     return bool(known) and bool(get_close_matches(name.lower(), known, 1, 0.7))
 
 
 def named_nodes(node: Node, names: Collection[str] = ()) -> Iterator[Scalar]:
-    """Every plain value that stands below a key whose name says that it is secret, or is one of these."""
+    """Every plain value below a key that has the name of a secret, or is one of `names`."""
     if isinstance(node, Mapping) and not is_sound(node.data):
         for key, value in node.items():
             last = (paths.parse(key.lexeme) or [key.lexeme])[-1] if names else ""
@@ -123,7 +110,7 @@ def named_nodes(node: Node, names: Collection[str] = ()) -> Iterator[Scalar]:
 
 
 def plain_below(node: Node) -> Iterator[Scalar]:
-    """Every plain value in a node, but for references."""
+    """Every plain value in a node, without references."""
     if isinstance(node, Scalar):
         if node.data is not None and node.data != "":
             yield node

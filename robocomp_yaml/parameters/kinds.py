@@ -1,16 +1,25 @@
-"""Types of parameters as components have them: for reading what a component would read, as it would."""
+"""Types of parameters as components have them, to read properties exactly as a component does."""
 
 from __future__ import annotations
 
 from typing import Any
 
 from robocomp_yaml.parameters.patterns.pattern import Pattern
-from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, Member, RecordType, Size, Type
+from robocomp_yaml.parameters.types import (
+    BasicType,
+    EnumType,
+    ListType,
+    MapType,
+    RecordType,
+    ResolvedMember,
+    Size,
+    Type,
+)
 from robocomp_yaml.semantics import composite, plain
 
 
-class _Text(plain.Text):
-    """Patterns are matched by our own matcher, whose time is bounded."""
+class _Text(plain.TextKind):
+    """Text that is matched by `patterns.match`, whose time is bounded."""
 
     def __init__(self, values: tuple[str, ...], pattern: Pattern | None) -> None:
         super().__init__(values, shown_as="" if pattern is None else pattern.text)
@@ -20,7 +29,7 @@ class _Text(plain.Text):
         return self._matching is None or self._matching.matches(value)
 
 
-def recording(record: RecordType) -> composite.Recording:
+def recording(record: RecordType) -> composite.RecordKind:
     members = {
         f"m{number}": composite.member(
             kind(member.type),
@@ -30,17 +39,17 @@ def recording(record: RecordType) -> composite.Recording:
         )
         for number, member in enumerate(record.members)
     }
-    return composite.Recording(type("Values", (composite.Record,), members), is_group=record.is_group)
+    return composite.RecordKind(type("Values", (composite.Record,), members), is_group=record.is_group)
 
 
 def kind(type_: Type) -> composite.Kind:
     match type_:
         case BasicType(name="bool"):
-            made: plain.Plain = plain.truth()
+            made: plain.PlainKind = plain.truth()
         case BasicType(name="string", values=values, pattern=pattern):
             made = _Text(tuple(str(literal.value) for literal in values), pattern)
         case BasicType(name=name, values=values, range=limits, unit=unit):
-            numbers = tuple(literal.value for literal in values)
+            numbers: Any = tuple(literal.value for literal in values)
             number = plain.whole if type_.is_integer else plain.decimal
             made = number(name, values=numbers, unit=unit, **(limits.limits if limits else {}))
         case EnumType(name=name, allowed=allowed):
@@ -54,7 +63,7 @@ def kind(type_: Type) -> composite.Kind:
     return plain.secret(made) if type_.secret else made
 
 
-def _default(member: Member) -> dict[str, Any]:
+def _default(member: ResolvedMember) -> dict[str, Any]:
     return {} if member.default is None else {"default": member.default.data}
 
 

@@ -1,8 +1,7 @@
-"""The parameters of a component, resolved: every type with all its limits, for validation, schemas, accessors, docs.
+"""The resolved parameters of a component: every type with all its limits, for validation, schemas, accessors and docs.
 
-Enums and structs are shared by name; other named types are replaced by what they stand for, their limits joined with
-those of the place that names them. Values are judged as they are written (`double` precision for `float` too): a
-range's limits are compared before anything is narrowed.
+Enums and structs are shared by name. Other named types are replaced by their definitions, and their limits are combined
+with those where the name is used. Values are judged in `double` precision, for `float` too.
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.interface import Literal
 from robocomp_yaml.model.located import Located
 from robocomp_yaml.parameters.patterns.pattern import Pattern
-from robocomp_yaml.parameters.specification.document import Spelling
+from robocomp_yaml.parameters.specification.document import LegacySpelling
 from robocomp_yaml.semantics.limits import (
     INTEGERS,
     LIMITS,
@@ -35,7 +34,7 @@ BASIC_TYPES = ("bool", *LIMITS, "string")
 
 
 class Bound(msgspec.Struct, frozen=True):
-    """One end of a range; `is_open` when the value itself is not allowed."""
+    """One end of a range. `is_open`: the value itself is excluded."""
 
     value: Number
     is_open: bool = False
@@ -57,7 +56,7 @@ class Range(Located, frozen=True):
 
     @property
     def limits(self) -> dict[str, Number]:
-        """Its ends by what code calls them: `at_least` and `at_most` may be reached, `above` and `below` not."""
+        """The ends by their names in code: `at_least` and `at_most` (inclusive), `above` and `below` (exclusive)."""
         return {name: bound.value for name, bound in self._ends()}
 
     def _ends(self) -> Iterator[tuple[str, Bound]]:
@@ -68,7 +67,7 @@ class Range(Located, frozen=True):
 
 
 class Size(Located, frozen=True):
-    """How many entries: from `least` to `most` (None: any number)."""
+    """The number of entries: from `least` to `most`, without an upper limit if `most` is None."""
 
     least: int = 0
     most: int | None = None
@@ -87,7 +86,7 @@ class Size(Located, frozen=True):
 
 
 class BasicType(msgspec.Struct, frozen=True):
-    """`values` are the only ones allowed (none: any). What is `secret` is never shown."""
+    """A plain type. `values` are the allowed ones, all if it is empty. A `secret` value is never shown."""
 
     name: str
     range: Range | None = None
@@ -106,7 +105,7 @@ class BasicType(msgspec.Struct, frozen=True):
 
 
 class EnumType(msgspec.Struct, frozen=True):
-    """`allowed` are the enumerators that the place allows, in order: all of them where nothing is said."""
+    """An enum. `allowed` are the enumerators within the limits, in order: all if there are no limits."""
 
     name: str
     enumerators: tuple[tuple[str, str], ...]  # name and documentation
@@ -126,24 +125,24 @@ class ListType(msgspec.Struct, frozen=True):
 
 
 class MapType(msgspec.Struct, frozen=True):
-    """Values by name: the keys are texts."""
+    """Values by name. The keys are texts."""
 
     element: Type
     size: Size = Size()
 
 
 class RecordType(msgspec.Struct, frozen=True):
-    """A struct (`name` is its own), or a group (`name` is ''), whose members stand directly in their parent."""
+    """A struct, or a group, whose `name` is ''."""
 
     name: str
-    members: tuple[Member, ...]
+    members: tuple[ResolvedMember, ...]
     doc: str = ""
 
     @property
     def is_group(self) -> bool:
         return not self.name
 
-    def member(self, name: str) -> Member | None:
+    def member(self, name: str) -> ResolvedMember | None:
         return next((member for member in self.members if member.name == name), None)
 
 
@@ -152,17 +151,17 @@ Type = ScalarType | ListType | MapType | RecordType
 
 
 class Default(Located, frozen=True):
-    """A default as plain data. `node` is where it stands; None for one that a document did not write."""
+    """A default as plain data. `node` is its node in the document; None for a default of rcyaml."""
 
     data: object
     node: Node | None = None
 
 
-class Member(Located, frozen=True):
-    """A parameter, or a member of a group or struct. `code_name` is the name in code before a language's escaping.
+class ResolvedMember(Located, frozen=True):
+    """A parameter, or a member of a group or struct. `code_name` is the name in code, before a language escapes it.
 
-    Required when it has neither a default nor is optional; a group has neither, its members may. `secret` where the
-    document says so: its type knows it whatever says so.
+    A member without a default that is not optional is required. A group has neither default nor `optional`. `secret` is
+    the key of the document; the type is also secret if the name is the name of a secret.
     """
 
     name: str
@@ -181,7 +180,7 @@ class Member(Located, frozen=True):
 
     @property
     def required(self) -> bool:
-        """Whether a values document has to give it; for a group: whether it has to give something in it."""
+        """Whether a values document must set the member; for a group, whether it must set a member of the group."""
         if isinstance(self.type, RecordType) and self.type.is_group:
             return any(member.required for member in self.type.members)
         return self.default is None and not self.optional
@@ -192,12 +191,12 @@ class Member(Located, frozen=True):
 
     @property
     def documentation(self) -> str:
-        """What is said of it, or else of its type."""
-        return self.doc or (self.type.doc if isinstance(self.type, RecordType | EnumType) else "")
+        """The documentation of the member, or else of its type."""
+        return self.doc or (self.type.doc if isinstance(self.type, (RecordType, EnumType)) else "")
 
 
-class Constraint(Located, frozen=True):
-    """What must hold between parameters, and what to say otherwise."""
+class ResolvedConstraint(Located, frozen=True):
+    """A constraint between parameters. `otherwise` is its message if it does not hold."""
 
     expression: Expression
     text: str
@@ -211,22 +210,22 @@ class Constraint(Located, frozen=True):
 
 
 class Parameters(msgspec.Struct, frozen=True):
-    """All the parameters of a component, as one group. `types` are the enums and structs by name, in the document's
-    order; `spellings` the legacy table by dotted path."""
+    """All parameters of a component, as the group `root`. `types` are its enums and structs, in the order of the
+    document. `spellings` are the entries of `legacy:`."""
 
     root: RecordType
     types: tuple[EnumType | RecordType, ...] = ()
-    constraints: tuple[Constraint, ...] = ()
-    spellings: tuple[Spelling, ...] = ()
+    constraints: tuple[ResolvedConstraint, ...] = ()
+    spellings: tuple[LegacySpelling, ...] = ()
     doc: str = ""
 
-    def spelling(self, path: str) -> Spelling | None:
+    def spelling(self, path: str) -> LegacySpelling | None:
         return next((spelling for spelling in self.spellings if spelling.path == path), None)
 
 
 def below(type_: Type | None, step: str | int) -> Type | None:
-    """The type one step further down: of a member, or of the entries of a list or map; None where the step leads
-    nowhere. Places in lists are numbers, or their digits."""
+    """The type one step below: of a member, or of the entries of a list or map; None if the step does not exist. An
+    index of a list is a number, or its digits."""
     if isinstance(type_, RecordType):
         member = type_.member(step) if isinstance(step, str) else None
         return member.type if member is not None else None
@@ -235,30 +234,54 @@ def below(type_: Type | None, step: str | int) -> Type | None:
     return type_.element if isinstance(type_, MapType) else None
 
 
+def nested(type_: Type) -> Iterator[Type]:
+    """A type, and all types inside its lists, maps and records."""
+    pending = [type_]
+    while pending:
+        one = pending.pop()
+        yield one
+        if isinstance(one, RecordType):
+            pending += [member.type for member in reversed(one.members)]
+        elif isinstance(one, (ListType, MapType)):
+            pending.append(one.element)
+
+
 def innermost(type_: Type) -> ScalarType | RecordType:
-    """What lists and maps, at any depth, hold."""
-    while isinstance(type_, ListType | MapType):
+    """The type of the entries of lists and maps, at any depth; the type itself if it is neither."""
+    while isinstance(type_, (ListType, MapType)):
         type_ = type_.element
     return type_
 
 
 def unit_of(type_: Type) -> str:
-    """The unit of a number, or of the numbers that a list or map holds."""
+    """The unit of a number, or of the numbers in a list or map; '' if there is none."""
     type_ = innermost(type_)
     return type_.unit if isinstance(type_, BasicType) else ""
 
 
+def is_text(type_: Type) -> bool:
+    """Whether the values of a type are texts or enumerators."""
+    return isinstance(type_, EnumType) or (isinstance(type_, BasicType) and type_.name == "string")
+
+
+def json_type(type_: ScalarType) -> str:
+    """The name of a plain type in JSON Schema."""
+    if isinstance(type_, EnumType) or not (type_.is_number or type_.name == "bool"):
+        return "string"
+    return "boolean" if type_.name == "bool" else "integer" if type_.is_integer else "number"
+
+
 def is_secret(type_: Type) -> bool:
-    """Whether a plain value is a secret, or the plain values that a list or map holds are."""
+    """Whether a plain value, or the plain values in a list or map, are secret."""
     type_ = innermost(type_)
     return not isinstance(type_, RecordType) and type_.secret
 
 
-def leaves(record: RecordType, prefix: str = "") -> Iterator[tuple[str, Member]]:
-    """Every parameter by its dotted path, groups opened."""
+def leaves(record: RecordType, prefix: str = "", *, groups: bool = False) -> Iterator[tuple[str, ResolvedMember]]:
+    """Every parameter by its dotted path, those in groups included; with `groups`, also the groups."""
     for member in record.members:
-        path = f"{prefix}{member.name}"
-        if isinstance(member.type, RecordType) and member.type.is_group:
-            yield from leaves(member.type, f"{path}.")
-        else:
+        path, is_group = f"{prefix}{member.name}", isinstance(member.type, RecordType) and member.type.is_group
+        if groups or not is_group:
             yield path, member
+        if isinstance(member.type, RecordType) and is_group:
+            yield from leaves(member.type, f"{path}.", groups=groups)

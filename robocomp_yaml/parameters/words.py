@@ -1,5 +1,4 @@
-"""Parameters in words: what a type is, its limits, and what else is to be known of a parameter. For messages, editors,
-documents and code."""
+"""Types and parameters in words, for messages, editors, documents and code."""
 
 from __future__ import annotations
 
@@ -11,8 +10,9 @@ from robocomp_yaml.parameters.types import (
     EnumType,
     ListType,
     MapType,
-    Member,
     RecordType,
+    ResolvedMember,
+    Size,
     Type,
     is_secret,
     unit_of,
@@ -24,7 +24,7 @@ _CODE_OR_TAG = re.compile(r"((`+)(?!`).*?(?<!`)\2(?!`))|(?<!\\)<(?!https?://)", 
 
 
 def kind_in_words(type_: Type) -> str:
-    """What a value of a type is, without its limits: `a whole number`."""
+    """The values of a type, without limits: `a whole number`."""
     match type_:
         case BasicType(name=name):
             return WORDS[name]
@@ -39,7 +39,7 @@ def kind_in_words(type_: Type) -> str:
 
 
 def in_brief(type_: Type) -> str:
-    """What a value is in an expression, where all numbers are alike: `a number`, `a Motor`."""
+    """The values of a type in an expression, where all numbers have one type: `a number`, `a Motor`."""
     match type_:
         case BasicType():
             return WORDS["double" if type_.is_number else type_.name]
@@ -57,12 +57,12 @@ def in_words(type_: Type) -> str:
     """A type with its limits and unit: `a number from 0 to 2 (rad/s)`."""
     match type_:
         case RecordType():
-            return type_.name or "a mapping of parameters to values"
+            return f"of type {type_.name}" if type_.name else "a mapping of parameters to values"
         case ListType() | MapType():
-            kind, one = ("list", "entry") if isinstance(type_, ListType) else ("map", "value")
-            size = f" of {type_.size.in_words} entries" if not type_.size.is_any else ""
+            kind = "list" if isinstance(type_, ListType) else "map"
+            size = "" if type_.size.is_any else f" of {entries_in_words(type_.size)}"
             unique = ", all different" if isinstance(type_, ListType) and type_.unique else ""
-            return f"a {kind}{size}{unique}, each {one} {in_words(type_.element)}"
+            return f"a {kind}{size}{unique}, each {in_words(type_.element)}"
         case BasicType(values=values) if values:
             words = one_of([literal.lexeme for literal in values])
         case BasicType(range=range_) if range_:
@@ -74,8 +74,13 @@ def in_words(type_: Type) -> str:
     return f"{words} ({type_.unit})" if isinstance(type_, BasicType) and type_.unit else words
 
 
+def entries_in_words(size: Size) -> str:
+    """A limited number of entries: `exactly 1 entry`, `1 to 4 entries`."""
+    return f"{size.in_words} entr{'y' if (size.most or size.least) == 1 else 'ies'}"
+
+
 def limits_in_words(type_: Type) -> list[str]:
-    """The limits alone, as code has them behind the type: `from 0 to 2 rad/s`."""
+    """The limits of a type, for comments in code: `from 0 to 2 rad/s`."""
     match type_:
         case BasicType():
             unit = f" {type_.unit}" if type_.unit else ""
@@ -87,7 +92,7 @@ def limits_in_words(type_: Type) -> list[str]:
         case EnumType(allowed=allowed):
             return [one_of(allowed)] if allowed != type_.names else []
         case ListType(element=element, size=size) | MapType(element=element, size=size):
-            found = [] if size.is_any else [f"{size.in_words} entries"]
+            found = [] if size.is_any else [entries_in_words(size)]
             if isinstance(type_, ListType) and type_.unique:
                 found.append("all different")
             return found + [f"each {limit}".replace("each each", "each of these") for limit in limits_in_words(element)]
@@ -96,49 +101,49 @@ def limits_in_words(type_: Type) -> list[str]:
 
 
 def label(type_: Type) -> str:
-    """A type by its name: `list of Motor`."""
-    if isinstance(type_, ListType | MapType):
+    """The name of a type: `list of Motor`."""
+    if isinstance(type_, (ListType, MapType)):
         return f"{'list' if isinstance(type_, ListType) else 'map'} of {label(type_.element)}"
     return type_.name
 
 
-def default_in_words(member: Member) -> str:
-    """A default that is there, on one line, or how that begins; secrets are hidden."""
+def default_in_words(member: ResolvedMember) -> str:
+    """The default of a member that has one, on one line of at most 60 characters. Secrets are hidden."""
     assert member.default is not None
     text = flow(hidden(member.type, member.default.data))
     return text if len(text) <= 60 else f"{text[:59]}…"
 
 
-def for_editors(member: Member) -> str:
-    """What an editor shows below the parameter's documentation, with the names of an enum in lines of their own."""
+def for_editors(member: ResolvedMember) -> str:
+    """The facts that an editor shows below the documentation of a parameter, with one line for each enumerator."""
     kind = in_words(member.type)
     facts = [kind[0].upper() + kind[1:]] if not member.is_group else []
     if member.default is not None:
         facts.append(f"default: {default_in_words(member)}")
     elif member.optional:
-        facts.append("may be left out")
+        facts.append("optional")
     elif not member.is_group:
         facts.append("required")
     if member.editable and not member.is_group:
         facts.append("may change while running")
     if is_secret(member.type):
-        facts.append("secret: give it as {env: NAME} or {file: PATH}")
+        facts.append("secret: set it with {env: NAME} or {file: PATH}")
     text = "; ".join(facts) + ("." if facts else "")
     if isinstance(member.type, EnumType):
-        text += "".join(f"\n- `{name}`: {said}" for name, said in member.type.enumerators if said)
+        text += "".join(f"\n- `{name}`: {doc}" for name, doc in member.type.enumerators if doc)
     return text
 
 
-def for_documents(member: Member) -> str:
-    """What stands above a parameter in a first document."""
+def for_documents(member: ResolvedMember) -> str:
+    """The comment above a parameter in a first document."""
     facts = [in_words(member.type)]
-    facts += ["may be left out"] if member.optional else []
+    facts += ["optional"] if member.optional else []
     facts += ["may change while running"] if member.editable else []
     return "; ".join(facts)
 
 
-def for_code(member: Member) -> str:
-    """What stands at an accessor, in one line; '' where there is nothing to say."""
+def for_code(member: ResolvedMember) -> str:
+    """The comment of an accessor, on one line; '' if there are no facts."""
     found = limits_in_words(member.type)
     if not found and (unit := unit_of(member.type)):
         found.append(f"in {unit}")
@@ -155,5 +160,5 @@ def for_code(member: Member) -> str:
 
 
 def prose(doc: str) -> str:
-    """A doc, which may be Markdown, but no HTML: `<name>` is to be seen."""
+    """A doc as Markdown without HTML: `<name>` is escaped."""
     return _CODE_OR_TAG.sub(lambda found: found[0] if found[1] else "\\<", doc)

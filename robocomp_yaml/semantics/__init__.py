@@ -1,7 +1,7 @@
 # Part of rcyaml and of the components that it makes. Do not edit a copy: the next compile overwrites it.
-"""What texts, values, constraints and tables mean: one code for the compiler and for the components that it makes.
+"""What texts, values, constraints and tables mean: the same code in the compiler and in generated components.
 
-It needs the standard library of Python 3.9 alone, imports nothing but itself, and is copied into each component in
-Python as it stands. What touches Ice or Qt stands beside it there. Patterns are texts here: `re` compiles one when it
-is first asked for something, and keeps it; most runs of the compiler ask few.
+The package needs only the standard library of Python 3.9, imports only itself, and is copied unchanged into each
+component in Python. Code that uses Ice or Qt is beside it in the component. Regular expressions are plain strings:
+`re` compiles and caches one at its first use, and most runs of the compiler use few.
 """

@@ -1,5 +1,5 @@
 # Part of rcyaml and of the components that it makes. Do not edit a copy: the next compile overwrites it.
-"""The types of parameters that hold others: lists, maps and records; and the members of records.
+"""The types of parameters that contain values: lists, maps and records; and the members of records.
 
 All values are immutable: lists become tuples, maps read-only mappings, records instances of their classes.
 """
@@ -12,58 +12,60 @@ from typing import Any, Union
 
 from . import limits
 from .paths import Path, in_words
-from .plain import Plain, Taking, shown
+from .plain import Conversion, PlainKind, shown
 from .references import Unresolved
 from .secrecy import HIDDEN
 
-Kind = Union[Plain, "Listing", "Naming", "Recording"]
+Kind = Union[PlainKind, "ListKind", "MapKind", "RecordKind"]
 
 
-class _Sized:
-    """What has entries: `at_least` to `at_most` of them."""
+class _SizedKind:
+    """A type of values with entries: `at_least` to `at_most` of them, any number where it is None."""
 
     def __init__(self, element: Kind, at_least: int = 0, at_most: int | None = None) -> None:
         self.element = element
         self._at_least, self._at_most = at_least, at_most
 
-    def check_size(self, count: int, path: Path, taking: Taking) -> None:
+    def check_size(self, count: int, path: Path, conversion: Conversion) -> None:
         if not limits.has_size(count, self._at_least, self._at_most):
-            entries, wanted = limits.entries(count), limits.size_in_words(self._at_least, self._at_most)
-            taking.refuse(path, f"has {entries}, and must have {wanted}", entries, wanted)
+            entries, expected = limits.entries(count), limits.size_in_words(self._at_least, self._at_most)
+            conversion.reject(path, f"has {entries}, and must have {expected}", entries, expected)
 
 
-class Listing(_Sized):
+class ListKind(_SizedKind):
     def __init__(self, element: Kind, at_least: int = 0, at_most: int | None = None, unique: bool = False) -> None:
         super().__init__(element, at_least, at_most)
         self._unique = unique
 
-    def take(self, raw: Any, path: Path, taking: Taking) -> Any:
+    def convert(self, raw: Any, path: Path, conversion: Conversion) -> Any:
         if not isinstance(raw, (list, tuple)):
-            taking.refuse(path, f"must be {limits.LIST}, and is {shown(raw)}", shown(raw), limits.LIST)
+            conversion.reject(path, f"must be {limits.LIST}, and is {shown(raw)}", shown(raw), limits.LIST)
             return None
-        self.check_size(len(raw), path, taking)
-        items = tuple(self.element.take(item, (*path, place), taking) for place, item in enumerate(raw))
+        self.check_size(len(raw), path, conversion)
+        items = tuple(self.element.convert(item, (*path, index), conversion) for index, item in enumerate(raw))
         known = [item for item in items if item is not None]
         if self._unique and len(set(known)) < len(known):
-            twice = next(item for place, item in enumerate(known) if item in known[:place])
-            said = self.element.shown(twice) if isinstance(self.element, Plain) else shown(twice)
-            taking.refuse(path, f"holds {said} twice", said, "entries that all differ")
+            twice = next(item for index, item in enumerate(known) if item in known[:index])
+            text = self.element.shown(twice) if isinstance(self.element, PlainKind) else shown(twice)
+            conversion.reject(path, f"contains {text} twice", text, "entries that all differ")
         return items
 
 
-class Naming(_Sized):
+class MapKind(_SizedKind):
     """Maps: values by name."""
 
-    def take(self, raw: Any, path: Path, taking: Taking) -> Any:
+    def convert(self, raw: Any, path: Path, conversion: Conversion) -> Any:
         if not isinstance(raw, Mapping) or not all(isinstance(name, str) for name in raw):
-            taking.refuse(path, f"must be {limits.MAP}, and is {shown(raw)}", shown(raw), "a mapping")
+            conversion.reject(path, f"must be {limits.MAP}, and is {shown(raw)}", shown(raw), "a mapping")
             return None
-        self.check_size(len(raw), path, taking)
-        return MappingProxyType({name: self.element.take(item, (*path, name), taking) for name, item in raw.items()})
+        self.check_size(len(raw), path, conversion)
+        return MappingProxyType(
+            {name: self.element.convert(item, (*path, name), conversion) for name, item in raw.items()}
+        )
 
 
-class Member:
-    """A member of a record. `key` is its name in documents and paths, `attribute` the one in code."""
+class RecordMember:
+    """A member of a record. `key` is its name in documents and paths, `attribute` its name in code."""
 
     attribute = ""
 
@@ -78,7 +80,7 @@ class Member:
 
     @property
     def reads_as_empty(self) -> bool:
-        """Whether a text or list without a property is an empty one."""
+        """Whether a text or list that has no property is empty, rather than missing."""
         return not self.has_default and not self.is_optional
 
 
@@ -88,26 +90,26 @@ _NOTHING = object()
 def member(
     kind: Kind, *, default: Any = _NOTHING, optional: bool = False, editable: bool = False, key: str = ""
 ) -> Any:
-    """Declares a member in the class of a record."""
+    """A member of a record, for the class that declares it."""
     has_default = default is not _NOTHING
-    return Member(kind, key, has_default, default if has_default else None, optional, editable)
+    return RecordMember(kind, key, has_default, default if has_default else None, optional, editable)
 
 
 class Record:
-    """A group of values: they can be read and compared, never changed."""
+    """A group of values, which can be read and compared. Setting or deleting one raises AttributeError."""
 
     __hash__ = None  # type: ignore[assignment]
-    __members__: tuple[Member, ...] = ()
+    __members__: tuple[RecordMember, ...] = ()
 
     def __init_subclass__(cls) -> None:
-        own = {name: value for name, value in vars(cls).items() if isinstance(value, Member)}
+        own = {name: value for name, value in vars(cls).items() if isinstance(value, RecordMember)}
         for name, value in own.items():
             value.attribute, value.key = name, value.key or name
-            delattr(cls, name)  # what is read is the instance's
+            delattr(cls, name)  # each instance has its own value
         cls.__members__ = (*cls.__members__, *own.values())
 
     def __setattr__(self, name: str, value: Any) -> None:
-        raise AttributeError(f"{type(self).__name__}.{name} cannot be set: parameters change through set()")
+        raise AttributeError(f"{type(self).__name__}.{name} cannot be set: use set() of the parameters")
 
     def __delattr__(self, name: str) -> None:
         raise AttributeError(f"{type(self).__name__}.{name} cannot be deleted")
@@ -119,77 +121,69 @@ class Record:
 
     def __repr__(self) -> str:
         pairs = ((member, getattr(self, member.attribute)) for member in self.__members__)
-        said = (f"{m.attribute}={HIDDEN if _hides(m.kind) and value else repr(value)}" for m, value in pairs)
-        return f"{type(self).__name__}({', '.join(said)})"
+        shown_pairs = (f"{m.attribute}={HIDDEN if _hides(m.kind) and value else repr(value)}" for m, value in pairs)
+        return f"{type(self).__name__}({', '.join(shown_pairs)})"
 
 
 def _hides(kind: Kind) -> bool:
-    """Whether plain values of a type, or those that it holds, are secret."""
-    while isinstance(kind, _Sized):
+    """Whether plain values of a type, or its plain entries, are secret."""
+    while isinstance(kind, _SizedKind):
         kind = kind.element
-    return isinstance(kind, Plain) and kind.is_secret
+    return isinstance(kind, PlainKind) and kind.is_secret
 
 
-class Recording:
-    """Records of a class; `is_group` when their members stand directly in their parent's document."""
+class RecordKind:
+    """Records of the class `made`. `is_group`: the record is a group, not a struct."""
 
     def __init__(self, made: type[Record], *, is_group: bool = False) -> None:
         self.made = made
         self.is_group = is_group
         self.members = {member.key: member for member in made.__members__}
 
-    def take(self, raw: Any, path: Path, taking: Taking) -> Any:
+    def convert(self, raw: Any, path: Path, conversion: Conversion) -> Any:
         if isinstance(raw, self.made):
             raw = {member.key: getattr(raw, member.attribute) for member in self.members.values()}
             raw = {key: value for key, value in raw.items() if value is not None}
         if not isinstance(raw, Mapping):
             words = limits.record_in_words(self.members)
-            taking.refuse(path, f"must be {words}, and is {shown(raw)}", shown(raw), words)
+            conversion.reject(path, f"must be {words}, and is {shown(raw)}", shown(raw), words)
             return None
         for key in raw:
             if key not in self.members:
-                taking.refuse((), f"there is no parameter '{in_words((*path, str(key)))}'")
+                conversion.reject((), f"unknown parameter '{in_words((*path, str(key)))}'")
         made = self.made()
         for member in self.members.values():
-            object.__setattr__(made, member.attribute, self._member(member, raw, (*path, member.key), taking))
+            object.__setattr__(made, member.attribute, self._member(member, raw, (*path, member.key), conversion))
         return made
 
-    def _member(self, member: Member, raw: Mapping[str, Any], path: Path, taking: Taking) -> Any:
+    def _member(self, member: RecordMember, raw: Mapping[str, Any], path: Path, conversion: Conversion) -> Any:
         if member.key in raw:
-            return member.kind.take(raw[member.key], path, taking)
+            return member.kind.convert(raw[member.key], path, conversion)
         if member.has_default:
-            return member.kind.take(member.default, path, Taking())  # the compiler has checked it
-        if isinstance(member.kind, Recording) and member.kind.is_group:
-            return member.kind.take({}, path, taking)
+            return member.kind.convert(member.default, path, Conversion())  # the compiler has checked it
+        if isinstance(member.kind, RecordKind) and member.kind.is_group:
+            return member.kind.convert({}, path, conversion)
         if not member.is_optional:
-            taking.refuse(path, "has no value, and no default")
+            conversion.reject(path, "has no value, and no default")
         return None
 
 
-def listing(element: Kind, **more: Any) -> Kind:
-    return Listing(element, **more)
-
-
-def naming(element: Kind, **more: Any) -> Kind:
-    return Naming(element, **more)
-
-
-def record(made: type[Record]) -> Kind:
-    return Recording(made)
+# The names that generated code uses.
+listing, naming, record = ListKind, MapKind, RecordKind
 
 
 def group(made: type[Record]) -> Kind:
-    return Recording(made, is_group=True)
+    return RecordKind(made, is_group=True)
 
 
 def data(kind: Kind, value: Any) -> Any:
-    """A value as plain data: dictionaries, lists, numbers, texts; what is optional and left out is left out. References
-    that were not followed are as documents have them."""
-    if isinstance(kind, Recording):
+    """A value as plain data: dictionaries, lists, numbers, texts. Missing optional members are omitted. References that
+    are not resolved are as documents spell them."""
+    if isinstance(kind, RecordKind):
         pairs = ((member, getattr(value, member.attribute)) for member in kind.members.values())
         return {member.key: data(member.kind, item) for member, item in pairs if item is not None}
-    if isinstance(kind, Listing):
+    if isinstance(kind, ListKind):
         return [data(kind.element, item) for item in value]
-    if isinstance(kind, Naming):
+    if isinstance(kind, MapKind):
         return {name: data(kind.element, item) for name, item in value.items()}
     return dict(value.data) if isinstance(value, Unresolved) else value

@@ -1,7 +1,7 @@
 # Part of rcyaml and of the components that it makes. Do not edit a copy: the next compile overwrites it.
-"""The properties that connect components: under which names a configuration says endpoints, proxies and topics.
+"""The properties that connect components: the names of endpoints, proxies and topics in a configuration.
 
-The first name of each is Ice's way to say it, others are RoboComp's. The first that has a value counts.
+The first name of each is Ice's, the others are RoboComp's. The first one that has a value is used.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ def endpoints(adapter: str) -> tuple[str, str]:
 
 
 def topic_endpoints(port: str) -> tuple[str, str, str]:
-    """Of the adapter through which a component hears a topic."""
+    """The endpoints of the adapter with which a component subscribes to a topic."""
     return (*endpoints(f"{port}Topic"), f"Endpoints.{port}")
 
 
@@ -28,15 +28,15 @@ def proxy(port: str) -> tuple[str, str]:
 
 
 def prefix(port: str) -> str:
-    """What the topic's name begins with; the port that publishes it is called with `Pub` behind its name."""
+    """The property with the prefix of the topic's name. The name of a port that publishes ends in `Pub`."""
     return f"Proxies.{port}Prefix"
 
 
 def first(get: Callable[[str], str | None], *keys: str) -> str:
-    """The value of the first of the keys that has one, or ''."""
+    """The value of the first key that has one, without quotes; '' where none has."""
     return next((value for key in keys if (value := unquoted(get(key) or ""))), "")
 
 
 def topic(before: str, own: str, interface: str) -> str:
-    """The name of a topic: one of its own, else the interface's, behind the prefix where there is one."""
+    """The name of a topic: its own or else the interface's, after the prefix if there is one."""
     return f"{before}/{own or interface}" if before else own or interface

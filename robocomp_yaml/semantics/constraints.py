@@ -1,6 +1,9 @@
 # Part of rcyaml and of the components that it makes. Do not edit a copy: the next compile overwrites it.
-"""What must hold between values. One that is not known, such as an optional one that is left out, is None: so is what
-is made of it, unless the rest decides. A constraint that stays unknown holds."""
+"""Constraints between values, in three-valued logic: an unknown value, such as a missing optional one, is None.
+
+The result of an operation with an unknown operand is unknown, unless the other operands decide. An unknown constraint
+holds.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +17,7 @@ Part = Callable[[], Any]
 
 @dataclass(frozen=True)
 class Constraint:
-    """`text` is as the document says it, `otherwise` what to say when it does not hold."""
+    """`text` is the expression as the document spells it, `otherwise` the message where it does not hold."""
 
     text: str
     otherwise: str
@@ -25,11 +28,11 @@ class Constraint:
 
 
 class _Unknown(Exception):
-    """A list that is not there is asked for its entries."""
+    """The entries of an unknown list are needed."""
 
 
 def holds(part: Part) -> bool:
-    """Whether it is true or unknown. A division by zero, or an entry that is not there, does not hold."""
+    """Whether a part is true or unknown. A division by zero or a missing entry does not hold."""
     try:
         return part() is not False
     except (ArithmeticError, LookupError, ValueError):
@@ -77,7 +80,7 @@ def compare(first: Any, *rest: Any) -> Any:
 
 
 def compared(left: Any, rest: Iterable[tuple[str, Any]]) -> Iterator[Any]:
-    """What each comparison of a chain comes to."""
+    """The result of each comparison of a chain."""
     for sign, right in rest:
         unknown = left is None or right is None or (isinstance(right, tuple) and None in right)
         yield None if unknown else _BINARY[sign](left, right)
@@ -85,14 +88,14 @@ def compared(left: Any, rest: Iterable[tuple[str, Any]]) -> Iterator[Any]:
 
 
 def known(many: Any) -> Any:
-    """The list to go through."""
+    """The list itself. Raises _Unknown if it is unknown."""
     if many is None:
         raise _Unknown
     return many
 
 
 def when(condition: Any, element: Part) -> Iterator[Any]:
-    """The element, unless the condition leaves it out."""
+    """The element if the condition is true, None if the condition is unknown."""
     if condition is None:
         yield None
     elif condition:
@@ -100,7 +103,7 @@ def when(condition: Any, element: Part) -> Iterator[Any]:
 
 
 def call(function: Callable[[Any], Any], operand: Part) -> Any:
-    """A function of something that may be unknown, or hold what is."""
+    """The result of a function; None if the operand, or an entry of it, is unknown."""
     try:
         argument = operand()
         if argument is None:
@@ -136,20 +139,19 @@ FUNCTIONS: dict[str, Callable[[Any], Any]] = {
 
 
 def all_of(parts: Iterable[Any]) -> Any:
-    unknown = False
-    for part in parts:
-        if part is None:
-            unknown = True
-        elif not part:
-            return False
-    return None if unknown else True
+    return _decided(parts, False)
 
 
 def any_of(parts: Iterable[Any]) -> Any:
+    return _decided(parts, True)
+
+
+def _decided(parts: Iterable[Any], by: bool) -> Any:
+    """`by` if a part equals it, else None if a part is unknown, else the opposite of `by`."""
     unknown = False
     for part in parts:
         if part is None:
             unknown = True
-        elif part:
-            return True
-    return None if unknown else False
+        elif bool(part) is by:
+            return by
+    return None if unknown else not by

@@ -1,13 +1,12 @@
 # Part of rcyaml and of the components that it makes. Do not edit a copy: the next compile overwrites it.
-"""What values of a type may be: kinds, ranges, sizes, and how that is said."""
+"""What values of a type may be: kinds, ranges and sizes, and these in words."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
 from math import isfinite, trunc
 from numbers import Integral, Real
-from types import MappingProxyType
-from typing import Any, Optional, Union
+from typing import Any, Union
 
 Number = Union[int, float]
 LIMITS: dict[str, tuple[Number, Number]] = {
@@ -19,54 +18,59 @@ LIMITS: dict[str, tuple[Number, Number]] = {
 INTEGERS = ("int", "long")
 WORDS = {"bool": "true or false", "string": "text", "int": "a whole number", "long": "a whole number"}
 WORDS |= dict.fromkeys(("float", "double"), "a number")
-"""What a value of a plain type is, for messages."""
+"""The values of a plain type in words, for messages."""
 LIST, MAP = "a list", "a mapping of names to values"
 
 
 def record_in_words(names: Collection[str]) -> str:
+    """A record with these members in words, for messages."""
     return f"a mapping of {', '.join(names)}"
 
 
 def one_of(values: Collection[str], secret: bool = False) -> str:
-    """Which values something may have, for messages: of a secret, only how many."""
+    """The allowed values in words, for messages; of a secret only their number."""
     return f"one of the {len(values)} values allowed" if secret else f"one of {', '.join(values)}"
 
 
 def is_of(type_: str, data: Any) -> bool:
-    """Whether data is of the kind of a plain type. A bool is no number, 2.0 is a whole number, and neither NaN nor an
-    infinity is any."""
+    """Whether data has the kind of a plain type. A bool is not a number, 2.0 is a whole number, and NaN and infinities
+    are not numbers."""
     if type_ == "bool":
         return isinstance(data, bool)
     if type_ not in LIMITS:
         return isinstance(data, str)
+    if type(data) is int:  # most are, and the general test of numbers is slow
+        return True
     if isinstance(data, bool) or not isinstance(data, Real):
         return False
     return isinstance(data, Integral) or (isfinite(data) and (type_ not in INTEGERS or data == trunc(data)))
 
 
 CHOICE, PATTERN, RANGE, LIMIT = "choice", "pattern", "range", "limit"
-_NO_ENDS: Mapping[str, Number] = MappingProxyType({})
-Matches = Optional[Callable[[str], bool]]
 
 
 def outside(
-    type_: str, value: Any, values: Collection[Any] = (), ends: Mapping[str, Number] = _NO_ENDS, matches: Matches = None
+    type_: str,
+    value: Any,
+    values: Collection[Any] = (),
+    ends: Mapping[str, Number] | None = None,
+    matches: Callable[[str], bool] | None = None,
 ) -> str:
-    """Why a value of the right kind is not allowed: CHOICE for none of the values there are, PATTERN for a text that
-    does not match, RANGE for a number beyond the ends that `holds` takes, LIMIT for one that its type cannot hold; or
+    """Why a value of the right kind is not allowed: CHOICE if it is not one of `values`, PATTERN if a text does not
+    match, RANGE if a number is outside `ends` (the arguments of `holds`), LIMIT if it does not fit its type; else
     ''."""
     if values:
         return "" if value in values else CHOICE
     if type_ not in LIMITS:
         return "" if matches is None or matches(value) else PATTERN
-    if not holds(value, **ends):
+    if ends and not holds(value, **ends):
         return RANGE
     least, most = LIMITS[type_]
     return "" if least <= value <= most else LIMIT
 
 
 def bounds(type_: str) -> str:
-    """What numbers a type can hold: `from -2147483648 to 2147483647 (int)`."""
+    """The numbers that fit a type, in words: `from -2147483648 to 2147483647 (int)`."""
     least, most = LIMITS[type_]
     return f"from {least} to {most} ({type_})"
 
@@ -78,7 +82,7 @@ def holds(
     above: Number | None = None,
     below: Number | None = None,
 ) -> bool:
-    """Whether a number is within limits: `at_least` and `at_most` may be reached, `above` and `below` not."""
+    """Whether a number is within limits: `at_least` and `at_most` are inclusive, `above` and `below` exclusive."""
     return not (
         (at_least is not None and value < at_least)
         or (at_most is not None and value > at_most)
@@ -100,12 +104,14 @@ def has_size(count: int, least: int, most: int | None) -> bool:
 
 
 def size_in_words(least: int, most: int | None) -> str:
+    """`at least 1`, `exactly 3`, `1 to 4`, `at most 4`."""
     if most is None:
         return f"at least {least}"
     if least == most:
         return f"exactly {least}"
-    return f"from {least} to {most}" if least else f"at most {most}"
+    return f"{least} to {most}" if least else f"at most {most}"
 
 
 def entries(count: int) -> str:
+    """`1 entry`, `3 entries`."""
     return f"{count} entr{'y' if count == 1 else 'ies'}"

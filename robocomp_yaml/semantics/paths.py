@@ -35,7 +35,7 @@ def dotted(steps: Iterable[Step]) -> str:
 
 
 def parse(text: str) -> list[str]:
-    """The steps of a path in either spelling, all as text; none for what is no path."""
+    """The steps of a path in either spelling, all as text; an empty list if the text is not a path."""
     steps: list[str] = []
     at = 0
     while at < len(text):
@@ -54,10 +54,9 @@ def parse(text: str) -> list[str]:
 
 
 def escaped(key: str) -> str:
-    """A map's key as a segment of a property's name: dots, blanks, `=`, `%` and what does not print as `%2E`.
+    """A map's key as a segment of a property's name: dots, blanks, `=`, `%` and unprintable characters as `%2E`.
 
-    The empty key is a lone `%`; the key `keys`, which would be mistaken for the list of keys, has its first letter
-    escaped.
+    The empty key is a single `%`. The first letter of the key `keys` is escaped, because `keys` is the list of keys.
     """
     if not key:
         return "%"
@@ -72,7 +71,7 @@ def escaped(key: str) -> str:
 
 
 def unescaped(segment: str) -> str:
-    """The key that a segment spells; what is no escape stands for itself."""
+    """The key that a segment spells. Text that is not an escape is unchanged."""
     if segment == "%":
         return ""
     if "%" not in segment:

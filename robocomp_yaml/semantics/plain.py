@@ -1,5 +1,5 @@
 # Part of rcyaml and of the components that it makes. Do not edit a copy: the next compile overwrites it.
-"""The types of plain parameters: what values they take, from data or from text, and how they say so."""
+"""The types of plain parameters: values from data or from text, their limits, and messages about both."""
 
 from __future__ import annotations
 
@@ -16,89 +16,96 @@ from .paths import Path, in_words
 from .problems import Problem
 from .secrecy import HIDDEN, url
 
+_DATA = frozenset((bool, int, float, str))
+
 
 @dataclass
-class Taking:
-    """Values being taken. `is_text`: plain values are legacy texts. `references` are the paths of values that were
-    given by reference, with the reference."""
+class Conversion:
+    """A conversion of raw values, with its result: `problems`, and `references`, the references by the paths of the
+    values that they set. `is_text`: plain values are the texts of properties."""
 
     is_text: bool = False
     problems: list[Problem] = field(default_factory=list)
     references: dict[Path, str] = field(default_factory=dict)
 
-    def refuse(self, path: Path, message: str, value: str = "", wanted: str = "", unit: str = "") -> None:
+    def reject(self, path: Path, message: str, value: str = "", wanted: str = "", unit: str = "") -> None:
         name = in_words(path)
         self.problems.append(Problem(name, f"{name} {message}" if name else message, value, wanted, unit))
 
 
-class Plain:
-    """A type of plain values. `name` is the type's, `unit` that of its numbers;
-    `takes_any_text`: a text is a value as it stands; `is_secret`: it is never shown."""
+class PlainKind:
+    """A type of plain values. `name` is the name of the type, `unit` the unit of its numbers. `accepts_any_text`: every
+    text is a value. `is_secret`: values are never shown."""
 
     unit = ""
-    takes_any_text = False
+    accepts_any_text = False
     is_secret = False
 
-    def __init__(self, name: str, words: str = "") -> None:
+    def __init__(self, name: str) -> None:
         self.name = name
-        self.words = words or limits.WORDS[name]  # what a value is
 
-    def take(self, raw: Any, path: Path, taking: Taking) -> Any:
-        """The value that `raw` stands for; a problem goes to `taking` where there is none."""
-        raw = references.referred(raw)
-        if isinstance(raw, references.Unresolved):
-            return raw
-        if isinstance(raw, references.Missing):
-            taking.refuse(path, raw.why)
-            return None
-        if isinstance(raw, references.Referred):
-            taking.references[path] = raw.reference
-        is_text = isinstance(raw, references.Referred) or (taking.is_text and isinstance(raw, str))
+    @property
+    def words(self) -> str:
+        """The values in words, for messages."""
+        return limits.WORDS[self.name]
+
+    def convert(self, raw: Any, path: Path, conversion: Conversion) -> Any:
+        """The value of `raw`, or None, with a problem in `conversion`."""
+        is_text = type(raw) is str and conversion.is_text
+        if type(raw) not in _DATA:  # only other data can be a reference, or stand for one
+            raw = references.referred(raw)
+            if isinstance(raw, references.Unresolved):
+                return raw
+            if isinstance(raw, references.Missing):
+                conversion.reject(path, raw.why)
+                return None
+            if isinstance(raw, references.Referred):
+                conversion.references[path] = raw.reference
+            is_text = isinstance(raw, references.Referred) or (conversion.is_text and isinstance(raw, str))
         value = self.read(raw) if is_text else self.of(raw)
         if value is None:
             unit = f" ({self.unit})" if self.unit else ""
-            wanted = f"{self.words}{unit}"
-            said = self.shown(raw)
-            taking.refuse(path, f"must be {wanted}, and is {said}", said, wanted, self.unit)
-        elif wanted := self.limit(value):
+            expected, text = f"{self.words}{unit}", self.shown(raw)
+            conversion.reject(path, f"must be {expected}, and is {text}", text, expected, self.unit)
+        elif expected := self.limit(value):
             unit = f" {self.unit}" if self.unit else ""
-            said = self.shown(raw) if self.takes_any_text else self.shown(raw).strip("'")
-            taking.refuse(path, f"is {said}{unit}, and must {wanted}", said, wanted, self.unit)
+            text = self.shown(raw) if self.accepts_any_text else self.shown(raw).strip("'")
+            conversion.reject(path, f"is {text}{unit}, and must {expected}", text, expected, self.unit)
         return value
 
     def shown(self, raw: Any) -> str:
-        """A value of this type, or what was to be one, for messages."""
+        """A value for messages, or data in its position; HIDDEN for a secret."""
         is_hidden = self.is_secret and isinstance(raw, (str, Real)) and not isinstance(raw, references.Referred)
         return HIDDEN if is_hidden else shown(raw)
 
     def one_of(self, values: Sequence[Any]) -> str:
-        """Which values it may have, for messages."""
+        """The allowed values in words, for messages."""
         return limits.one_of(tuple(map(str, values)), self.is_secret)
 
     def of(self, raw: Any) -> Any:
-        """The value of data of the right type, else None."""
+        """The value of data, or None if the data has the wrong type."""
         raise NotImplementedError
 
     def read(self, text: str) -> Any:
-        """The value that a text spells, or None."""
-        return str(text) if self.takes_any_text else texts.read(self.name, text)
+        """The value that a text spells, or None if it spells none."""
+        return str(text) if self.accepts_any_text else texts.read(self.name, text)
 
     def limit(self, value: Any) -> str:
-        """What the value must do to be within the limits, or ''."""
+        """The limit that a value breaks, as words after "must", or ''."""
         return ""
 
 
 def shown(raw: Any) -> str:
-    """A value for messages, shortened."""
+    """A value for messages, shortened to 60 characters."""
     if isinstance(raw, references.Referred):
         return raw.reference
-    text = repr(url(raw)) if isinstance(raw, str) else texts.spelled(raw)
     if raw is None or isinstance(raw, (list, tuple)) or hasattr(raw, "keys"):
-        text = "nothing" if raw is None else "a mapping" if hasattr(raw, "keys") else "a list"
+        return "nothing" if raw is None else "a mapping" if hasattr(raw, "keys") else "a list"
+    text = repr(url(raw)) if isinstance(raw, str) else texts.spelled(raw)
     return text if len(text) <= 60 else f"{text[:59]}…"
 
 
-class Truth(Plain):
+class BoolKind(PlainKind):
     def __init__(self) -> None:
         super().__init__("bool")
 
@@ -106,23 +113,13 @@ class Truth(Plain):
         return raw if limits.is_of("bool", raw) else None
 
 
-class Numeric(Plain):
-    """Numbers, within limits: `at_least` and `at_most` may be reached, `above` and `below` not."""
+class NumberKind(PlainKind):
+    """Numbers. `ends` are `at_least` and `at_most` (inclusive), `above` and `below` (exclusive)."""
 
-    def __init__(
-        self,
-        name: str,
-        values: Sequence[Number] = (),
-        at_least: Number | None = None,
-        at_most: Number | None = None,
-        above: Number | None = None,
-        below: Number | None = None,
-        unit: str = "",
-    ) -> None:
+    def __init__(self, name: str, values: Sequence[Number] = (), unit: str = "", **ends: Number) -> None:
         super().__init__(name)
         self.values = values
-        ends = {"at_least": at_least, "at_most": at_most, "above": above, "below": below}
-        self._ends = {name: end for name, end in ends.items() if end is not None}
+        self._ends = ends
         self.unit = unit
 
     def limit(self, value: Any) -> str:
@@ -135,25 +132,25 @@ class Numeric(Plain):
         return f"be {limits.bounds(self.name)}" if fault else ""
 
 
-class Whole(Numeric):
+class WholeKind(NumberKind):
     def of(self, raw: Any) -> Any:
         return trunc(raw) if limits.is_of(self.name, raw) else None
 
 
-class Decimal(Numeric):
+class DecimalKind(NumberKind):
     def of(self, raw: Any) -> Any:
         if not limits.is_of(self.name, raw):
             return None
         try:
             return float(raw)
         except OverflowError:
-            return raw  # no type can hold it
+            return raw  # too large for every type
 
 
-class Text(Plain):
+class TextKind(PlainKind):
     """Text; `pattern` must match all of it."""
 
-    takes_any_text = True
+    accepts_any_text = True
 
     def __init__(self, values: Sequence[str] = (), pattern: str = "", shown_as: str = "") -> None:
         super().__init__("string")
@@ -169,19 +166,23 @@ class Text(Plain):
 
     def limit(self, value: Any) -> str:
         fault = limits.outside(self.name, value, self.values, matches=self.matches)
-        return (
-            f"be {self.one_of(self.values)}" if fault == limits.CHOICE else f"match {self._shown_as}" if fault else ""
-        )
+        if fault == limits.CHOICE:
+            return f"be {self.one_of(self.values)}"
+        return f"match {self._shown_as}" if fault else ""
 
 
-class Choice(Plain):
-    """One of an enum's names."""
+class ChoiceKind(PlainKind):
+    """An enumerator."""
 
-    takes_any_text = True
+    accepts_any_text = True
 
-    def __init__(self, name: str, names: Sequence[str]) -> None:
-        super().__init__(name, self.one_of(names))
+    def __init__(self, name: str, *names: str) -> None:
+        super().__init__(name)
         self.names = names
+
+    @property
+    def words(self) -> str:
+        return self.one_of(self.names)
 
     def of(self, raw: Any) -> Any:
         return str(raw) if limits.is_of("string", raw) else None
@@ -190,31 +191,11 @@ class Choice(Plain):
         return f"be {self.words}" if limits.outside(self.name, value, self.names) else ""
 
 
-def truth() -> Plain:
-    return Truth()
+# The names that generated code uses.
+truth, whole, decimal, text, choice = BoolKind, WholeKind, DecimalKind, TextKind, ChoiceKind
 
 
-def whole(name: str, **more: Any) -> Plain:
-    """`name` is int (32 bits) or long (64)."""
-    return Whole(name, **more)
-
-
-def decimal(name: str, **more: Any) -> Plain:
-    """`name` is float or double: the range, since values are kept as Python's floats."""
-    return Decimal(name, **more)
-
-
-def text(**more: Any) -> Plain:
-    return Text(**more)
-
-
-def choice(name: str, *names: str) -> Plain:
-    return Choice(name, names)
-
-
-def secret(kind: Plain) -> Plain:
-    """The same type, of values that are never shown."""
+def secret(kind: PlainKind) -> PlainKind:
+    """The same type; its values are never shown."""
     kind.is_secret = True
-    if isinstance(kind, Choice):
-        kind.words = kind.one_of(kind.names)
     return kind

@@ -1,5 +1,5 @@
 # Part of rcyaml and of the components that it makes. Do not edit a copy: the next compile overwrites it.
-"""What is wrong with values of parameters."""
+"""Problems of the values of parameters."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Problem:
-    """One value that cannot be: `parameter` is its path, `value` what it was to be, `wanted` what it must be (its
-    range, say) in its `unit`; `message` says it all."""
+    """A problem of one value. `parameter` is its path, `value` the rejected value, `wanted` what it must be, such as a
+    range, in its `unit`. `message` is a sentence with all of them."""
 
     parameter: str
     message: str
@@ -23,7 +23,7 @@ class Problem:
 
 
 class ParameterError(ValueError):
-    """Values that parameters cannot have: nothing has changed. `problems` are all of them."""
+    """Values were rejected, and no parameter has changed. `problems` has one entry for each rejected value."""
 
     def __init__(self, problems: Sequence[Problem]) -> None:
         super().__init__("; ".join(problem.message for problem in problems))
@@ -31,5 +31,5 @@ class ParameterError(ValueError):
 
     @property
     def parameter(self) -> str:
-        """The path of the first one."""
+        """The path of the first rejected value."""
         return self.problems[0].parameter

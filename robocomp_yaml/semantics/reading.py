@@ -1,50 +1,47 @@
 # Part of rcyaml and of the components that it makes. Do not edit a copy: the next compile overwrites it.
-"""Properties to the values of parameters, all still text: by their paths, or as a table spells them.
+"""Properties to the values of parameters, which are still texts: by their paths, or as a table spells them.
 
-What stands here reads what `rcyaml compile` writes, and the files that components have had before.
+The reader accepts what `rcyaml compile` writes, and legacy files.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from types import MappingProxyType
 from typing import Any
 
 from . import references, rows, spellings, texts
-from .composite import Kind, Listing, Naming, Recording
+from .composite import Kind, ListKind, MapKind, RecordKind
 from .paths import unescaped
-from .plain import Plain, Text
+from .plain import PlainKind, TextKind
 from .spellings import Spelling
 
-_NONE: Mapping[str, Any] = MappingProxyType({})
 
-
-class Reader:
-    """Reads a set of properties; `used` are the keys that it has come upon. `follow` gives the value of a text, which
-    may be a reference; `known` are plain values by their paths, which are taken as they are."""
+class PropertyReader:
+    """Reads a set of properties. `used` are the keys that it has read. `follow` returns the value of a text, which may
+    be a reference. `known` are plain values by their paths, which are used instead of their texts."""
 
     def __init__(
         self,
         properties: Mapping[str, str],
         table: Mapping[str, Spelling],
         follow: Callable[[str], Any] = references.resolved,
-        known: Mapping[str, Any] = _NONE,
+        known: Mapping[str, Any] | None = None,
     ) -> None:
         self._properties = properties
         self._spellings = table
         self._follow = follow
-        self._known = known
+        self._known = known or {}
         self._quoted = spellings.quotes_texts(properties)
         self.used: set[str] = set()
-        self._stems: set[str] = set()  # every beginning of a key, so that "is there anything below" is one look-up
+        self._stems: set[str] = set()  # every prefix of a key, so that a test for properties below a path is one lookup
         for key in properties:
             at = key.find(".")
             while at >= 0:
                 self._stems.add(key[:at])
                 at = key.find(".", at + 1)
 
-    def read(self, kind: Recording) -> dict[str, Any]:
-        """The values of the parameters, as texts in dictionaries and lists."""
+    def read(self, kind: RecordKind) -> dict[str, Any]:
+        """The texts of the parameters, in dictionaries and lists."""
         return self._record(kind, "", is_top=True)
 
     def _get(self, key: str) -> str | None:
@@ -53,11 +50,11 @@ class Reader:
             self.used.add(key)
         return text
 
-    def _record(self, kind: Recording, key: str, *, is_top: bool = False) -> dict[str, Any]:
+    def _record(self, kind: RecordKind, key: str, *, is_top: bool = False) -> dict[str, Any]:
         found: dict[str, Any] = {}
         for member in kind.members.values():
             stem = f"{key}.{member.key}" if key else member.key
-            if isinstance(member.kind, Recording) and member.kind.is_group:
+            if isinstance(member.kind, RecordKind) and member.kind.is_group:
                 found[member.key] = self._record(member.kind, stem, is_top=is_top)
                 continue
             spelling = self._spellings.get(stem) if is_top else None
@@ -69,26 +66,26 @@ class Reader:
         return found
 
     def _value(self, kind: Kind, key: str) -> Any:
-        """What stands under a path; None where nothing does."""
-        if isinstance(kind, Plain):
+        """The texts at a path; None if there are none."""
+        if isinstance(kind, PlainKind):
             text = self._get(key)
             if text is not None and key in self._known:
                 return self._known[key]
             return None if text is None else self._text(kind, text)
-        if isinstance(kind, Listing):
+        if isinstance(kind, ListKind):
             return self._list(kind, key)
-        if isinstance(kind, Naming):
+        if isinstance(kind, MapKind):
             names = self._get(f"{key}.keys")
             if names is None:
                 return None
             return {unescaped(name): self._entry(kind.element, f"{key}.{name}") for name in names.split()}
         return self._record(kind, key) if key in self._stems else None
 
-    def _list(self, kind: Listing, key: str) -> Any:
+    def _list(self, kind: ListKind, key: str) -> Any:
         size = self._get(f"{key}.size")
         count = self._count(size) if size else 0
         if count is None:
-            return size  # no list: refused
+            return size  # not a list: rejected later
         if not size:
             while f"{key}.{count}" in self._stems or f"{key}.{count}" in self._properties:
                 count += 1
@@ -97,26 +94,26 @@ class Reader:
         return [self._entry(kind.element, f"{key}.{index}") for index in range(count)]
 
     def _count(self, text: str) -> int | None:
-        """How many entries a count asks for; None where it is no count, or more than there could be."""
+        """The number of entries that a count sets; None if it is not a count, or is implausibly large."""
         return texts.count(text, len(self._properties) + 1_000_000)
 
     def _entry(self, kind: Kind, key: str) -> Any:
-        """An entry of a list or map is there, whether or not it has a property."""
+        """The texts of an entry of a list or map; empty if the entry has no property."""
         value = self._value(kind, key)
         return _empty(kind) if value is None else value
 
     def _text(self, kind: Kind, text: str) -> Any:
-        is_text = isinstance(kind, Plain) and kind.takes_any_text
+        is_text = isinstance(kind, PlainKind) and kind.accepts_any_text
         return self._follow(texts.unquoted(text) if self._quoted and is_text else text)
 
     def _spelled(self, spelling: Spelling, kind: Kind) -> Any:
-        if isinstance(kind, Listing) and not spelling.separators:
-            is_numbered = bool(spelling.fields) or "i" in spellings.holes(spelling.key)
+        if isinstance(kind, ListKind) and not spelling.separators:
+            is_numbered = bool(spelling.fields) or "i" in spellings.placeholders(spelling.key)
             return self._numbered(spelling, kind) if is_numbered else self._keyed(spelling, kind)
         text = self._get(spelling.key)
         if text is None:
             return None
-        if isinstance(kind, Listing):
+        if isinstance(kind, ListKind):
             levels, inner = _levels(kind)
             parts = rows.nested(text, spelling.separators, levels, spelling.trailing)
             separator = spelling.separators[levels] if levels < len(spelling.separators) else ""
@@ -129,25 +126,25 @@ class Reader:
         return self._row(spelling, kind, parts, separator)
 
     def _row(self, spelling: Spelling, kind: Kind, text: str, separator: str) -> Any:
-        """A record's columns, or one plain value; a text that is no row is refused later."""
-        if not isinstance(kind, Recording):
-            return self._text(kind, text) if isinstance(kind, Plain) else text
+        """The columns of a record, or one plain value. A text that is not a row is rejected later."""
+        if not isinstance(kind, RecordKind):
+            return self._text(kind, text) if isinstance(kind, PlainKind) else text
         members = kind.members
         found = rows.row(
             text,
             separator,
             spelling.columns,
             lambda name: members[name].is_optional,
-            lambda name: isinstance(members[name].kind, Text),
+            lambda name: isinstance(members[name].kind, TextKind),
         )
         return text if found is None else {name: self._text(members[name].kind, part) for name, part in found.items()}
 
-    def _numbered(self, spelling: Spelling, kind: Listing) -> Any:
-        """Rows by their numbers: as many as the count says, else until one is missing."""
+    def _numbered(self, spelling: Spelling, kind: ListKind) -> Any:
+        """Rows by their numbers: as many as the count sets, or up to the first missing one."""
         counted = self._get(spelling.count) if spelling.count else None
         count = self._count(counted) if counted else None
         if counted and count is None:
-            return counted  # no list: refused
+            return counted  # not a list: rejected later
         found: list[Any] = []
         while count is None or len(found) < count:
             row = self._numbered_row(spelling, kind.element, str(spelling.first + len(found)))
@@ -157,7 +154,7 @@ class Reader:
         return None if count is None and not found else found
 
     def _numbered_row(self, spelling: Spelling, kind: Kind, number: str) -> Any:
-        if spelling.fields and isinstance(kind, Recording):
+        if spelling.fields and isinstance(kind, RecordKind):
             row = {}
             for name, key in spelling.fields:
                 text = self._get(spellings.filled(key, {"i": number}))
@@ -167,9 +164,9 @@ class Reader:
         text = self._get(spellings.filled(spelling.key, {"i": number}))
         return None if text is None else self._row(spelling, kind, text, spelling.separator)
 
-    def _keyed(self, spelling: Spelling, kind: Listing) -> Any:
-        """Rows whose key holds members: in the order of these, since properties have none."""
-        names, pattern = spellings.holes(spelling.key), spellings.pattern(spelling.key)
+    def _keyed(self, spelling: Spelling, kind: ListKind) -> Any:
+        """Rows whose key contains members, sorted by these, because properties have no order."""
+        names, pattern = spellings.placeholders(spelling.key), spellings.pattern(spelling.key)
         found: list[tuple[Any, Any]] = []
         for key, text in self._properties.items():
             in_key = pattern.match(key)
@@ -183,31 +180,31 @@ class Reader:
 
 
 def _empty(kind: Kind) -> Any:
-    """What is there, and has no property."""
-    if isinstance(kind, Text):
+    """The value of something that exists and has no property."""
+    if isinstance(kind, TextKind):
         return ""
-    if isinstance(kind, Listing):
+    if isinstance(kind, ListKind):
         return []
-    if isinstance(kind, Naming):
+    if isinstance(kind, MapKind):
         return {}
-    return _emptiness(kind) if isinstance(kind, Recording) else None
+    return _emptiness(kind) if isinstance(kind, RecordKind) else None
 
 
-def _emptiness(kind: Recording) -> dict[str, Any]:
-    """The members of a record that read as empty where they have no property."""
+def _emptiness(kind: RecordKind) -> dict[str, Any]:
+    """The members of a record that are empty if they have no property."""
     found = {member.key: _empty(member.kind) for member in kind.members.values() if member.reads_as_empty}
     return {key: value for key, value in found.items() if value is not None}
 
 
 def _levels(kind: Kind) -> tuple[int, Kind]:
     levels = 0
-    while isinstance(kind, Listing):
+    while isinstance(kind, ListKind):
         levels, kind = levels + 1, kind.element
     return levels, kind
 
 
 def _by_number(text: str) -> tuple[bool, int, str]:
-    """Numbers first, in their order, however long they are; then words."""
+    """A sort key: numbers of any length first, by their value, then words."""
     if not texts.is_digits(text):
         return True, 0, text
     digits = text.lstrip("0")

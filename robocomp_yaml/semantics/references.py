@@ -1,7 +1,7 @@
 # Part of rcyaml and of the components that it makes. Do not edit a copy: the next compile overwrites it.
 """Values by reference: `${env:NAME}` and `${file:PATH}` in properties, `{"env": NAME}` and `{"file": PATH}` in data.
 
-They are followed when a component starts, where it runs.
+They are resolved when a component starts, on the host where it runs.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from typing import Any
 ENV, FILE = "env", "file"
 KINDS = (ENV, FILE)
 _VARIABLE = r"[A-Za-z_][A-Za-z0-9_]*\Z"
-LARGEST = 1 << 20  # bytes of a file that holds one value
+LARGEST = 1 << 20  # bytes of a file with one value
 
 
 class Unresolved:
-    """A reference that is not followed, such as the compiler's: `{"env": NAME}` or `{"file": PATH}` is its `data`."""
+    """A reference that is not resolved, as in the compiler. `data` is `{"env": NAME}` or `{"file": PATH}`."""
 
     __slots__ = ("data",)
 
@@ -33,30 +33,29 @@ class Unresolved:
 
 
 class Referred(str):
-    """A text that a reference gave; what is shown of it is the reference alone."""
+    """The text of a resolved reference. Messages show only the reference."""
 
     reference: str
 
 
 class Missing:
-    """What stands for the value of a reference that leads nowhere; `why` says where it comes from, and what is wrong
-    there."""
+    """The value of a reference that cannot be resolved. `why` names its source and the problem."""
 
     def __init__(self, why: str) -> None:
         self.why = why
 
 
 class _Unusable(Exception):
-    """Says of a file why it gives no value."""
+    """A file has no usable value. The message is a relative clause about the file."""
 
 
 def is_reference(data: object) -> bool:
-    """Whether plain data, where a plain value is expected, refers to one that is not known yet."""
+    """Whether data, where a plain value is expected, is a reference."""
     return isinstance(data, dict) and len(data) == 1 and next(iter(data)) in KINDS
 
 
 def is_sound(data: object) -> bool:
-    """Whether it is a reference that can be followed."""
+    """Whether data is a reference with a valid name or path."""
     if not isinstance(data, dict) or not is_reference(data):
         return False
     kind, name = next(iter(data.items()))
@@ -64,21 +63,21 @@ def is_sound(data: object) -> bool:
 
 
 def problem(kind: str, name: object) -> str:
-    """What is wrong with the name or path of a reference, or ''."""
+    """The problem of the name or path of a reference, or ''."""
     if kind == ENV:
-        return "" if isinstance(name, str) and re.match(_VARIABLE, name) else "names no variable of the environment"
+        return "" if isinstance(name, str) and re.match(_VARIABLE, name) else "does not name an environment variable"
     if not isinstance(name, str) or not name or name[-1] in " \t/":
-        return "names no file"
-    return "has a path that no file has" if any(char in name for char in "\r\n\0") else ""
+        return "does not name a file"
+    return "has a path that no file can have" if any(char in name for char in "\r\n\0") else ""
 
 
 def spelled(kind: str, name: str) -> str:
-    """The reference as properties have it."""
+    """The reference as properties spell it."""
     return f"${{{kind}:{name}}}"
 
 
 def read(text: str) -> dict[str, str] | None:
-    """The reference that the text of a property is, or None."""
+    """The reference that a property's text spells, or None."""
     if not (text.startswith("${") and text.endswith("}")):
         return None
     kind, colon, name = text[2:-1].partition(":")
@@ -86,13 +85,13 @@ def read(text: str) -> dict[str, str] | None:
 
 
 def unresolved(text: str) -> Any:
-    """The text itself, or the reference that it is."""
+    """The text itself, or the reference that it spells."""
     found = read(text)
     return text if found is None else Unresolved(found)
 
 
 def resolved(text: str, folder: str = "") -> Any:
-    """The text itself, or what the reference stands for that it is; a relative path is one from the folder."""
+    """The text itself, or the value of the reference that it spells. A relative path starts at the folder."""
     found = read(text)
     if found is None:
         return text
@@ -109,7 +108,7 @@ def resolved(text: str, folder: str = "") -> Any:
 
 
 def referred(raw: Any) -> Any:
-    """What the data `{"env": NAME}` or `{"file": PATH}` stands for; other data as it is."""
+    """The value of the reference `{"env": NAME}` or `{"file": PATH}`; other data unchanged."""
     return resolved(spelled(*next(iter(raw.items())))) if is_sound(raw) else raw
 
 
@@ -120,12 +119,12 @@ def referring(text: str, reference: str) -> Referred:
 
 
 def _contents(path: str) -> str:
-    """The text of a file, without one line end at its end."""
+    """The text of a file without its last line end. Raises _Unusable."""
     try:
-        descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)  # what is no file could block
+        descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)  # a pipe would block
         try:
             if not stat.S_ISREG(os.fstat(descriptor).st_mode):
-                raise _Unusable("which is no regular file")
+                raise _Unusable("which is not a regular file")
             with open(descriptor, "rb", closefd=False) as file:
                 raw = file.read(LARGEST + 1)
         finally:
@@ -135,7 +134,7 @@ def _contents(path: str) -> str:
     if len(raw) > LARGEST:
         raise _Unusable("which is larger than 1 MiB")
     if b"\0" in raw:
-        raise _Unusable("which holds a NUL")
+        raise _Unusable("which contains a NUL character")
     if raw.endswith(b"\n"):
         raw = raw[: -2 if raw.endswith(b"\r\n") else -1]
     try:

@@ -1,7 +1,7 @@
 # Part of rcyaml and of the components that it makes. Do not edit a copy: the next compile overwrites it.
 """Several values in one property: rows of columns, and lists between separators.
 
-What is split is stripped of blanks, as legacy files indent their rows; so a part cannot start or end with one.
+Blanks around each part are removed, because legacy files indent their rows. A part cannot start or end with a blank.
 """
 
 from __future__ import annotations
@@ -15,13 +15,14 @@ Row = Optional[dict[str, str]]
 
 
 def split(text: str, separator: str) -> list[str]:
-    """The parts of a text; a separator of blanks stands for any run of them."""
+    """The parts of a text. A separator of blanks matches any number of blanks."""
     bare = separator.strip(BLANKS)
     return [part.strip(BLANKS) for part in text.split(bare)] if bare else text.split()
 
 
 def nested(text: str, separators: Sequence[str], levels: int, trailing: bool) -> Any:
-    """Nested lists of texts: `levels` separators are used; the outermost one may stand once more at the end."""
+    """Nested lists of texts, split by `levels` separators. `trailing`: the outermost separator may also end the
+    text."""
     if not levels:
         return text
     bare = separators[0].strip(BLANKS)
@@ -35,7 +36,7 @@ def nested(text: str, separators: Sequence[str], levels: int, trailing: bool) ->
 
 
 def joined(texts: Any, separators: Sequence[str], trailing: bool) -> str:
-    """The text of nested lists of texts; the outermost separator stands once more at the end where it trails."""
+    """The text of nested lists of texts. `trailing`: the outermost separator also ends the text."""
     if isinstance(texts, str):
         return texts
     text = separators[0].join(joined(part, separators[1:], False) for part in texts)
@@ -49,8 +50,8 @@ def row(
     is_optional: Callable[[str], bool],
     is_text: Callable[[str], bool],
 ) -> Row:
-    """The texts of a row by column; a column that is empty, and is no text, has no value. Optional columns at the end
-    may be left out. None where the columns do not add up."""
+    """The texts of a row by column. An empty column has no value, unless it is a required text. Optional columns at the
+    end may be missing. None if the number of columns is wrong."""
     parts = split(text, separator)
     if len(parts) > len(columns) or not all(map(is_optional, columns[len(parts) :])):
         return None

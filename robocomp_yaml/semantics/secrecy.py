@@ -1,5 +1,5 @@
 # Part of rcyaml and of the components that it makes. Do not edit a copy: the next compile overwrites it.
-"""What is shown of a secret, and which names say that something is one."""
+"""Which names are names of secrets, and what is shown instead of a secret."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import re
 HIDDEN = "***"
 """What is shown instead of a secret."""
 
-# Letters beyond ASCII are said by what they are not: ranges up to the end of Unicode take `re` milliseconds to compile.
+# A negated class for letters beyond ASCII: `re` needs milliseconds to compile ranges up to the end of Unicode.
 _WORD = r"[A-Z]+(?![a-z])|[A-Z]?[^\x00-`{-\x7f]+|[0-9]+"
 _STEMS = (
     "password", "passwd", "passphrase", "passcode", "secret", "credential", "contrase",
@@ -21,17 +21,17 @@ _ABOUT = frozenset((
     "prompt", "timeout", "rate", "attempts", "tries", "retries", "limit", "min", "max", "age", "ttl", "lifetime",
     "expiry", "period", "interval", "filter", "band", "through", "type",
 ))  # fmt: skip
-"""Words that end the name of something about a secret, which is none itself."""
+"""Last words of names that are about a secret, but are not secret."""
 _HOW = frozenset((
     "max", "min", "num", "number", "count", "use", "has", "no", "allow", "require", "requires", "show", "hide",
     "enable", "is", "with", "ask", "low", "high", "band", "all", "by", "over", "under", "two", "single", "first",
     "second", "multi",
 ))  # fmt: skip
-"""Words that begin such a name."""
+"""First words of such names."""
 
 
 def is_secret(name: str) -> bool:
-    """Whether what has this name is to be kept secret: a variable, an option, a parameter, a property."""
+    """Whether a variable, an option, a parameter or a property of this name is secret."""
     words = [word.lower() for word in re.findall(_WORD, name)]
     if not words or words[-1] in _ABOUT or words[0] in _HOW or words in (["pwd"], ["oldpwd"]):
         return False
@@ -42,7 +42,7 @@ def is_secret(name: str) -> bool:
 
 
 USER_INFO = r"([A-Za-z][A-Za-z0-9+.-]{0,30}://[^\s/?#:@'\"<>]*):([^\s/?#'\"<>]+)@"
-"""A user and a password in a URL: a text, since most runs meet none, and need not compile it."""
+"""A regular expression of a user and a password in a URL; a string, because most runs never use it."""
 
 
 def url(text: str) -> str:
@@ -51,5 +51,5 @@ def url(text: str) -> str:
 
 
 def shown(name: str, text: str) -> str:
-    """The text of what has a name."""
+    """A text as it may be shown: HIDDEN if its name is the name of a secret."""
     return HIDDEN if text and is_secret(name) else url(text)

@@ -1,5 +1,5 @@
 # Part of rcyaml and of the components that it makes. Do not edit a copy: the next compile overwrites it.
-"""How properties spell parameters: by their paths, or as a table says."""
+"""How properties spell parameters: by their paths, or by a table."""
 
 from __future__ import annotations
 
@@ -7,15 +7,16 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-_HOLE = r"\{([A-Za-z0-9_][A-Za-z0-9_-]*)\}"
+_PLACEHOLDER = r"\{([A-Za-z0-9_][A-Za-z0-9_-]*)\}"
 _TOML = r"(?:Endpoints|Period|Agent)\.|Proxies\.(?!.*Prefix$)"
 
 
 @dataclass(frozen=True)
 class Spelling:
-    """How properties spell a parameter. A plain value has just `key`. For rows, `key` has holes: `{i}`, a row's number
-    from `first` on, or members' names; `columns` say what a row holds, and `count` is the property that counts them.
-    With `fields`, each member has a property of its own. `separators` are for lists in one property."""
+    """How properties spell a parameter. A plain value has only `key`. For rows, `key` has placeholders: `{i}`, the
+    number of a row, starting at `first`, or names of members. `columns` are the members in a row, and `count` is the
+    property with the number of rows. With `fields`, each member has its own property. `separators` are for lists in one
+    property."""
 
     key: str = ""
     fields: tuple[tuple[str, str], ...] = ()
@@ -27,25 +28,25 @@ class Spelling:
     count: str = ""
 
 
-def holes(key: str) -> tuple[str, ...]:
-    """The holes of a property's name: `i` of `JointMotor.M{i}`, `from` and `to` of `ID:{from}-{to}`."""
-    return tuple(re.findall(_HOLE, key))
+def placeholders(key: str) -> tuple[str, ...]:
+    """The placeholders of a property's name: `i` of `JointMotor.M{i}`, `from` and `to` of `ID:{from}-{to}`."""
+    return tuple(re.findall(_PLACEHOLDER, key))
 
 
 def filled(key: str, values: Mapping[str, str]) -> str:
-    """The name with those holes filled that there are values for."""
-    return re.sub(_HOLE, lambda hole: values.get(hole[1], hole[0]), key)
+    """The name with values in place of the placeholders that have one."""
+    return re.sub(_PLACEHOLDER, lambda found: values.get(found[1], found[0]), key)
 
 
 def pattern(key: str) -> re.Pattern[str]:
-    """Reads the holes back; each as short as the rest allows, a number where it is the row's."""
+    """A pattern that reads the placeholders back: `{i}` as a number, the others as short as possible."""
     out, at = "", 0
-    for hole in re.finditer(_HOLE, key):
-        out += re.escape(key[at : hole.start()]) + ("([0-9]+)" if hole[1] == "i" else "(.+?)")
-        at = hole.end()
+    for found in re.finditer(_PLACEHOLDER, key):
+        out += re.escape(key[at : found.start()]) + ("([0-9]+)" if found[1] == "i" else "(.+?)")
+        at = found.end()
     return re.compile(out + re.escape(key[at:]) + r"\Z", re.DOTALL)
 
 
 def quotes_texts(keys: Iterable[str]) -> bool:
-    """Whether a file with these keys has its texts in quotes, as TOML wants them."""
+    """Whether a file with these keys has its texts in quotes, as TOML requires."""
     return any(re.match(_TOML, key) for key in keys)

@@ -1,7 +1,7 @@
 # Part of rcyaml and of the components that it makes. Do not edit a copy: the next compile overwrites it.
-"""What a state machine is made of, as tables: states and transitions point at each other by number.
+"""The tables of a state machine: states and transitions refer to each other by number.
 
-The states stand in the document's order, each before those inside of it; number 0 is the root. The run times of other
+The states are in the order of the document, each before its children. Number 0 is the root. The run times of other
 languages have the same tables, field by field.
 """
 
@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 NOWHERE = -1
+"""The number of a missing state, transition or machine."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +59,7 @@ class Branch:
 @dataclass(frozen=True)
 class Action:
     """`kind`: 'raise', 'send', 'cancel', 'log', 'assign', 'script', 'call', 'if', 'foreach'. `name` is the event,
-    label, location, code, action or item; `index` is foreach's."""
+    label, location, code, action or item. `index` is the index variable of foreach."""
 
     kind: str
     name: str = ""
@@ -116,7 +117,7 @@ class State:
 
 @dataclass(frozen=True)
 class Machine:
-    """`machines` are those that it invokes, by number."""
+    """`machines` are the invoked machines, by number."""
 
     name: str
     datamodel: str

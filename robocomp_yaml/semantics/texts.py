@@ -1,8 +1,8 @@
 # Part of rcyaml and of the components that it makes. Do not edit a copy: the next compile overwrites it.
-"""Plain values as texts: how properties, rows and command lines spell them, and how that is read.
+"""Plain values as texts in properties, rows and command lines.
 
-The run times of other languages read by the same table: `true`, `True`, `TRUE`, `1` and their opposites; whole numbers
-in decimal; numbers as C's `strtod` reads them, without infinities.
+The run times of other languages read the same texts: `true`, `True`, `TRUE`, `1` and their opposites; whole numbers in
+decimal; numbers as C's `strtod` reads them, without infinities.
 """
 
 from __future__ import annotations
@@ -39,31 +39,32 @@ _READERS = {"bool": truth, "int": whole, "long": whole, "float": number, "double
 
 
 def read(type_: str, text: str) -> Value | None:
-    """The value that a text spells, by the name of its type; None where it spells none. Of other types than numbers
-    and `bool` any text is one."""
+    """The value that a text spells, by the name of its type; None if it spells none. Every text is a value of a type
+    that is neither a number nor `bool`."""
     reader = _READERS.get(type_)
     return text if reader is None else reader(text)
 
 
 def spelled(value: object) -> str:
-    """A plain value as text, where no document spells it."""
+    """The text of a plain value that no document spells."""
     if isinstance(value, bool):
         return "true" if value else "false"
     return str(value)
 
 
 def count(text: str, most: int) -> int | None:
-    """How many entries a text asks for; None where it is no count, or asks for more than `most`."""
+    """The number of entries that a text sets; None if it is not a count, or is more than `most`."""
     found = int(text) if is_digits(text) and len(text) < 10 else None
     return None if found is None or found > most else found
 
 
 def is_digits(text: str) -> bool:
-    """Whether it is a number without a sign, in ASCII."""
+    """Whether a text is a number without a sign, in ASCII."""
     return text.isascii() and text.isdigit()
 
 
 def unquoted(value: str) -> str:
-    """Without the double quotes around it that TOML wants and Ice does not know; one that holds another stays."""
+    """A value without its double quotes, which TOML requires and Ice does not know. A value with more quotes is
+    unchanged."""
     is_quoted = len(value) > 1 and value[0] == value[-1] == '"' and '"' not in value[1:-1]
     return value[1:-1] if is_quoted else value

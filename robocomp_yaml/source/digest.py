@@ -1,19 +1,20 @@
-"""What files are compared by: the digest of contents, for manifests and stamps, and for code the state on the disk."""
+"""Digests of contents, for manifests and stamps, and the states of files on the disk, for installed code."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from hashlib import blake2b
 
 
 def digest(data: bytes) -> str:
+    from hashlib import blake2b  # with OpenSSL, slow to import
+
     return blake2b(data, digest_size=16).hexdigest()
 
 
 def states(folder: str, base: int) -> Iterator[str]:
-    """Each file below a folder, with its size and times; of paths, what is behind the first `base` characters. Where
-    installers give the files of two builds one date, the time at which the disk changed (ctime) tells them apart."""
+    """Each file below a folder, with its size (bytes) and times (ns). Paths lack their first `base` characters. The
+    time of the change on the disk (ctime) distinguishes builds whose files an installer gave the same date."""
     with os.scandir(folder) as entries:
         for entry in entries:
             if not entry.is_dir():

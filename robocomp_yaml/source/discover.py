@@ -1,4 +1,4 @@
-"""Which files are documents: by their names, below the paths that a user gives."""
+"""Discovers documents by their names, in and below the requested paths."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ _SKIPPED = frozenset(("node_modules", "__pycache__", "build", "generated"))
 
 
 def kind_of(path: str, disk: Disk | None = None) -> str | None:
-    """`idsl` for `NAME.idsl.yaml` and for `idsl.yaml`; None for what is no document of ours."""
+    """The kind of a document, `idsl` for `NAME.idsl.yaml` and `idsl.yaml`; None if the file is not a document."""
     name = os.path.basename(path)
     for kind in KINDS:
         if name == f"{kind}.yaml" or name.endswith(f".{kind}.yaml"):
-            return kind if name != "config.yaml" or _is_ours(path, disk or Disk()) else None
+            return kind if name != "config.yaml" or _is_values_document(path, disk or Disk()) else None
     return None
 
 
-def _is_ours(path: str, disk: Disk) -> bool:
-    """Many programs have a `config.yaml`: ours stands in `etc/` beside a component, or names our schema in a comment
-    above its content, where editors look for it."""
+def _is_values_document(path: str, disk: Disk) -> bool:
+    """Many programs have a `config.yaml`. A values document is in `etc/` beside a component, or names the schema in a
+    comment above its content, where editors read it."""
     folder = os.path.dirname(path)
     if os.path.basename(os.path.abspath(folder)) == "etc":
         names = disk.documents(os.path.join(folder, os.pardir))
@@ -45,9 +45,9 @@ def _is_ours(path: str, disk: Disk) -> bool:
     return _MODELINE.match(disk.peek(path, 1 << 12)) is not None
 
 
-class Found(msgspec.Struct, frozen=True):
-    """Documents in the order of their paths; `folders` are those that were asked for, `roots` the folders below them
-    into which something was compiled."""
+class DiscoveredDocuments(msgspec.Struct, frozen=True):
+    """Documents in the order of their paths; `folders` are the requested folders, `roots` the folders below them that
+    have a manifest."""
 
     documents: tuple[str, ...] = ()
     folders: tuple[str, ...] = ()
@@ -55,42 +55,38 @@ class Found(msgspec.Struct, frozen=True):
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
-def discover(paths: list[str] | tuple[str, ...], disk: Disk | None = None) -> Found:
-    """The documents named, and all below the folders named; hidden and generated folders are passed over."""
+def discover(paths: list[str] | tuple[str, ...], disk: Disk | None = None) -> DiscoveredDocuments:
+    """The documents among the paths, and all below the folders among them; hidden and generated folders are skipped."""
     disk = disk or Disk()
     documents: dict[str, None] = {}
     folders: list[str] = []
     roots: list[str] = []
-    said: list[Diagnostic] = []
+    diagnostics: list[Diagnostic] = []
     for path in paths:
         if disk.has_folder(path):
             folders.append(path)
-            closed: list[OSError] = []
-            below = list(documents_below(path, roots, closed.append, disk))
-            said += [
+            unreadable: list[OSError] = []
+            below = list(documents_below(path, roots, unreadable.append, disk))
+            diagnostics += [
                 codes.UNREADABLE.at(
                     Span(os.path.normpath(error.filename)), reason=(error.strerror or str(error)).lower()
                 )
-                for error in closed
+                for error in unreadable
             ]
-            if not below and not closed:
-                said.append(
-                    codes.NOTHING_FOUND.at(
-                        Span(path),
-                        hint="`rcyaml new interface NAME` writes a first one, "
-                        f"`{typed('rcyaml', 'migrate', path)}` carries over what you have",
-                    )
-                )
+            if not below and not unreadable:
+                hint = "`rcyaml new interface NAME` writes a first document"
+                hint += f", `{typed('rcyaml', 'migrate', path)}` converts legacy files"
+                diagnostics.append(codes.NOTHING_FOUND.at(Span(path), hint=hint))
         elif kind_of(path, disk) is None and disk.state(path) != NOTHING:
             expected = " or ".join(f".{kind}.yaml" for kind in KINDS)
-            migrate = f"`{typed('rcyaml', 'migrate', path)}` carries legacy files over"
-            hint = migrate if not path.endswith(".yaml") else ""
-            said.append(codes.UNKNOWN_KIND.at(Span(path), name=os.path.basename(path), kinds=expected, hint=hint))
+            hint = "" if path.endswith(".yaml") else f"`{typed('rcyaml', 'migrate', path)}` converts legacy files"
+            name = os.path.basename(path)
+            diagnostics.append(codes.UNKNOWN_KIND.at(Span(path), name=name, kinds=expected, hint=hint))
             continue
         else:
             below = [os.path.normpath(path)]
         documents.update(dict.fromkeys(below))
-    return Found(tuple(documents), tuple(folders), tuple(roots), tuple(said))
+    return DiscoveredDocuments(tuple(documents), tuple(folders), tuple(roots), tuple(diagnostics))
 
 
 def of_kind(folder: str, kind: str, disk: Disk | None = None) -> list[str]:
@@ -105,16 +101,16 @@ def documents_below(
     on_error: Callable[[OSError], None] | None = None,
     disk: Disk | None = None,
 ) -> Iterator[str]:
-    """Every document below a folder, sorted within each folder; a link to a folder is not followed. The folders that
-    have a manifest are added to `roots`, and `on_error` is told of those that cannot be read."""
+    """Every document below a folder, sorted within each folder; links to folders are not followed. Folders that have a
+    manifest are appended to `roots`; `on_error` is called for folders that cannot be read."""
     disk = disk or Disk()
-    found: list[str] = []
+    documents: list[str] = []
     for where, folders, names in disk.walk(folder, on_error):
         if roots is not None and ".rcyaml" in folders and os.path.isfile(os.path.join(where, MANIFEST)):
             roots.append(os.path.normpath(where))
         folders[:] = [name for name in folders if name not in _SKIPPED and not name.startswith(".")]
         for name in names:
             if name.endswith(".yaml") and kind_of(path := os.path.normpath(os.path.join(where, name)), disk):
-                found.append(path)
+                documents.append(path)
                 yield path
-    disk.walked[folder] = found
+    disk.walked[folder] = documents

@@ -1,7 +1,7 @@
-"""The disk as a run sees it: the files that are there, or in their place the unsaved texts of an overlay.
+"""The disk as a run sees it: its files, with the unsaved texts of an overlay in front of them.
 
-Everything between paths and a linked program is read through one of these, so that an editor's unsaved documents count
-everywhere, and so that it is known afterwards on what the outcome depends.
+All passes from paths to a linked program read through one Disk. Thus an editor's unsaved documents are used in every
+pass, and the Disk records all that the result depends on.
 """
 
 from __future__ import annotations
@@ -18,17 +18,17 @@ FILE, FOLDER, OTHER, NOTHING = "file", "folder", "other", ""
 
 
 class Disk:
-    """`overlay` has contents by path that count instead of what the disk has, be there such a file or not.
+    """`overlay` maps paths to contents that replace those of the disk, whether or not such a file exists.
 
-    All that it was asked is remembered, by the path that was asked for: `contents`, the bytes of each file that was
-    read; `states`, what there was (FILE, FOLDER, OTHER such as a pipe or a link to nowhere, NOTHING); `listed`, the
-    documents in a folder; `seen`, all names in a folder; `walked`, what `documents_below` found there. `unreadable`
-    says that something could not be read, which may become otherwise without any trace.
+    The Disk records every request by its path: `contents`, the bytes of each file that was read; `states`, the kind of
+    each path (FILE, FOLDER, NOTHING, or OTHER such as a pipe or a broken link); `listed`, the documents in a folder;
+    `seen`, all names in a folder; `walked`, the documents below a folder. `unreadable`: a path could not be read, and
+    may become readable without a change that the Disk could detect.
     """
 
     def __init__(self, overlay: Mapping[str, bytes] | None = None) -> None:
         self._overlay = {os.path.realpath(path): text for path, text in (overlay or {}).items()}
-        self._folders = {folder for path in self._overlay for folder in _above(path)}
+        self._folders = {folder for path in self._overlay for folder in folders_above(path)}
         self.contents: dict[str, bytes] = {}
         self.states: dict[str, str] = {}
         self.listed: dict[str, list[str]] = {}
@@ -37,19 +37,19 @@ class Disk:
         self.unreadable = False
 
     def read(self, path: str, limit: int = MAX_DOCUMENT) -> tuple[bytes | None, list[Diagnostic]]:
-        """The bytes of a file of at most `limit` bytes, or what keeps it from being read."""
-        said: list[Diagnostic] = []
+        """The content of a file of at most `limit` bytes; None, with diagnostics, if it cannot be read."""
+        diagnostics: list[Diagnostic] = []
         raw = self._unsaved(path)
         if raw is None:
-            raw, said = read_bytes(self._on_disk(path), limit)
+            raw, diagnostics = read_bytes(self._on_disk(path), limit)
         if raw is not None:
             self.contents[path] = raw
         else:
             self.unreadable = True
-        return raw, said
+        return raw, diagnostics
 
     def peek(self, path: str, size: int) -> bytes:
-        """The first bytes of a file; none where it cannot be read. That they were asked for is not remembered."""
+        """The first `size` bytes of a file; none if it cannot be read. This request is not recorded."""
         raw = self._unsaved(path)
         if raw is not None:
             return raw[:size]
@@ -60,30 +60,30 @@ class Disk:
             return b""
 
     def state(self, path: str) -> str:
-        """What there is at a path: FILE, FOLDER, OTHER or NOTHING."""
+        """The kind of a path: FILE, FOLDER, OTHER or NOTHING."""
         if self._overlay and (real := os.path.realpath(path)) in self._overlay:
-            found = FILE
+            kind = FILE
         elif self._overlay and real in self._folders:
-            found = FOLDER
+            kind = FOLDER
         else:
-            found = state_of(self._on_disk(path))
-        self.states[path] = found
-        return found
+            kind = state_of(self._on_disk(path))
+        self.states[path] = kind
+        return kind
 
     def has_file(self, path: str) -> bool:
-        """Whether there is a file (not a folder, nor a link to nowhere)."""
+        """Whether the path is a file (neither a folder nor a broken link)."""
         return self.state(path) == FILE
 
     def has_folder(self, path: str) -> bool:
         return self.state(path) == FOLDER
 
     def documents(self, folder: str) -> list[str]:
-        """The names in a folder that documents may have, sorted. '' is the working folder."""
+        """The names in a folder that may be documents, sorted. '' is the working folder."""
         self.listed[folder] = documents_in(self._names(folder))
         return self.listed[folder]
 
     def names(self, folder: str) -> list[str]:
-        """All names in a folder, sorted: for hints alone, since any other file there makes the answer another one."""
+        """All names in a folder, sorted. Only for hints: every new file in the folder makes the stamp stale."""
         self.seen[folder] = sorted(self._names(folder))
         return self.seen[folder]
 
@@ -97,7 +97,7 @@ class Disk:
     def walk(
         self, folder: str, on_error: Callable[[OSError], None] | None = None
     ) -> Iterator[tuple[str, list[str], list[str]]]:
-        """As `os.walk` from the top, each list sorted; the caller may take folders out of the second list."""
+        """As `os.walk` from the top, with sorted lists; the caller may remove folders from the second list."""
 
         def closed(error: OSError) -> None:
             self.unreadable = True
@@ -108,7 +108,7 @@ class Disk:
         while todo:  # without recursion: folders may be deep
             here = todo.pop()
             real = os.path.realpath(here) if self._overlay else ""
-            quiet = real in self._folders and not os.path.lexists(here)  # it is in the overlay alone
+            quiet = real in self._folders and not os.path.lexists(here)  # a folder of the overlay only
             _, folders, names = next(os.walk(here, onerror=None if quiet else closed), ("", [], []))
             if self._overlay:
                 folders = list({*folders, *_inside(real, self._folders)})
@@ -120,7 +120,7 @@ class Disk:
             todo += [path for path in below if not os.path.islink(path)]
 
     def _on_disk(self, path: str) -> str:
-        """A path that the system can follow: it cannot go up from a folder that only the overlay has."""
+        """A path that the system can resolve: it cannot go up from a folder that exists only in the overlay."""
         if not self._overlay or os.path.lexists(path):
             return path
         real = os.path.realpath(path)
@@ -131,7 +131,7 @@ class Disk:
 
 
 def state_of(path: str) -> str:
-    """What the disk has at a path, as `Disk.state`."""
+    """The kind of a path on the disk, as `Disk.state`."""
     try:
         mode = os.stat(path).st_mode
     except (OSError, ValueError):  # of names with a NUL
@@ -140,7 +140,7 @@ def state_of(path: str) -> str:
 
 
 def names_in(folder: str) -> list[str]:
-    """The names in a folder of the disk, sorted; none where it cannot be looked into."""
+    """The names in a folder of the disk, sorted; none if it cannot be read."""
     try:
         return sorted(os.listdir(folder or "."))
     except OSError:
@@ -148,7 +148,7 @@ def names_in(folder: str) -> list[str]:
 
 
 def documents_in(names: Iterable[str]) -> list[str]:
-    """Those names, sorted, that documents may have, in whatever case."""
+    """Those of the names that may be documents, in upper or lower case, sorted."""
     return sorted(name for name in names if name.lower().endswith(".yaml"))
 
 
@@ -156,7 +156,8 @@ def _inside(folder: str, paths: Iterable[str]) -> Iterator[str]:
     return (os.path.basename(path) for path in paths if os.path.dirname(path) == folder != path)
 
 
-def _above(path: str) -> Iterator[str]:
+def folders_above(path: str) -> Iterator[str]:
+    """The folders that contain an absolute path, the innermost first."""
     while (folder := os.path.dirname(path)) != path:
         yield folder
         path = folder

@@ -11,18 +11,18 @@ def size(text: str) -> int:
 
 
 def is_too_long(name: str) -> bool:
-    """Whether no file can have this name."""
+    """Whether the name has more bytes than a file name may have."""
     return size(name) > LONGEST_NAME
 
 
 def path_fault(path: str) -> str:
-    """Why no file can have this path, or ''."""
+    """Why a path is too long for the system, or ''."""
     for part in path.split("/"):
         if is_too_long(part):
-            return f"a name in it has {size(part)} bytes, and {LONGEST_NAME} are the most"
-    return f"it has {size(path)} bytes, and {LONGEST_PATH} are the most" if size(path) > LONGEST_PATH else ""
+            return f"a name in it has {size(part)} bytes, more than {LONGEST_NAME}"
+    return f"it has {size(path)} bytes, more than {LONGEST_PATH}" if size(path) > LONGEST_PATH else ""
 
 
 def shortened(text: str) -> str:
-    """For messages."""
+    """The text with at most 40 characters, for messages."""
     return text if len(text) <= 40 else f"{text[:37]}…"

@@ -1,6 +1,6 @@
-"""A form of Qt Designer, as far as a component promises it: its class and its outermost widget.
+"""The parts of a Qt Designer form that a component document declares: its class and its outermost widget.
 
-Read without trust: no DTD and no entities; the parser keeps no stack, so depth costs nothing.
+The file is not trusted: DTDs and entities are rejected. The parser keeps no stack, so that deep nesting is harmless.
 """
 
 from __future__ import annotations
@@ -9,14 +9,14 @@ from xml.parsers import expat
 
 import msgspec
 
-from robocomp_yaml.diag.codes import forms as codes
+from robocomp_yaml.diag.codes import cdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 
 
 class Form(msgspec.Struct):
-    """`class_name` is the text of `<class>`, `widget` the class of the outermost widget and `name` how it is called;
-    each is '' where there is none. The spans are those of their tags."""
+    """`class_name` is the text of `<class>`, `widget` the class of the outermost widget and `name` its name; each is ''
+    if absent. The spans are those of the tags."""
 
     class_name: str = ""
     widget: str = ""
@@ -25,28 +25,28 @@ class Form(msgspec.Struct):
     widget_span: Span = Span("")
 
 
-class _Refused(Exception):
+class _FormRefused(Exception):
     def __init__(self, what: str) -> None:
         super().__init__(what)
         self.what = what
 
 
 def read(path: str, raw: bytes) -> tuple[Form | None, list[Diagnostic]]:
-    """None with the reason where it is no form at all."""
-    reader = _Reader(path)
+    """The form in a file of these bytes; None, with diagnostics, if it is not a form."""
+    reader = _FormReader(path)
     try:
         reader.parser.Parse(raw, True)
-    except _Refused as refused:
-        return None, [codes.REFUSED.at(reader.here(), what=refused.what)]
-    except (expat.ExpatError, ValueError, LookupError) as error:  # the latter two: an encoding that nobody knows
+    except _FormRefused as refused:
+        return None, [codes.FORM_WITH_ENTITIES.at(reader.here(), what=refused.what)]
+    except (expat.ExpatError, ValueError, LookupError) as error:  # the latter two: an unknown encoding
         reason = expat.ErrorString(error.code) if isinstance(error, expat.ExpatError) else str(error)
         return None, [codes.NOT_A_FORM.at(reader.here(), reason=reason)]
     if reader.root != "ui":
-        return None, [codes.NOT_A_FORM.at(Span(path), reason=f"it is a <{reader.root}>, not a <ui>")]
+        return None, [codes.NOT_A_FORM.at(Span(path), reason=f"its root is <{reader.root}>, not <ui>")]
     return reader.form, []
 
 
-class _Reader:
+class _FormReader:
     def __init__(self, path: str) -> None:
         self.path = path
         self.form = Form(class_span=Span(path), widget_span=Span(path))
@@ -65,7 +65,7 @@ class _Reader:
         return Span(self.path, line, column, line, column + length)
 
     def _doctype(self, *_: object) -> None:
-        raise _Refused("document type (<!DOCTYPE …>)")
+        raise _FormRefused("document type (<!DOCTYPE …>)")
 
     def _start(self, name: str, attributes: dict[str, str]) -> None:
         self._depth += 1

@@ -1,4 +1,4 @@
-"""What a document says at its top, by its parsed content: the one place where that is known, however it is written."""
+"""Top-level keys of a document, read from its parsed content."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ COMPONENT = "component"
 
 
 def text_at_top(root: Node | None, key: str) -> str:
-    """The text of a key of the document's own mapping; '' where there is none."""
+    """The text at a top-level key of a document; '' if absent."""
     node = root.get(key) if isinstance(root, Mapping) else None
     return node.lexeme if isinstance(node, Scalar) else ""
 
 
 def root_of(path: str) -> Node | None:
-    """The tree of the file at a path; None where it cannot be read as YAML."""
+    """The tree of the file at a path; None if it cannot be read as YAML."""
     raw, _ = read_bytes(path)
     text = decode(path, raw)[0] if raw is not None else None
     return parse(path, text)[0] if text is not None else None
 
 
 def component_in(path: str) -> str:
-    """What `component:` says in the file at a path; '' where it says nothing, or cannot be read."""
+    """The value of `component:` in the file at a path; '' if it is absent or the file cannot be read."""
     return text_at_top(root_of(path), COMPONENT)

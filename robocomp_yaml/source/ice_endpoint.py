@@ -1,7 +1,7 @@
-"""Endpoints, read as Ice 3.7 reads them: `tcp -h 10.0.0.2 -p 10001`, several with colons between them.
+"""Parses endpoints as Ice 3.7 does: `tcp -h 10.0.0.2 -p 10001`, several separated by colons.
 
-What Ice takes is taken and what it refuses is refused, oddities and all: of two `-p` the last counts, `-timeout 5` is
-`-t 5`. Protocols of plug-ins (ssl, wss, bt) are known: whether a program loads them is its own business.
+This module accepts and rejects exactly what Ice does, in special cases, too: the last of two `-p` is used, `-timeout 5`
+is `-t 5`. The protocols of Ice's plug-ins (ssl, wss, bt) are accepted; a program must load the plug-in.
 """
 
 from __future__ import annotations
@@ -13,15 +13,15 @@ from functools import lru_cache
 import msgspec
 
 from robocomp_yaml.semantics.texts import unquoted
-from robocomp_yaml.source.ice_options import BLANKS, PROTOCOLS, Refused, after_blanks, words_of
+from robocomp_yaml.source.ice_options import BLANKS, PROTOCOLS, InvalidIceText, after_blanks, words_of
 
 _EVERYWHERE = ("*", "0.0.0.0", "::")
-_USUAL = ("tcp", "ssl", "udp", "ws", "wss", "default")  # those that a misspelled protocol may mean
+_USUAL = ("tcp", "ssl", "udp", "ws", "wss", "default")  # suggested for an unknown protocol
 
 
 class IceEndpoint(msgspec.Struct, frozen=True):
-    """One endpoint. `host` is '' for all interfaces, or where none is given; `port` is 0 for any. `options` are those
-    but host and port, as they are spelled."""
+    """One endpoint. `host` is '' for all network interfaces, or if absent; `port` is 0 for any port. `options` are all
+    others, as written."""
 
     port: int
     protocol: str = "tcp"
@@ -29,52 +29,52 @@ class IceEndpoint(msgspec.Struct, frozen=True):
     options: str = ""
 
     def reached_at(self, address: str) -> str:
-        """The same for a proxy, whose component runs at `address`."""
+        """The endpoint for a proxy to a component at `address`."""
         return f"{self.protocol} -h {spelled_host(self.host or address)} -p {self.port}"
 
 
 def spelled_host(address: str) -> str:
-    """A colon ends an endpoint, and a blank an option, so an IPv6 address stands in quotes."""
+    """The address as an option's value: an IPv6 address in quotes, because a colon would end the endpoint."""
     return f'"{address}"' if re.search(f"[{BLANKS}:']", address) else address
 
 
 @lru_cache(4096)
 def parse_endpoints(text: str) -> tuple[IceEndpoint, ...]:
-    """What an object adapter listens at. Raises Refused."""
-    found: list[IceEndpoint] = []
+    """The endpoints of an object adapter. Raises InvalidIceText."""
+    endpoints: list[IceEndpoint] = []
     end = 0
     while end < len(text):
         start = after_blanks(text, end)
-        if start == len(text) and not found:
+        if start == len(text) and not endpoints:
             break
         end = _next_colon(text, start)
         if start == end:
-            raise Refused("an endpoint is missing at a colon", max(start - 1, 0), max(start, 1))
-        found.append(read_endpoint(text, start, end, for_adapter=True))
+            raise InvalidIceText("an endpoint is missing at a colon", max(start - 1, 0), max(start, 1))
+        endpoints.append(read_endpoint(text, start, end, for_adapter=True))
         end += 1
-    return tuple(found)
+    return tuple(endpoints)
 
 
 def fixed_endpoint(text: str) -> IceEndpoint:
-    """The first endpoint of an adapter, with a port that others can be told. Raises Refused."""
-    found = parse_endpoints(text)
-    if not found:
-        raise Refused("it holds no endpoint", 0, len(text))
-    if not found[0].port:
-        raise Refused("it has no fixed port", 0, len(text))
-    return found[0]
+    """The first endpoint of an adapter, which must have a fixed port. Raises InvalidIceText."""
+    endpoints = parse_endpoints(text)
+    if not endpoints:
+        raise InvalidIceText("it contains no endpoint", 0, len(text))
+    if not endpoints[0].port:
+        raise InvalidIceText("it has no fixed port", 0, len(text))
+    return endpoints[0]
 
 
 def parse_endpoint(text: str) -> IceEndpoint | None:
-    """The same of a property, whose value may stand in quotes; None where there is none."""
+    """The first endpoint in a property's value, which may be in quotes; None if it is invalid or has no fixed port."""
     try:
         return fixed_endpoint(unquoted(text))
-    except Refused:
+    except InvalidIceText:
         return None
 
 
 def segments(text: str, colon: int) -> Iterator[tuple[int, int]]:
-    """Where the endpoints of a proxy begin and end, the first one behind the colon."""
+    """The start and end indices of a proxy's endpoints; the first one follows the colon."""
     end = colon
     while end < len(text):
         start, end = end + 1, _next_colon(text, end + 1)
@@ -82,7 +82,7 @@ def segments(text: str, colon: int) -> Iterator[tuple[int, int]]:
 
 
 def _next_colon(text: str, start: int) -> int:
-    """The next colon that stands in no double quotes; a quote that nothing closes hides none."""
+    """The index of the next colon outside of double quotes; an unclosed quote is ignored."""
     at, colon = start, -1
     while True:
         if colon < at:
@@ -96,30 +96,29 @@ def _next_colon(text: str, start: int) -> int:
         at = closed + 1
 
 
-class UnknownProtocol(Refused):
-    """Which Ice passes over in a proxy that has other endpoints."""
+class UnknownProtocol(InvalidIceText):
+    """Ice ignores such an endpoint if the proxy has others."""
 
 
 def read_endpoint(text: str, start: int, end: int, *, for_adapter: bool) -> IceEndpoint:
-    """The endpoint that stands there. Raises Refused."""
+    """The endpoint in text[start:end]. Raises InvalidIceText."""
     words = words_of(text, start, end)
     if not words:
-        raise Refused("an endpoint is missing behind the colon", max(start - 1, 0), max(end, start))
+        raise InvalidIceText("an endpoint is missing after the colon", max(start - 1, 0), max(end, start))
     protocol, options = words[0].text, words[1:]
     if protocol not in PROTOCOLS:
-        raise UnknownProtocol(f"there is no protocol '{protocol}'", words[0].start, words[0].end, _USUAL)
-    made = PROTOCOLS[protocol](protocol, for_adapter)
-    options = made.take(options, made.is_known)
-    if protocol in ("ws", "wss"):  # which reads what TCP leaves
-        options = made.take(options, made.is_resource)
+        raise UnknownProtocol(f"unknown protocol '{protocol}'", words[0].start, words[0].end, _USUAL)
+    parser = PROTOCOLS[protocol](protocol, for_adapter)
+    options = parser.read(options, parser.is_known)
+    if protocol in ("ws", "wss"):  # as in Ice, web sockets read the options that TCP does not know
+        options = parser.read(options, parser.is_resource)
     if options:
-        taken = f"{protocol} takes {_listed(made.takes)}"
-        problem = f"'{options[0].text}' is no option of {protocol}"
-        raise Refused(f"{problem}; {taken}", options[0].start, options[0].end, tuple(made.takes))
-    made.finish(words[0])
-    rest = " ".join(text[first.start : last.end] for first, last in made.others)
-    host = "" if made.host in _EVERYWHERE else made.host
-    return IceEndpoint(made.port, protocol, host, rest)
+        problem = f"{protocol} has no option '{options[0].text}', only {_listed(parser.accepted)}"
+        raise InvalidIceText(problem, options[0].start, options[0].end, tuple(parser.accepted))
+    parser.finish(words[0])
+    rest = " ".join(text[first.start : last.end] for first, last in parser.others)
+    host = "" if parser.host in _EVERYWHERE else parser.host
+    return IceEndpoint(parser.port, protocol, host, rest)
 
 
 def _listed(names: tuple[str, ...]) -> str:

@@ -1,4 +1,4 @@
-"""The words of an endpoint of Ice, and the options that each protocol takes."""
+"""The words of an Ice endpoint, and the options of each protocol."""
 
 from __future__ import annotations
 
@@ -16,18 +16,16 @@ _BASE64 = pattern(r"[A-Za-z0-9+/=]+\Z")
 _DEVICE = pattern(r"[0-9A-Fa-f]{2}(:[0-9A-Fa-f]{2}){5}\Z")
 
 
-class Refused(ValueError):
-    """Why a text is refused, and from which of its characters to which."""
+class InvalidIceText(ValueError):
+    """A text that Ice rejects: why, and the indices of the invalid part. `meant` are candidates that would be valid."""
 
     def __init__(self, problem: str, start: int, end: int, meant: tuple[str, ...] = ()) -> None:
         super().__init__(problem)
-        self.problem, self.start, self.end = problem, start, end
-        self.meant = meant
-        """What could stand there."""
+        self.problem, self.start, self.end, self.meant = problem, start, end, meant
 
 
 class Word(msgspec.Struct, frozen=True):
-    """A word without its quotes, and where it stands with them."""
+    """A word without its quotes, and its indices with them."""
 
     text: str
     start: int
@@ -41,14 +39,15 @@ def after_blanks(text: str, start: int) -> int:
 
 
 def words_of(text: str, start: int, end: int) -> list[Word]:
-    """As a shell has them: quotes of both kinds, anywhere in a word, and backslashes before quotes."""
-    found: list[Word] = []
+    """The words of text[start:end], split as in a shell: quotes of both kinds, anywhere in a word, and backslashes
+    before quotes. Raises InvalidIceText for an unclosed quote."""
+    words: list[Word] = []
     quote, begun, opened, at = "", start, start, start
     current: list[str] = []
 
     def close(here: int) -> None:
         if current:
-            found.append(Word("".join(current), begun, here))
+            words.append(Word("".join(current), begun, here))
         current.clear()
 
     while at < end:
@@ -74,44 +73,44 @@ def words_of(text: str, start: int, end: int) -> list[Word]:
         at += 1
     close(end)
     if quote:
-        raise Refused("a quote is not closed", opened, end)
-    return found
+        raise InvalidIceText("a quote is not closed", opened, end)
+    return words
 
 
 class _Ip:
-    """The options of TCP, which all but UDP have."""
+    """Reads the options of TCP, ssl, ws and wss."""
 
-    takes: tuple[str, ...] = ("-h", "-p", "-t", "-z", "--sourceAddress")
+    accepted: tuple[str, ...] = ("-h", "-p", "-t", "-z", "--sourceAddress")
 
     def __init__(self, protocol: str, for_adapter: bool) -> None:
         self.protocol, self.for_adapter = protocol, for_adapter
         self.port = 0
         self.host = ""
         self.others: list[tuple[Word, Word]] = []
-        """The first and last word of each option but host and port."""
+        """The first and last word of each option except host and port."""
         self._host_at: Word | None = None
         self._source_at: Word | None = None
         if protocol in ("ws", "wss"):
-            self.takes = (*self.takes, "-r")
+            self.accepted = (*self.accepted, "-r")
 
-    def take(self, words: list[Word], is_known: Callable[[Word, Word | None], bool]) -> list[Word]:
-        """Reads options, each with the word behind it that is none; gives what is unknown."""
-        left: list[Word] = []
+    def read(self, words: list[Word], is_known: Callable[[Word, Word | None], bool]) -> list[Word]:
+        """Reads options, each with its value if the next word is not an option; returns the words that are unknown."""
+        unknown: list[Word] = []
         at = 0
         while at < len(words):
             option, argument = words[at], None
             at += 1
             if len(option.text) < 2 or option.text[0] != "-":
-                left.append(option)
+                unknown.append(option)
                 continue
             if at < len(words) and words[at].text[0] != "-":
                 argument = words[at]
                 at += 1
             if not is_known(option, argument):
-                left += [option] if argument is None else [option, argument]
+                unknown += [option] if argument is None else [option, argument]
             elif option.text not in ("-h", "-p"):
                 self.others.append((option, argument or option))
-        return left
+        return unknown
 
     def is_known(self, option: Word, argument: Word | None) -> bool:
         if self._is_of_ip(option, argument):
@@ -120,7 +119,7 @@ class _Ip:
             case "t":
                 _timeout(option, argument)
             case "z":
-                alone(option, argument)
+                forbid_value(option, argument)
             case _:
                 return False
         return True
@@ -128,44 +127,44 @@ class _Ip:
     def _is_of_ip(self, option: Word, argument: Word | None) -> bool:
         match option.text:
             case "-h":
-                self._host_at = _given(option, argument, "a value; an IPv6 address stands in double quotes")
+                self._host_at = _required(option, argument, "a value; an IPv6 address must be in double quotes")
                 self.host = self._host_at.text
             case "-p":
                 self.port = _number(option, argument, "a port", 0, LAST_PORT)
             case "--sourceAddress":
-                self._source_at = _given(option, argument)
+                self._source_at = _required(option, argument)
                 if not _is_address(self._source_at.text):
-                    raise _wrong(self._source_at, "is no IP address")
+                    raise _wrong(self._source_at, "is not an IP address")
             case _:
                 return False
         return True
 
     def is_resource(self, option: Word, argument: Word | None) -> bool:
-        """Of a web socket."""
+        """Whether the option is the resource of a web socket."""
         if option.text[1] != "r":
             return False
-        _given(option, argument)
+        _required(option, argument)
         return True
 
     def finish(self, protocol: Word) -> None:
         if self._host_at is not None and self.host == "*" and not self.for_adapter:
-            raise _wrong(self._host_at, "stands for all interfaces, and a proxy needs one host")
+            raise _wrong(self._host_at, "means all network interfaces, and a proxy needs one host")
         if self._source_at is not None and self.for_adapter:
-            raise _wrong(self._source_at, "is where calls come from, which only a proxy can say")
+            raise _wrong(self._source_at, "is the source of calls, which is allowed only in a proxy")
 
 
 class _Udp(_Ip):
-    takes = ("-h", "-p", "-c", "-z", "--interface", "--ttl", "--sourceAddress")
+    accepted = ("-h", "-p", "-c", "-z", "--interface", "--ttl", "--sourceAddress")
     _interface_at: Word | None = None
 
     def is_known(self, option: Word, argument: Word | None) -> bool:
         match option.text:
             case "-c" | "-z":
-                alone(option, argument)
+                forbid_value(option, argument)
             case "-v" | "-e":
                 check_version(option, argument)
             case "--interface":
-                self._interface_at = _given(option, argument)
+                self._interface_at = _required(option, argument)
             case "--ttl":
                 _number(option, argument, "a TTL", -(1 << 31), (1 << 31) - 1)
             case _:
@@ -176,11 +175,11 @@ class _Udp(_Ip):
         super().finish(protocol)
         at = self._interface_at
         if at is not None and at.text == "*" and not self.for_adapter:
-            raise _wrong(at, "stands for all interfaces, and a proxy needs one")
+            raise _wrong(at, "means all network interfaces, and a proxy needs one")
 
 
 class _Bluetooth(_Ip):
-    takes = ("-a", "-u", "-c", "-t", "-z", "--name")
+    accepted = ("-a", "-u", "-c", "-t", "-z", "--name")
     _has_id = False
     _channel_at: Word | None = None
 
@@ -189,12 +188,12 @@ class _Bluetooth(_Ip):
             argument = None
         match option.text:
             case "-a":
-                word = _given(option, argument)
+                word = _required(option, argument)
                 address = word.text.strip(BLANKS)
                 if not _DEVICE.match(address) and not (address == "*" and self.for_adapter):
-                    raise _wrong(word, "is no Bluetooth address")
+                    raise _wrong(word, "is not a Bluetooth address")
             case "-u":
-                _given(option, argument)
+                _required(option, argument)
                 self._has_id = True
             case "-c":
                 self._channel_at = argument if _number(option, argument, "a channel", 0, 30) else None
@@ -202,9 +201,9 @@ class _Bluetooth(_Ip):
                 if argument is None or argument.text.strip(BLANKS) != "infinite":
                     _timeout(option, argument)
             case "-z":
-                alone(option, argument)
+                forbid_value(option, argument)
             case "--name":
-                _given(option, argument)
+                _required(option, argument)
             case _:
                 return False
         return True
@@ -213,27 +212,27 @@ class _Bluetooth(_Ip):
         if not self.for_adapter and not self._has_id:
             raise _wrong(protocol, "needs the UUID of a service, `-u UUID`")
         if not self.for_adapter and self._channel_at is not None:
-            raise _wrong(self._channel_at, "is a channel, which only an adapter can say")
+            raise _wrong(self._channel_at, "is a channel, which is allowed only in an adapter")
 
 
 class _Opaque(_Ip):
-    """What is inside of the bytes is not looked at."""
+    """The content of the bytes is not checked."""
 
-    takes = ("-t", "-v", "-e")
+    accepted = ("-t", "-v", "-e")
     _has_type = _has_bytes = False
 
     def is_known(self, option: Word, argument: Word | None) -> bool:
         match option.text[1]:
             case "t":
                 if self._has_type:
-                    raise _wrong(option, "stands there twice")
+                    raise _wrong(option, "is written twice")
                 self._has_type = _number(option, argument, "a type", 0, LAST_PORT) <= 32767
             case "v":
-                word = _given(option, argument)
+                word = _required(option, argument)
                 if self._has_bytes:
-                    raise _wrong(option, "stands there twice")
+                    raise _wrong(option, "is written twice")
                 if not _BASE64.match(word.text):
-                    raise _wrong(word, "is no Base64")
+                    raise _wrong(word, "is not Base64")
                 self._has_bytes = True
             case "e":
                 check_version(option, argument)
@@ -254,48 +253,50 @@ PROTOCOLS: dict[str, type[_Ip]] = {
 }  # fmt: skip
 
 
-def _wrong(word: Word, problem: str) -> Refused:
-    return Refused(f"'{word.text}' {problem}", word.start, word.end)
+def _wrong(word: Word, problem: str) -> InvalidIceText:
+    return InvalidIceText(f"'{word.text}' {problem}", word.start, word.end)
 
 
-def _given(option: Word, argument: Word | None, what: str = "a value") -> Word:
+def _required(option: Word, argument: Word | None, what: str = "a value") -> Word:
     if argument is None:
         raise _wrong(option, f"needs {what}")
     return argument
 
 
-def alone(option: Word, argument: Word | None) -> None:
+def forbid_value(option: Word, argument: Word | None) -> None:
+    """Raises InvalidIceText if the option has a value."""
     if argument is not None:
-        raise Refused(f"'{option.text}' takes no value, and has '{argument.text}'", argument.start, argument.end)
+        problem = f"'{option.text}' has the value '{argument.text}', and must have none"
+        raise InvalidIceText(problem, argument.start, argument.end)
 
 
 def _number(option: Word, argument: Word | None, what: str, least: int, most: int) -> int:
-    word = _given(option, argument)
+    word = _required(option, argument)
     if not _is_in(word.text, least, most):
-        raise _wrong(word, f"is no number from {least} to {most}, as {what} is")
+        raise _wrong(word, f"is not {what} from {least} to {most}")
     return int(word.text)
 
 
 def _is_in(text: str, least: int, most: int) -> bool:
-    found = _INT.match(text)
-    return bool(found) and len(text) < 300 and least <= int(text) <= most  # Python has a limit of its own for digits
+    is_short = len(text) < 300  # Python limits the digits of int()
+    return is_short and bool(_INT.match(text)) and least <= int(text) <= most
 
 
 def _timeout(option: Word, argument: Word | None) -> None:
-    if _given(option, argument).text != "infinite":
+    if _required(option, argument).text != "infinite":
         _number(option, argument, "a timeout in milliseconds", 1, (1 << 31) - 1)
 
 
 def check_version(option: Word, argument: Word | None) -> None:
-    """A version such as 1.0."""
-    word = _given(option, argument)
+    """Raises InvalidIceText if the option's value is not a version such as 1.0."""
+    word = _required(option, argument)
     major, dot, minor = word.text.partition(".")
     if not dot or not _is_in(major, 1, 255) or not _is_in(minor, 0, 255):
-        raise _wrong(word, "is no version, such as 1.0")
+        raise _wrong(word, "is not a version, such as 1.0")
 
 
 def _is_address(text: str) -> bool:
-    """As the C library has it: `127.1` is one."""
+    """Whether the C library accepts the text as an IP address: `127.1` is one."""
     import socket
 
     address, percent, scope = text.partition("%")

@@ -1,4 +1,4 @@
-"""Proxies as text, read as Ice 3.7 reads them: `lamps/left -t:tcp -h 10.0.0.9 -p 10002`, or `left @ Adapter`."""
+"""Parses proxies as Ice 3.7 does: `lamps/left -t:tcp -h 10.0.0.9 -p 10002`, or `left @ Adapter`."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from functools import lru_cache
 import msgspec
 
 from robocomp_yaml.source.ice_endpoint import IceEndpoint, UnknownProtocol, read_endpoint, segments
-from robocomp_yaml.source.ice_options import BLANKS, Refused, Word, after_blanks, alone, check_version
+from robocomp_yaml.source.ice_options import BLANKS, InvalidIceText, Word, after_blanks, check_version, forbid_value
 
 _END = re.compile(f"[{BLANKS}:@]")
 _BLANK = re.compile(f"[{BLANKS}]")
@@ -22,9 +22,9 @@ _ALONE = ("-t", "-o", "-O", "-d", "-D", "-s")
 
 
 class Proxy(msgspec.Struct, frozen=True):
-    """`identity` is as spelled, without quotes around it; `category` and `name` are what it means. `options` are the
-    letters that were given. Without `endpoints` it is looked up: by `adapter`, or, where that is '', by its identity.
-    `unknown` are endpoints of a protocol that Ice does not know, which it passes over as long as there are others."""
+    """`identity` is the text as written, without quotes; `category` and `name` are its parsed parts. `options` are the
+    letters of the options. Without `endpoints` Ice looks up the proxy by `adapter`, or, if that is '', by its identity.
+    `unknown` are endpoints of unknown protocols, which Ice ignores as long as there are others."""
 
     identity: str
     category: str
@@ -36,22 +36,22 @@ class Proxy(msgspec.Struct, frozen=True):
 
     @property
     def is_plain(self) -> bool:
-        """Whether a two-way call to the object itself, no facet of it, is meant."""
+        """Whether calls are two-way, and to the object itself, not to a facet."""
         return not set(self.options) - set("tep")
 
 
 @lru_cache(4096)
 def parse_proxy(text: str) -> Proxy:
-    """Raises Refused. The proxy that Ice takes for none at all, `""`, is refused too: nothing can be called there."""
+    """The proxy in a text. Raises InvalidIceText, also for `""`, which Ice reads as a null proxy."""
     start = after_blanks(text, 0)
     if start == len(text):
-        raise Refused("it is empty", 0, len(text))
+        raise InvalidIceText("it is empty", 0, len(text))
     word = _word(text, start, _END)
     if word.start == word.end:
-        raise Refused("the identity is missing", start, start + 1)
+        raise InvalidIceText("the identity is missing", start, start + 1)
     category, name = _identity(word)
     if not name:
-        raise Refused("its identity has no name", word.start, word.end)
+        raise InvalidIceText("its identity has no name", word.start, word.end)
     letters, at = _options(text, word.end)
     if at == len(text):
         return Proxy(word.text, category, name, letters)
@@ -62,23 +62,23 @@ def parse_proxy(text: str) -> Proxy:
     for begin, end in segments(text, at):
         try:
             endpoints.append(read_endpoint(text, begin, end, for_adapter=False))
-        except UnknownProtocol as passed_over:
-            unknown.append(passed_over)
+        except UnknownProtocol as error:
+            unknown.append(error)
     if not endpoints:
         raise unknown[0]
     return Proxy(word.text, category, name, letters, tuple(endpoints), unknown=tuple(unknown))
 
 
 def proxy_at(text: str) -> Proxy | None:
-    """None for what is no proxy."""
+    """The proxy in a text; None if the text is invalid."""
     try:
         return parse_proxy(text)
-    except Refused:
+    except InvalidIceText:
         return None
 
 
 def _options(text: str, at: int) -> tuple[str, int]:
-    """The letters of a proxy's options, and where these end."""
+    """The letters of a proxy's options, and the index after them."""
     letters = ""
     while True:
         at = after_blanks(text, at)
@@ -88,28 +88,26 @@ def _options(text: str, at: int) -> tuple[str, int]:
         option, argument = Word(text[at:end], at, end), None
         at = end
         if len(option.text) != 2 or option.text[0] != "-":
-            raise Refused(f"'{option.text}' stands where an option, a colon or @ is expected", option.start, option.end)
+            problem = f"'{option.text}' is not an option, a colon or @, which are expected here"
+            raise InvalidIceText(problem, option.start, option.end)
         following = after_blanks(text, at)
         if following < len(text) and text[following] not in "@:-":
             argument = _word(text, following, _END)
             at = argument.end
             argument = argument if argument.text else None
         if option.text not in _OPTIONS:
-            raise Refused(
-                f"a proxy has no option '{option.text}'; it takes {', '.join(_OPTIONS[:-1])} and {_OPTIONS[-1]}",
-                option.start,
-                option.end,
-            )
+            known = f"{', '.join(_OPTIONS[:-1])} and {_OPTIONS[-1]}"
+            raise InvalidIceText(f"a proxy has no option '{option.text}', only {known}", option.start, option.end)
         _check(option, argument)
         letters += option.text[1]
 
 
 def _check(option: Word, argument: Word | None) -> None:
     if option.text in _ALONE:
-        alone(option, argument)
+        forbid_value(option, argument)
     elif option.text == "-f":
         if argument is None:
-            raise Refused("'-f' needs the name of a facet", option.start, option.end)
+            raise InvalidIceText("'-f' needs the name of a facet", option.start, option.end)
         unescaped(argument)
     else:
         check_version(option, argument)
@@ -118,41 +116,41 @@ def _check(option: Word, argument: Word | None) -> None:
 def _adapter(text: str, at: int) -> str:
     start = after_blanks(text, at + 1)
     if start == len(text):
-        raise Refused("the adapter is missing behind the @", at, at + 1)
+        raise InvalidIceText("the adapter is missing after the @", at, at + 1)
     word = _word(text, start, _BLANK)
     more = after_blanks(text, word.end)
     if more < len(text):
-        raise Refused("nothing can follow the adapter", more, len(text))
-    found = unescaped(word)
-    if not found:
-        raise Refused("the adapter has no name", word.start, word.end)
-    return found
+        raise InvalidIceText("the proxy must end after the adapter", more, len(text))
+    name = unescaped(word)
+    if not name:
+        raise InvalidIceText("the adapter has no name", word.start, word.end)
+    return name
 
 
 def _until(text: str, at: int, end: re.Pattern[str]) -> int:
-    found = end.search(text, at)
-    return found.start() if found else len(text)
+    match = end.search(text, at)
+    return match.start() if match else len(text)
 
 
 def _word(text: str, start: int, end: re.Pattern[str]) -> Word:
-    """What stands in quotes, or until a sign that ends it. Its place is with the quotes."""
+    """The word at `start`: a text in quotes, or the text before the next match of `end`. Its indices include quotes."""
     quote = text[start]
     if quote not in "\"'":
         stop = _until(text, start, end)
         return Word(text[start:stop], start, stop)
     at = text.find(quote, start + 1)
-    while at > 0 and text[at - 1] == "\\":  # Ice does not ask whether the backslash has one before it
+    while at > 0 and text[at - 1] == "\\":  # Ice does not check whether the backslash is itself escaped
         at = text.find(quote, at + 1)
     if at < 0:
-        raise Refused("a quote is not closed", start, len(text))
+        raise InvalidIceText("a quote is not closed", start, len(text))
     return Word(text[start + 1 : at], start, at + 1)
 
 
 def _identity(word: Word) -> tuple[str, str]:
-    """Category and name, between which stands a slash without a backslash."""
-    slashes = [found.start() for found in re.finditer(r"\\.|/", word.text, re.DOTALL) if found[0] == "/"]
+    """Category and name, which are separated by an unescaped slash."""
+    slashes = [match.start() for match in re.finditer(r"\\.|/", word.text, re.DOTALL) if match[0] == "/"]
     if len(slashes) > 1:
-        raise Refused("an identity is CATEGORY/NAME, with one slash", word.start, word.end)
+        raise InvalidIceText("an identity is CATEGORY/NAME, with one slash", word.start, word.end)
     if not slashes:
         return "", unescaped(word, is_identity=True)
     parts = word.text[: slashes[0]], word.text[slashes[0] + 1 :]
@@ -161,22 +159,22 @@ def _identity(word: Word) -> tuple[str, str]:
 
 
 def unescaped(word: Word, *, is_identity: bool = False) -> str:
-    """A text with Ice's escape sequences replaced. In an identity a backslash also takes its meaning from a slash;
-    before other signs it stands for itself. Raises Refused."""
+    """The text of a word with Ice's escape sequences replaced. In an identity, `\\/` is a slash. Before any other
+    character a backslash is literal. Raises InvalidIceText."""
 
-    def replaced(found: re.Match[str]) -> str:
-        if found["control"]:
-            raise Refused(f"{found[0]!r} is no printable character", word.start, word.end)
-        if found["sign"]:
-            return _SIGNS[found["sign"]]
-        if found["slash"]:
-            return "/" if is_identity else found[0]
-        digits = found["hex"] or found["short"] or found["long"]
-        number = int(digits, 16) if digits else int(found["octal"] or "400", 8)
-        is_character = number < 256 if found["octal"] else number < 0xD800 or 0xDFFF < number < 0x110000
-        if found["wrong"] or not is_character:
-            raise Refused(f"'{found[0]}' is no character", word.start, word.end)
-        is_byte = (found["octal"] or found["hex"]) and number > 127  # of UTF-8, maybe with others
+    def replaced(match: re.Match[str]) -> str:
+        if match["control"]:
+            raise InvalidIceText(f"{match[0]!r} is not a printable character", word.start, word.end)
+        if match["sign"]:
+            return _SIGNS[match["sign"]]
+        if match["slash"]:
+            return "/" if is_identity else match[0]
+        digits = match["hex"] or match["short"] or match["long"]
+        number = int(digits, 16) if digits else int(match["octal"] or "400", 8)
+        is_character = number < 256 if match["octal"] else number < 0xD800 or 0xDFFF < number < 0x110000
+        if match["wrong"] or not is_character:
+            raise InvalidIceText(f"'{match[0]}' is not a character", word.start, word.end)
+        is_byte = (match["octal"] or match["hex"]) and number > 127  # a byte of a UTF-8 sequence
         return chr(0xDC00 + number) if is_byte else chr(number)
 
     text = _ESCAPE.sub(replaced, word.text)

@@ -1,4 +1,4 @@
-"""JSON with comments and trailing commas, as editors keep settings: members are added without touching the rest."""
+"""Adds members to JSON with comments and trailing commas (editors' settings) without changing the rest of the text."""
 
 from __future__ import annotations
 
@@ -12,22 +12,22 @@ _SPACE = re.compile(r"\s*")
 
 
 class Unreadable(ValueError):
-    """The text is not JSON, or holds something else where our members belong."""
+    """The text is not JSON, or the value at the key of the members is not an object."""
 
 
 def with_members(text: str, key: str, members: Mapping[str, object]) -> str:
-    """The text with `members` in the object under `key`; a member that is there already stays as it is."""
+    """The text with `members` in the object under `key`. An existing member keeps its value. Raises Unreadable."""
     plain = _strict(text)
     try:
         whole = json.loads(plain)
     except (ValueError, RecursionError):
         raise Unreadable("it is not JSON") from None
     if not isinstance(whole, dict) or not isinstance(whole.get(key, {}), dict):
-        raise Unreadable("it holds something else where the settings belong")
+        raise Unreadable("the value of the settings is not an object")
     missing = {name: value for name, value in members.items() if name not in whole.get(key, {})}
     if not missing:
         return text
-    start = _SPACE.match(plain).end()  # type: ignore[union-attr]
+    start = _skip(plain, 0)
     if key not in whole:
         return _insert(text, plain, start, {key: missing}, 1)
     inner = next(value for name, value in reversed(list(_members(plain, start))) if name == key)
@@ -35,7 +35,7 @@ def with_members(text: str, key: str, members: Mapping[str, object]) -> str:
 
 
 def _strict(text: str) -> str:
-    """The text as strict JSON, every character at its old place: comments and trailing commas become blanks."""
+    """The text as strict JSON of the same length: comments and trailing commas become blanks."""
 
     def blank(token: re.Match[str]) -> str:
         return token[0] if token[0].startswith('"') else _BLANK.sub(" ", token[0])
@@ -46,25 +46,25 @@ def _strict(text: str) -> str:
 
 
 def _members(plain: str, start: int) -> Iterator[tuple[str, int]]:
-    """The keys of the object that starts at `start`, each with the place of its value."""
+    """The keys of the object that starts at `start`, each with the index of its value."""
     decoder = json.JSONDecoder()
-    place = _skip(plain, start + 1)
-    while plain[place] != "}":
-        name, place = decoder.raw_decode(plain, place)
-        place = _skip(plain, _skip(plain, place) + 1)
-        yield name, place
-        _, place = decoder.raw_decode(plain, place)
-        place = _skip(plain, place)
-        if plain[place] == ",":
-            place = _skip(plain, place + 1)
+    at = _skip(plain, start + 1)
+    while plain[at] != "}":
+        name, at = decoder.raw_decode(plain, at)
+        at = _skip(plain, _skip(plain, at) + 1)
+        yield name, at
+        _, at = decoder.raw_decode(plain, at)
+        at = _skip(plain, at)
+        if plain[at] == ",":
+            at = _skip(plain, at + 1)
 
 
-def _skip(plain: str, place: int) -> int:
-    return _SPACE.match(plain, place).end()  # type: ignore[union-attr]
+def _skip(plain: str, at: int) -> int:
+    return _SPACE.match(plain, at).end()  # type: ignore[union-attr]
 
 
 def _insert(text: str, plain: str, brace: int, members: Mapping[str, object], depth: int) -> str:
-    """Members as the first ones of the object whose `{` stands at `brace`."""
+    """The text with `members` inserted as the first ones of the object whose `{` is at index `brace`."""
     indent = "  " * depth
     rows = json.dumps(members, indent=2, ensure_ascii=False)[2:-2].splitlines()
     block = "\n".join(f"{indent}{row[2:]}" for row in rows)

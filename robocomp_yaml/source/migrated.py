@@ -1,6 +1,6 @@
-"""Which documents `rcyaml migrate` wrote: they say what other programs say already, so nobody here can rename it.
+"""Which documents `rcyaml migrate` wrote: other programs use the names in them, so that they cannot be renamed here.
 
-Where that counts the document says so itself, since what `migrate` remembers is not in every clone of a repository.
+If this matters for a document, its heading says so, because the memory of `migrate` is not in every clone.
 """
 
 from __future__ import annotations
@@ -9,16 +9,16 @@ import itertools
 import json
 import os
 
-from robocomp_yaml.source.disk import Disk
+from robocomp_yaml.source.disk import Disk, folders_above
 
 MEMORY = ".rcyaml/migrated.json"  # at the root of what was migrated; digests by path
 MARK = "# Migrated: "
-HEADING = f"{MARK}other programs use these names too, so those that C++ takes are warnings here.\n"
-_HEAD = 4096  # bytes, in which the comments at a document's beginning stand
+HEADING = f"{MARK}other programs use these names, too. Therefore names that C++ reserves are only warnings.\n"
+_HEAD = 4096  # bytes at the beginning of a document that are searched for the heading
 
 
 def is_migrated(path: str, disk: Disk) -> bool:
-    """Whether a document came from a legacy file, edited since or not."""
+    """Whether `migrate` wrote the document, even if it was edited since."""
     return _says_so(disk.peek(path, _HEAD)) or _is_remembered(os.path.realpath(path), disk)
 
 
@@ -28,8 +28,7 @@ def _says_so(head: bytes) -> bool:
 
 
 def _is_remembered(path: str, disk: Disk) -> bool:
-    folder = os.path.dirname(path)
-    while True:
+    for folder in folders_above(path):
         memory = os.path.join(folder, MEMORY)
         if disk.has_file(memory):
             try:
@@ -37,7 +36,4 @@ def _is_remembered(path: str, disk: Disk) -> bool:
                 return os.path.relpath(path, folder).replace(os.sep, "/") in remembered["files"]
             except (ValueError, LookupError, TypeError):
                 return False
-        parent = os.path.dirname(folder)
-        if parent == folder:
-            return False
-        folder = parent
+    return False

@@ -1,21 +1,22 @@
-"""Ice property files (`etc/config`), read and written by the rules of Ice 3.7's `Properties::load`.
+"""Reads and writes Ice property files (`etc/config`) by the rules of Ice 3.7's `Properties::load`.
 
-This is the one reader of flat `key=value` files: whoever wants entries, their places, or the comments among them, takes
-them from its result.
+This is the only reader of flat configs; its result has the properties, their positions, and the comments.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 
 import msgspec
+
+from robocomp_yaml import secrets
 
 _BLANKS = " \t\r\n"
 
 
-class Entry(msgspec.Struct, frozen=True):
-    """One `key=value` line. `line` and `column` (of the key) count from 1. `at` is the index in the text where its
-    value begins, with the blanks around it."""
+class IceProperty(msgspec.Struct, frozen=True):
+    """One `key=value` line. `line` and `column` (of the key) count from 1. `at` is the index in the text after `=`,
+    before the blanks around the value."""
 
     key: str
     value: str
@@ -24,76 +25,83 @@ class Entry(msgspec.Struct, frozen=True):
     at: int = 0
 
 
-class Line(msgspec.Struct, frozen=True):
-    """A line that is not blank: what it says stands from `start` to `stop`, and a comment from there to its `end`, as
-    indices in the text. Without an `entry` it says nothing to Ice, or (`is_invalid`) Ice drops it with a warning."""
+class PropertyLine(msgspec.Struct, frozen=True):
+    """A line that is not blank. As indices in the text, its content is from `start` to `stop`, and its comment from
+    `stop` to `end`. Without an `entry` it is only a comment, or (`is_invalid`) Ice ignores it with a warning."""
 
     number: int
     start: int
     stop: int
     end: int
-    entry: Entry | None = None
+    entry: IceProperty | None = None
     is_invalid: bool = False
 
 
 class Properties(msgspec.Struct, frozen=True):
-    """A property file as Ice understands it."""
+    """A property file as Ice reads it."""
 
-    lines: tuple[Line, ...] = ()
+    lines: tuple[PropertyLine, ...] = ()
 
     @property
-    def entries(self) -> tuple[Entry, ...]:
-        """In order."""
+    def entries(self) -> tuple[IceProperty, ...]:
+        """All properties in the order of the file."""
         return tuple(line.entry for line in self.lines if line.entry is not None)
 
     @property
     def invalid(self) -> tuple[int, ...]:
-        """The numbers of the lines that Ice drops."""
+        """The numbers of the lines that Ice ignores with a warning."""
         return tuple(line.number for line in self.lines if line.is_invalid)
 
     @property
-    def last(self) -> dict[str, Entry]:
+    def last(self) -> dict[str, IceProperty]:
         return last(self.entries)
 
     @property
     def values(self) -> dict[str, str]:
-        """The property set: what `Ice.Properties` holds after reading the file."""
+        """The content of `Ice.Properties` after reading the file."""
         return {key: entry.value for key, entry in self.last.items()}
 
 
-def last(entries: Iterable[Entry]) -> dict[str, Entry]:
-    """The entry that counts for each key: the last one; an empty value unsets the key."""
-    found: dict[str, Entry] = {}
+def last(entries: Iterable[IceProperty]) -> dict[str, IceProperty]:
+    """The effective property of each key: the last one; an empty value unsets the key."""
+    effective: dict[str, IceProperty] = {}
     for entry in entries:
         if entry.value:
-            found[entry.key] = entry
+            effective[entry.key] = entry
         else:
-            found.pop(entry.key, None)
-    return found
+            effective.pop(entry.key, None)
+    return effective
 
 
 def read(text: str) -> Properties:
-    lines: list[Line] = []
+    lines: list[PropertyLine] = []
     start = len(text) - len(text.removeprefix("\ufeff"))
     for number, line in enumerate(text[start:].split("\n"), 1):
-        if line:
-            found = _line(line, number, start)
-            if found is not None:
-                lines.append(found)
+        if line and (made := _line(line, number, start)) is not None:
+            lines.append(made)
         start += len(line) + 1
     return Properties(tuple(lines))
 
 
+def without_secret(line: str, names: Collection[str] = ()) -> str:
+    """A line (without its end) in which the value and all text after it is hidden if the key is secret, or is one of
+    `names`."""
+    for entry in read(line).entries:
+        if secrets.value(entry.key, entry.value, names) == secrets.HIDDEN:
+            return f"{line[: entry.at]}{secrets.HIDDEN}"
+    return line
+
+
 def unwritable(key: str, value: str) -> str:
-    """Why no line of a property file can say this entry, or ''."""
+    """Why a property file cannot express this property, or ''."""
     if not key:
         return "a property's name may not be empty"
     if key.strip(_BLANKS) != key:
         return "a property's name may not start or end with white space"
     if not value:
-        return "a property's value may not be empty: Ice takes that as not set"
+        return "a property's value may not be empty: Ice treats an empty value as not set"
     if any(c in key or c in value for c in "\r\n\0"):
-        return "a property may hold no line break and no NUL"
+        return "a property may not contain a line break or a NUL"
     if value.strip(" ") != value.strip(_BLANKS):
         return "a property's value may not start or end with a tab"
     if key.startswith("\ufeff"):
@@ -102,13 +110,13 @@ def unwritable(key: str, value: str) -> str:
 
 
 def entry_line(key: str, value: str) -> str:
-    """The line (without its end) that Ice reads as this entry. Raises ValueError where there is none."""
+    """The line (without its end) that Ice reads as this property. Raises ValueError if there is no such line."""
     if reason := unwritable(key, value):
         raise ValueError(reason)
     inner = value.strip(" ")
     before = len(value) - len(value.lstrip(" ")) if inner else len(value)
     after = len(value) - before - len(inner)
-    # A blank at either end would be trimmed; inside it stands for itself.
+    # Ice trims blanks at both ends; between other characters a blank needs no escape.
     name, blank = _escaped(key).replace("=", "\\="), "\\ "
     return f"{name}={blank * before}{_escaped(inner)}{blank * after}"
 
@@ -117,19 +125,19 @@ def _escaped(text: str) -> str:
     return text.replace("\\", "\\\\").replace("#", "\\#")
 
 
-def _line(line: str, number: int, start: int) -> Line | None:
-    """A line that starts at an index of the text; None for a blank one."""
+def _line(line: str, number: int, start: int) -> PropertyLine | None:
+    """A line that starts at index `start` of the text; None for a blank one."""
     end = start + len(line)
     key, at, separated = _key(line)
     if not separated:
         if not key:
-            return Line(number, start, start + at, end) if line.strip(_BLANKS) else None
-        return Line(number, start, start + at, end, is_invalid=True)
+            return PropertyLine(number, start, start + at, end) if line.strip(_BLANKS) else None
+        return PropertyLine(number, start, start + at, end, is_invalid=True)
     value, stop = _value(line, at)
     if not key:
-        return Line(number, start, start + stop, end, is_invalid=True)
+        return PropertyLine(number, start, start + stop, end, is_invalid=True)
     column = len(line) - len(line.lstrip(_BLANKS)) + 1
-    return Line(number, start, start + stop, end, Entry(key, value, number, column, start + at))
+    return PropertyLine(number, start, start + stop, end, IceProperty(key, value, number, column, start + at))
 
 
 def _key(line: str) -> tuple[str, int, bool]:
@@ -140,7 +148,7 @@ def _key(line: str) -> tuple[str, int, bool]:
         char = line[at]
         at += 1
         if char == "=":
-            # Ice trims once more when it sets the property: `\` before a tab does not protect the tab.
+            # Ice trims again when it sets the property: `\` before a tab does not protect the tab.
             return key.strip(_BLANKS), at, True
         if char == "#":
             return key, at - 1, False
@@ -161,8 +169,7 @@ def _key(line: str) -> tuple[str, int, bool]:
 
 def _value(line: str, at: int) -> tuple[str, int]:
     """The value, and the index where a comment begins or the line ends."""
-    # `blanks` is all white space since the last other character, `kept` the escaped part of it, which survives at
-    # the ends.
+    # `blanks` is all white space since the last other character, `kept` its escaped part, which is kept at the ends.
     value = blanks = kept = ""
     while at < len(line):
         char = line[at]
@@ -175,7 +182,7 @@ def _value(line: str, at: int) -> tuple[str, int]:
             continue
         if char == "\\":
             if at == len(line):
-                # Ice forgets to clear the escaped blanks here, and appends them once more at the end.
+                # Ice does not clear the escaped blanks here, and appends them again at the end.
                 return value + (blanks if value else kept) + char + kept, at
             escaped = line[at]
             at += 1

@@ -1,5 +1,5 @@
-"""Opening only what has an end: with `open(path, opener=regular)`, pipes and devices are errors. They may be endless,
-or never begin, and a link in anybody's folder may lead to one."""
+"""`open(path, opener=regular)` opens regular files only. Pipes and devices may block or be endless, and a link in an
+untrusted folder may lead to one."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ import stat
 
 
 def regular(path: str, flags: int) -> int:
-    """What open() asks of an opener, for reading: a descriptor of a regular file."""
+    """An opener for open(): returns the descriptor of a regular file. Raises OSError for anything else."""
     return _opened(path, flags)[0]
 
 
 def text(path: str, encoding: str = "utf-8") -> str | None:
-    """The text of a regular file, whatever its bytes are; None where there is none that can be read."""
+    """The text of a regular file, with invalid bytes replaced; None if it cannot be read."""
     try:
         with open(path, encoding=encoding, errors="replace", opener=regular) as file:
             return file.read()
@@ -23,7 +23,7 @@ def text(path: str, encoding: str = "utf-8") -> str | None:
 
 
 def whole(path: str) -> tuple[bytes, os.stat_result]:
-    """The bytes of a regular file and what the disk says of it, with a third of the calls that open() makes."""
+    """The bytes and the status of a regular file, with a third of the system calls of open(). Raises OSError."""
     opened, status = _opened(path, os.O_RDONLY)
     try:
         parts = [os.read(opened, status.st_size + 1)]
@@ -35,7 +35,7 @@ def whole(path: str) -> tuple[bytes, os.stat_result]:
 
 
 def _opened(path: str, flags: int) -> tuple[int, os.stat_result]:
-    _refuse_special(path, os.stat(path))  # before it is opened, which may do something to a device
+    _refuse_special(path, os.stat(path))  # before opening it, which can have effects on a device
     opened = os.open(path, flags | os.O_NONBLOCK | os.O_CLOEXEC)
     try:
         status = os.fstat(opened)
@@ -50,4 +50,4 @@ def _refuse_special(path: str, status: os.stat_result) -> None:
     if stat.S_ISDIR(status.st_mode):
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), path)
     if not stat.S_ISREG(status.st_mode):
-        raise OSError(errno.EINVAL, "it is no regular file", path)
+        raise OSError(errno.EINVAL, "it is not a regular file", path)

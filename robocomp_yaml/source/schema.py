@@ -1,7 +1,7 @@
-"""Does a document have its kind's shape? The schemas are the only place that says so; here are the words for it.
+"""Validates documents against the schema of their kind, and translates the validator's errors to diagnostics.
 
-jsonschema-rs judges; each of its errors carries the place in the document and in the schema, from which one message in
-the user's words is made. A subschema's `errorMessage` (yaml-language-server shows it too) wins over generated words.
+Each error of jsonschema-rs contains its paths in the document and in the schema. The `errorMessage` of a subschema,
+which yaml-language-server shows, too, has precedence over a generated message.
 """
 
 from __future__ import annotations
@@ -39,26 +39,26 @@ _NO_NUL = "^[^\\u0000]*$"
 _LINE = "^[^\\u0000-\\u001f\\u007f-\\u009f\\u2028\\u2029]*$"
 _LINE_OF_ICE = "^[^\\u0000-\\u0008\\u000a-\\u001f\\u007f-\\u009f\\u2028\\u2029]*$"
 _NEVER = {whole: pattern(whole[1:-2].replace("[^", "[")) for whole in (_NO_NUL, _LINE, _LINE_OF_ICE)}
-"""The schemas' patterns of texts that cannot hold some characters, and these."""
+"""The schemas' patterns that exclude characters, each with a pattern that matches these characters."""
 
 _CALLED = {
     "\0": "a NUL", "\n": "a line break", "\r": "a carriage return", "\t": "a tab", "\x1b": "an escape character",
     "\u0085": "a line break", "\u2028": "a line break", "\u2029": "a line break",
 }  # fmt: skip
 _ENDS_A_LINE = "\n\v\f\r\x85\u2028\u2029"
-_AT_END = "; behind `|-` and `>-` the last line break does not count"
+_AT_END = "; `|-` and `>-` drop the last line break"
 _APPLICATORS = frozenset(("allOf", "anyOf", "oneOf", "then", "else", "if"))
 
 
 def new_schema(kind: str, more: tuple[TargetLanguage, ...] = ()) -> dict[str, Any]:
-    """The JSON Schema of a kind of document, 'idsl' or 'cdsl' for instance, to be changed as one likes."""
+    """The JSON Schema of a kind of document, for example 'idsl', as a copy that the caller may change."""
     loaded: dict[str, Any] = json.loads(schema_text(kind, more))
     return loaded
 
 
 @cache
 def schema(kind: str, more: tuple[TargetLanguage, ...] = ()) -> dict[str, Any]:
-    """The JSON Schema of a kind of document, which all share."""
+    """The JSON Schema of a kind of document, shared by all callers."""
     return new_schema(kind, more)
 
 
@@ -68,7 +68,7 @@ def _validator(kind: str, more: tuple[TargetLanguage, ...]) -> jsonschema_rs.Dra
 
 
 def validate(kind: str, root: Node, more: tuple[TargetLanguage, ...] = ()) -> list[Diagnostic]:
-    """All that the schema refuses, one diagnostic a cause. There may be `more` languages than the built-in ones."""
+    """All errors of shape in a document, one diagnostic for each cause. `more` are the languages of plug-ins."""
     if not isinstance(root, Mapping):
         return [codes.NOT_A_MAPPING.at(root.span, what=_what(root))]
     validator = _validator(kind, more)
@@ -76,70 +76,70 @@ def validate(kind: str, root: Node, more: tuple[TargetLanguage, ...] = ()) -> li
         return []
     explained: dict[tuple[object, ...], list[Diagnostic]] = {}
     for error in validator.iter_errors(root.data):
-        place = tuple(error.instance_path)
-        said = list(_explain(schema(kind, more), root, place, list(error.schema_path), error.kind))
-        at_place = explained.setdefault(place, [])
-        # At one place, shape (`type`, `enum` …) is one cause; every missing or unknown key is a cause of its own.
-        at_place += [d for d in said if d.code in _KEY_CODES or all(o.code in _KEY_CODES for o in at_place)]
-    return [d for at_place in explained.values() for d in _without_misspelled(at_place)]
+        instance_path = tuple(error.instance_path)
+        of_error = list(_explain(schema(kind, more), root, instance_path, list(error.schema_path), error.kind))
+        at_path = explained.setdefault(instance_path, [])
+        # Errors of type or value at one path have one cause; every missing or unknown key is a cause of its own.
+        at_path += [d for d in of_error if d.code in _KEY_CODES or all(o.code in _KEY_CODES for o in at_path)]
+    return [d for at_path in explained.values() for d in _without_misspelled(at_path)]
 
 
 _KEY_CODES = (codes.UNKNOWN_KEY.id, codes.MISSING_KEY.id, codes.WRONG_NAME.id)
 
 
 def _without_misspelled(diagnostics: list[Diagnostic]) -> list[Diagnostic]:
-    """A missing key whose misspelling stands there is one cause, not two."""
+    """Without missing keys that are present, but misspelled: these have one cause, not two."""
     meant = {d.fact("meant") for d in diagnostics if d.code == codes.UNKNOWN_KEY.id}
     return list(dict.fromkeys(d for d in diagnostics if d.code != codes.MISSING_KEY.id or d.fact("key") not in meant))
 
 
 def _explain(
-    whole: dict[str, Any], root: Node, place: Path[str | int], path: list[str | int], kind: Any
+    whole: dict[str, Any], root: Node, instance_path: Path[str | int], schema_path: list[str | int], kind: Any
 ) -> Iterator[Diagnostic]:
-    node, key = _find(root, place)
+    node, key = _find(root, instance_path)
     facts = kind.as_dict()
     match kind.name:
         case "additionalProperties":
             for unknown in facts["unexpected"]:
-                around, found = _behind_empty(node, unknown)
-                if found is not None and isinstance(around, Mapping):
-                    yield _unknown_key(whole, around, place, path, found)
+                around, name = _behind_empty(node, unknown)
+                if name is not None and isinstance(around, Mapping):
+                    yield _unknown_key(whole, around, instance_path, schema_path, name)
         case "propertyNames":
             name = facts["error"].instance
             around, _ = _behind_empty(node, name)
             entry = around.entries.get(name) if isinstance(around, Mapping) else None
-            is_name = "A-Za-z_" in str(_subschema(whole, path))
-            hint = _name_hint(name) if is_name else _own_message(whole, path)
+            is_name = "A-Za-z_" in str(_subschema(whole, schema_path))
+            hint = _name_hint(name) if is_name else _own_message(whole, schema_path)
             yield codes.WRONG_NAME.at((entry[0] if entry else node).span, name=name, hint=hint)
         case "required":
-            yield codes.MISSING_KEY.at(_head(node, key), key=facts["property"], where=_where(place, root))
+            yield codes.MISSING_KEY.at(_head(node, key), key=facts["property"], where=_where(instance_path))
         case _:
-            # A key that may not be there is refused at its own place, and explained at that of the mapping around it.
+            # A forbidden key is reported at its own location, with the message of the mapping that contains it.
             forbidden = kind.name == "falseSchema"
-            message = _own_message(whole, path[:-1] if forbidden else path)
+            message = _own_message(whole, schema_path[:-1] if forbidden else schema_path)
             if kind.name == "pattern" and facts["pattern"] == NAME and isinstance(node, Scalar):
                 yield codes.WRONG_NAME.at(node.span, name=node.lexeme, hint=_name_hint(node.lexeme))
                 return
             if kind.name == "pattern" and facts["pattern"] in _NEVER and isinstance(node, Scalar):
-                yield _impossible(facts["pattern"], node, place, span=_span(node, key))
+                yield _impossible(facts["pattern"], node, instance_path, span=_span(node, key))
                 return
-            problem = message or _in_words(kind.name, facts, node, place)
+            problem = message or _in_words(kind.name, facts, node, instance_path)
             span = key.span if forbidden and key else _span(node, key)
             yield codes.WRONG_SHAPE.at(
                 span,
                 problem=problem,
-                key=_key_of(place),
+                key=_key_of(instance_path) or "the document",
                 rule=kind.name,
                 hint=_nearest(facts.get("options"), node),
-                fixes=_fixes(kind.name, facts, node, _subschema(whole, path[:-1])),
+                fixes=_fixes(kind.name, facts, node, _subschema(whole, schema_path[:-1])),
             )
 
 
 def _fixes(keyword: str, facts: dict[str, Any], node: Node, around: Any) -> Iterable[Fix]:
-    """Quotes too many or too few, a single value for a list, and the second of two equal entries."""
+    """Fixes for superfluous or missing quotes, a single value for a list, and the second of two equal elements."""
     if keyword == "type" and isinstance(node, Scalar):
         if isinstance(around, dict) and "pattern" in around and not re.search(around["pattern"], node.lexeme):
-            return ()  # it would be text, and the wrong one
+            return ()  # in quotes the text would be invalid, too
         return retyped([type_ for type_ in facts["types"] if type_ != "null"], node.lexeme, node.data, node.span)
     if keyword == "uniqueItems" and isinstance(node, Sequence):
         data = [item.data for item in node.items]
@@ -147,41 +147,41 @@ def _fixes(keyword: str, facts: dict[str, Any], node: Node, around: Any) -> Iter
     return ()
 
 
-def _impossible(rule: str, node: Scalar, place: Path[str | int], *, span: Span) -> Diagnostic:
-    """A text with a character that it cannot hold."""
-    found = _NEVER[rule].search(node.lexeme)
-    assert found is not None
-    is_at_end = found[0] == "\n" and found.end() == len(node.lexeme)
-    hint = "it is one line of text" + (_AT_END if is_at_end else "") if found[0] in _ENDS_A_LINE else "leave it out"
+def _impossible(rule: str, node: Scalar, instance_path: Path[str | int], *, span: Span) -> Diagnostic:
+    """The diagnostic of a text with a character that is not allowed in it."""
+    match = _NEVER[rule].search(node.lexeme)
+    assert match is not None
+    is_at_end = match[0] == "\n" and match.end() == len(node.lexeme)
+    hint = "write one line of text" + (_AT_END if is_at_end else "") if match[0] in _ENDS_A_LINE else "remove it"
     return codes.IMPOSSIBLE.at(
         span,
-        key=_key_of(place),
-        what=_CALLED.get(found[0], "a control character"),
-        character=f"U+{ord(found[0]):04X}",
+        key=_key_of(instance_path) or "the document",
+        what=_CALLED.get(match[0], "a control character"),
+        character=f"U+{ord(match[0]):04X}",
         hint=hint,
     )
 
 
 def _unknown_key(
-    whole: dict[str, Any], node: Mapping, place: Path[str | int], path: list[str | int], unknown: str
+    whole: dict[str, Any], node: Mapping, instance_path: Path[str | int], schema_path: list[str | int], unknown: str
 ) -> Diagnostic:
     from robocomp_yaml.diag.suggest import hint_for_key
 
     key = node.entries[unknown][0]
-    around = _subschema(whole, path[:-1])
+    around = _subschema(whole, schema_path[:-1])
     if not isinstance(around, dict):
         around = {}
     named = [p for p in around.get("patternProperties", {}) if not p.startswith("^x-")]
     if named and not around.get("properties"):
         return codes.WRONG_NAME.at(key.span, name=unknown, hint=_name_hint(unknown))
     hint = hint_for_key(unknown, around.get("properties", {}), node.entries)
-    return codes.UNKNOWN_KEY.at(key.span, key=unknown, where=_where(place, None, node), hint=hint)
+    return codes.UNKNOWN_KEY.at(key.span, key=unknown, where=_where(instance_path), hint=hint)
 
 
-def _find(root: Node, place: Path[str | int]) -> tuple[Node, Scalar | None]:
-    """The node at a place, and the key that it stands behind; what is nearest where the place is not exact."""
+def _find(root: Node, instance_path: Path[str | int]) -> tuple[Node, Scalar | None]:
+    """The node at a path, and its key if it is the value of a mapping; the nearest node if the path does not exist."""
     node, key = root, None
-    for step in place:
+    for step in instance_path:
         if isinstance(node, Sequence) and isinstance(step, int) and step < len(node.items):
             key, node = None, node.items[step]
             continue
@@ -194,8 +194,8 @@ def _find(root: Node, place: Path[str | int]) -> tuple[Node, Scalar | None]:
 
 
 def _behind_empty(node: Node, step: str | int) -> tuple[Node, str | None]:
-    """The mapping that has a key, behind empty keys (the validator leaves those out of its places), and the key as
-    spelled (the validator gives one of digits as a number, `+1` and `01` alike)."""
+    """The mapping that has the key `step`, and the key as written. The validator's paths omit empty keys, and contain
+    keys of digits as numbers (`+1` and `01` alike)."""
     while isinstance(node, Mapping):
         if str(step) in node.entries:
             return node, str(step)
@@ -209,32 +209,32 @@ def _behind_empty(node: Node, step: str | int) -> tuple[Node, str | None]:
     return node, None
 
 
-def _subschema(whole: dict[str, Any], path: list[str | int]) -> Any:
+def _subschema(whole: dict[str, Any], schema_path: list[str | int]) -> Any:
     part: Any = whole
-    for step in path:
+    for step in schema_path:
         part = part[step] if isinstance(part, dict) else part[int(step)]
     return part
 
 
-def _own_message(whole: dict[str, Any], path: list[str | int]) -> str:
-    """The nearest `errorMessage` around the keyword that failed, at the same place of the document."""
-    for end in range(len(path) - 1, -1, -1):
-        part = _subschema(whole, path[:end])
+def _own_message(whole: dict[str, Any], schema_path: list[str | int]) -> str:
+    """The nearest `errorMessage` around the keyword that failed, for the same path of the document; '' if absent."""
+    for end in range(len(schema_path) - 1, -1, -1):
+        part = _subschema(whole, schema_path[:end])
         if isinstance(part, dict) and "errorMessage" in part:
             return str(part["errorMessage"])
-        step = path[end - 1] if end else ""
+        step = schema_path[end - 1] if end else ""
         if not (isinstance(step, int) or str(step).isdigit() or step in _APPLICATORS):
             return ""
     return ""
 
 
-def _key_of(place: Path[str | int]) -> str:
-    """The nearest key above a place."""
-    return next((step for step in reversed(place) if isinstance(step, str)), "the document")
+def _key_of(instance_path: Path[str | int]) -> str:
+    """The last key in a path; '' if it has none."""
+    return next((step for step in reversed(instance_path) if isinstance(step, str)), "")
 
 
 def _head(node: Node, key: Scalar | None) -> Span:
-    """Where a mapping that lacks something begins: its key, its first key, or itself."""
+    """The location of a mapping with a missing key: the mapping's key, its first key, or the mapping."""
     if key is not None:
         return key.span
     if isinstance(node, Mapping) and node.entries:
@@ -243,15 +243,15 @@ def _head(node: Node, key: Scalar | None) -> Span:
 
 
 def _span(node: Node, key: Scalar | None) -> Span:
-    """A value's own place; its key's where the value is empty or fills many lines."""
+    """A value's location; that of its key if the value is empty or has several lines."""
     span = node.span
     empty = isinstance(node, Scalar) and not node.lexeme and not node.quoted
     return key.span if key is not None and (empty or span.line != span.end_line) else span
 
 
-def _where(place: Path[str | int], root: Node | None, node: Node | None = None) -> str:
-    names = [step for step in place if isinstance(step, str)]
-    return f"in '{names[-1]}'" if names else "at the top of the document"
+def _where(instance_path: Path[str | int]) -> str:
+    key = _key_of(instance_path)
+    return f"in '{key}'" if key else "at the top level of the document"
 
 
 def _what(node: Node) -> str:
@@ -268,7 +268,7 @@ def _what(node: Node) -> str:
 
 
 def _nearest(options: object, node: Node) -> Hint:
-    """The option that a word was meant to be, where one is near."""
+    """A hint at the option with the most similar spelling; none if no option is similar."""
     if not isinstance(options, list) or not isinstance(node, Scalar):
         return NO_HINT
     from robocomp_yaml.diag.suggest import did_you_mean
@@ -280,10 +280,10 @@ def _name_hint(name: str) -> Hint:
     cleaned = "".join(c if c.isascii() and (c.isalnum() or c == "_") else "_" for c in name).strip("_")
     if cleaned[:1].isdigit():
         cleaned = f"n{cleaned}"
-    said = "a name has letters, digits and underscores, and starts with no digit"
+    rule = "a name consists of letters, digits and underscores, and does not start with a digit"
     if not cleaned or len(cleaned) >= 60:
-        return Hint(said)
-    return Hint(f"{said}: for instance '{cleaned}'", name, cleaned)
+        return Hint(rule)
+    return Hint(f"{rule}: for example '{cleaned}'", name, cleaned)
 
 
 def _counted(count: int, keyword: str) -> str:
@@ -292,9 +292,9 @@ def _counted(count: int, keyword: str) -> str:
     return f"{count} {one if count == 1 else many}"
 
 
-def _in_words(keyword: str, facts: dict[str, Any], node: Node, place: Path[str | int]) -> str:
-    names = [step for step in place if isinstance(step, str)]
-    it = f"'{names[-1]}'" if names else "the document"
+def _in_words(keyword: str, facts: dict[str, Any], node: Node, instance_path: Path[str | int]) -> str:
+    key = _key_of(instance_path)
+    it = f"'{key}'" if key else "the document"
     match keyword:
         case "type":
             *most, last = [_IN_WORDS[t] for t in facts["types"] if t != "null"] or ["nothing"]
@@ -313,6 +313,6 @@ def _in_words(keyword: str, facts: dict[str, Any], node: Node, place: Path[str |
         case "maxItems" | "maxProperties" | "maxLength":
             return f"{it} must have at most {_counted(facts['limit'], keyword)}"
         case "uniqueItems":
-            return f"{it} holds the same entry twice"
+            return f"{it} contains the same element twice"
         case _:
-            return f"{it} has a form that cannot stand here"
+            return f"{it} has an invalid form"

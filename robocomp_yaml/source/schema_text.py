@@ -1,9 +1,8 @@
-"""The text of a kind's JSON Schema: the file in `schemas/`, with what it leaves to the languages filled in.
+"""The text of a kind's JSON Schema: the file in `schemas/`, with its placeholders replaced by the languages.
 
-Where the file says `"@languages"` in a list, their names come; in a text, `@languages-or` is `python or cpp`,
-`@languages-marked` the same with backquotes,
-`@languages` is `python, cpp`, and `@languages-each` that with backquotes. `"@snippets"` are what editors propose,
-`"@standards"` and `@standards-or` the numbers of those that have standards.
+`"@languages"` in a list is replaced by the names of the languages. In a text, `@languages-or` becomes `python or cpp`,
+`@languages-marked` the same with backquotes, `@languages` becomes `python, cpp`, and `@languages-each` the same with
+backquotes. `"@snippets"` are the proposals of editors, `"@standards"` and `@standards-or` the numbers of standards.
 """
 
 from __future__ import annotations
@@ -17,19 +16,18 @@ from robocomp_yaml.languages import listed
 from robocomp_yaml.languages.record import TargetLanguage
 
 MARKED = frozenset(("cdsl",))
-"""The kinds whose files leave something to the languages."""
+"""The kinds whose files contain placeholders."""
 
 
 @cache
 def schema_text(kind: str, more: tuple[TargetLanguage, ...] = ()) -> str:
-    """The JSON Schema of a kind of document, 'idsl' or 'cdsl' for instance, as people read it; with `more` languages,
-    those of plug-ins."""
+    """The JSON Schema of a kind of document, for example 'idsl', as text; `more` are the languages of plug-ins."""
     text = resources.text(f"schemas/{kind}.schema.json")
     return filled(text, [*languages.table().values(), *more]) if kind in MARKED else text
 
 
 def filled(text: str, known: Iterable[TargetLanguage]) -> str:
-    """A schema with these languages."""
+    """The text of a schema with the placeholders replaced by these languages."""
     every = list(known)
     names = [one.name for one in every]
     standards = sorted({standard for one in every for standard in one.standards})

@@ -1,6 +1,7 @@
-"""Fixes spelled as a document's text wants it: quotes where YAML needs them, and not a byte beside the place.
+"""Translates fixes to edits of a document's text: with quotes where YAML needs them, and no other change.
 
-Who finds a fault knows what is meant, and the place; here is the text. A fix that cannot be spelled is left out.
+A check knows the intended meaning and the location of a fault, but not the text. A fix that cannot be translated is
+dropped.
 """
 
 from __future__ import annotations
@@ -24,22 +25,22 @@ from robocomp_yaml.source.yaml_text import quoted, single_quoted
 
 _LINE_END = pattern("\r\n|\r|\n")
 _MARKS = pattern(r"(?:[&!]\S*[ \t]+)+")  # anchor and tag before a value
-_IN_A_TEXT = pattern(r"[\w ./+@=<>-]+")  # may stand in any text, however it is quoted
-_PLAIN = pattern(r"[\w./](?:[\w ./+-]*[\w./+-])?")  # needs no quotes, unless it would be read as something else
+_IN_A_TEXT = pattern(r"[\w ./+@=<>-]+")  # allowed in any text, whatever its quotes
+_PLAIN = pattern(r"[\w./](?:[\w ./+-]*[\w./+-])?")  # needs no quotes, unless it is not text by the core schema
 _ITEM = pattern(r"[ ]*-[ \t]+")
 
 
-def spelled(diagnostics: Iterable[Diagnostic], texts: Texts) -> Iterator[Diagnostic]:
-    """The diagnostics with fixes that say what to write."""
-    for told in diagnostics:
-        if all(fix.is_spelled for fix in told.fixes):
-            yield told
+def spelled(diagnostics: Iterable[Diagnostic], texts: DocumentTexts) -> Iterator[Diagnostic]:
+    """The diagnostics with fixes whose edits are texts."""
+    for diagnostic in diagnostics:
+        if all(fix.is_spelled for fix in diagnostic.fixes):
+            yield diagnostic
             continue
-        fixes = [made for fix in told.fixes if (made := _spelled(fix, texts))]
-        yield replace(told, fixes=tuple(dict.fromkeys(fixes)))
+        fixes = [made for fix in diagnostic.fixes if (made := _spelled(fix, texts))]
+        yield replace(diagnostic, fixes=tuple(dict.fromkeys(fixes)))
 
 
-def _spelled(fix: Fix, texts: Texts) -> Fix | None:
+def _spelled(fix: Fix, texts: DocumentTexts) -> Fix | None:
     edits: list[Edit] = []
     for edit in fix.edits:
         text = texts.get(edit.span.file)
@@ -50,26 +51,26 @@ def _spelled(fix: Fix, texts: Texts) -> Fix | None:
     return replace(fix, edits=tuple(edits))
 
 
-class Texts:
-    """The texts of a run's documents: `contents` are their bytes by their paths, `trees` those that have been read."""
+class DocumentTexts:
+    """The texts of a run's documents. `contents` maps paths to bytes, `trees` maps paths to parsed trees."""
 
     def __init__(self, contents: Mapping[str, bytes], trees: Mapping[str, Node | None]) -> None:
         self.contents, self._trees = contents, trees
-        self._known: dict[str, Text | None] = {}
+        self._known: dict[str, DocumentText | None] = {}
 
-    def get(self, file: str) -> Text | None:
-        """The text of a document; None where its bytes are none."""
+    def get(self, file: str) -> DocumentText | None:
+        """The text of a document; None if it is unknown or not text."""
         if file not in self._known:
             raw = self.contents.get(file)
             text = decode(file, raw)[0] if raw is not None else None
-            self._known[file] = made = Text(file, text) if text is not None else None
+            self._known[file] = made = DocumentText(file, text) if text is not None else None
             if made is not None and file in self._trees:
                 made.tree = self._trees[file]
         return self._known[file]
 
 
-class Text:
-    """A document's text, with indexes for lines and columns."""
+class DocumentText:
+    """A document's text, with conversions between spans and indices."""
 
     def __init__(self, file: str, text: str) -> None:
         self.file, self.text = file, text
@@ -85,7 +86,7 @@ class Text:
         return _LINE_END.split(self.text)
 
     def index(self, line: int, column: int) -> int:
-        """Of a place in the text; a place behind its end is the end."""
+        """The index of a line and column (both from 1); at most the length of the text."""
         if line > len(self._starts):
             return len(self.text)
         return min(self._starts[line - 1] + column - 1, len(self.text))
@@ -104,7 +105,7 @@ class Text:
         return parse(self.file, self.text)[0] if self.is_yaml else None
 
     def spelled(self, edit: Edit) -> list[Edit]:
-        """The edits that do what one means; none where that cannot be said."""
+        """The text edits for an edit by its meaning; none if it cannot be translated."""
         start = self.index(edit.span.line, edit.span.column)
         end = self.index(edit.span.end_line, edit.span.end_column)
         if edit.how == WORD:
@@ -139,9 +140,9 @@ class Text:
         return [self.edit(at, at + len(word), meant)]
 
     def _where(self, start: int, begin: int, end: int, word: str) -> int | None:
-        """Where a word stands: at the place itself, else once in the text around it, or at its end, as in a path."""
-        found = [match.start() for match in re.finditer(_whole(word), self.text[begin:end])]
-        places = [begin + at for at in found]
+        """The index of a word: at `start`, or where it occurs once in the text around it, or at the end of that text,
+        as in a path."""
+        places = [begin + match.start() for match in re.finditer(_whole(word), self.text[begin:end])]
         if start in places or not places:
             return start if places else None
         is_last = self.text[places[-1] + len(word) : end].strip("'\" \t") == ""
@@ -165,22 +166,22 @@ class Text:
         return [self.edit(*self._inner(node), node.lexeme.strip())]
 
     def _untagged(self, start: int, end: int) -> list[Edit]:
-        found = re.compile(r"(?:&\S+[ \t]+)?(!\S+)[ \t]+").match(self.text, start)
-        if found is None:
+        match = re.compile(r"(?:&\S+[ \t]+)?(!\S+)[ \t]+").match(self.text, start)
+        if match is None:
             return []
-        tag = self.edit(found.start(1), found.end(), "")
-        is_bare_text = found[1] == "!!str" and self.text[found.end() : found.end() + 1] not in ("'", '"', "|", ">")
-        quotes = self._around(found.end(), end, QUOTE) if is_bare_text else []
+        tag = self.edit(match.start(1), match.end(), "")
+        is_bare_text = match[1] == "!!str" and self.text[match.end() : match.end() + 1] not in ("'", '"', "|", ">")
+        quotes = self._around(match.end(), end, QUOTE) if is_bare_text else []
         return [tag, *quotes] if quotes or not is_bare_text else []
 
     def _without(self, start: int, end: int) -> list[Edit]:
-        """Without the entry that begins there; a comment behind it stays."""
-        found = _entry(self.tree, start)
-        if found is None and self.tree is None and not self.text[start : start + 1].isspace():
+        """Removes the element that begins at `start`; a comment after it stays."""
+        entry = _entry(self.tree, start)
+        if entry is None and self.tree is None and not self.text[start : start + 1].isspace():
             return self._without_entry(start, end)
-        if found is None or self.text[start : start + 1] in "&*!":
+        if entry is None or self.text[start : start + 1] in "&*!":
             return []
-        at, nodes, is_flow = found
+        at, nodes, is_flow = entry
         end = nodes[at].end
         if is_flow:
             before = self.text[nodes[at - 1].end : start] if at else ""
@@ -191,16 +192,16 @@ class Text:
         return without_lines(self, start, end)
 
     def _importing(self, name: str) -> list[Edit]:
-        """With one import more, behind the last one; without any, behind what the document says of itself."""
+        """Adds an import after the last one, or, if there is none, after `language:` or the first key."""
         root = self.tree
         if not isinstance(root, MappingNode) or root.is_flow or not root.entries:
             return []
         new = name if _is_text(name) else quoted(name)
-        if (found := root.entries.get("imports")) is None:
+        if (imports := root.entries.get("imports")) is None:
             head = root.entries.get("language") or next(iter(root.entries.values()))
             at = self._end_of_line(max(end_of(head[1]), head[0].end + 1))
             return [self.edit(at, at, f"{self._line_end}imports: [{new}]")]
-        value = found[1]
+        value = imports[1]
         if isinstance(value, SequenceNode) and value.is_flow:
             at = value.items[-1].end if value.items else value.start + 1
             return [self.edit(at, at, f", {new}" if value.items else new)]
@@ -214,22 +215,22 @@ class Text:
 
     @property
     def _line_end(self) -> str:
-        found = _LINE_END.search(self.text)
-        return found[0] if found else "\n"
+        match = _LINE_END.search(self.text)
+        return match[0] if match else "\n"
 
     def _end_of_line(self, index: int) -> int:
         rest = re.compile(r"[ \t]*(?:#[^\r\n]*)?(?=[\r\n]|\Z)").match(self.text, index)
         return rest.end() if rest else index
 
     def _without_entry(self, start: int, end: int) -> list[Edit]:
-        """Without an entry of a mapping."""
+        """Removes an entry of a mapping."""
         before = self.text[:start].rstrip(" \t")
         if before.endswith(","):
             return [self.edit(len(before) - 1, end, "")]
         return without_lines(self, start, end)
 
     def _scalar(self, index: int) -> Scalar | None:
-        """The key or value that a place is in."""
+        """The key or value at an index."""
         node = self.tree
         while node is not None and not isinstance(node, Scalar):
             children = _children(node)
@@ -237,7 +238,7 @@ class Text:
         return node
 
     def _inner(self, node: Scalar) -> tuple[int, int]:
-        """From where to where a scalar goes, without anchor and tag."""
+        """The start and end of a scalar, without anchor and tag."""
         return self._behind_marks(node.start), node.end
 
     def _behind_marks(self, start: int) -> int:
@@ -245,8 +246,8 @@ class Text:
         return marks.end() if marks else start
 
 
-def without_lines(text: Text, start: int, end: int) -> list[Edit]:
-    """Without an entry that has its lines for itself; a comment behind it stays, on a line of its own."""
+def without_lines(text: DocumentText, start: int, end: int) -> list[Edit]:
+    """Removes an entry that shares its lines with no other entry; a comment after it stays, on a line of its own."""
     whole = text.text
     line = max(whole.rfind("\n", 0, start), whole.rfind("\r", 0, start)) + 1
     before = whole[line:start]
@@ -273,7 +274,8 @@ def _children(node: Node) -> Iterator[Node]:
 
 
 def _entry(node: Node | None, start: int) -> tuple[int, list[Node], bool] | None:
-    """The entry of a list that begins at a place: which one it is of them, and whether they stand in brackets."""
+    """The element of a list that begins at an index: its position in the list, all elements, and whether the list is
+    in brackets."""
     while node is not None:
         if isinstance(node, SequenceNode):
             for at, item in enumerate(node.items):
@@ -284,7 +286,7 @@ def _entry(node: Node | None, start: int) -> tuple[int, list[Node], bool] | None
 
 
 def _whole(word: str) -> str:
-    """A pattern of a word that is no part of a longer one."""
+    """A pattern of a word that is not part of a longer one."""
     left = r"(?<!\w)" if word[:1].isalnum() or word[:1] == "_" else ""
     right = r"(?!\w)" if word[-1:].isalnum() or word[-1:] == "_" else ""
     return f"{left}{re.escape(word)}{right}"
@@ -295,5 +297,5 @@ def _is_quoted(text: str, start: int) -> bool:
 
 
 def _is_text(meant: str) -> bool:
-    """Whether YAML takes it for this text without quotes, wherever it stands."""
+    """Whether YAML reads it as this text without quotes, in every position."""
     return _PLAIN.fullmatch(meant) is not None and not meant.startswith("...") and core(meant) == meant

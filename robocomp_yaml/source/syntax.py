@@ -1,10 +1,10 @@
-"""YAML's syntax: text to composed nodes, by libyaml or, where that refuses, by ruamel.yaml's own parser.
+"""YAML's syntax: text to composed nodes, with libyaml or, if libyaml rejects the text, with ruamel.yaml's own parser.
 
-libyaml reads YAML 1.1 syntax, in which `{key: a:b}` is an error; YAML 1.2 allows it. So the slower parser has the last
-word on what is wrong. Both compose recursively, libyaml in C without a guard: the depth is bounded before.
+libyaml parses the syntax of YAML 1.1, in which `{key: a:b}` is an error; YAML 1.2 allows it. Therefore the result of
+the slower parser is final. Both parsers are recursive, libyaml in C without a limit: the depth is checked before.
 
-Both also end lines, and comments, at three characters that YAML 1.2 and editors take for part of the line. So others
-stand in for them while a text is parsed.
+Both parsers also end lines and comments at three characters that YAML 1.2 and editors treat as part of the line. These
+characters are replaced by others while a text is parsed.
 """
 
 from __future__ import annotations
@@ -28,46 +28,51 @@ MAX_DEPTH = 100
 UNTAGGED = Tag(suffix="")
 """The tag (`ctag`) of composed nodes for which the text has none."""
 
-# A pair with nothing between that could hide a bracket (a quote, a comment) or be one.
+# A pair of brackets that contains neither brackets nor what can hide one (quotes, comments).
 _INNERMOST = pattern(r"""\{[^][{}"'#]*\}|\[[^][{}"'#]*\]""")
 _BRACKET = pattern(r"[\[{\]}]")
 _LINE_ENDS_OF_1_1 = "\x85\u2028\u2029"
 _HAS_THEM = re.compile(f"[{_LINE_ENDS_OF_1_1}]")
-_PRIVATE = range(0xE000, 0xF900)  # characters that mean nothing
-# On its line, in a block.
+_PRIVATE = range(0xE000, 0xF900)  # the private use area of Unicode
+# The part of a line in a block that precedes a value.
 _BEFORE_A_VALUE = pattern(r"[ ]*(?:- +)*(?:[^\s#\"'\[\]{},:&*!|>@`%][^\"'\[\]{}#]*: +|- +)")
 _DOC = pattern(r"([ ]*(?:- +)*(?:doc|description|message): +)(?=[^\s\"'\[{&*!|>])")
 _DEEP_BLOCK = pattern(rf"^[ ?\-]{{{MAX_DEPTH}}}", re.MULTILINE)
 
-# The parsers' words, by a part of them: what a user is told, and how to mend it.
-_WORDS = (
-    ("cannot start any token", "{found} cannot start a value here", "put the text in quotes"),
+_MISINDENTED = "the indentation of this line does not match the lines before it"
+# Parts of the parsers' messages, each with the message and the hint for the user.
+_MESSAGES = (
+    ("cannot start any token", "a value cannot start with {found}", "put the text in quotes"),
     (
         "mapping values are not allowed",
-        "a ':' makes a mapping here, where none can stand",
-        "put text that holds ': ' in quotes, and check that the lines above line up",
+        "a ':' starts a mapping here, where none is allowed",
+        "put text that contains ': ' in quotes, and check the indentation of the lines above",
     ),
     ("could not find expected ':'", "this line has no ':' after its key", "write 'key: value'"),
-    ("expected <block end>", "this line does not line up with the lines before it", "check the indentation"),
-    ("did not find expected key", "this line does not line up with the lines before it", "check the indentation"),
-    ("did not find expected '-' indicator", "this line belongs to no list entry", "start it with '- ', or indent it"),
+    ("expected <block end>", _MISINDENTED, "check the indentation"),
+    ("did not find expected key", _MISINDENTED, "check the indentation"),
+    (
+        "did not find expected '-' indicator",
+        "this line is not part of an element of the list",
+        "start it with '- ', or indent it",
+    ),
     ("did not find expected ',' or '}'", "a '}}' or a ',' is missing before this", ""),
     ("expected ',' or '}'", "a '}}' or a ',' is missing before this", ""),
     ("did not find expected ',' or ']'", "a ']' or a ',' is missing before this", ""),
     ("expected ',' or ']'", "a ']' or a ',' is missing before this", ""),
     ("did not find expected node content", "a value is missing here", ""),
     ("expected the node content", "a value is missing here", ""),
-    ("unexpected end of stream", "this quoted text is never closed", "close the quotes"),
+    ("unexpected end of stream", "this quoted text is not closed", "close the quotes"),
     ("document separator", "a quoted text is not closed before '---'", "close the quotes"),
-    ("undefined alias", "no anchor (&name) of this name stands before this alias", "quote a text that starts with '*'"),
-    ("unknown escape", "this escape means nothing in double quotes", "double the backslash, or use single quotes"),
-    ("duplicate anchor", "this anchor stands twice", "give it another name"),
-    ("undefined tag handle", "this tag has no meaning here", "quote a text that starts with '!'"),
+    ("undefined alias", "this alias refers to an unknown anchor (&name)", "quote a text that starts with '*'"),
+    ("unknown escape", "unknown escape sequence in double quotes", "double the backslash, or use single quotes"),
+    ("duplicate anchor", "this anchor is defined twice", "rename one of them"),
+    ("undefined tag handle", "this tag is unknown", "quote a text that starts with '!'"),
 )
 
 
-class Refused(Exception):
-    """The text cannot be composed at all."""
+class SyntaxFault(Exception):
+    """The text is not YAML."""
 
     def __init__(self, diagnostic: Diagnostic) -> None:
         super().__init__(diagnostic.message)
@@ -75,7 +80,7 @@ class Refused(Exception):
 
 
 class _Composer(CParser):  # type: ignore[misc]
-    """libyaml's composer; where no tag stands, it is UNTAGGED."""
+    """libyaml's composer; the tag of a node without a tag is UNTAGGED."""
 
     def resolve(self, kind: type, value: str, implicit: object) -> Tag:
         return UNTAGGED
@@ -88,11 +93,11 @@ class _Composer(CParser):  # type: ignore[misc]
 
 
 def compose(path: str, text: str) -> Node | None:
-    """The root node, or None for a text without content. Raises Refused."""
+    """The root node, or None for a text without content. Raises SyntaxFault."""
     if not text.isascii() and _HAS_THEM.search(text):
         return _composed_with_stand_ins(path, text)
     if _may_be_deep(text) and _depth(text) > MAX_DEPTH:
-        raise Refused(codes.TOO_DEEP.at(_deep_place(path, text), limit=MAX_DEPTH))
+        raise SyntaxFault(codes.TOO_DEEP.at(_deep_location(path, text), limit=MAX_DEPTH))
     root: Node | None
     try:
         root = _Composer(text).get_single_node()
@@ -102,10 +107,10 @@ def compose(path: str, text: str) -> Node | None:
     try:
         return _compose_as_1_2(text)
     except MarkedYAMLError as error:
-        # libyaml marks an unclosed bracket better than the end of the file; where both name a place, its is kept.
-        raise Refused(_diagnostic(path, text, fault if fault.problem_mark else error)) from None
+        # libyaml's location is more precise: for an unclosed bracket it is not the end of the file.
+        raise SyntaxFault(_diagnostic(path, text, fault if fault.problem_mark else error)) from None
     except (RecursionError, ValueError, AttributeError, NotImplementedError):
-        raise Refused(_diagnostic(path, text, fault)) from None
+        raise SyntaxFault(_diagnostic(path, text, fault)) from None
 
 
 def tokens(text: str) -> Iterator[object]:
@@ -128,8 +133,8 @@ def stand_ins(text: str) -> tuple[str, dict[int, str]]:
         return text, {}
     used = set(text)
     free = [chr(code) for code in _PRIVATE if chr(code) not in used][: len(_LINE_ENDS_OF_1_1)]
-    there = str.maketrans(_LINE_ENDS_OF_1_1, "".join(free))
-    return text.translate(there), {ord(key): value for key, value in zip(free, _LINE_ENDS_OF_1_1, strict=True)}
+    forth = str.maketrans(_LINE_ENDS_OF_1_1, "".join(free))
+    return text.translate(forth), {ord(key): value for key, value in zip(free, _LINE_ENDS_OF_1_1, strict=True)}
 
 
 def _composed_with_stand_ins(path: str, text: str) -> Node | None:
@@ -142,7 +147,7 @@ def _composed_with_stand_ins(path: str, text: str) -> Node | None:
 
 
 def _nodes(root: Node | None) -> Iterator[Node]:
-    """A node and all below it, each once."""
+    """All nodes of a tree, each once."""
     todo, seen = [root] if root is not None else [], set[Node]()
     while todo:
         node = todo.pop()
@@ -175,9 +180,9 @@ def _may_be_deep(text: str) -> bool:
 
 
 def _brackets(text: str) -> int:
-    """No less than the depth of brackets: how many open, when the innermost pairs are taken away a few times."""
-    for taken in range(4):
-        opened = text.count("[") + text.count("{") + taken
+    """An upper bound of the depth of brackets: those that remain after the innermost pairs are removed a few times."""
+    for removed in range(4):
+        opened = text.count("[") + text.count("{") + removed
         if opened <= MAX_DEPTH:
             break
         text = _INNERMOST.sub("", text)
@@ -185,7 +190,7 @@ def _brackets(text: str) -> int:
 
 
 def _depth(text: str) -> int:
-    """The depth of nesting, by libyaml's events, which are read without recursion."""
+    """The depth of nesting, from libyaml's events, which need no recursion."""
     from ruamel.yaml.events import MappingEndEvent, MappingStartEvent, SequenceEndEvent, SequenceStartEvent
 
     deepest = depth = 0
@@ -193,20 +198,20 @@ def _depth(text: str) -> int:
     try:
         while parser.check_event():
             event = parser.get_event()
-            if isinstance(event, MappingStartEvent | SequenceStartEvent):
+            if isinstance(event, (MappingStartEvent, SequenceStartEvent)):
                 depth += 1
                 deepest = max(deepest, depth)
                 if deepest > MAX_DEPTH:
                     break
-            elif isinstance(event, MappingEndEvent | SequenceEndEvent):
+            elif isinstance(event, (MappingEndEvent, SequenceEndEvent)):
                 depth -= 1
     except MarkedYAMLError:
-        pass  # composing will say what is wrong; the depth so far counts
+        pass  # composing reports the error; the depth so far is used
     return deepest
 
 
-def _deep_place(path: str, text: str) -> Span:
-    """Where the brackets are deepest past the limit, else the first line that is indented as far."""
+def _deep_location(path: str, text: str) -> Span:
+    """The first bracket beyond the limit, or the first line that is indented as far."""
     depth = 0
     for bracket in _BRACKET.finditer(text):
         depth += 1 if bracket[0] in "[{" else -1
@@ -221,41 +226,41 @@ def _deep_place(path: str, text: str) -> Span:
 
 def _diagnostic(path: str, text: str, error: MarkedYAMLError) -> Diagnostic:
     problem = " ".join(str(part) for part in (error.context, error.problem) if part)
-    # Where a key or a quoted text begins says more than where the parser gave up on it.
+    # The start of a key or a quoted text is more useful than the position at which the parser stopped.
     begins = "expected ':'" in problem or ("quoted scalar" in problem and "escape" not in problem)
     mark = (begins and error.context_mark) or error.problem_mark or error.context_mark
     line, column = (mark.line + 1, mark.column + 1) if mark else (1, 1)
     span = Span(path, line, column, line, column + 1)
     if "but found another document" in problem:
-        return codes.SEVERAL_DOCUMENTS.at(span, hint="put it into a file of its own")
+        return codes.SEVERAL_DOCUMENTS.at(span, hint="move it to a file of its own")
     lines = re.split("\r\n|\r|\n", text)
     if not lines[-1]:
         del lines[-1]
-    if line > len(lines):  # the end of the file: shown behind its last character
+    if line > len(lines):  # the end of the file: shown after its last character
         line = max(1, len(lines))
         column = len(lines[-1]) + 1 if lines else 1
         span = Span(path, line, column, line, column + 1)
     rest = lines[line - 1][column - 1 :] if lines else ""
     if rest.startswith("\t"):
-        return codes.SYNTAX.at(span, problem="a tab stands where only blanks can indent", hint="indent with blanks")
-    if rest.startswith("{i}") and "expected ',' or" in problem:  # of a deployment: it counts instances
+        return codes.SYNTAX.at(span, problem="a tab is used for indentation", hint="indent with blanks")
+    if rest.startswith("{i}") and "expected ',' or" in problem:  # the instance number in a deployment
         hint = 'write "mouth{i}", with quotes'
-        return codes.SYNTAX.at(span, problem="between brackets, a text with {i} stands in quotes", hint=hint)
-    for part, words, hint in _WORDS:
+        return codes.SYNTAX.at(span, problem="a text with {i} must be in quotes inside of brackets", hint=hint)
+    for part, message, hint in _MESSAGES:
         if part in problem:
             fixes = _quotes(span, lines[line - 1], column, part) if lines else ()
-            return codes.SYNTAX.at(span, problem=words.format(found=f"'{rest[:1]}'"), hint=hint, fixes=fixes)
+            return codes.SYNTAX.at(span, problem=message.format(found=f"'{rest[:1]}'"), hint=hint, fixes=fixes)
     return codes.SYNTAX.at(span, problem=f"this is not YAML: {error.problem or problem}")
 
 
 def _quotes(span: Span, line: str, column: int, part: str) -> tuple[Fix, ...]:
-    """Quotes around a text that begins as no text can, or around one with ': ' that `doc:` holds: both in a block."""
+    """The fix that quotes a text in a block which starts with a reserved character, or a `doc:` that contains ': '."""
     if part == "cannot start any token":
         head, text = line[: column - 1], line[column - 1 :]
         if _BEFORE_A_VALUE.fullmatch(head) is None:
             return ()
-    elif part == "mapping values are not allowed" and (found := _DOC.match(line)) is not None:
-        head, text = found[1], line[found.end() :]
+    elif part == "mapping values are not allowed" and (doc := _DOC.match(line)) is not None:
+        head, text = doc[1], line[doc.end() :]
     else:
         return ()
     text = re.split(r"[ \t]#", text)[0].rstrip()

@@ -1,4 +1,4 @@
-"""Reading a file as text, or saying why that cannot be done."""
+"""Reads a file as text, or reports why that is not possible."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from robocomp_yaml.source.regular import regular
 MAX_DOCUMENT = 16 << 20
 MAX_SCALAR = 1 << 20
 
-# What YAML 1.2 (5.1) calls non-printable: C0 but tab and line ends, DEL, C1 but NEL, surrogates, the byte order mark
-# inside of a text, and the two non-characters.
+# The non-printable characters of YAML 1.2 (5.1): C0 except tab and line ends, DEL, C1 except NEL, surrogates, the byte
+# order mark inside of a text, and the two non-characters.
 _CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x84\x86-\x9f\ud800-\udfff\ufeff\ufffe\uffff]")
 
 
 OF_NO_LINE = pattern("[\x00-\x1f\x7f-\x9f\u2028\u2029]")
-"""What a text of one line cannot hold, as the schemas have it: control characters, and what ends a line somewhere."""
+"""Not allowed in a text of one line, as in the schemas: control characters, and all characters that end a line."""
 
 
 def size_in_words(size: int) -> str:
@@ -28,7 +28,7 @@ def size_in_words(size: int) -> str:
 
 
 def position(text: str, index: int) -> tuple[int, int]:
-    """Line and column, from 1, of a character of the text."""
+    """Line and column (both from 1) of the character at an index of the text."""
     return text.count("\n", 0, index) + 1, index - (text.rfind("\n", 0, index) + 1) + 1
 
 
@@ -38,7 +38,7 @@ def _at(path: str, text: str, index: int) -> Span:
 
 
 def decode(path: str, raw: bytes) -> tuple[str | None, list[Diagnostic]]:
-    """The text of UTF-8 bytes without byte order mark, or what is wrong with them."""
+    """The text of UTF-8 bytes, without byte order mark; None, with diagnostics, if they are not text."""
     try:
         text = raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -55,8 +55,8 @@ def decode(path: str, raw: bytes) -> tuple[str | None, list[Diagnostic]]:
 
 
 def read_bytes(path: str, limit: int = MAX_DOCUMENT) -> tuple[bytes | None, list[Diagnostic]]:
-    """The bytes of a file no larger than `limit`. Pipes and devices are not read: they may have no end, or never
-    begin."""
+    """The content of a file of at most `limit` bytes; None, with diagnostics, if it cannot be read. Pipes and devices
+    are not read, because they may block or be endless."""
     try:
         with open(path, "rb", opener=regular) as file:
             status = os.fstat(file.fileno())

@@ -1,8 +1,8 @@
-"""YAML text as a tree of positioned nodes.
+"""Parses YAML text to a tree of nodes with locations.
 
-The syntax is libyaml's, composed in C with marks on keys and values; what libyaml (YAML 1.1 syntax) refuses gets a
-second chance with ruamel.yaml's own YAML 1.2 parser, twenty times slower. Plain scalars are resolved here, by exactly
-YAML 1.2's core schema (https://yaml.org/spec/1.2.2/#103-core-schema): `on`, `yes`, `12:30` and `1_000` are text.
+libyaml composes the nodes in C. Text that libyaml rejects, because it knows only the syntax of YAML 1.1, is parsed by
+ruamel.yaml's own YAML 1.2 parser, which is twenty times slower. This module resolves plain scalars, exactly by the core
+schema of YAML 1.2 (https://yaml.org/spec/1.2.2/#103-core-schema): `on`, `yes`, `12:30` and `1_000` are text.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.fix import UNTAG, Edit, Fix, quoting, removal
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.digraph import reached
+from robocomp_yaml.digraph import reachable
 from robocomp_yaml.patterns import pattern
 from robocomp_yaml.source import syntax
 from robocomp_yaml.source.text import MAX_SCALAR, position, size_in_words
 
-MAX_ALIASED = 100_000  # nodes that aliases may add, all together
+MAX_ALIASED = 100_000  # nodes that all aliases together may add
 
 _INT = re.compile(r"[-+]?[0-9]+\Z")
 _ZEROS = pattern(r"[-+]?0[0-9]+\Z")
@@ -36,12 +36,12 @@ _NAMED |= {word: word[0] in "tT" for word in ("true", "True", "TRUE", "false", "
 _NAMED |= {sign + dot: float(sign + "inf") for sign in ("", "+", "-") for dot in (".inf", ".Inf", ".INF")}
 _NAMED |= {word: float("nan") for word in (".nan", ".NaN", ".NAN")}
 _SURROGATE = re.compile("[\ud800-\udfff]")
-_PLAIN_TAGS = ("!!str", "!!int", "!!float", "!!bool", "!!null", "!!map", "!!seq")  # which YAML sees without them
-_CORE_START = frozenset("0123456789+-.~nNtTfF")  # no other first character can begin a core scalar
+_PLAIN_TAGS = ("!!str", "!!int", "!!float", "!!bool", "!!null", "!!map", "!!seq")  # the tags that plain YAML implies
+_CORE_START = frozenset("0123456789+-.~nNtTfF")  # the first characters of scalars that are not text
 
 
 class Node:
-    """A value with its place. `data` is the same value as plain Python data, all the way down."""
+    """A value with its location. `data` is the same value as plain Python data, recursively."""
 
     __slots__ = ("_end", "_start", "data", "file")
 
@@ -50,7 +50,7 @@ class Node:
 
     @property
     def start(self) -> int:
-        """The index in the text of its first character; `end` is that behind its last one."""
+        """The index of its first character in the text; `end` is the index after its last one."""
         return int(self._start.index)
 
     @property
@@ -63,16 +63,16 @@ class Node:
         return Span(self.file, start.line + 1, start.column + 1, end.line + 1, end.column + 1)
 
     def get(self, key: str) -> Node | None:
-        """The value of a mapping's key; None where it is missing or null, and where this is no mapping."""
+        """The value of a mapping's key; None if it is missing or null, or if the node is not a mapping."""
         return None
 
     def children(self) -> Iterable[Node]:
-        """The values of a mapping, the items of a sequence."""
+        """The values of a mapping, or the items of a sequence."""
         return ()
 
 
 class Scalar(Node):
-    """`lexeme` is the text as spelled, without quotes; `quoted` holds for every style but plain."""
+    """`lexeme` is the text as written, without quotes; `quoted` is true for every style except plain."""
 
     __slots__ = ("lexeme", "quoted")
 
@@ -116,8 +116,8 @@ class Sequence(Node):
 
 
 def below(root: Node) -> Iterable[Node]:
-    """A node and all that stands in it, each once."""
-    return reached([root], lambda node: node.children())
+    """A node and all nodes in it, each once."""
+    return reachable([root], lambda node: node.children())
 
 
 def pairs_below(root: Node) -> Iterator[tuple[Scalar, Node]]:
@@ -126,7 +126,7 @@ def pairs_below(root: Node) -> Iterator[tuple[Scalar, Node]]:
 
 
 def last_end(node: Mapping) -> int | None:
-    """Where the last entry of a mapping ends."""
+    """The index after the last entry of a mapping; None if the mapping is empty."""
     end = None
     for key, value in node.entries.values():
         end = max(key.end, end_of(value))
@@ -136,7 +136,7 @@ def last_end(node: Mapping) -> int | None:
 
 
 def end_of(node: Node) -> int:
-    """Where a node's own text ends: libyaml ends block collections only where the next thing starts."""
+    """The index after a node's own text: libyaml ends block collections at the start of the next node."""
     if isinstance(node, Mapping) and node.entries and not node.is_flow:
         return last_end(node) or node.end
     if isinstance(node, Sequence) and node.items and not node.is_flow:
@@ -151,7 +151,7 @@ class _Mark(msgspec.Struct, frozen=True):
 
 
 class _Made(msgspec.Struct, frozen=True):
-    """What stands for a composed node, of nodes that no document holds."""
+    """Replaces the composed node in nodes that are not in a document."""
 
     start_mark: _Mark
     end_mark: _Mark
@@ -160,7 +160,7 @@ class _Made(msgspec.Struct, frozen=True):
     flow_style: bool | None = None
 
 
-@lru_cache(16)  # many are made for what stands at one place
+@lru_cache(16)  # many nodes are made for the same location
 def _marks(span: Span) -> tuple[_Mark, _Mark]:
     return _Mark(span.line - 1, span.column - 1), _Mark(span.end_line - 1, span.end_column - 1)
 
@@ -172,7 +172,7 @@ def _last_mark(text: str) -> _Mark:
 
 
 def text_at(span: Span, text: str) -> Scalar:
-    """A text that no document holds, made for what stands at a place."""
+    """A text node that is not in a document, at the location of what it is derived from."""
     return Scalar(span.file, _Made(*_marks(span), text), text)
 
 
@@ -185,12 +185,12 @@ def sequence_at(span: Span, items: list[Node]) -> Sequence:
 
 
 def scalar_at(span: Span, lexeme: str) -> Scalar:
-    """A plain scalar, and what it means."""
+    """A plain scalar that is not in a document, with its value by the core schema."""
     return Scalar(span.file, _Made(*_marks(span), lexeme), core(lexeme))
 
 
 def core(lexeme: str) -> object:
-    """What a plain scalar means by YAML 1.2's core schema."""
+    """The value of a plain scalar by YAML 1.2's core schema."""
     if lexeme in _NAMED:
         return _NAMED[lexeme]
     if _INT.match(lexeme):
@@ -207,27 +207,27 @@ def core(lexeme: str) -> object:
 
 
 def parse(path: str, text: str) -> tuple[Node | None, list[Diagnostic]]:
-    """The tree of a document's text, and all that is wrong with it; no tree when there is an error."""
+    """The tree of a document's text, or None with all errors."""
     try:
         root = syntax.compose(path, text)
-    except syntax.Refused as refused:
-        return None, [refused.diagnostic]
+    except syntax.SyntaxFault as fault:
+        return None, [fault.diagnostic]
     if root is None:
         return None, [codes.EMPTY.at(Span(path))]
-    builder = _Builder(path, text)
+    builder = _TreeBuilder(path, text)
     tree = builder.build(root)
     return (None if builder.diagnostics else tree), builder.diagnostics
 
 
-class _Builder:
-    """Turns composed nodes into ours, collecting what is wrong."""
+class _TreeBuilder:
+    """Converts composed nodes to Nodes, and collects the errors."""
 
     def __init__(self, path: str, text: str) -> None:
         self.path, self.text = path, text
         self.has_anchors = "&" in text
-        self.last = None if text.endswith("\n") else _last_mark(text)  # libyaml's blocks end in the line behind it
+        self.last = None if text.endswith("\n") else _last_mark(text)  # libyaml ends blocks in the line after it
         self.diagnostics: list[Diagnostic] = []
-        self.known: dict[YamlNode, tuple[Node, int]] = {}  # by composed node: ours, and its size with aliases expanded
+        self.known: dict[YamlNode, tuple[Node, int]] = {}  # the Node, and the number of nodes with aliases expanded
         self.open: set[YamlNode] = set()
         self.size = 0
         self.aliased = 0
@@ -244,7 +244,7 @@ class _Builder:
         if isinstance(node, ScalarNode):
             built: Node = self._scalar(node)
         elif node in self.open:
-            self._say(codes.ALIASES, node, problem="an alias stands inside of what it repeats")
+            self._say(codes.ALIASES, node, problem="an alias is inside of the value that it repeats")
             return Scalar(self.path, ScalarNode(None, "", node.start_mark, node.end_mark), None)
         else:
             self.open.add(node)
@@ -256,7 +256,7 @@ class _Builder:
             self.open.discard(node)
         if self.last is not None and built._end.line > self.last.line:
             built._end = self.last
-        if self.has_anchors:  # the composer does not say which nodes have one
+        if self.has_anchors:  # composed nodes do not record whether they have one
             self.known[node] = (built, self.size - before)
         return built
 
@@ -290,14 +290,14 @@ class _Builder:
         return Scalar(self.path, node, self._core(node, lexeme))
 
     def _quoted(self, node: ScalarNode) -> Scalar:
-        """Text in quotes; an escape in it can spell half of a character, which is none."""
-        half = None if node.value.isascii() else _SURROGATE.search(node.value)
-        if half:
-            self._say(codes.BINARY, node, byte=f"U+{ord(half[0]):04X}", hint="write the character itself")
+        """A text in quotes. An escape sequence in it may be a surrogate, which is not a character."""
+        surrogate = None if node.value.isascii() else _SURROGATE.search(node.value)
+        if surrogate:
+            self._say(codes.BINARY, node, byte=f"U+{ord(surrogate[0]):04X}", hint="write the character itself")
         return Scalar(self.path, node, node.value)
 
     def _core(self, node: ScalarNode, lexeme: str) -> object:
-        """A plain scalar, which has no zeros before a whole number: those of others mean octal."""
+        """The value of a plain scalar. Reports leading zeros, which YAML 1.1 reads as octal."""
         data = core(lexeme)
         if _ZEROS.match(lexeme):
             digits = lexeme.lstrip("+-")
@@ -326,7 +326,7 @@ class _Builder:
                     codes.DUPLICATE_KEY,
                     key_node,
                     key=key.lexeme,
-                    related=[Related("it stands here first", first.span)],
+                    related=[Related("first written here", first.span)],
                     fixes=self._without_second(first, entries[key.lexeme][1], key, value),
                 )
                 continue
@@ -334,7 +334,7 @@ class _Builder:
         return Mapping(self.path, node, entries)
 
     def _key(self, mapping: MappingNode, node: ScalarNode, value: Node) -> Scalar:
-        """A key is the text as spelled: `2d`, `on` and `1` are keys like any other."""
+        """A key is the text as written: `2d`, `on` and `1` are keys like any other."""
         if node.ctag is not syntax.UNTAGGED:
             self._explicit_tag(node)
         if not node.value and not node.style:
@@ -344,14 +344,14 @@ class _Builder:
             if node.value.endswith(":") or missing_value:
                 head, _, tail = node.value.partition(":")
                 span = self._span(node).inside(node.value, len(head) + 1, len(head) + 2)
-                behind = Span(span.file, span.line, span.column, span.line, span.column)
+                after = Span(span.file, span.line, span.column, span.line, span.column)
                 is_plain = tail.strip(":") and not tail.startswith(":") and span.column != node.start_mark.column + 1
                 self._say(
                     codes.KEY_COLON,
                     node,
                     key=node.value,
                     hint=f"write '{head}: {tail.lstrip(':')}'".rstrip(),
-                    fixes=[Fix("put a blank behind the colon", (Edit(behind, " "),), True)] if is_plain else [],
+                    fixes=[Fix("insert a blank after the colon", (Edit(after, " "),), True)] if is_plain else [],
                 )
         return self._quoted(node)
 
@@ -361,12 +361,12 @@ class _Builder:
             codes.TAG,
             node,
             tag=tag,
-            hint="leave the tag out" + (", and use quotes" if tag == "!!str" else ""),
-            fixes=[Fix("leave the tag out", (Edit(self._span(node), how=UNTAG),), True)] if tag in _PLAIN_TAGS else [],
+            hint="remove the tag" + (", and use quotes" if tag == "!!str" else ""),
+            fixes=[Fix("remove the tag", (Edit(self._span(node), how=UNTAG),), True)] if tag in _PLAIN_TAGS else [],
         )
 
     def _without_second(self, key: Scalar, value: Node, again: Scalar, other: Node) -> list[Fix]:
-        """An entry that is spelled as the first of its name can go."""
+        """The fix that removes a second entry with the same text as the first one; none if the texts differ."""
         spelled, same = (
             self.text[at.end : max(end_of(what), at.end)].rstrip() for at, what in ((key, value), (again, other))
         )

@@ -1,7 +1,7 @@
-"""XML text as a tree of positioned elements, read without trust: no DTD, no entities, bounded nesting.
+"""Parses untrusted XML to a tree of elements with locations: no DTD, no entities, limited size and nesting.
 
-The parser is expat, Python's own; whatever could make it fetch or expand something is refused before it does. It keeps
-no stack of its own, so depth costs nothing until this module says that it is enough.
+The parser is Python's expat. A document type is rejected, so that the parser never fetches or expands anything. Expat
+keeps no stack; this module limits the depth.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ MAX_ELEMENTS = 10_000
 MAX_ATTRIBUTES = 100  # of one element
 
 _DOCTYPE = "<!DOCTYPE"
-_SEPARATOR = " "  # no namespace and no name holds one
+_SEPARATOR = " "  # not allowed in namespaces and names
 _TAG = re.compile(r"<[^\s/>]+")
 _ATTRIBUTE = re.compile(r"""\s+([^\s=<>/"']+)\s*=\s*("[^"]*"|'[^']*')""")
 
 
 class Element(msgspec.Struct):
-    """`name` and `namespace` are apart; an attribute of a namespace is called 'namespace name'; `content` are texts and
-    elements in their order. It is spelled in `source` from `start` to `end`, in bytes."""
+    """`attributes` maps names, or 'NAMESPACE NAME', to values, `places` to the locations of the values. `content` are
+    texts and elements in their order. The element is source[start:end], in bytes."""
 
     name: str
     namespace: str
@@ -44,7 +44,7 @@ class Element(msgspec.Struct):
 
     @property
     def raw(self) -> str:
-        """As it is spelled, from its first '<' to its last '>'."""
+        """The element as written, from its first '<' to its last '>'."""
         return self.source[self.start : self.end].decode()
 
     @property
@@ -53,29 +53,29 @@ class Element(msgspec.Struct):
 
     @property
     def text(self) -> str:
-        """The characters that stand directly in it."""
+        """The characters directly in the element."""
         return "".join(item for item in self.content if isinstance(item, str))
 
     def get(self, name: str) -> str | None:
         return self.attributes.get(name)
 
     def place(self, name: str) -> Span:
-        """Where an attribute's value stands, else the element's tag."""
+        """The location of an attribute's value; that of the element's tag if the attribute is absent."""
         return self.places.get(name, self.span)
 
 
-class _Refused(Exception):
+class _XmlRefused(Exception):
     def __init__(self, diagnostic: Diagnostic) -> None:
         super().__init__(diagnostic.message)
         self.diagnostic = diagnostic
 
 
 def parse(path: str, text: str) -> tuple[Element | None, list[Diagnostic]]:
-    """The document's root; None with the reason where it is no XML, or not of the kind that is taken."""
-    reader = _Reader(path, text)
+    """The document's root; None, with diagnostics, if the text is not XML, or is beyond the limits."""
+    reader = _XmlReader(path, text)
     try:
         reader.parser.Parse(reader.raw, True)
-    except _Refused as refused:
+    except _XmlRefused as refused:
         return None, [refused.diagnostic]
     except expat.ExpatError as error:
         line, column = error.lineno, error.offset + 1
@@ -84,7 +84,7 @@ def parse(path: str, text: str) -> tuple[Element | None, list[Diagnostic]]:
     return reader.root, []
 
 
-class _Reader:
+class _XmlReader:
     def __init__(self, path: str, text: str) -> None:
         self.path = path
         self.raw = text.encode()
@@ -105,10 +105,10 @@ class _Reader:
         return Span(self.path, line, column, line, column + length)
 
     def _doctype(self, *_: object) -> None:
-        """Entities are declared nowhere else, so there are none."""
+        """Rejects document types, the only place in which entities can be declared."""
         start = max(self.text.find(_DOCTYPE), 0)
         what = "a document type (<!DOCTYPE …>)"
-        raise _Refused(codes.XML_REFUSED.at(self._span(start, start + len(_DOCTYPE)), what=what))
+        raise _XmlRefused(codes.XML_REFUSED.at(self._span(start, start + len(_DOCTYPE)), what=what))
 
     def _start(self, full_name: str, attributes: dict[str, str]) -> None:
         self._count += 1
@@ -131,10 +131,10 @@ class _Reader:
         self._open.append(element)
 
     def _too_large(self, limit: str) -> NoReturn:
-        raise _Refused(codes.XML_TOO_LARGE.at(self._here(), limit=limit))
+        raise _XmlRefused(codes.XML_TOO_LARGE.at(self._here(), limit=limit))
 
     def _end(self, _: str) -> None:
-        here = self.parser.CurrentByteIndex  # for an empty element, behind it
+        here = self.parser.CurrentByteIndex  # for an empty element, the index after it
         closes = self.raw[here : here + 2] == b"</"
         self._open.pop().end = self.raw.find(b">", here) + 1 if closes else here
 
@@ -143,11 +143,11 @@ class _Reader:
             self._open[-1].content.append(text)
 
     def _places(self) -> Iterator[tuple[str, Span]]:
-        """The values of the current tag's attributes, found again in the text (expat does not tell)."""
+        """The names and locations of the current tag's attributes, which expat does not provide."""
         at = self._lines[self.parser.CurrentLineNumber - 1] + self.parser.CurrentColumnNumber
-        found = _TAG.match(self.text, at)
-        while found and (found := _ATTRIBUTE.match(self.text, found.end())):
-            yield found[1], self._span(found.start(2) + 1, found.end(2) - 1)
+        match = _TAG.match(self.text, at)
+        while match and (match := _ATTRIBUTE.match(self.text, match.end())):
+            yield match[1], self._span(match.start(2) + 1, match.end(2) - 1)
 
     def _span(self, start: int, end: int) -> Span:
         first, last = bisect.bisect_right(self._lines, start), bisect.bisect_right(self._lines, end)

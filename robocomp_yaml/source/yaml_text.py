@@ -1,4 +1,4 @@
-"""Data as YAML text, so that our reader gives the same data back: scalars, comments, and all on one line."""
+"""Writes data as YAML text that rcyaml reads as the same data: scalars, comments, and flow collections."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _PLAIN = pattern(r"(?:[A-Za-z_/]|\.\.?/)[A-Za-z0-9_./ -]*[A-Za-z0-9_./-]\Z|[A-Za
 _UNREADABLE = pattern("[\x00-\x1f\x7f-\x9f\u2028\u2029\ufeff\ufffe\uffff\ud800-\udfff]")
 _NOT_TEXT = frozenset(("true", "false", "null", "yes", "no", "on", "off", "y", "n"))
 
-# What a plain scalar must not look like: null, booleans, numbers (also those with leading zeros, which we refuse).
+# Plain scalars that are not text: null, booleans, numbers (also those with leading zeros, which rcyaml rejects).
 _READ_OTHERWISE = pattern(
     r"""(?: ~ | null | Null | NULL | true | True | TRUE | false | False | FALSE | <<
         | [-+]?[0-9]+ | 0x[0-9a-fA-F]+ | 0o[0-7]+
@@ -27,7 +27,7 @@ _UNPRINTABLE = pattern("[^\x09\x20-\x7e\xa0-\u2027\u202a-\ud7ff\ue000-\ufefe\uff
 
 
 def scalar(data: Any) -> str:
-    """A plain value; text in quotes unless nothing could take it for anything else."""
+    """A plain value; a text is quoted unless every YAML parser reads it as the same text without quotes."""
     if data is None:
         return "null"
     if isinstance(data, bool):
@@ -43,7 +43,7 @@ def _number(data: int | float) -> str:
 
 
 def quoted(text: str) -> str:
-    """In double quotes. JSON's escapes are YAML's, but for DEL and the C1 controls, which YAML cannot hold bare."""
+    """A text in double quotes, with JSON's escapes; DEL and the C1 controls are escaped, too, as YAML requires."""
     return _UNREADABLE.sub(_escape, json.dumps(text, ensure_ascii=False))
 
 
@@ -51,41 +51,41 @@ def single_quoted(text: str) -> str:
     return "'" + text.replace("'", "''") + "'" if text.isprintable() else quoted(text)
 
 
-def _escape(found: re.Match[str]) -> str:
-    return {"\n": "\\n", "\t": "\\t"}.get(found[0], f"\\u{ord(found[0]):04x}")
+def _escape(match: re.Match[str]) -> str:
+    return {"\n": "\\n", "\t": "\\t"}.get(match[0], f"\\u{ord(match[0]):04x}")
 
 
 def text_of(text: str, *, in_flow: bool = False) -> str:
-    """A text, in quotes only where it has to be: where it would be read as something else, or could not stand there.
-    `in_flow`: it stands inside of `[]` or `{}`."""
+    """A text, in quotes only if it would otherwise be read as another value, or be a syntax error. `in_flow`: it is
+    inside of `[]` or `{}`."""
     if is_plain(text, in_flow=in_flow):
         return text
     return single_quoted(text) if "'" not in text and re.search(r'["\\]', text) else quoted(text)
 
 
 def is_plain(text: str, *, in_flow: bool) -> bool:
-    """Whether a text without quotes would be read as just this text."""
+    """Whether a text without quotes is read as this text."""
     bad = not text or _READ_OTHERWISE.fullmatch(text) or _BAD_START.match(text) or _BAD_INSIDE.search(text)
     return not (bad or _UNPRINTABLE.search(text) or (in_flow and _BAD_IN_FLOW.search(text)))
 
 
 def is_printable(text: str) -> bool:
-    """Whether a text of several lines can stand in a block scalar."""
+    """Whether a text of several lines can be written as a block scalar."""
     return not _UNPRINTABLE.search(text.replace("\n", ""))
 
 
 def comment(text: str) -> str:
-    """Text as a comment of one line can hold it."""
+    """A text as a comment of one line, with line ends and unprintable characters escaped."""
     return f"# {_UNREADABLE.sub(_escape, text)}".rstrip()
 
 
 def escaped(text: str) -> tuple[str, bool]:
-    """A line of a comment with unprintable characters as escapes, and whether there were any."""
+    """A line of a comment with unprintable characters escaped, and whether it had any."""
     return _UNPRINTABLE.subn(_code, text)[0], bool(_UNPRINTABLE.search(text))
 
 
-def _code(found: re.Match[str]) -> str:
-    code = ord(found[0])
+def _code(match: re.Match[str]) -> str:
+    code = ord(match[0])
     return f"\\x{code:02X}" if code < 0x100 else f"\\u{code:04X}"
 
 

@@ -1,4 +1,4 @@
-"""Files changed as one: from what is wanted below some folders, to what that changes there, to the disk or not at all.
+"""Changes to files as one transaction: plans, the changes that they make on the disk, and their application.
 
-What the files are about is nobody's business here.
+This package does not know what the files are about.
 """

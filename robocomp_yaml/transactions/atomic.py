@@ -1,4 +1,4 @@
-"""Many file changes as one: all of them happen, or none, even where the disk is full or the process is stopped."""
+"""A transaction: all changes happen or none, even if the disk is full or the process is killed."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import fcntl
 import itertools
 import os
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import msgspec
 
@@ -16,28 +16,28 @@ from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.inside import stays_inside
 from robocomp_yaml.transactions import whole_file
 from robocomp_yaml.transactions.journal import JOURNAL, JOURNAL_DONE, PART, Journal, Mark, clean_up, load, put_back
-from robocomp_yaml.transactions.places import STATE, Root, contents, in_words
+from robocomp_yaml.transactions.output_root import STATE, Root, contents, folders_of, reason_of
 from robocomp_yaml.transactions.plan import ANYBODY
 
 PATIENCE = 10.0
-"""Seconds to wait for another rcyaml that writes into the same root."""
+"""Seconds to wait for another rcyaml process that writes into the same root."""
 
 _NO_LINKS = (errno.EPERM, errno.EMLINK, errno.ENOSYS, errno.EOPNOTSUPP)
 
 
 class WriteFailed(Exception):
-    """Nothing was changed. `path` is relative to `root` ('' for the root itself)."""
+    """A transaction failed, and nothing was changed. `path` is relative to `root` ('' for the root itself)."""
 
     def __init__(self, root: str, path: str, reason: str) -> None:
         super().__init__(f"{root}/{path}: {reason}")
         self.root, self.path, self.reason = root, path, reason
 
 
-class Step(msgspec.Struct, frozen=True):
-    """One file that changes: from `before` (None: nothing is there) to `after` (None: nothing shall be there).
+class FileStep(msgspec.Struct, frozen=True):
+    """The change of one file: from `before` (None: the file does not exist) to `after` (None: the file is deleted).
 
-    `mode` are the permissions, where a file that stands there has some already; `rights` are what others than the owner
-    may have at most. `orig` is a name under which what stands there is kept.
+    `mode` are the permissions of an existing file, None for a new one; `rights` are the permissions that group and
+    others may have at most. `orig` is a name under which the existing file is kept.
     """
 
     path: str
@@ -49,16 +49,10 @@ class Step(msgspec.Struct, frozen=True):
     rights: int = ANYBODY
 
 
-class Batch(msgspec.Struct, frozen=True):
-    """The changes of one root (a folder without symlinks in its path)."""
-
-    root: str
-    steps: tuple[Step, ...]
-
-
-def carry_out(batches: Sequence[Batch]) -> None:
-    """Makes all the changes. Raises WriteFailed, with everything as it was, where one cannot be made."""
-    running = [_Commit(batch) for batch in sorted(batches, key=lambda batch: batch.root)]
+def carry_out(steps: Mapping[str, Sequence[FileStep]]) -> None:
+    """Makes all changes: the steps of each root, which is a folder without symbolic links in its path. Raises
+    WriteFailed if a change cannot be made; then nothing is changed."""
+    running = [_Commit(root, steps[root]) for root in sorted(steps)]
     _make_room_for_locks(len(running))
     with contextlib.ExitStack() as locks:
         busy: _Commit | None = None
@@ -72,16 +66,17 @@ def carry_out(batches: Sequence[Batch]) -> None:
             for commit in reversed(running):
                 commit.undo()
             if busy and isinstance(error, OSError):
-                raise WriteFailed(busy.root, busy.at, in_words(error)) from error
+                raise WriteFailed(busy.root, busy.at, reason_of(error)) from error
             raise
         for commit in running:
-            # The new state counts already: a remnant that cannot be removed now is removed by the next run.
+            # The transaction is complete. The next run removes what cannot be removed now.
             with contextlib.suppress(OSError):
                 clean_up(commit.root, commit.journal)
 
 
 def recover(root: str) -> bool:
-    """Puts a root in order that a dead commit left; whether something had to be put back."""
+    """Completes or rolls back an interrupted transaction of a root. Returns whether something was rolled back. Raises
+    OSError, and WriteFailed if another process holds the lock."""
     if not any(os.path.lexists(os.path.join(root, name)) for name in (JOURNAL, JOURNAL_DONE)):
         return False
     if not stays_inside(root, STATE):
@@ -99,8 +94,8 @@ def recover(root: str) -> bool:
 
 @contextlib.contextmanager
 def locked(root: str) -> Iterator[None]:
-    """Holds the root's lock, which is on its `.rcyaml` folder and goes with the process. Raises WriteFailed where
-    another process holds it for too long."""
+    """Holds the lock of a root, which is on its `.rcyaml` folder and ends with the process. Raises WriteFailed if
+    another process holds the lock for more than PATIENCE."""
     folder = os.path.join(root, STATE)
     until = time.monotonic() + PATIENCE
     while True:
@@ -112,20 +107,18 @@ def locked(root: str) -> Iterator[None]:
         finally:
             os.close(lock)
         if time.monotonic() > until:
-            raise WriteFailed(root, "", "another rcyaml is writing there")
+            raise WriteFailed(root, "", "another rcyaml process is writing to it")
         time.sleep(0.02)
-        # The one that held it may have removed the folder, as it found it.
+        # The process that held the lock may have removed the folder, which it had created.
         os.makedirs(folder, exist_ok=True)
 
 
 def _acquire(lock: int) -> bool:
-    try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return False
-    except OSError:
-        # A file system without locks (some network ones): `verify` still finds what changed meanwhile.
-        return True
+    with contextlib.suppress(OSError):  # the file system has no locks: `verify` still detects changes
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            return False
     return True
 
 
@@ -137,59 +130,59 @@ def _make_room_for_locks(count: int) -> None:
         resource.setrlimit(resource.RLIMIT_NOFILE, (max(soft, min(hard, count + 200)), hard))
 
 
-_numbers = itertools.count()  # of all commits: two roots may have a folder in common
+_numbers = itertools.count()  # shared by all commits: two roots may have a folder in common
 
 
 class _Commit(msgspec.Struct):
-    """The commit of one batch, phase by phase. `at` is the path that it is busy with."""
+    """The commit of one root, phase by phase. `at` is the path of the current step, for errors; `made` are the folders
+    created for the journal; `under_way`: the journal exists."""
 
-    batch: Batch
+    root: str
+    steps: Sequence[FileStep]
     journal: Journal = Journal(())
     at: str = ""
     made: list[str] = []
     under_way: bool = False
 
-    @property
-    def root(self) -> str:
-        return self.batch.root
-
     def open(self, locks: contextlib.ExitStack) -> None:
         if not stays_inside(self.root, STATE):
-            raise WriteFailed(self.root, STATE, "it is a link that leads out of its folder")
+            raise WriteFailed(self.root, STATE, "it is a link to a folder outside")
         for folder in _missing_folders("/", os.path.join(self.root, STATE, "x").lstrip("/")):
             os.makedirs("/" + folder, exist_ok=True)
             self.made.append("/" + folder)
         locks.enter_context(locked(self.root))
 
     def verify(self) -> None:
-        """The disk is as it was when the changes were planned, and no folder has become a link that leads away."""
+        """Raises WriteFailed if the disk changed since the plan, or a folder became a link to outside."""
         if load(self.root)[0] is not None:
-            raise WriteFailed(self.root, "", "another run was interrupted there meanwhile: run it again")
+            raise WriteFailed(self.root, "", "another run was interrupted in the meantime: run the command again")
         root = Root(self.root)
-        for step in self.batch.steps:
+        for step in self.steps:
             self.at = step.path
-            found = root.look(step.path)
-            if found.problem:
-                raise WriteFailed(self.root, step.path, found.problem)
-            if (found.data if found.exists else None) != step.before or (
+            status = root.status(step.path)
+            if status.problem:
+                raise WriteFailed(self.root, step.path, status.problem)
+            if (status.data if status.exists else None) != step.before or (
                 step.orig and os.path.lexists(os.path.join(self.root, step.orig))
             ):
-                raise WriteFailed(self.root, step.path, "it was changed while rcyaml was running: run it again")
+                raise WriteFailed(
+                    self.root, step.path, "it was changed while rcyaml was running: run the command again"
+                )
 
     def stage(self) -> None:
         self.at = JOURNAL
         folders: dict[str, None] = {}
-        for step in self.batch.steps:
+        for step in self.steps:
             if step.after is not None:
                 folders.update(dict.fromkeys(_missing_folders(self.root, step.path)))
-        marks = tuple(_mark(step, next(_numbers)) for step in self.batch.steps)
+        marks = tuple(_mark(step, next(_numbers)) for step in self.steps)
         self.journal = Journal(marks, tuple(folders))
         self.under_way = True
         self.journal.save(self.root)
         for folder in folders:
             self.at = folder
             os.mkdir(os.path.join(self.root, folder))
-        for step, mark in zip(self.batch.steps, marks, strict=True):
+        for step, mark in zip(self.steps, marks, strict=True):
             self.at = step.path
             if step.after is not None:
                 default = limited(0o777 if step.executable else 0o666, step.rights)
@@ -199,7 +192,7 @@ class _Commit(msgspec.Struct):
                 _second_name(os.path.join(self.root, step.path), os.path.join(self.root, mark.old))
 
     def apply(self) -> None:
-        for step, mark in zip(self.batch.steps, self.journal.marks, strict=True):
+        for step, mark in zip(self.steps, self.journal.marks, strict=True):
             self.at = mark.path
             target = os.path.join(self.root, mark.path)
             if mark.orig:
@@ -217,7 +210,7 @@ class _Commit(msgspec.Struct):
         os.replace(os.path.join(self.root, JOURNAL), os.path.join(self.root, JOURNAL_DONE))
 
     def undo(self) -> None:
-        """Where even this fails, the journal stays, and the next run tries again."""
+        """Rolls the commit back. If that fails, the journal stays, and the next run tries again."""
         with contextlib.suppress(OSError):
             if self.under_way:
                 put_back(self.root, self.journal)
@@ -226,16 +219,12 @@ class _Commit(msgspec.Struct):
 
 
 def _missing_folders(root: str, path: str) -> list[str]:
-    """The folders of a path that are not there yet, outer ones first."""
-    parts = path.split("/")[:-1]
-    folders = ["/".join(parts[: n + 1]) for n in range(len(parts))]
-    return [folder for folder in folders if not os.path.isdir(os.path.join(root, folder))]
+    """The folders of a path that do not exist, the outermost first."""
+    return [folder for folder in folders_of(path) if not os.path.isdir(os.path.join(root, folder))]
 
 
-def _mark(step: Step, number: int) -> Mark:
-    folder = step.path.rpartition("/")[0]
-    beside = f"{folder}/" if folder else ""
-    name = f"{beside}.rcyaml-{os.getpid()}-{number}"
+def _mark(step: FileStep, number: int) -> Mark:
+    name = os.path.join(os.path.dirname(step.path), f".rcyaml-{os.getpid()}-{number}")
     return Mark(
         step.path,
         new=f"{name}.new" if step.after is not None else "",
@@ -247,12 +236,12 @@ def _mark(step: Step, number: int) -> Mark:
 
 
 def limited(mode: int, rights: int) -> int:
-    """Permissions of which others keep no more than `rights`; who may not read may not run either."""
+    """Permissions with at most `rights` for group and others, who may execute only what they may read."""
     return mode & (0o7700 | rights | (rights & 0o044) >> 2)
 
 
 def _second_name(path: str, name: str) -> None:
-    """Keeps what stands at a path under another name too: a second link, or a copy where there are no links."""
+    """Gives a file a second name: a hard link, or a copy if the file system has no hard links."""
     try:
         os.link(path, name, follow_symlinks=False)
     except OSError as error:
@@ -264,5 +253,5 @@ def _second_name(path: str, name: str) -> None:
         status = os.stat(path)
         whole_file.stage(name + PART, contents(path), status.st_mode & 0o7777)
         os.utime(name + PART, ns=(status.st_atime_ns, status.st_mtime_ns))
-        # Whole or not at all: a second name is what puts the first one back.
+        # A rollback uses this name, so that it must never name an incomplete copy.
         os.rename(name + PART, name)

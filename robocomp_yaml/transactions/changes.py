@@ -1,4 +1,4 @@
-"""What carrying out a plan would do to the disk, file by file: for reports, `--dry-run`, `--diff` and `--check`."""
+"""The changes that a plan makes on the disk, file by file: for reports, `--dry-run`, `--diff` and `--check`."""
 
 from __future__ import annotations
 
@@ -10,26 +10,26 @@ from msgspec.structs import replace
 
 from robocomp_yaml import secrets
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.source.hidden_properties import without_secret
-from robocomp_yaml.transactions.atomic import Step
+from robocomp_yaml.source.properties import without_secret
+from robocomp_yaml.transactions.atomic import FileStep
 from robocomp_yaml.transactions.journal import JOURNAL, JOURNAL_DONE
 
 CREATE, UPDATE, ADOPT, EDITED, MERGE = "create", "update", "adopt", "edited", "merge"
 REMOVE, UNCHANGED, KEPT, LEFT, REFUSED = "remove", "unchanged", "kept", "left", "refused"
 """What happens to a file.
 
-EDITED: someone changed a generated file; their version is kept under `orig`, ours is written (or, where it is no longer
-generated, nothing is). MERGE: it is the user's, with what a new skeleton brings. ADOPT: it was there before rcyaml, and
-is kept under `orig` likewise. KEPT: it is the user's, and stays. LEFT: it is the user's, and no document asks for it
-any more. REFUSED: it stays as it is, as a diagnostic says.
+EDITED: somebody edited a generated file. The edited version is kept under `orig`, and the file is generated again,
+unless no document generates it any more. MERGE: a user's file, merged with a new skeleton. ADOPT: a user's file becomes
+a generated one, and is kept under `orig`. KEPT: a user's file, unchanged. LEFT: a user's file, unchanged, which no
+document needs any more. REFUSED: unchanged, for the reason that a diagnostic reports.
 """
 
 WRITING = (CREATE, UPDATE, ADOPT, EDITED, MERGE, REMOVE)
 
 
 class Change(msgspec.Struct, frozen=True):
-    """What happens to one file. `path` can be opened from the user's folder, `orig` too ('' where nothing is kept).
-    `secrets` are properties in it that are not to be shown."""
+    """What happens to one file. `path` and `orig` ('' if nothing is kept) can be opened from the working folder.
+    `secrets` are the keys of its properties that are never shown."""
 
     path: str
     action: str
@@ -39,18 +39,15 @@ class Change(msgspec.Struct, frozen=True):
     secrets: tuple[str, ...] = ()
 
     def diff(self, *, properties: bool = False) -> str:
-        """A unified diff, which `patch` takes: bytes that are no text stay what they are. Where the lines of the file
-        are `properties`, secrets in them are hidden."""
+        """A unified diff for `patch`, '' if nothing changes. Bytes that are not UTF-8 are kept as surrogates. If the
+        file consists of `properties`, secrets are hidden."""
         before, after = ((data or b"").decode("utf-8", "surrogateescape") for data in (self.before, self.after))
-        found = unified(
-            before,
-            after,
-            os.devnull if self.before is None else f"a/{self.path}",
-            os.devnull if self.after is None else f"b/{self.path}",
-        )
-        if not properties or not found:
-            return found
-        old, new, *lines = found.split("\n")
+        old_name = os.devnull if self.before is None else f"a/{self.path}"
+        new_name = os.devnull if self.after is None else f"b/{self.path}"
+        text = unified(before, after, old_name, new_name)
+        if not properties or not text:
+            return text
+        old, new, *lines = text.split("\n")
         return "\n".join((old, new, *map(self._shown, lines)))
 
     def _shown(self, line: str) -> str:
@@ -62,25 +59,26 @@ class Change(msgspec.Struct, frozen=True):
 class RootChanges(msgspec.Struct, frozen=True):
     """The changes below one output root, with the steps that make them. A `refused` root has no steps.
 
-    `settled` are the files that then hold what rcyaml wrote, with their content; `once` those that must only exist.
+    `settled` are the generated files, with their content after the changes; `once` are the user's files, which must
+    exist.
     """
 
     root: str
     real: str
     changes: tuple[Change, ...] = ()
-    steps: tuple[Step, ...] = ()
+    steps: tuple[FileStep, ...] = ()
     settled: Mapping[str, bytes] = {}
     once: tuple[str, ...] = ()
     refused: bool = False
 
     def as_refused(self) -> RootChanges:
-        """The same where nothing of this root is written."""
+        """The same changes, with nothing written below this root."""
         changes = [replace(c, action=REFUSED, orig="") if c.action in WRITING else c for c in self.changes]
         return replace(self, changes=tuple(changes), steps=(), refused=True)
 
 
 class Changes(msgspec.Struct, frozen=True):
-    """What happens below all roots, and what there is to say of it."""
+    """The changes below all roots, with diagnostics."""
 
     roots: tuple[RootChanges, ...] = ()
     diagnostics: tuple[Diagnostic, ...] = ()
@@ -91,33 +89,33 @@ class Changes(msgspec.Struct, frozen=True):
 
     @property
     def dirty(self) -> bool:
-        """Whether a file that a user sees would change."""
+        """Whether a file changes that is not internal."""
         return any(change.action in (*WRITING, REFUSED) for change in self)
 
     @property
     def settled(self) -> dict[str, bytes]:
-        """What rcyaml's own files hold when all is done, manifests too; paths as the user can open them."""
+        """The content of generated files and manifests after the changes, by paths from the working folder."""
         return {os.path.join(root.root, path): text for root in self.roots for path, text in root.settled.items()}
 
     @property
     def once(self) -> list[str]:
-        """The user's own files, of which only the presence counts."""
+        """The user's files, which must exist with any content."""
         return [os.path.join(root.root, path) for root in self.roots for path in root.once]
 
     @property
     def journals(self) -> list[str]:
-        """Where an interrupted commit would have left its journal."""
+        """The paths at which an interrupted commit leaves its journal."""
         return [os.path.join(root.root, name) for root in self.roots for name in (JOURNAL, JOURNAL_DONE)]
 
 
 def unified(before: str, after: str, old: str, new: str) -> str:
     """The difference of two texts, as a unified diff of the files `old` and `new`."""
-    import difflib  # asked for with --diff only
+    import difflib  # only --diff needs it
 
     return "".join(difflib.unified_diff(_lines(before), _lines(after), old, new))
 
 
 def _lines(text: str) -> list[str]:
-    """With ends, the last one too: a file without one shows as the text it is."""
+    """The lines with their ends, as a unified diff shows them: a missing line feed at the end is marked."""
     *lines, last = text.split("\n")
     return [*(f"{line}\n" for line in lines), *([f"{last}\n\\ No newline at end of file\n"] if last else [])]

@@ -1,8 +1,8 @@
-"""The journal of a running commit: enough to put an output root back as it was, by this process or by the next one.
+"""The journal of a running commit, with which this process or the next one can roll it back.
 
-A commit writes the journal first, stages each new file beside its target as `.rcyaml-PID-N.new`, gives what stands
-there a second name `.rcyaml-PID-N.old`, and only then moves files into place. Renaming the journal to JOURNAL_DONE is
-the moment from which the new state counts.
+A commit first writes the journal. It stages each new file beside its target as `.rcyaml-PID-N.new`, and gives the
+existing file a second name, `.rcyaml-PID-N.old`. Then it moves the new files into place. The commit is complete when
+the journal is renamed to JOURNAL_DONE.
 """
 
 from __future__ import annotations
@@ -15,18 +15,18 @@ import re
 import msgspec
 
 from robocomp_yaml.source.digest import digest
-from robocomp_yaml.transactions.places import STATE, Root, contents
+from robocomp_yaml.transactions.output_root import STATE, Root, contents
 
 JOURNAL = f"{STATE}/journal.json"
 JOURNAL_DONE = f"{STATE}/journal.done"
 _STAGED = r"\.rcyaml-[0-9]+-[0-9]+\.(new|old)"
 PART = "~"
-"""Ends the name of a copy that is not complete yet."""
+"""The suffix of an incomplete copy."""
 
 
 class Mark(msgspec.Struct, frozen=True):
-    """One file of a commit; paths are relative to the root, '' where there is none. `hash` is that of the new
-    content. `created` when nothing stood at the path before."""
+    """One file of a commit. Paths are relative to the root, '' for none. `hash` is the digest of the new content, ''
+    if the file is deleted. `created`: the path did not exist before."""
 
     path: str
     new: str
@@ -37,34 +37,35 @@ class Mark(msgspec.Struct, frozen=True):
 
 
 class Journal(msgspec.Struct, frozen=True):
-    """`folders` are those that the commit makes, outer ones first."""
+    """`folders` are those that the commit creates, the outermost first."""
 
     marks: tuple[Mark, ...]
     folders: tuple[str, ...] = ()
 
     def save(self, root: str) -> None:
+        """Creates the file of the journal. Raises OSError."""
         flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW
         with os.fdopen(os.open(os.path.join(root, JOURNAL), flags, 0o666), "w", encoding="utf-8") as file:
             file.write(json.dumps(msgspec.to_builtins(self)))
 
 
 def load(root: str) -> tuple[Journal | None, bool]:
-    """The journal that a dead commit left here, and whether that commit had come to its end."""
+    """The journal that an interrupted commit left, and whether that commit was complete."""
     for name, done in ((JOURNAL, False), (JOURNAL_DONE, True)):
         try:
             journal = msgspec.convert(json.loads(contents(os.path.join(root, name))), Journal)
         except FileNotFoundError:
             continue
         except (OSError, ValueError, RecursionError):
-            # Cut short: the process died while it wrote the journal, before it touched anything else.
+            # The process died while it wrote the journal, before it changed anything else.
             journal = Journal(())
-        return journal if _is_sound(journal, Root(root)) else Journal(()), done
+        return journal if _is_valid(journal, Root(root)) else Journal(()), done
     return None, False
 
 
-def _is_sound(journal: Journal, root: Root) -> bool:
-    """Whether a commit can have written this. One that came with somebody's repository shall move and remove no file
-    that is not ours."""
+def _is_valid(journal: Journal, root: Root) -> bool:
+    """Whether a commit can have written this journal. A journal from a repository must not move or delete files that
+    rcyaml did not write."""
     for mark in journal.marks:
         names = (mark.path, mark.new, mark.old, mark.orig)
         if not mark.path:
@@ -73,13 +74,13 @@ def _is_sound(journal: Journal, root: Root) -> bool:
             return False
         if mark.orig and not mark.orig.startswith(f"{mark.path}.orig"):
             return False
-        if any(name and root.look(name, read=False).outside for name in names):
+        if any(name and root.status(name, read=False).outside for name in names):
             return False
-    return all(not root.look(name, read=False).outside for name in journal.folders)
+    return all(not root.status(name, read=False).outside for name in journal.folders)
 
 
 def put_back(root: str, journal: Journal) -> None:
-    """Undoes all that the journal names, whatever part of it was done. A file that someone changed since is kept."""
+    """Rolls a commit back, whatever part of it was done. A file that was changed since is kept."""
     for mark in reversed(journal.marks):
         _undo(root, mark)
     for folder in reversed(journal.folders):
@@ -90,7 +91,7 @@ def put_back(root: str, journal: Journal) -> None:
 
 
 def clean_up(root: str, journal: Journal) -> None:
-    """Removes what a finished commit needs no more, and the folders that it left empty."""
+    """Removes the temporary files of a complete commit, and the folders that it left empty."""
     for mark in journal.marks:
         for name in (mark.new, mark.old):
             if name:
@@ -116,14 +117,14 @@ def _undo(root: str, mark: Mark) -> None:
                 os.unlink(orig)
     elif mark.created and new and not os.path.lexists(new) and _digest_of(target) == mark.hash:
         os.unlink(target)
-    # Where both are names of one file, replacing does nothing and leaves the second name.
+    # If both are names of one file, os.replace does nothing, and the second name remains.
     for name in (old, old + PART, orig + PART, new):
         if name not in ("", PART):
             _drop(name)
 
 
 def _changed_since(target: str, old: str, new_hash: str) -> bool:
-    """Whether someone wrote the target after the commit stopped: it is neither what was there nor what came."""
+    """Whether the target was changed after the commit stopped: it has neither the old nor the new content."""
     return os.path.lexists(target) and not _same(target, old) and _digest_of(target) != new_hash
 
 
@@ -143,7 +144,7 @@ def _digest_of(path: str) -> str:
 
 
 def free_name(path: str) -> str:
-    """A name under which what stands at `path` can be kept: `.orig`, or the first of `.orig.1`, … that is free."""
+    """A free name under which the file at `path` can be kept: `.orig`, or the first of `.orig.1`, `.orig.2`, …"""
     name, number = f"{path}.orig", 0
     while os.path.lexists(name):
         number += 1

@@ -1,4 +1,4 @@
-"""The manifest of an output root: which files rcyaml wrote there, for which documents, and what it wrote."""
+"""The manifest of an output root: the files that rcyaml wrote, with their digests and owners."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from contextlib import suppress
 import msgspec
 
 from robocomp_yaml.source.regular import regular
-from robocomp_yaml.transactions.places import STATE
+from robocomp_yaml.transactions.output_root import STATE
 
 PATH = f"{STATE}/manifest.json"
 BASE = f"{STATE}/base"
@@ -18,16 +18,16 @@ VERSION = 1
 
 
 class Unusable(Exception):
-    """The manifest cannot be understood; the text says why."""
+    """The manifest cannot be used; the text is the reason."""
 
 
 class Newer(Unusable):
-    """A later version of rcyaml wrote it."""
+    """A later version of rcyaml wrote the manifest."""
 
 
-class Entry(msgspec.Struct, frozen=True, omit_defaults=True):
-    """A file that rcyaml wrote: the digest of what it put there last (see `ownership`), the documents it was written
-    for (paths relative to the root), and whether it was written once, as the user's."""
+class ManifestEntry(msgspec.Struct, frozen=True, omit_defaults=True):
+    """A file that rcyaml wrote: the digest of what rcyaml wrote last, the documents that own the file (paths relative
+    to the root), and whether the file was written once and is the user's since."""
 
     hash: str
     owners: tuple[str, ...]
@@ -35,10 +35,10 @@ class Entry(msgspec.Struct, frozen=True, omit_defaults=True):
 
 
 class Manifest(msgspec.Struct, frozen=True):
-    files: Mapping[str, Entry] = {}
+    files: Mapping[str, ManifestEntry] = {}
 
     def text(self) -> str:
-        """One line a file, so that versions compare well."""
+        """The text of the manifest, with one line for each file, so that diffs are short."""
         lines = [
             f"    {_json(path)}: {_json(msgspec.to_builtins(entry))}" for path, entry in sorted(self.files.items())
         ]
@@ -46,26 +46,23 @@ class Manifest(msgspec.Struct, frozen=True):
 
 
 def read(data: bytes | None) -> Manifest:
-    """The manifest of a root; an empty one where there is none. Raises Unusable."""
+    """The manifest with this content; an empty one for None. Raises Unusable, or Newer."""
     if data is None:
         return Manifest()
     try:
         raw = json.loads(data)
-    except (ValueError, RecursionError):
-        raise Unusable("it is damaged") from None
-    version = raw.get("version") if isinstance(raw, dict) else None
-    if isinstance(version, int) and version > VERSION:
-        raise Newer("a newer rcyaml wrote it")
-    if version != VERSION or not isinstance(raw, dict) or "files" not in raw:
-        raise Unusable("it is damaged")
-    try:
-        return msgspec.convert(raw, Manifest)
-    except msgspec.ValidationError:
-        raise Unusable("it is damaged") from None
+        version = raw["version"]
+        if isinstance(version, int) and version > VERSION:
+            raise Newer("a later version of rcyaml wrote it")
+        if version == VERSION and "files" in raw:
+            return msgspec.convert(raw, Manifest)
+    except (ValueError, LookupError, TypeError, RecursionError):
+        pass
+    raise Unusable("it is damaged")
 
 
 def any_has(file: str, hash_: str) -> bool:
-    """Whether a manifest in a folder above the file says that rcyaml wrote it with this digest."""
+    """Whether a manifest in a folder above the file lists the file as generated with this digest."""
     above, path = os.path.split(file)
     while path:
         with suppress(OSError, Unusable), open(os.path.join(above, PATH), "rb", opener=regular) as stream:
@@ -78,5 +75,5 @@ def any_has(file: str, hash_: str) -> bool:
 
 
 def _json(value: object) -> str:
-    """As UTF-8, whatever the names of files are: bytes in them that are no text are escaped."""
+    """The JSON of a value, in which bytes of file names that are not UTF-8 are escaped."""
     return json.dumps(value, ensure_ascii=False).encode("utf-8", "backslashreplace").decode()

@@ -1,24 +1,25 @@
-"""What is wanted below some folders: files, each with its text and its policy. Pure data; `writer` carries it out."""
+"""Plans: the files to write below some folders, with text and policy. Pure data, which `writer` applies."""
 
 from __future__ import annotations
 
 import contextlib
 import os
-from collections.abc import Iterable, Mapping, Set
+from collections.abc import Iterable
 
 import msgspec
 
 ALWAYS, ONCE = "always", "once"
 
 ANYBODY = 0o066
-"""The rights of a file that is nobody's secret."""
+"""The permissions of others for a file without secrets."""
 
 
 class FilePlan(msgspec.Struct, frozen=True):
-    """One file below an output root. `path` is relative, with '/'. `policy` ALWAYS: ours, rewritten whenever it
-    changes. ONCE: written if it is missing, then the user's. `sources` are documents that it is made of: who cannot
-    read those cannot read it. `secrets` are properties in it that are not to be shown. `stated_in` is, of a property
-    file, the path of the user's document that says what it holds: where to bring entries that would be lost."""
+    """One file below an output root. `path` is relative, with '/'. `policy` ALWAYS: a generated file, rewritten when it
+    changes. ONCE: written if it is missing, then the user's. `sources` are the documents that the file is made of: who
+    cannot read one of them cannot read the file. `secrets` are the keys of its properties that are never shown.
+    `stated_in`, for a property file, is the path of the user's document from which the file is generated. Properties
+    that would be lost have to be moved to that document."""
 
     path: str
     text: str
@@ -30,8 +31,8 @@ class FilePlan(msgspec.Struct, frozen=True):
 
 
 def rights_of(sources: Iterable[str]) -> int:
-    """What others than the owner may do at most with a file that is made of these: nothing where they cannot read one
-    of them."""
+    """The permissions that group and others may have at most for a file made of these documents: none if they cannot
+    read one of the documents."""
     rights = ANYBODY
     for source in sources:
         with contextlib.suppress(OSError):
@@ -41,24 +42,24 @@ def rights_of(sources: Iterable[str]) -> int:
 
 
 class Merge(msgspec.Struct, frozen=True):
-    """What becomes of a file of the user: `before` is what it held, and `base` what a later merge starts from."""
+    """The merge of a user's file: `before` is its content so far, `base` what a later merge starts from."""
 
     before: bytes
     text: bytes
     base: bytes
 
 
-class Merges(msgspec.Struct, frozen=True):
-    """Merges by real root and path; in a `refused` root nothing may be written."""
+class Merges(msgspec.Struct):
+    """Merges by real root and path. Nothing may be written into a `refused` root."""
 
-    files: Mapping[tuple[str, str], Merge] = {}
-    refused: Set[str] = frozenset()
+    files: dict[tuple[str, str], Merge] = {}
+    refused: set[str] = set()
 
 
 class RootPlan(msgspec.Struct, frozen=True):
-    """All that one owner (the path of a document relative to `root`, with '/') puts below the folder `root`.
+    """All files that one owner (the path of a document relative to `root`, with '/') has below the folder `root`.
 
-    `partial` when only some of it was asked for (one target of several): what is not in `files` then stays.
+    `partial`: only some of them were requested (one target of several). The others are kept.
     """
 
     root: str

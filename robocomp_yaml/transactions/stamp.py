@@ -1,13 +1,14 @@
-"""The stamp of a whole run: what it read, found missing and left on the disk, so that the same run need not be made.
+"""The stamp of a run: what it read, what was missing and what it wrote, so that the same run can be skipped.
 
-A stamp is trusted only as far as contents go: every file of the user is hashed again, no time of change is looked
-at. Whatever cannot be made sure of makes a stamp stale, and a stale stamp costs nothing but the run. Little is
-imported, for this is what a run with nothing to do consists of.
+A stamp compares contents: every file of the user is hashed again, and modification times are ignored. A stamp that
+cannot be verified is stale, which costs only another run. The module imports little, because a run with nothing to do
+needs only this module.
 """
 
 from __future__ import annotations
 
 import contextlib
+import functools
 import json
 import os
 import stat
@@ -29,14 +30,14 @@ _KEPT = 32
 _DATA = ("schemas", "templates", "migrate")
 
 
-class Stamp(msgspec.Struct, frozen=True):
-    """All paths are as the run used them, relative to its working folder or absolute.
+class RunStamp(msgspec.Struct, frozen=True):
+    """All paths are as the run used them: relative to its working folder, or absolute.
 
-    `inputs`: of each file read, its real path and its digest with who may read it. `states` and `listed`: what else it
-    asked, as `source.disk.Disk` remembers it. `names`: all names in folders. `walked`: of each folder, what `walked`
-    finds below it. `outputs`: of each file written, its digest and who may read and run it. `present`: files whose
-    contents are the user's. `replay`: what the run had to say, in the caller's form. `plugins`: of those that
-    its workspaces name, what tells one build from another, '' where it is not installed.
+    `inputs`: for each file read, its real path, its digest and who may read it. `states` and `listed`: what else the
+    run read of the disk, as `source.disk.Disk` records it. `names`: all names in folders. `walked`: for each folder,
+    what `walked` returns. `outputs`: for each file written, its digest and who may read and execute it. `present`: the
+    user's files, which must exist. `replay`: the result of the run, in the caller's form. `plugins`: the identity of
+    the build of each plug-in that the workspaces name, '' if it is not installed.
     """
 
     tool: str
@@ -52,11 +53,11 @@ class Stamp(msgspec.Struct, frozen=True):
 
 
 def key(arguments: Iterable[str]) -> str:
-    """What tells one kind of run from another: arguments, working folder and search path."""
+    """The name of the stamp of a run with these arguments, in this working folder and with this search path."""
     return digest(json.dumps([list(arguments), os.getcwd(), os.environ.get("RCYAML_PATH", "")]).encode())
 
 
-def take(
+def create(
     *,
     inputs: Mapping[str, bytes],
     states: Mapping[str, str],
@@ -67,19 +68,21 @@ def take(
     present: Iterable[str],
     replay: Mapping[str, object],
     plugins: Iterable[str] = (),
-) -> Stamp | None:
-    """The stamp of a run that is done; None where one of its files has gone already. `inputs` are the bytes that were
-    read, `outputs` those that were meant to be written: the disk may have changed since."""
-    real = _Real()
+) -> RunStamp | None:
+    """The stamp of a run that has ended; None if one of its files was deleted since. `inputs` are the bytes that were
+    read, `outputs` those that were written: the disk may have changed since."""
     try:
-        return Stamp(
+        return RunStamp(
             tool(),
-            {path: (real.path(path), f"{digest(data)} {_readers(os.stat(path)):o}") for path, data in inputs.items()},
+            {
+                path: (real, f"{digest(data)} {_readers(os.stat(path)):o}")
+                for (path, data), real in zip(inputs.items(), _real_paths(inputs), strict=True)
+            },
             dict(states),
             dict(listed),
             dict(names),
             dict(walked),
-            {path: (digest(data), _may(os.lstat(path))) for path, data in outputs.items()},
+            {path: (digest(data), _permissions(os.lstat(path))) for path, data in outputs.items()},
             sorted(present),
             dict(replay),
             _builds(plugins),
@@ -88,8 +91,8 @@ def take(
         return None
 
 
-def is_current(stamp: Stamp) -> bool:
-    """Whether the run would read, find and leave the same again."""
+def is_current(stamp: RunStamp) -> bool:
+    """Whether the run would read and write the same again."""
     try:
         return (
             all(os.path.lexists(path) for path in stamp.present)
@@ -100,16 +103,15 @@ def is_current(stamp: Stamp) -> bool:
         return False
 
 
-def reads_the_same(stamp: Stamp) -> bool:
-    """Whether the run would read and find the same again, whatever became of what it left."""
-    real = _Real()
+def reads_the_same(stamp: RunStamp) -> bool:
+    """Whether the run would read the same again, whatever happened to the files that it wrote."""
     try:
         return (
             all(state_of(path) == state for path, state in stamp.states.items())
-            and all(documents_in(names_in(folder)) == found for folder, found in stamp.listed.items())
-            and all(names_in(folder) == found for folder, found in stamp.names.items())
-            and all(walked(folder) == found for folder, found in stamp.walked.items())
-            and all(real.path(path) == where for path, (where, _) in stamp.inputs.items())
+            and all(documents_in(names_in(folder)) == recorded for folder, recorded in stamp.listed.items())
+            and all(names_in(folder) == recorded for folder, recorded in stamp.names.items())
+            and all(walked(folder) == recorded for folder, recorded in stamp.walked.items())
+            and list(_real_paths(stamp.inputs)) == [real for real, _ in stamp.inputs.values()]
             and all(_state(path) == state for path, (_, state) in stamp.inputs.items())
             and stamp.tool == tool()
             and _builds(stamp.plugins) == stamp.plugins
@@ -118,17 +120,17 @@ def reads_the_same(stamp: Stamp) -> bool:
         return False
 
 
-def load(folder: str, name: str) -> Stamp | None:
-    """The stamp that a run with this key left below a folder, or None."""
+def load(folder: str, name: str) -> RunStamp | None:
+    """The stamp of this name below a folder; None if it does not exist or cannot be read."""
     try:
         with open(_file(folder, name), "rb", opener=regular) as file:
-            return msgspec.convert(json.load(file), Stamp)
+            return msgspec.convert(json.load(file), RunStamp)
     except (OSError, ValueError, RecursionError):
         return None
 
 
-def save(folder: str, name: str, stamp: Stamp) -> None:
-    """Keeps a stamp. Where that cannot be done, the next run simply is made again."""
+def save(folder: str, name: str, stamp: RunStamp) -> None:
+    """Saves a stamp below a folder. If that fails, the next run is not skipped."""
     path = _file(folder, name)
     if not stays_inside(folder or ".", os.path.join(FOLDER, f"{name}.json")):
         return
@@ -136,74 +138,67 @@ def save(folder: str, name: str, stamp: Stamp) -> None:
         os.makedirs(os.path.dirname(path), exist_ok=True)
         _ignored_by_git(os.path.dirname(path))
         whole_file.put(path, json.dumps(asdict(stamp), separators=(",", ":")).encode())
-        _forget_old(os.path.dirname(path))
+        _remove_old(os.path.dirname(path))
 
 
 def tool() -> str:
-    """What tells one rcyaml from another: its version, what its installer recorded (the hashes of all files, which tell
-    two builds of one version apart wherever they are), and size and times of each of its files, which tell what was
-    changed since, or in a checkout."""
+    """The identity of this rcyaml: its version, the RECORD of its installer (with the hashes of all files, which differ
+    between two builds of one version), and size and times of each file, which detect later changes and those in a
+    checkout."""
     package = os.path.dirname(os.path.abspath(robocomp_yaml.__file__))
-    place = os.path.dirname(package)
+    folder = os.path.dirname(package)
     tops = [package]
     if not os.path.isdir(os.path.join(package, "_data")):
-        tops += (os.path.join(place, name) for name in _DATA)
-    parts = [robocomp_yaml.__version__, *_records(place)]
+        tops += (os.path.join(folder, name) for name in _DATA)
+    parts = [robocomp_yaml.__version__, *_records(folder)]
     for top in tops:
-        parts += sorted(states(top, len(place)))
+        parts += sorted(states(top, len(folder)))
     return digest("\n".join(parts).encode(errors="surrogateescape"))
 
 
 def _builds(plugins: Iterable[str]) -> dict[str, str]:
     if not plugins:
         return {}
-    from robocomp_yaml.plugins.finding import identity  # most workspaces name none
+    from robocomp_yaml.plugins.loading import identity  # most workspaces have no plug-ins
 
     return {name: identity(name) for name in plugins}
 
 
-def _records(place: str) -> Iterator[str]:
-    """Beside an installed package stands its RECORD; beside a checkout, and where a distribution has none, nothing."""
-    for name in sorted(os.listdir(place)):
+def _records(folder: str) -> Iterator[str]:
+    """The RECORD beside an installed package; none in a checkout, and in distributions without RECORD."""
+    for name in sorted(os.listdir(folder)):
         if name.startswith("rcyaml-") and name.endswith(".dist-info"):
             with contextlib.suppress(OSError):
-                yield f"{name} {_state(os.path.join(place, name, 'RECORD'))}"
+                yield f"{name} {_state(os.path.join(folder, name, 'RECORD'))}"
 
 
-class _Real:
-    """Real paths; each folder is resolved once."""
-
-    def __init__(self) -> None:
-        self._folders: dict[str, str] = {}
-
-    def path(self, path: str) -> str:
-        if os.path.islink(path):
-            return os.path.realpath(path)
+def _real_paths(paths: Iterable[str]) -> Iterator[str]:
+    """The real path of each path; a folder is resolved once."""
+    real_folder = functools.cache(os.path.realpath)
+    for path in paths:
         folder, name = os.path.split(path)
-        if folder not in self._folders:
-            self._folders[folder] = os.path.realpath(folder)
-        return os.path.join(self._folders[folder], name)
+        yield os.path.realpath(path) if os.path.islink(path) else os.path.join(real_folder(folder), name)
 
 
 def walked(folder: str) -> list[str]:
-    """The documents below a folder, and the folders below it that something was compiled to."""
+    """The documents below a folder, and the output roots below it."""
     roots: list[str] = []
     return [*documents_below(folder, roots), *roots]
 
 
-def _is_as_written(path: str, hash_: str, may: str) -> bool:
+def _is_as_written(path: str, hash_: str, permissions: str) -> bool:
     if os.path.islink(path):
         return False
     data, status = whole(path)
-    return _may(status) == may and digest(data) == hash_
+    return _permissions(status) == permissions and digest(data) == hash_
 
 
-def _may(status: os.stat_result) -> str:
+def _permissions(status: os.stat_result) -> str:
     return f"{_readers(status) | status.st_mode & stat.S_IXUSR:o}"
 
 
 def _readers(status: os.stat_result) -> int:
-    """Whether others than the owner may read it."""
+    """The permissions of group and others to read a file."""
     return status.st_mode & (stat.S_IRGRP | stat.S_IROTH)
 
 
@@ -221,7 +216,7 @@ def _ignored_by_git(folder: str) -> None:
         file.write("*\n")
 
 
-def _forget_old(folder: str) -> None:
+def _remove_old(folder: str) -> None:
     stamps = [entry for entry in os.scandir(folder) if entry.name.endswith(".json")]
     for entry in sorted(stamps, key=lambda entry: entry.stat().st_mtime, reverse=True)[_KEPT:]:
         os.unlink(entry.path)

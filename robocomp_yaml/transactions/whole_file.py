@@ -1,6 +1,6 @@
-"""One file written whole or not at all, even where the disk is full or the process is killed in the middle.
+"""Atomic writing of one file, even if the disk is full or the process is killed.
 
-What many files have to do together is `atomic`'s, which stages them by the same means.
+Transactions of several files are in `atomic`, which stages files with the functions of this module.
 """
 
 from __future__ import annotations
@@ -11,22 +11,22 @@ import os
 import stat
 from collections.abc import Iterator
 
-_NOT_HERE = (
+_UNSUPPORTED = (
     errno.EISDIR, errno.EOPNOTSUPP, errno.EINVAL, errno.ENOENT, errno.EXDEV, errno.EPERM, errno.ENOSYS, errno.EMLINK,
 )  # fmt: skip
 
 
 def create(path: str | os.PathLike[str], text: str) -> None:
-    """A new file. Raises FileExistsError where something stands, which stays as it is, and OSError."""
+    """Creates a file. Raises FileExistsError if the path exists, which is left unchanged, and OSError."""
     target = os.fspath(path)
     try:
         content = text.encode()
     except UnicodeEncodeError:
-        raise OSError(errno.EILSEQ, "it would hold a name that is no UTF-8 text", target) from None
+        raise OSError(errno.EILSEQ, "it would contain a name that is not UTF-8 text", target) from None
     try:
-        _create_from_nameless(target, content)
+        _create_unnamed(target, content)
     except OSError as error:
-        if error.errno not in _NOT_HERE:
+        if error.errno not in _UNSUPPORTED:
             error.filename, error.filename2 = target, None
             raise
         with _part(target, content) as part:
@@ -35,8 +35,8 @@ def create(path: str | os.PathLike[str], text: str) -> None:
             os.rename(part, target)
 
 
-def _create_from_nameless(target: str, content: bytes) -> None:
-    """The file has no name until it is whole, so that nothing is left of it where it does not come to that."""
+def _create_unnamed(target: str, content: bytes) -> None:
+    """The file has no name until it is complete, so that a killed process leaves nothing."""
     opened = os.open(os.path.dirname(target) or ".", os.O_WRONLY | os.O_TMPFILE, 0o666)
     with os.fdopen(opened, "wb") as file:
         file.write(content)
@@ -45,15 +45,15 @@ def _create_from_nameless(target: str, content: bytes) -> None:
 
 
 def put(path: str | os.PathLike[str], content: bytes, mode: int | None = None) -> None:
-    """A file under a name, in the place of whatever stands there, a link too. Raises OSError."""
+    """Writes a file, which replaces what is at the path, even a link. Raises OSError."""
     target = os.fspath(path)
     with _part(target, content, mode) as part:
         os.replace(part, target)
 
 
 def replace(path: str | os.PathLike[str], content: bytes) -> None:
-    """Another content for a file, which keeps its permissions, or a first one. What is no file, such as a pipe, just
-    gets it. Raises OSError."""
+    """Writes the content of a new file, or of an existing one, which keeps its permissions. Into a pipe or a device the
+    content is written directly. Raises OSError."""
     target = os.path.realpath(path)
     mode = os.stat(target).st_mode if os.path.exists(target) else None
     if mode is not None and not stat.S_ISREG(mode):
@@ -64,9 +64,9 @@ def replace(path: str | os.PathLike[str], content: bytes) -> None:
 
 
 def stage(path: str, content: bytes, mode: int | None = None, default: int = 0o666) -> None:
-    """A first content for a name that only its owner knows: the file is not whole until this comes back. It gets the
-    permissions `mode`, else `default` as far as the user lets new files have them. Raises OSError."""
-    first = default if mode is None else mode & 0o700  # never more than it may have in the end
+    """Creates a file under a name that no other process uses; the file is complete when the function returns. It has
+    the permissions `mode`, or `default` less the umask. Raises OSError."""
+    first = default if mode is None else mode & 0o700  # never more than the final permissions
     file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, first)
     try:
         if mode is not None:
@@ -80,7 +80,7 @@ def stage(path: str, content: bytes, mode: int | None = None, default: int = 0o6
 
 @contextlib.contextmanager
 def _part(target: str, content: bytes, mode: int | None = None) -> Iterator[str]:
-    """The content in a file beside the target, which is gone afterwards."""
+    """A temporary file beside the target, with the content."""
     folder, name = os.path.split(target)
     _clean_up(folder, name)
     part = os.path.join(folder, f".{name}.{os.getpid()}.part")
@@ -93,7 +93,7 @@ def _part(target: str, content: bytes, mode: int | None = None) -> Iterator[str]
 
 
 def _clean_up(folder: str, name: str) -> None:
-    """Takes away what a process left that was killed."""
+    """Removes the temporary files of killed processes."""
     with contextlib.suppress(OSError):
         for other in os.listdir(folder or "."):
             pid = other.removeprefix(f".{name}.").removesuffix(".part")

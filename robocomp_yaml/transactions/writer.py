@@ -1,4 +1,4 @@
-"""The writer: looks what plans would change on the disk (`prepare`), and changes it, all or nothing (`commit`)."""
+"""The writer: computes what plans change on the disk (`prepare`), and applies the changes (`commit`)."""
 
 from __future__ import annotations
 
@@ -8,358 +8,329 @@ from collections.abc import Iterable
 from msgspec.structs import replace
 
 from robocomp_yaml.diag.codes import emitting as codes
-from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.source import properties
 from robocomp_yaml.source.digest import digest
 from robocomp_yaml.transactions import atomic, changes, manifest
 from robocomp_yaml.transactions.changes import Change, Changes, RootChanges
+from robocomp_yaml.transactions.desired import DesiredRoot, by_root
 from robocomp_yaml.transactions.journal import JOURNAL, JOURNAL_DONE, free_name
-from robocomp_yaml.transactions.manifest import Entry, Manifest
-from robocomp_yaml.transactions.places import Found
+from robocomp_yaml.transactions.manifest import Manifest, ManifestEntry
+from robocomp_yaml.transactions.output_root import PathStatus
 from robocomp_yaml.transactions.plan import ANYBODY, ONCE, FilePlan, Merge, Merges, RootPlan, rights_of
-from robocomp_yaml.transactions.wanted import WantedRoot, by_root
 
 
 def prepare(
     plans: Iterable[RootPlan], *, adopt: bool = False, others: Iterable[str] = (), merges: Merges | None = None
 ) -> Changes:
-    """What it takes to carry out the plans. Only looks at the disk.
+    """The changes that apply the plans. Only reads the disk.
 
-    `adopt` also takes over files that rcyaml did not write. `others` are roots with a manifest for which nothing is
-    planned: what they hold for documents that are gone is removed. `merges` are those of the user's own files.
+    `adopt`: also overwrite files that rcyaml did not write. `others` are further roots with a manifest, in which the
+    files of missing documents are deleted. `merges` are those of the user's files.
     """
     roots = by_root(plans, others)
     planned = {
-        f"{wanted.root.real}/{path}": (wanted.root.real, file.plan.text)
-        for wanted in roots for path, file in wanted.files.items()
+        f"{desired.root.real}/{path}": (desired.root.real, file.plan.text)
+        for desired in roots for path, file in desired.files.items()
     }  # fmt: skip
-    looks = [_Root(wanted, adopt, merges or Merges(), planned) for wanted in roots]
-    found = tuple(look.prepare() for look in looks)
-    return Changes(found, tuple(diagnostic for look in looks for diagnostic in look.diagnostics))
+    planners = [_RootPlanner(desired, adopt, merges or Merges(), planned) for desired in roots]
+    prepared = tuple(planner.prepare() for planner in planners)
+    return Changes(prepared, tuple(diagnostic for planner in planners for diagnostic in planner.diagnostics))
 
 
 def commit(prepared: Changes) -> Changes:
-    """Makes the changes of all roots that had no refusal, and says what came of them: where one of them cannot be made,
-    none is, and all are refused."""
-    batches = [atomic.Batch(root.real, root.steps) for root in prepared.roots if root.steps]
+    """Applies the changes of all roots that are not refused, and returns what was applied. If one change fails, none is
+    applied, and all roots are refused."""
     try:
-        atomic.carry_out(batches)
+        atomic.carry_out({root.real: root.steps for root in prepared.roots if root.steps})
     except atomic.WriteFailed as failure:
         shown = next((root.root for root in prepared.roots if root.real == failure.root), failure.root)
         path = os.path.normpath(os.path.join(shown, failure.path))
-        said = codes.CANNOT_WRITE.at(
-            Span(path), path=path, reason=failure.reason, hint="nothing was changed by this run"
-        )
-        return Changes(tuple(root.as_refused() for root in prepared.roots), (*prepared.diagnostics, said))
+        error = codes.CANNOT_WRITE.at(Span(path), path=path, reason=failure.reason, hint="this run changed nothing")
+        return Changes(tuple(root.as_refused() for root in prepared.roots), (*prepared.diagnostics, error))
     return prepared
 
 
 def recover(plans: Iterable[RootPlan], others: Iterable[str] = ()) -> list[Diagnostic]:
-    """Puts in order the roots that a killed run left in the middle of a commit. To be called before `prepare`, unless
+    """Rolls back or completes interrupted commits, and returns diagnostics about them. Call it before `prepare`, unless
     nothing may be changed."""
     diagnostics = []
-    for wanted in by_root(plans, others):
+    for root in (desired.root for desired in by_root(plans, others)):
         try:
-            if atomic.recover(wanted.root.real):
-                diagnostics.append(
-                    codes.INTERRUPTED.at(
-                        Span(wanted.root.shown(JOURNAL)), what="the folder was put back as it was before"
-                    )
-                )
+            if atomic.recover(root.real):
+                what = "its changes were rolled back"
+                diagnostics.append(codes.INTERRUPTED.at(Span(root.shown(JOURNAL)), what=what))
         except atomic.WriteFailed as failure:
-            diagnostics.append(_cannot_write(wanted, failure.path, failure.reason))
+            shown = root.shown(failure.path)
+            diagnostics.append(codes.CANNOT_WRITE.at(Span(shown), path=shown, reason=failure.reason))
         except OSError as error:
-            diagnostics.append(_cannot_write(wanted, "", error.strerror or str(error)))
+            shown = root.shown("")
+            diagnostics.append(codes.CANNOT_WRITE.at(Span(shown), path=shown, reason=error.strerror or str(error)))
     return diagnostics
 
 
-def _cannot_write(wanted: WantedRoot, path: str, reason: str) -> Diagnostic:
-    shown = wanted.root.shown(path)
-    return codes.CANNOT_WRITE.at(Span(shown), path=shown, reason=reason)
+class _RootPlanner:
+    """Computes the changes of one root: compares each planned or known file with what is at its path.
 
-
-class _Root:
-    """The look at one root: each planned or known file meets what stands at its path.
-
-    Roots may lie in each other: a workspace's `slice/` is that of a component in the same folder, too. `planned` are
-    the files of all roots, each with its text and the innermost root that wants it, which writes it.
+    A root may be inside another one: a workspace's `slice/` is also that of a component in the same folder. `planned`
+    are the files of all roots, each with its text and the innermost root that plans it, which writes it.
     """
 
-    def __init__(self, wanted: WantedRoot, adopt: bool, merges: Merges, planned: dict[str, tuple[str, str]]) -> None:
-        self.wanted = wanted
-        self.root = wanted.root
+    def __init__(self, desired: DesiredRoot, adopt: bool, merges: Merges, planned: dict[str, tuple[str, str]]) -> None:
+        self.desired = desired
+        self.root = desired.root
         self.adopt = adopt
         self.merges = merges
         self.planned = planned
         self.old = Manifest()
-        self.entries: dict[str, Entry] = {}
-        self.diagnostics = list(wanted.diagnostics())
+        self.entries: dict[str, ManifestEntry] = {}
+        self.diagnostics = list(desired.diagnostics())
         self.culprits: set[str] = set()
         self.changes: list[Change] = []
-        self.steps: list[atomic.Step] = []
+        self.steps: list[atomic.FileStep] = []
         self.settled: dict[str, bytes] = {}
         self.once: list[str] = []
 
     def prepare(self) -> RootChanges:
-        manifest_found = self.root.look(manifest.PATH)
-        if not self._usable(manifest_found):
+        manifest_status = self.root.status(manifest.PATH)
+        if not self._usable(manifest_status):
             return self._result().as_refused()
-        for path in sorted({*self.wanted.files, *self.old.files}):
-            wanted, entry = self.wanted.files.get(path), self.old.files.get(path)
-            if wanted is None:
-                self._unwanted(path, self.old.files[path])
-            elif wanted.plan.policy == ONCE:
-                self._once(wanted.plan, entry)
+        for path in sorted({*self.desired.files, *self.old.files}):
+            desired, entry = self.desired.files.get(path), self.old.files.get(path)
+            if desired is None:
+                self._not_planned(path, self.old.files[path])
+            elif desired.plan.policy == ONCE:
+                self._once(desired.plan, entry)
             else:
-                self._always(wanted.plan, entry)
-        self._manifest(manifest_found)
-        if any(diagnostic.severity == "error" for diagnostic in self.diagnostics) or self._cannot_merge():
-            return self._result().as_refused()
-        return self._result()
+                self._always(desired.plan, entry)
+        self._manifest(manifest_status)
+        is_refused = has_errors(self.diagnostics) or self.root.real in self.merges.refused
+        return self._result().as_refused() if is_refused else self._result()
 
     def _result(self) -> RootChanges:
         return RootChanges(
             self.root.path, self.root.real, tuple(self.changes), tuple(self.steps), self.settled, tuple(self.once)
         )
 
-    def _usable(self, found: Found) -> bool:
-        if found.problem:
-            self._refuse(manifest.PATH, found)
+    def _usable(self, status: PathStatus) -> bool:
+        if status.problem:
+            self._refuse(manifest.PATH, status)
             return False
         try:
-            self.old = manifest.read(found.data)
-        except manifest.Unusable as unusable:
-            self.diagnostics.append(
-                codes.BAD_MANIFEST.at(
-                    Span(self.root.shown(manifest.PATH)),
-                    reason=str(unusable),
-                    hint="update rcyaml"
-                    if isinstance(unusable, manifest.Newer)
-                    else "take it back from version control, or delete it",
-                )
-            )
+            self.old = manifest.read(status.data)
+        except manifest.Unusable as error:
+            span = Span(self.root.shown(manifest.PATH))
+            is_newer = isinstance(error, manifest.Newer)
+            hint = "update rcyaml" if is_newer else "restore it from version control, or delete it"
+            self.diagnostics.append(codes.BAD_MANIFEST.at(span, reason=str(error), hint=hint))
             return False
         if any(os.path.lexists(f"{self.root.real}/{name}") for name in (JOURNAL, JOURNAL_DONE)):
-            self.diagnostics.append(
-                codes.INTERRUPTED.at(
-                    Span(self.root.shown(JOURNAL)), what="the next `rcyaml compile` puts the folder in order"
-                )
-            )
+            what = "the next `rcyaml compile` recovers the folder"
+            self.diagnostics.append(codes.INTERRUPTED.at(Span(self.root.shown(JOURNAL)), what=what))
         return True
 
-    def _once(self, plan: FilePlan, entry: Entry | None) -> None:
+    def _once(self, plan: FilePlan, entry: ManifestEntry | None) -> None:
         merge = self.merges.files.get((self.root.real, plan.path))
-        found = self.root.look(plan.path, read=entry is None or merge is not None)
+        status = self.root.status(plan.path, read=entry is None or merge is not None)
         text = plan.text.encode()
         self.once.append(plan.path)
-        if merge and found.data == merge.before:
-            self._merge(plan, found, merge, entry)
-        elif found.exists:
+        if merge and status.data == merge.before:
+            self._merge(plan, status, merge, entry)
+        elif status.exists:
             self._note(plan.path, changes.KEPT)
             if entry:
-                self._own(plan.path, entry.hash, once=True)
-            elif found.data == text:
-                # Ours from a run whose manifest was not kept, such as one before a fresh clone.
-                self._own(plan.path, digest(text), once=True)
+                self._enter(plan.path, entry.hash, once=True)
+            elif status.data == text:
+                # rcyaml wrote it in a run whose manifest was not kept, such as before a fresh clone.
+                self._enter(plan.path, digest(text), once=True)
                 self._keep_base(plan, text)
-        elif found.problem:
-            self._refuse(plan.path, found)
+        elif status.problem:
+            self._refuse(plan.path, status)
         else:
-            self._write(plan, Found(), changes.CREATE)
-            self._own(plan.path, digest(text), once=True)
+            self._write(plan, PathStatus(), changes.CREATE)
+            self._enter(plan.path, digest(text), once=True)
             self._keep_base(plan, text)
 
-    def _merge(self, plan: FilePlan, found: Found, merge: Merge, entry: Entry | None) -> None:
-        if merge.text == found.data:
+    def _merge(self, plan: FilePlan, status: PathStatus, merge: Merge, entry: ManifestEntry | None) -> None:
+        if merge.text == status.data:
             self._note(plan.path, changes.KEPT)
         else:
-            self._write(plan, found, changes.MERGE, merge.text)
-        self._own(plan.path, merged(entry, merge), once=True)
+            self._write(plan, status, changes.MERGE, merge.text)
+        self._enter(plan.path, digest_of_merge(entry, merge), once=True)
         self._keep_base(plan, merge.base)
 
-    def _cannot_merge(self) -> bool:
-        return self.root.real in self.merges.refused
-
-    def _always(self, plan: FilePlan, entry: Entry | None) -> None:
-        found = self.root.look(plan.path)
+    def _always(self, plan: FilePlan, entry: ManifestEntry | None) -> None:
+        status = self.root.status(plan.path)
         text = plan.text.encode()
-        if found.problem:
-            self._refuse(plan.path, found)
+        if status.problem:
+            self._refuse(plan.path, status)
             return
-        if not found.exists:
-            self._write(plan, found, changes.CREATE)
-        elif found.data == text:
+        if not status.exists:
+            self._write(plan, status, changes.CREATE)
+        elif status.data == text:
             rights = rights_of(plan.sources)
-            is_open = bool(found.mode) and found.mode != atomic.limited(found.mode, rights)
-            if is_open or (plan.executable and found.mode and not found.mode & 0o100):
-                self._write(plan, found, changes.UPDATE)
+            is_open = bool(status.mode) and status.mode != atomic.limited(status.mode, rights)
+            if is_open or (plan.executable and status.mode and not status.mode & 0o100):
+                self._write(plan, status, changes.UPDATE)
             else:
                 self._note(plan.path, changes.UNCHANGED)
-        elif self._has_another(plan) or self._is_ours(plan.path, found.data or b"", entry):
-            self._write(plan, found, changes.UPDATE)
+        elif self._is_written_inside(plan) or self._is_generated(plan.path, status.data or b"", entry):
+            self._write(plan, status, changes.UPDATE)
         elif entry and not entry.once:
-            change = self._write(plan, found, changes.EDITED)
-            self._warn_edited(plan.path, f"it is kept as '{os.path.basename(change.orig)}'")
-        elif self.adopt or self._loses_nothing(plan, found.data or b"", text):
-            self._write(plan, found, changes.ADOPT)
+            change = self._write(plan, status, changes.EDITED)
+            self._warn_edited(plan.path, f"your version is kept as '{os.path.basename(change.orig)}'")
+        elif self.adopt or self._loses_nothing(plan, status.data or b"", text):
+            self._write(plan, status, changes.ADOPT)
         else:
-            self._note(plan.path, changes.REFUSED, found.data, text)
-            self.diagnostics.append(self._not_ours(plan, found.data or b"", text, entry))
+            self._note(plan.path, changes.REFUSED, status.data, text)
+            self.diagnostics.append(self._refused(plan, status.data or b"", text, entry))
             return
         self.settled[plan.path] = text
-        self._own(plan.path, digest(text))
+        self._enter(plan.path, digest(text))
         if entry and entry.once:
             self._drop_base(plan.path)
 
-    def _has_another(self, plan: FilePlan) -> bool:
-        """Whether a root inside this one writes the very same file."""
+    def _is_written_inside(self, plan: FilePlan) -> bool:
+        """Whether a root inside this one writes the same file with the same text."""
         root, text = self.planned[f"{self.root.real}/{plan.path}"]
         return root != self.root.real and text == plan.text
 
-    def _is_ours(self, path: str, data: bytes, entry: Entry | None) -> bool:
-        """Whether rcyaml wrote it, for this root or for another one that has it, too."""
+    def _is_generated(self, path: str, data: bytes, entry: ManifestEntry | None) -> bool:
+        """Whether rcyaml wrote this content, for this root or for another one."""
         return is_as_put(entry, data) or manifest.any_has(f"{self.root.real}/{path}", digest(data))
 
     def _loses_nothing(self, plan: FilePlan, data: bytes, text: bytes) -> bool:
-        """Whether a property file that is the user's has no entry of its own that another text would not have."""
+        """Whether the planned text keeps all properties that the user set in a property file."""
         if not plan.stated_in:
             return False
         base = self._base(plan.path)
         return lost(base, data, text) == [] and (base is not None or lost(None, text, data) == [])
 
     def _base(self, path: str) -> bytes | None:
-        return self.root.look(f"{manifest.BASE}/{path}").data if path in self.old.files else None
+        return self.root.status(f"{manifest.BASE}/{path}").data if path in self.old.files else None
 
-    def _not_ours(self, plan: FilePlan, data: bytes, text: bytes, entry: Entry | None) -> Diagnostic:
+    def _refused(self, plan: FilePlan, data: bytes, text: bytes, entry: ManifestEntry | None) -> Diagnostic:
         span = Span(self.root.shown(plan.path))
-        adopt = typed("rcyaml", "compile", "--adopt", self.root.shown(self.wanted.files[plan.path].owners[0]))
+        adopt = typed("rcyaml", "compile", "--adopt", self.root.shown(self.desired.files[plan.path].owners[0]))
         if entry is None or not plan.stated_in:
-            return codes.NOT_OURS.at(span, path=plan.path, hint=f"`{adopt}` writes it, and keeps yours as .orig")
-        keys = ", ".join(lost(self._base(plan.path), data, text) or ["them"])
-        return codes.CHANGED.at(
-            span,
-            path=plan.path,
-            hint=f"bring {keys} into {self.root.shown(plan.stated_in)}; `{adopt}` then rewrites "
-            "the file, and keeps yours as .orig",
+            hint = f"`{adopt}` overwrites it, and keeps your file as .orig"
+            return codes.NOT_GENERATED.at(span, path=plan.path, hint=hint)
+        keys = ", ".join(lost(self._base(plan.path), data, text) or ["your changes"])
+        hint = (
+            f"move {keys} to {self.root.shown(plan.stated_in)}; then `{adopt}` overwrites the file, and keeps your "
+            "version as .orig"
         )
+        return codes.CHANGED_CONFIG.at(span, path=plan.path, hint=hint)
 
-    def _unwanted(self, path: str, entry: Entry) -> None:
-        """A file of the manifest that no plan asks for: it stays as long as some document may still want it."""
-        owners = self.wanted.holders(path, entry)
+    def _not_planned(self, path: str, entry: ManifestEntry) -> None:
+        """A file of the manifest that is not planned: it stays as long as one of its owners exists."""
+        owners = self.desired.holders(path, entry)
         if owners:
             self.entries[path] = replace(entry, owners=owners)
             return
         if f"{self.root.real}/{path}" in self.planned:
             return
-        found = self.root.look(path, read=not entry.once)
+        status = self.root.status(path, read=not entry.once)
         if entry.once:
-            if found.exists:
+            if status.exists:
                 self._note(path, changes.LEFT)
             else:
                 self._drop_base(path)
-        elif not found.exists or found.problem:
+        elif not status.exists or status.problem:
             return
-        elif self._is_ours(path, found.data or b"", entry):
-            self._note(path, changes.REMOVE, found.data)
-            self.steps.append(atomic.Step(path, found.data, None))
+        elif self._is_generated(path, status.data or b"", entry):
+            self._note(path, changes.REMOVE, status.data)
+            self.steps.append(atomic.FileStep(path, status.data, None))
         else:
-            orig = free_name(f"{self.root.real}/{path}")[len(self.root.real) + 1 :]
-            self._note(path, changes.EDITED, found.data, orig=orig)
-            self.steps.append(atomic.Step(path, found.data, None, orig=orig))
-            self._warn_edited(path, f"it is no longer generated, and kept as '{os.path.basename(orig)}'")
+            orig = self._orig(path)
+            self._note(path, changes.EDITED, status.data, orig=orig)
+            self.steps.append(atomic.FileStep(path, status.data, None, orig=orig))
+            self._warn_edited(path, f"it is no longer generated, and is kept as '{os.path.basename(orig)}'")
 
-    def _write(self, plan: FilePlan, found: Found, action: str, text: bytes | None = None) -> Change:
-        """Writes the plan's text, or another one."""
+    def _write(self, plan: FilePlan, status: PathStatus, action: str, text: bytes | None = None) -> Change:
+        """Writes the text of the plan, or `text`."""
         text = plan.text.encode() if text is None else text
-        orig = ""
-        if action in (changes.EDITED, changes.ADOPT):
-            orig = free_name(f"{self.root.real}/{plan.path}")[len(self.root.real) + 1 :]
-        mode = found.mode or None
+        orig = self._orig(plan.path) if action in (changes.EDITED, changes.ADOPT) else ""
+        mode = status.mode or None
         if mode and plan.executable:
-            # Whoever may read it may run it.
+            # Whoever may read it may execute it.
             mode |= (mode & 0o444) >> 2
-        if not self._has_another(plan):
-            self.steps.append(
-                atomic.Step(
-                    plan.path,
-                    found.data if found.exists else None,
-                    text,
-                    plan.executable,
-                    mode,
-                    orig,
-                    rights_of(plan.sources),
-                )
-            )
-        return self._note(plan.path, action, found.data, text, orig)
+        if not self._is_written_inside(plan):
+            before, rights = status.data if status.exists else None, rights_of(plan.sources)
+            self.steps.append(atomic.FileStep(plan.path, before, text, plan.executable, mode, orig, rights))
+        return self._note(plan.path, action, status.data, text, orig)
+
+    def _orig(self, path: str) -> str:
+        """The name, relative to the root, under which an existing file is kept."""
+        return os.path.relpath(free_name(f"{self.root.real}/{path}"), self.root.real)
 
     def _note(
         self, path: str, action: str, before: bytes | None = None, after: bytes | None = None, orig: str = ""
     ) -> Change:
         shown = self.root.shown
-        wanted = self.wanted.files.get(path)
-        secrets = wanted.plan.secrets if wanted else ()
+        desired = self.desired.files.get(path)
+        secrets = desired.plan.secrets if desired else ()
         change = Change(shown(path), action, before, after, shown(orig) if orig else "", secrets)
         self.changes.append(change)
         return change
 
-    def _own(self, path: str, hash_: str, *, once: bool = False) -> None:
-        self.entries[path] = Entry(hash_, self.wanted.holders(path, self.old.files.get(path)), once)
+    def _enter(self, path: str, hash_: str, *, once: bool = False) -> None:
+        self.entries[path] = ManifestEntry(hash_, self.desired.holders(path, self.old.files.get(path)), once)
 
-    def _refuse(self, path: str, found: Found) -> None:
+    def _refuse(self, path: str, status: PathStatus) -> None:
         self._note(path, changes.REFUSED)
-        if found.culprit not in self.culprits:
-            self.culprits.add(found.culprit)
-            code = codes.OUTSIDE if found.outside else codes.CANNOT_WRITE
-            self.diagnostics.append(code.at(Span(self.root.shown(path)), path=path, reason=found.problem))
+        if status.culprit not in self.culprits:
+            self.culprits.add(status.culprit)
+            code = codes.OUTSIDE if status.outside else codes.CANNOT_WRITE
+            self.diagnostics.append(code.at(Span(self.root.shown(path)), path=path, reason=status.problem))
 
     def _warn_edited(self, path: str, what: str) -> None:
-        self.diagnostics.append(
-            codes.EDITED.at(Span(self.root.shown(path)), path=path, what=what, hint=codes.USERS_PLACES)
-        )
+        span = Span(self.root.shown(path))
+        self.diagnostics.append(codes.EDITED.at(span, path=path, what=what, hint=codes.USERS_FOLDERS))
 
     def _keep_base(self, plan: FilePlan, text: bytes) -> None:
-        """The text as generated, which a later merge starts from."""
-        self._remember(f"{manifest.BASE}/{plan.path}", text, rights_of(plan.sources))
+        """Keeps the generated text, which a later merge starts from."""
+        self._write_internal(f"{manifest.BASE}/{plan.path}", text, rights_of(plan.sources))
 
     def _drop_base(self, path: str) -> None:
-        self._remember(f"{manifest.BASE}/{path}", None)
+        self._write_internal(f"{manifest.BASE}/{path}", None)
 
-    def _manifest(self, found: Found) -> None:
-        text = found.data
+    def _manifest(self, status: PathStatus) -> None:
+        text = status.data
         new = Manifest(self.entries)
         if new != self.old or not new.files:
             text = new.text().encode() if new.files else None
-            self._remember(manifest.PATH, text)
+            self._write_internal(manifest.PATH, text)
         if text is not None:
             self.settled[manifest.PATH] = text
 
-    def _remember(self, path: str, text: bytes | None, rights: int = ANYBODY) -> None:
-        """A file of our own, which no report mentions."""
-        found = self.root.look(path)
-        if found.problem:
-            self._refuse(path, found)
-        elif found.data != text:
-            before = found.data if found.exists else None
-            self.steps.append(atomic.Step(path, before, text, mode=found.mode or None, rights=rights))
+    def _write_internal(self, path: str, text: bytes | None, rights: int = ANYBODY) -> None:
+        """Writes or deletes an internal file, which is not reported."""
+        status = self.root.status(path)
+        if status.problem:
+            self._refuse(path, status)
+        elif status.data != text:
+            before = status.data if status.exists else None
+            self.steps.append(atomic.FileStep(path, before, text, mode=status.mode or None, rights=rights))
 
 
-def is_as_put(entry: Entry | None, data: bytes) -> bool:
-    """Whether a file with this content is as rcyaml last put it there."""
+def is_as_put(entry: ManifestEntry | None, data: bytes) -> bool:
+    """Whether this content is what rcyaml wrote last."""
     return entry is not None and entry.hash == digest(data)
 
 
-def merged(entry: Entry | None, merge: Merge) -> str:
-    """What the manifest keeps of a merge: the digest of all of it where nothing of the user was in the file before;
-    else that of the skeleton, which the file then differs from."""
+def digest_of_merge(entry: ManifestEntry | None, merge: Merge) -> str:
+    """The digest of a merge for the manifest: that of the merged text if the user had not edited the file, else that of
+    the skeleton, from which the file differs."""
     return digest(merge.text if is_as_put(entry, merge.before) else merge.base)
 
 
 def lost(base: bytes | None, yours: bytes, new: bytes) -> list[str] | None:
-    """The keys of those entries of the user in a property file that another text lacks, or has with another value: of
-    those that differ from what rcyaml wrote (`base`). None where that cannot be told. To Ice an entry without a value
-    is none."""
+    """The keys of the properties that the user set, and that the `new` text does not have with the same value. The user
+    set those that differ from `base`, which rcyaml wrote. None if a text is not UTF-8. For Ice a property without a
+    value is not set."""
     try:
         before, mine, then = (properties.read((data or b"").decode()).values for data in (base, yours, new))
     except UnicodeDecodeError:

@@ -1,8 +1,8 @@
-"""Prints the modules that a Python program imports when it starts, and that its interpreter does not find.
+"""Prints the modules that a Python program imports when it starts, and that are missing in its interpreter.
 
-Of a component, the code in `src/` and `generated/` counts too, with what it needs of a shared run time, and the Python is the one that would run it: the rule of
-components (`interpreter.py`) stands above this text, as `settle`. Nothing of the program is run: paths that it adds by
-a text are searched, and what stands behind `Ice.loadSlice` may be anything that a Slice file defines.
+For a component, the code in `src/` and `generated/` is read, too, with what it needs of a shared run time. The Python
+is the one that would run the component: its rule (`interpreter.py`) precedes this text, as `settle`. The program is
+not run: paths that it adds as literals are searched, and imports after `Ice.loadSlice` may be defined by a Slice file.
 """
 
 import ast
@@ -30,7 +30,7 @@ def below(folder):
 
 
 def shared(folder, own):
-    """The packages of a run time that stands elsewhere which the component's own files name."""
+    """The packages of a shared run time that the component's own files import."""
     texts = []
     for path in own:
         try:
@@ -76,14 +76,14 @@ RULE = ("runtime", "interpreter.py")
 
 
 def lacks_ice(program):
-    """Whether no Python here could run a component; in the one that could, this script goes on."""
+    """Whether no Python of this host can run a component; otherwise this script continues in one that can."""
     root = os.path.dirname(os.path.dirname(os.path.abspath(program)))
     generated = os.path.join(root, "generated")
     if not any(os.path.isfile(os.path.join(generated, *path)) for path in (("component.py",), RULE)):
         return False
-    sys.path[:] = filter(None, sys.path)  # not the folder where this happens to run
+    sys.path[:] = filter(None, sys.path)  # without the working folder
     try:
-        settle(root, ["-c", sys.argv[2], *sys.argv[1:]])  # noqa: F821 (it stands above)
+        settle(root, ["-c", sys.argv[2], *sys.argv[1:]])  # noqa: F821 (defined by interpreter.py)
     except NoPython:  # noqa: F821
         return True
     return False

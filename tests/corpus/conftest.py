@@ -1,4 +1,4 @@
-"""The corpus as a repository, migrated once for the tests that look at it."""
+"""The corpus as a repository, migrated once for the tests that read it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from robocomp_yaml.cli import group
 
 
 def migrate_components(folder: Path) -> Path:
-    """Each component of the corpus in a folder of its own below `source`, with the interfaces, migrated to `yaml`."""
+    """Migrate the corpus from `source`, where each component has a separate folder, to `yaml`."""
     shutil.copytree(CORPUS / "idsl", folder / "source/interfaces", copy_function=shutil.copyfile)
     for path in sorted((CORPUS / "cdsl").glob("*.cdsl")):
         own = folder / "source/components" / path.stem

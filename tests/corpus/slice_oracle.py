@@ -1,4 +1,4 @@
-"""Ice's own word on Slice files: the checksum of every type that a file, with what it includes, defines."""
+"""Slice files according to Ice: the checksum of every type that a file and its includes define."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import sys
 from collections.abc import Iterable
 from pathlib import Path
 
-# One process for each file, since loading a file leaves its types behind; forked, so that Ice is imported once.
+# One process per file, because loaded types remain in a process; forked, so that Ice is imported once.
 _SCRIPT = """
 import json, os, sys
 import Ice
@@ -21,7 +21,7 @@ for file in files:
         try:
             Ice.loadSlice("", ["--checksum", "--all", "--ice", *("-I" + folder for folder in folders), file])
             answer = {name: sum for name, sum in Ice.sliceChecksums.items() if name not in known}
-        except Exception:  # RuntimeError for what the compiler refuses, SyntaxError for Python it cannot write
+        except Exception:  # RuntimeError if the compiler rejects a file, SyntaxError if its Python is not valid
             answer = None
         os.write(writer, json.dumps(answer).encode())
         os._exit(0)
@@ -33,7 +33,7 @@ for file in files:
 
 
 def checksums(files: Iterable[Path], *include: Path) -> dict[str, dict[str, str] | None]:
-    """By each file's name: the checksum of each type, or None where the Slice compiler refuses the file."""
+    """Return by each file's name the checksum of each type, or None where the Slice compiler rejects the file."""
     told = subprocess.run(
         [sys.executable, "-c", _SCRIPT], input=json.dumps([list(map(str, include)), list(map(str, files))]),
         stdout=subprocess.PIPE, text=True, check=True, timeout=300,

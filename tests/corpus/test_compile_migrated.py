@@ -20,7 +20,7 @@ from robocomp_yaml.pipeline import analyse
 
 pytestmark = [needs_corpus, pytest.mark.slow]
 
-# Each in a fork: what Slice defines stays, and importing Ice each time would take most of the time.
+# Each in a fork: loaded types remain in a process, and importing Ice in each would be slow.
 IMPORTS = """
 import json, os, sys, traceback
 import Ice
@@ -39,7 +39,7 @@ for root in json.load(sys.stdin):
 
 
 def compiled(migrated: Path, language: str, folder: Path) -> dict[str, Path]:
-    """All components whose imports resolve, compiled in that language: their folders, by their documents' names."""
+    """Compile all components whose imports resolve in a language, and return their folders by the documents' names."""
     shutil.copytree(migrated / "yaml", folder)
     for document in folder.rglob("*.cdsl.yaml"):
         text = document.read_text(encoding="utf-8")
@@ -69,7 +69,8 @@ def test_every_python_component_is_imported(migrated: Path, tmp_path: Path) -> N
 
 @needs_cpp
 def test_a_sample_of_the_cpp_components_is_built(migrated: Path, tmp_path: Path) -> None:
-    """The largest one of all that want no window: those are built where Qt is, in the tests of windows."""
+    """Build the largest component without a window. Components with windows need Qt, and are in the tests of
+    windows."""
     components = compiled(migrated, "cpp", tmp_path / "cpp")
     sizes = {
         name: len((root / "generated/genericworker.cpp").read_text(encoding="utf-8"))

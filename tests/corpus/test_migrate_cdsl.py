@@ -1,4 +1,4 @@
-"""Real component files: their lists keep order and multiplicity, and what is migrated checks."""
+"""Real component files: their lists keep order and repetitions, and their documents are valid."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from robocomp_yaml.pipeline import analyse
 
 LISTS = {"implements": "implements", "requires": "requires", "publishes": "publishes", "subscribesTo": "subscribes"}
 REFUSED = {"robocomp__Comp1", "robocomp__Comp5"}  # `xxx` before Communications, `languadfgdfge cpp`
-DESERVED = {  # what the Slice compiler refuses in the originals too
+DESERVED = {  # rejected by the Slice compiler in the originals, too
     "RC1005": {"OpenposeBodyData"},
     "RC1010": {"CameraBus", "CloudPrimitives", "FaceRecognition", "Kinect", "MSKFace", "RobotTrajectory"},
 }
@@ -27,7 +27,7 @@ def _ledger(migrated: Path) -> list[dict]:  # type: ignore[type-arg]
 
 
 def _said(text: str) -> tuple[dict[str, list[str]], list[str]]:
-    """The lists and imports of a component file, read with nothing but regular expressions."""
+    """Return the lists and imports of a component file, read with regular expressions only."""
     bare = re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.DOTALL)
     lists: dict[str, list[str]] = {}
     stop = "|".join(LISTS)
@@ -40,13 +40,13 @@ def _said(text: str) -> tuple[dict[str, list[str]], list[str]]:
 
 
 def _interface(entry: object) -> str:
-    """The interface that an entry of a list names."""
+    """Return the interface of an entry of a list."""
     value = next(iter(entry.values())) if isinstance(entry, dict) else entry
     return value["interface"] if isinstance(value, dict) else str(value)
 
 
 @needs_corpus
-def test_only_what_nobody_can_read_is_refused(migrated: Path) -> None:
+def test_only_unreadable_files_are_rejected(migrated: Path) -> None:
     refused = {Path(entry["source"]).stem for entry in _ledger(migrated) if entry["status"] == "refused"}
     assert refused == REFUSED | {"UrsusArm"}  # an enumerator twice in one enum
     assert not any(entry["lines"]["lost"] for entry in _ledger(migrated))
@@ -71,7 +71,7 @@ def test_the_lists_keep_order_and_multiplicity(migrated: Path) -> None:
 
 
 @needs_corpus
-def test_what_is_migrated_has_no_error_that_the_original_did_not_deserve(migrated: Path) -> None:
+def test_documents_have_only_the_errors_of_their_sources(migrated: Path) -> None:
     errors = [d for d in analyse([str(migrated / "yaml")]).diagnostics if d.severity == "error"]
     undeserved = [
         d for d in errors if Path(d.span.file).name.removesuffix(".idsl.yaml") not in DESERVED.get(d.code, set())
@@ -110,7 +110,7 @@ def test_a_second_run_changes_nothing(migrated: Path) -> None:
 
 
 @needs_corpus
-def test_the_samples_marked_as_wrong_are_refused_or_flagged(migrated: Path) -> None:
+def test_the_samples_marked_as_wrong_are_rejected_or_reported(migrated: Path) -> None:
     status = {Path(entry["source"]).stem: entry["status"] for entry in _ledger(migrated)}
     with (CORPUS / "manifest.csv").open(encoding="utf-8", newline="") as file:
         rows = [row for row in csv.DictReader(file) if row["format"] in ("idsl", "cdsl")]

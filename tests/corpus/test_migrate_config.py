@@ -1,4 +1,5 @@
-"""Real configs: the documents give Ice, and `tomllib`, what the files gave, and all of it stands in its section."""
+"""Real configs: Ice and `tomllib` read the same from the documents and the files, and each setting is in its
+section."""
 
 from __future__ import annotations
 
@@ -30,7 +31,7 @@ FAMILIES = re.compile(r"(?:Axis|Button|Params|Motor)_|Goal\d")
 
 @pytest.fixture(scope="module")
 def repositories(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The corpus as the repositories that it is from."""
+    """The corpus as the repositories of its files."""
     folder = tmp_path_factory.mktemp("repositories")
     with (CORPUS / "manifest.csv").open(encoding="utf-8", newline="") as file:
         for row in csv.DictReader(file):
@@ -128,7 +129,7 @@ def test_what_was_migrated_checks(repositories: Path, ledger: list[dict[str, Any
     assert {d.code[:4] for d in errors} <= {"RC10", "RC11"}  # faults of interface files only
 
 
-def test_negative_samples_are_refused_or_flagged(repositories: Path, ledger: list[dict[str, Any]]) -> None:
+def test_negative_samples_are_rejected_or_reported(repositories: Path, ledger: list[dict[str, Any]]) -> None:
     status = {os.path.relpath(file["source"], repositories / "old"): file["status"] for file in ledger}
     with (CORPUS / "manifest.csv").open(encoding="utf-8", newline="") as file:
         rows = [row for row in csv.DictReader(file) if "NEGATIVE" in row["note"] and row["format"] == "config"]
@@ -144,7 +145,7 @@ def test_negative_samples_are_refused_or_flagged(repositories: Path, ledger: lis
     }  # fmt: skip -- these two are good Ice properties
 
 
-def test_nearly_everything_stands_in_its_own_section(ledger: list[dict[str, Any]]) -> None:
+def test_nearly_every_setting_is_in_its_section(ledger: list[dict[str, Any]]) -> None:
     all_, kept = Counter[str](), Counter[str]()
     for file in ledger:
         if file["format"] != "config" or not file["outputs"]:

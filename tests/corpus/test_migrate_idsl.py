@@ -1,4 +1,4 @@
-"""Real interface files: what is emitted from the migrated documents has the original's Slice checksums."""
+"""Real interface files: the Slice of the migrated documents has the checksums of the original."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from robocomp_yaml.emit import slice as slice_target
 from robocomp_yaml.pipeline import analyse
 
 DEBIAN = Path("/usr/share/ice/slice")
-ICES_OWN = "RC1002"  # no module of a user can be called Ice…, and Ice's own files are
+ICES_OWN = "RC1002"  # a user's module cannot be named Ice…, but the modules of Ice are
 
 
 def _migrated(source: Path, folder: Path) -> None:
@@ -24,7 +24,7 @@ def _migrated(source: Path, folder: Path) -> None:
 
 
 def _emitted(folder: Path, slices: Path) -> list[Path]:
-    """The Slice of every document that has no error and imports none that has."""
+    """Return the Slice of every document without an error in it and its imports."""
     slices.mkdir()
     analysis = analyse([str(folder)])
     broken = {Path(d.span.file).resolve() for d in analysis.diagnostics if d.severity == "error" and d.code != ICES_OWN}
@@ -38,7 +38,7 @@ def _emitted(folder: Path, slices: Path) -> list[Path]:
 
 
 def _as_slice(text: str) -> str:
-    """An IDSL text as Slice: imports are includes. Nothing else is touched."""
+    """Return an IDSL text as Slice: imports become includes, everything else is kept."""
     include = re.sub(r'(?m)^\s*import\s+"(?:[^"\n]*/)?([^"/\n]+?)(?:\.idsl)?"\s*;', r'#include "\1.ice"', text)
     return "#pragma once\n" + include
 
@@ -61,8 +61,8 @@ def test_the_slice_of_the_corpus_has_the_originals_checksums(tmp_path: Path) -> 
 
 
 @pytest.mark.skipif(not DEBIAN.is_dir(), reason="Debian's Slice files are not installed (zeroc-ice-slice)")
-def test_ices_own_files_keep_their_checksums(tmp_path: Path) -> None:
-    """Those that are migrated, that is, which use only what IDSL has."""
+def test_the_files_of_ice_keep_their_checksums(tmp_path: Path) -> None:
+    """Those that are migrated, because they use only what IDSL has."""
     pytest.importorskip("Ice", reason="Ice for Python is not installed (Debian: python3-zeroc-ice)")
     _migrated(DEBIAN, tmp_path / "yaml")
     seen = []
@@ -76,7 +76,7 @@ def test_ices_own_files_keep_their_checksums(tmp_path: Path) -> None:
             got = checksums(own, own[0].parent)[path.name]
             expected = checksums([path], DEBIAN)[path.name]
             assert got is not None and expected is not None
-            missing = expected.keys() - got.keys()  # of an include that is refused, and of which nothing is used
+            missing = expected.keys() - got.keys()  # of a rejected include that is not used
             assert got == {name: digest for name, digest in expected.items() if name not in missing}, path
             assert not missing or "#include" not in own[0].read_text(encoding="utf-8"), path
             seen.append(path.name)

@@ -1,4 +1,4 @@
-"""Real managers and launchers: XML to DDSL to XML says the same, the ledger adds up, and the documents check."""
+"""Real managers and launchers: XML to DDSL to XML is equal, the ledger is complete, and the documents are valid."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ DESERVED = {
 
 
 def migrated(file: Path, folder: Path) -> tuple[Result, Path, dict[str, int]]:
-    """The run, its document, and how many lines are in each class."""
+    """Return the run, its document, and the number of lines of each class."""
     source = folder / file.name
     shutil.copyfile(file, source)
     result = CliRunner().invoke(group, ["migrate", str(source), "--report", str(folder / "ledger.json")])
@@ -36,7 +36,7 @@ def migrated(file: Path, folder: Path) -> tuple[Result, Path, dict[str, int]]:
 
 
 def network(document: Path, name: str) -> Network:
-    """The document's network; it has no errors but those that its source deserves."""
+    """Return the document's network; it has only the errors of its source."""
     analysis = analyse([str(document)])
     errors = [diagnostic.code for diagnostic in analysis.diagnostics if diagnostic.severity == "error"]
     assert errors == DESERVED.get(name, [])

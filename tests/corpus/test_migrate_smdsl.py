@@ -1,4 +1,4 @@
-"""Real state machines: the states and transitions of the SCXML are those of the file, read by other means."""
+"""Real state machines: the SCXML has the states and transitions of the file, which are read in another way."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ Facts = tuple[dict[str, str], set[tuple[str, str]], dict[str, str], set[str], se
 
 
 def _said(text: str) -> Facts:
-    """Each state with its parent, transitions, initial states by parent, end states and parallel ones; read with
-    nothing but regular expressions."""
+    """Return each state with its parent, transitions, initial states by parent, end states and parallel ones; read with
+    regular expressions only."""
     bare = re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.DOTALL)
     parents: dict[str, str] = {}
     transitions: set[tuple[str, str]] = set()
@@ -89,7 +89,7 @@ def test_states_and_transitions(file: Path, tmp_path: Path) -> None:
         assert [d for d in analyse([str(tmp_path)]).diagnostics if d.severity == "error"] == []
 
 
-def test_the_syntax_help_is_refused(tmp_path: Path) -> None:
+def test_the_syntax_help_is_rejected(tmp_path: Path) -> None:
     shutil.copyfile(CORPUS / "smdsl" / f"{NEGATIVE}.smdsl", tmp_path / "sm.smdsl")
     result = CliRunner().invoke(group, ["migrate", str(tmp_path / "sm.smdsl")])
     assert result.exit_code == 1

@@ -1,4 +1,4 @@
-"""A place for deployments, and the certainty that nothing of them is left behind."""
+"""A folder for deployments, without leftovers after the test."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def free_port() -> Ports:
 
 @pytest.fixture
 def place(tmp_path: Path) -> Iterator[Place]:
-    """A folder for one deployment; whatever runs there at the end of the test is killed."""
+    """A folder for one deployment. Its processes are killed at the end of the test."""
     place = Place(tmp_path)
     try:
         yield place

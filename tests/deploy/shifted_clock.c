@@ -1,6 +1,6 @@
-/* A clock that is set while programs run, for those that load this with LD_PRELOAD: the file in SHIFTED_CLOCK holds
-   a number of seconds (64 bits), by which the time of day differs from that of the machine. Clocks that nobody sets are
-   left alone, as are times that are measured by them. */
+/* A clock that a test sets while programs run, for programs that load this with LD_PRELOAD. The file in SHIFTED_CLOCK
+   contains the difference of the time of day to that of the machine, in seconds (64 bits). Monotonic clocks, and waits
+   by them, do not change. */
 
 #define _GNU_SOURCE
 #include <dlfcn.h>

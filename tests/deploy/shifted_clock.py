@@ -1,4 +1,5 @@
-"""A clock that a test sets for all that it starts, while that runs (see shifted_clock.c). The machine's stays."""
+"""A clock that a test sets for the processes that it starts (see shifted_clock.c). The machine's clock is not
+changed."""
 
 from __future__ import annotations
 
@@ -16,19 +17,19 @@ _SOURCE = Path(__file__).with_suffix(".c")
 
 @dataclass(frozen=True)
 class Clock:
-    """`environment` is for what is to go by this clock."""
+    """`environment` is for processes with this clock."""
 
     path: Path
     environment: dict[str, str]
 
     def set(self, hours: float) -> None:
-        """So far before or behind the machine's."""
+        """Sets the difference to the machine's clock."""
         with open(self.path, "r+b") as file:
             file.write(struct.pack("=q", int(hours * 3600)))
 
 
 def make_clock(folder: Path) -> Clock:
-    """Skips the test where there is no way to make one."""
+    """Skips the test if the clock cannot be compiled."""
     compiler = shutil.which("cc")
     if compiler is None or sys.platform != "linux":
         pytest.skip("no C compiler here: the clock cannot be shifted for single programs")

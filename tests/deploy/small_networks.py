@@ -1,4 +1,4 @@
-"""Networks of small real processes, built by hand, and what the tests ask of them."""
+"""Networks of small real processes, and questions of tests about them."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from typing import Any
 
 from processes import until
 from robocomp_yaml.deploy import operations
-from robocomp_yaml.deploy.carry_out import Event
+from robocomp_yaml.deploy.carry_out import ProcessEvent
 from robocomp_yaml.deploy.engine import Line, Running
 from robocomp_yaml.deploy.local import procfs, record
 from robocomp_yaml.deploy.local.engine import LocalEngine
 from robocomp_yaml.deploy.operations import Result, Status
 from robocomp_yaml.deploy.time_limit import TimeLimit
-from robocomp_yaml.network.network import ConfigFile, Host, Network, Process, Readiness
+from robocomp_yaml.network.network import ConfigFile, Network, NetworkHost, Process, Readiness
 
 LISTEN = "import socket,sys,time; s = socket.create_server(('127.0.0.1', int(sys.argv[1]))); time.sleep(600)"
-HERE = Host("localhost")
+HERE = NetworkHost("localhost")
 
 
 def sleeper(name: str, *after: str, **more: Any) -> Process:
@@ -29,7 +29,7 @@ def sleeper(name: str, *after: str, **more: Any) -> Process:
 
 
 def shell(name: str, script: str, *after: str, **more: Any) -> Process:
-    """A process of a line of shell, which Process itself never sees as such."""
+    """A process that runs a line of shell."""
     command = ("sh", "-c", script, "{config}") if "config" in more else ("sh", "-c", script)
     return Process(name, "localhost", command, "/tmp", kind="program", after=after, is_ice=False, **more)
 
@@ -46,10 +46,10 @@ def config_of(name: str, text: str) -> ConfigFile:
 
 @dataclass
 class Place:
-    """A folder with the deployment `Robot`, whose processes a test gives anew with each call."""
+    """A folder with the deployment `Robot`. A test passes its processes with each call."""
 
     root: Path
-    events: list[Event] = field(default_factory=list)
+    events: list[ProcessEvent] = field(default_factory=list)
 
     @property
     def folder(self) -> str:
@@ -62,7 +62,7 @@ class Place:
         return network
 
     def run(self, work: Callable[[LocalEngine], Coroutine[Any, Any, Any]], *processes: Process) -> Any:
-        """What `work` gives with an engine that was opened for the network of these processes."""
+        """The result of `work` with an open engine for the network of these processes."""
 
         async def main() -> Any:
             engine = LocalEngine()
@@ -129,7 +129,7 @@ class Place:
         return [line.text for line in self.run(work)]
 
     def order(self, *kinds: str) -> list[str]:
-        """The names of what happened, of these kinds, in the order in which it did."""
+        """The names of the processes with events of these kinds, in their order."""
         return [event.name for event in self.events if event.kind in kinds]
 
     def wait_for_state(self, name: str, state: str) -> Running:
@@ -141,8 +141,14 @@ class Place:
         return found
 
     def wait_gone(self) -> None:
-        """Until nothing of the deployment runs, not even what watched it."""
-        until(lambda: not [pid for pid in procfs.marked(self.folder) if is_alive(pid)], "nothing is left")
+        """Waits until no process of the deployment runs, nor its supervisor."""
+
+        def is_gone() -> bool:
+            if any(is_alive(pid) for pid in procfs.marked(self.folder)):
+                return False  # an ending process has lost its mark already; the record still knows the keeper
+            return not record.is_there(self.folder) or record.was_killed(self.folder)
+
+        until(is_gone, "nothing is left")
 
     def keeper_and_supervisor(self) -> tuple[int, int]:
         keeper = int(Path(self.folder, record._FILE).read_text(encoding="ascii").split()[0])
@@ -156,6 +162,6 @@ def is_alive(pid: int) -> bool:
 
 
 def readable_by_others(folder: str) -> list[str]:
-    """Everything below a folder into which others may look."""
+    """Everything below a folder that other users can read."""
     paths = [os.path.join(top, name) for top, folders, files in os.walk(folder) for name in (*folders, *files)]
     return [path for path in [folder, *paths] if os.lstat(path).st_mode & 0o077]

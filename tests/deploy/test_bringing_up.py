@@ -1,4 +1,4 @@
-"""Bringing a network up and taking it down: order, what is touched and what is not."""
+"""Up and down of a network: order, and what changes."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from robocomp_yaml.deploy.carry_out import GONE, READY, STARTING, STOPPING
 from robocomp_yaml.deploy.engine import RUNNING
 from robocomp_yaml.deploy.operations import KEEP_GOING
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP
-from robocomp_yaml.network.network import Process, Readiness, Restart, Variable
+from robocomp_yaml.network.network import EnvironmentVariable, Process, Readiness, RestartRule
 from small_networks import Place, config_of, listener, readable_by_others, shell, sleeper
 
 
@@ -17,7 +17,7 @@ def actions(result: object) -> dict[str, str]:
     return {step.name: step.action for step in result.plan.steps.values()}  # type: ignore[attr-defined]
 
 
-def test_each_starts_when_all_that_it_needs_are_ready(place: Place, free_port: Ports) -> None:
+def test_each_process_starts_when_its_dependences_are_ready(place: Place, free_port: Ports) -> None:
     processes = (listener("a", free_port()), listener("b", free_port(), "a"), sleeper("c", "a"), sleeper("d", "b", "c"))
     result = place.up(*processes)
     assert not result.diagnostics
@@ -27,8 +27,8 @@ def test_each_starts_when_all_that_it_needs_are_ready(place: Place, free_port: P
             assert happened.index((before, READY)) < happened.index((process.name, STARTING))
 
 
-def test_the_independent_start_side_by_side(place: Place) -> None:
-    # Each waits for the other: one after the other, neither would become ready.
+def test_independent_processes_start_in_parallel(place: Place) -> None:
+    # Each waits for the other: started one after the other, neither would become ready.
     meet = "touch {0}; while [ ! -e {1} ]; do sleep 0.01; done; echo met; exec sleep 600"
     paths = (f"{place.root}/left", f"{place.root}/right")
     left, right = shell("left", meet.format(*paths)), shell("right", meet.format(*reversed(paths)))
@@ -36,7 +36,7 @@ def test_the_independent_start_side_by_side(place: Place) -> None:
     assert not place.up(replace(left, ready=met), replace(right, ready=met)).diagnostics
 
 
-def test_down_goes_the_other_way(place: Place) -> None:
+def test_down_has_the_reverse_order(place: Place) -> None:
     place.up(sleeper("a"), sleeper("b", "a"), sleeper("c", "b"), sleeper("d"))
     assert set(place.down()) == {"a", "b", "c", "d"}
     happened = [(event.name, event.kind) for event in place.events]
@@ -46,7 +46,7 @@ def test_down_goes_the_other_way(place: Place) -> None:
     assert place.down() == []
 
 
-def test_a_second_up_touches_nothing(place: Place) -> None:
+def test_a_second_up_changes_nothing(place: Place) -> None:
     processes = (sleeper("a", config=config_of("a", "x=1\n")), sleeper("b", "a"))
     place.up(*processes)
     pids = place.pids()
@@ -55,7 +55,7 @@ def test_a_second_up_touches_nothing(place: Place) -> None:
     assert place.pids() == pids
 
 
-def test_one_changed_configuration_restarts_one(place: Place) -> None:
+def test_a_changed_configuration_restarts_its_process(place: Place) -> None:
     def network(value: str) -> tuple[Process, ...]:
         echo = 'cat "$0"; exec sleep 600'
         return (sleeper("a"), shell("b", echo, "a", config=config_of("b", f"motors.vel={value}\n")), sleeper("c"))
@@ -70,10 +70,10 @@ def test_one_changed_configuration_restarts_one(place: Place) -> None:
     assert place.log("b")[-1] == "motors.vel=2"
 
 
-def test_what_is_no_ice_follows_what_it_needs(place: Place) -> None:
+def test_a_program_without_ice_restarts_with_its_dependences(place: Place) -> None:
     def network(value: str) -> tuple[Process, ...]:
         return (
-            sleeper("a", env=(Variable("X", value),)), sleeper("plain", "a"), replace(sleeper("ice", "a"), is_ice=True)
+            sleeper("a", env=(EnvironmentVariable("X", value),)), sleeper("plain", "a"), replace(sleeper("ice", "a"), is_ice=True)
         )  # fmt: skip
 
     place.up(*network("1"))
@@ -82,13 +82,13 @@ def test_what_is_no_ice_follows_what_it_needs(place: Place) -> None:
     assert result.plan.steps["plain"].reason == "it is after a, which restarts"
 
 
-def test_what_holds_without_a_restart_changes_in_place(place: Place) -> None:
+def test_a_change_without_restart_is_applied_in_place(place: Place) -> None:
     place.up(sleeper("a"))
     pids = place.pids()
-    result = place.up(sleeper("a", restart=Restart(tries=9)))
+    result = place.up(sleeper("a", restart=RestartRule(tries=9)))
     assert actions(result) == {"a": CHANGE}
     assert place.pids() == pids
-    assert place.up(sleeper("a", restart=Restart(tries=9))).plan.is_empty
+    assert place.up(sleeper("a", restart=RestartRule(tries=9))).plan.is_empty
 
 
 def test_a_changed_file_restarts(place: Place) -> None:
@@ -101,7 +101,7 @@ def test_a_changed_file_restarts(place: Place) -> None:
     assert result.plan.steps["a"].reason.endswith("program changed")
 
 
-def test_what_is_no_longer_part_of_it_stops(place: Place) -> None:
+def test_a_removed_process_stops(place: Place) -> None:
     place.up(sleeper("a"), sleeper("b", config=config_of("b", "x=1\n")), sleeper("c"))
     result = place.up(sleeper("a"), sleeper("c", enabled=False))
     assert actions(result) == {"a": KEEP, "b": STOP, "c": STOP}
@@ -109,7 +109,7 @@ def test_what_is_no_longer_part_of_it_stops(place: Place) -> None:
     assert not (place.root / ".rcyaml/deployments/Robot/config/b").exists()
 
 
-def test_names_limit_it_to_some_with_what_they_need(place: Place) -> None:
+def test_names_limit_up_to_processes_and_their_dependences(place: Place) -> None:
     network = (sleeper("a"), sleeper("b", "a"), sleeper("c"))
     assert actions(place.up(*network, names=["b"])) == {"a": START, "b": START}
     assert actions(place.up(*network)) == {"a": KEEP, "b": KEEP, "c": START}
@@ -117,8 +117,8 @@ def test_names_limit_it_to_some_with_what_they_need(place: Place) -> None:
     assert set(place.pids()) == {"c"}
 
 
-def test_what_stands_in_the_way_of_one_keeps_its_users_from_starting_and_no_others(place: Place) -> None:
-    """With `keep`; else nothing is started at all."""
+def test_an_obstacle_of_one_process_stops_only_its_users(place: Place) -> None:
+    """With `keep`; else no process is started."""
     missing = Process("b", "localhost", ("/no/such/program",), "/tmp", kind="program", is_ice=False)
     network = (sleeper("a"), missing, sleeper("c", "b"))
     assert place.up(*network).diagnostics and place.pids() == {}
@@ -128,7 +128,7 @@ def test_what_stands_in_the_way_of_one_keeps_its_users_from_starting_and_no_othe
     assert place.observe()["a"].state == RUNNING
 
 
-def test_a_forced_one_restarts_though_nothing_changed(place: Place) -> None:
+def test_a_forced_process_restarts_without_a_change(place: Place) -> None:
     place.up(sleeper("a"), sleeper("b"))
     before = place.pids()
     place.up(sleeper("a"), sleeper("b"), names=["b"], forced=["b"])
@@ -136,12 +136,12 @@ def test_a_forced_one_restarts_though_nothing_changed(place: Place) -> None:
     assert before["a"] == after["a"] and before["b"] != after["b"]
 
 
-def test_a_cycle_starts_all_the_same(place: Place) -> None:
+def test_processes_in_a_circle_start(place: Place) -> None:
     assert not place.up(sleeper("a", "b"), sleeper("b", "a"), sleeper("c", "a")).diagnostics
     assert len(place.down()) == 3
 
 
-def test_only_its_owner_may_look(place: Place) -> None:
+def test_only_the_owner_can_read_the_folder(place: Place) -> None:
     place.up(sleeper("a", config=config_of("a", "password=hunter2\n")))
     assert readable_by_others(place.folder) == []
 
@@ -154,7 +154,7 @@ def test_a_folder_with_a_path_too_long_for_a_socket(place: Place) -> None:
     assert place.down() == ["a"]
 
 
-def test_a_process_that_is_done_is_not_started_again(place: Place) -> None:
+def test_a_process_that_has_ended_is_not_restarted(place: Place) -> None:
     network = (shell("once", "echo done"), sleeper("b", "once"))
     assert not place.up(*network).diagnostics
     place.wait_for_state("once", "ended")

@@ -1,4 +1,4 @@
-"""The clock is set by hours while a network runs or comes up: only the times in its logs jump."""
+"""The clock is set by hours while a network runs or comes up: only the times in its logs change."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ ENGINES = [
 
 @dataclass
 class Robot:
-    """A deployment all of which goes by a clock of the test's: commands, engine and processes."""
+    """A deployment whose commands, engine and processes use the clock of the test."""
 
     folder: Path
     place: Place
@@ -48,14 +48,14 @@ class Robot:
     begun: list[Running] = field(default_factory=list)
 
     def deploy(self, what: str, *words: str, code: int | None = 0) -> str:
-        """What a command prints; it must have this exit code, if one is given."""
+        """The output of a command, which must have this exit code, if it is not None."""
         done = subprocess.run(self._words(what, *words), capture_output=True, text=True, check=False, timeout=60,
                               cwd=self.folder, env={**os.environ, **self.clock.environment})  # fmt: skip
         assert code in (None, done.returncode), done.stdout + done.stderr
         return done.stdout + done.stderr
 
     def begin(self, what: str, *words: str) -> Running:
-        """A command that goes on while the test does."""
+        """A command that runs in parallel with the test."""
         command = subprocess.Popen(
             self._words(what, *words), cwd=self.folder, env={**os.environ, **self.clock.environment},
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
@@ -88,7 +88,7 @@ def numbers(text: str, word: str) -> list[int]:
 
 
 def test_the_clock_is_shifted(tmp_path: Path) -> None:
-    """Else the others would prove nothing."""
+    """Otherwise the other tests would prove nothing."""
     clock = make_clock(tmp_path)
     clock.set(-7)
     script = 'printf "%(%s)T\n" -1; echo $EPOCHREALTIME; date +%s; "$0" -c "import time; print(time.time())"'
@@ -100,7 +100,7 @@ def test_the_clock_is_shifted(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("hours", [pytest.param(5, id="forward"), pytest.param(-7, id="back")])
-def test_what_runs_goes_on(robot: Robot, hours: int) -> None:
+def test_running_processes_go_on(robot: Robot, hours: int) -> None:
     robot.deploy("up")
     before = robot.status()
     followed = robot.begin("logs", "-f", "-t", "-n", "0")
@@ -141,8 +141,8 @@ components:
 """
 
 
-def test_a_crash_loop_ends_all_the_same(robot: Robot) -> None:
-    """Crashes between which the clock is set are counted as what they are, and the pauses between them are short."""
+def test_a_crash_loop_ends(robot: Robot) -> None:
+    """The clock is set between crashes: all crashes are counted, and the delays stay short."""
     write_tree(robot.folder, {"robot.ddsl.yaml": CRASHES})
     robot.deploy("up")
     for count in (1, 2, 3):
@@ -167,7 +167,7 @@ components:
 """
 
 
-def test_one_that_comes_up_has_its_time(robot: Robot) -> None:
+def test_a_starting_process_has_its_time(robot: Robot) -> None:
     write_tree(robot.folder, {"robot.ddsl.yaml": WAITS.replace("WITHIN", "2 min")})
     up = robot.begin("up", "--timeout", "3min")
     until(lambda: "here" in robot.deploy("logs", code=None), lambda: up.output)
@@ -178,7 +178,7 @@ def test_one_that_comes_up_has_its_time(robot: Robot) -> None:
     robot.deploy("down")
 
 
-def test_and_no_more(robot: Robot) -> None:
+def test_a_starting_process_has_no_more_than_its_time(robot: Robot) -> None:
     write_tree(robot.folder, {"robot.ddsl.yaml": WAITS.replace("WITHIN", "2 s")})
     up = robot.begin("up")
     until(lambda: "here" in robot.deploy("logs", code=None), lambda: up.output)
@@ -188,8 +188,8 @@ def test_and_no_more(robot: Robot) -> None:
 
 
 @pytest.mark.parametrize("robot", ENGINES[1:], indirect=True)
-def test_a_rule_for_restarts_that_is_newer_by_no_clock(robot: Robot) -> None:
-    """A change of `restart:` holds at once, though the clock was set back before."""
+def test_a_newer_restart_rule_does_not_depend_on_the_clock(robot: Robot) -> None:
+    """A change of `restart:` applies immediately, although the clock was set back before."""
     robot.deploy("up")
     pids = {name: one["pid"] for name, one in robot.status().items()}
     robot.clock.set(-7)
@@ -202,8 +202,8 @@ def test_a_rule_for_restarts_that_is_newer_by_no_clock(robot: Robot) -> None:
 
 
 @pytest.mark.parametrize("year", [1970, 2100])
-def test_a_clock_that_is_wrong_from_the_beginning(robot: Robot, year: int) -> None:
-    """As on a machine without a battery for it."""
+def test_a_clock_that_is_wrong_from_the_start(robot: Robot, year: int) -> None:
+    """As on a machine without a battery for its clock."""
     wrong = datetime(year, 1, 2, 12, tzinfo=UTC) - datetime.now(UTC)
     robot.clock.set(wrong.total_seconds() / 3600)
     robot.deploy("up")

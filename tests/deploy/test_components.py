@@ -1,4 +1,4 @@
-"""Components of ours, compiled and deployed: they are ready when they answer over Ice, and find each other."""
+"""Generated components, compiled and deployed: they are ready when they answer over Ice, and call each other."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def test_the_network_of_the_paper(
     assert rcyaml("compile", ".").exit_code == 0
     up = rcyaml("deploy", "up", "robot.ddsl.yaml")
     assert up.exit_code == 0, up.output
-    # Speech needs Mouth, which so comes first.
+    # Speech requires Mouth, which therefore starts first.
     assert up.stdout.index("mouth   ready") < up.stdout.index("speech  ready")
 
     before = place.pids()
@@ -78,7 +78,7 @@ def test_the_network_of_the_paper(
 
 
 def _pings(port: int) -> None:
-    """What answers, and what does not."""
+    """Pings of real servers."""
 
     def answers(proxy: str) -> bool:
         return asyncio.run(ice_ping.answers(proxy, 5))
@@ -87,6 +87,6 @@ def _pings(port: int) -> None:
     assert not answers(f"nobody:tcp -h 127.0.0.1 -p {port}")
     assert not answers(f"category/mouth:tcp -h 127.0.0.1 -p {port}")
     assert not answers("mouth:tcp -h 127.0.0.1 -p 1")
-    # What is not plain TCP is asked by the Ice runtime.
+    # Without plain TCP, the Ice runtime pings.
     assert answers(f"mouth:udp -h 127.0.0.1 -p 1:tcp -h 127.0.0.1 -p {port}")
     assert not answers(f"nobody:udp -h 127.0.0.1 -p 1:tcp -h 127.0.0.1 -p {port}")

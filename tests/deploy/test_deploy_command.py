@@ -1,4 +1,4 @@
-"""`rcyaml deploy`, as one types it."""
+"""The command `rcyaml deploy`."""
 
 from __future__ import annotations
 
@@ -45,21 +45,21 @@ def deploy(rcyaml: Rcyaml, what: str, *args: str) -> Result:
     return rcyaml("deploy", what, "robot.ddsl.yaml", *args)
 
 
-def test_from_nothing_to_nothing(robot: Path, rcyaml: Rcyaml) -> None:
+def test_up_status_and_down(robot: Path, rcyaml: Rcyaml) -> None:
     assert deploy(rcyaml, "plan").stdout.endswith("2 to start\n")
-    assert deploy(rcyaml, "up").stdout == "base  ready\narm   ready\nRobot: 2 processes as wanted\n"
-    assert deploy(rcyaml, "up").stdout == "Robot: nothing to do, 2 processes as wanted\n"
+    assert deploy(rcyaml, "up").stdout == "base  ready\narm   ready\nRobot: 2 processes as desired\n"
+    assert deploy(rcyaml, "up").stdout == "Robot: nothing to do, 2 processes as desired\n"
     assert deploy(rcyaml, "plan").stdout == "nothing to do\n"
     status = deploy(rcyaml, "status")
     assert status.exit_code == 0
     assert [line.split()[:2] for line in status.stdout.splitlines()[1:]] == [["base", "ready"], ["arm", "ready"]]
     assert "base | hello\n" in deploy(rcyaml, "logs").stdout
-    assert deploy(rcyaml, "restart", "arm").stdout == "arm   stopped\narm   ready\nRobot: 2 processes as wanted\n"
+    assert deploy(rcyaml, "restart", "arm").stdout == "arm   stopped\narm   ready\nRobot: 2 processes as desired\n"
     assert deploy(rcyaml, "down").stdout == "arm   stopped\nbase  stopped\n"
-    assert deploy(rcyaml, "down").stdout == "Robot: nothing ran\n"
+    assert deploy(rcyaml, "down").stdout == "Robot: nothing was running\n"
 
 
-def test_all_that_is_told_is_data_too(robot: Path, rcyaml: Rcyaml) -> None:
+def test_all_output_as_json(robot: Path, rcyaml: Rcyaml) -> None:
     def data(what: str, *args: str) -> dict[str, object]:
         return json.loads(deploy(rcyaml, what, *args, "--format", "json").stdout)
 
@@ -73,7 +73,7 @@ def test_all_that_is_told_is_data_too(robot: Path, rcyaml: Rcyaml) -> None:
     assert set(data("down")["stopped"]) == {"base", "arm"}
 
 
-def test_a_plan_says_field_by_field(robot: Path, rcyaml: Rcyaml) -> None:
+def test_a_plan_shows_each_changed_field(robot: Path, rcyaml: Rcyaml) -> None:
     deploy(rcyaml, "up")
     write_tree(robot, {"robot.ddsl.yaml": ROBOT.replace("[base]}", '[base], env: {SPEED: "2"}, restart: always}')})
     said = deploy(rcyaml, "plan").stdout
@@ -85,17 +85,17 @@ def test_a_plan_says_field_by_field(robot: Path, rcyaml: Rcyaml) -> None:
     assert step["changes"][0] == {"field": "env SPEED", "old": "", "new": "2", "needs_restart": True}
 
 
-def test_failure_is_told_with_the_log(robot: Path, rcyaml: Rcyaml) -> None:
+def test_a_failure_is_reported_with_the_log(robot: Path, rcyaml: Rcyaml) -> None:
     write_tree(robot, {"robot.ddsl.yaml": FAILING})
     result = deploy(rcyaml, "up")
     assert result.exit_code == 1
-    assert result.stdout.endswith("Robot: failed; what was started was stopped\n")
+    assert result.stdout.endswith("Robot: failed; the started processes were stopped\n")
     assert "error[RC7004]: 'hand' ended before it was ready: exit code 3" in result.stderr
     assert "robot.ddsl.yaml:8:3" in result.stderr and "hand | oh\n" in result.stderr
     assert deploy(rcyaml, "status").stdout.count("not started") == 3
 
 
-def test_status_fails_where_one_does_not_run(robot: Path, rcyaml: Rcyaml) -> None:
+def test_status_fails_if_a_process_does_not_run(robot: Path, rcyaml: Rcyaml) -> None:
     write_tree(robot, {"robot.ddsl.yaml": FAILING})
     assert deploy(rcyaml, "up", "--on-failure", "keep").exit_code == 1
     status = deploy(rcyaml, "status")
@@ -106,7 +106,7 @@ def test_status_fails_where_one_does_not_run(robot: Path, rcyaml: Rcyaml) -> Non
 @pytest.mark.parametrize(
     ("args", "said"),
     [
-        (("up", "."), "it has none"),
+        (("up", "."), "has no deployment document"),
         (("up", "robot.ddsl.yaml", "amr"), "has no process or group 'amr'; did you mean 'arm'?"),
         (("probe", "robot.ddsl.yaml", "moon"), "has no host 'moon'"),
         (("up", "nowhere.ddsl.yaml"), "does not exist"),
@@ -126,7 +126,7 @@ def test_a_document_with_errors_starts_nothing(robot: Path, rcyaml: Rcyaml) -> N
     assert not (robot / ".rcyaml").exists()
 
 
-def test_what_is_not_compiled_yet_is_told_with_how_to(rcyaml: Rcyaml, tmp_path: Path) -> None:
+def test_a_component_that_is_not_compiled_has_a_hint(rcyaml: Rcyaml, tmp_path: Path) -> None:
     document = "deployment: Robot\ncomponents: {mouth: {component: mouth}}\n"
     component = "component: MouthComp\nlanguage: python\n"
     write_tree(tmp_path, {"robot.ddsl.yaml": document, "mouth/mouth.cdsl.yaml": component})
@@ -134,7 +134,7 @@ def test_what_is_not_compiled_yet_is_told_with_how_to(rcyaml: Rcyaml, tmp_path: 
     assert told.exit_code == 1 and "`rcyaml compile mouth/mouth.cdsl.yaml` writes it" in told.stderr
 
 
-def test_what_was_compiled_before_its_interface_changed(rcyaml: Rcyaml, tmp_path: Path) -> None:
+def test_a_component_that_was_compiled_before_its_interface_changed(rcyaml: Rcyaml, tmp_path: Path) -> None:
     interface = "module: RoboCompMouth\ninterfaces: {Mouth: {methods: {open: }}}\n"
     component = "component: MouthComp\nlanguage: python\nimports: [../Mouth]\nimplements: [Mouth]\n"
     document = "deployment: Robot\ncomponents:\n  mouth{i}: {component: mouth, instances: 2}\n"
@@ -149,7 +149,7 @@ def test_what_was_compiled_before_its_interface_changed(rcyaml: Rcyaml, tmp_path
     assert "`rcyaml compile mouth/mouth.cdsl.yaml`" in told.stderr
 
 
-def test_what_runs_can_be_stopped_though_its_document_is_broken(robot: Path, rcyaml: Rcyaml) -> None:
+def test_a_deployment_with_a_broken_document_can_be_stopped(robot: Path, rcyaml: Rcyaml) -> None:
     broken = {"robot.ddsl.yaml": ROBOT + "x: [\n"}
     write_tree(robot, broken)
     assert deploy(rcyaml, "down").exit_code == 1  # nothing runs of it
@@ -158,7 +158,9 @@ def test_what_runs_can_be_stopped_though_its_document_is_broken(robot: Path, rcy
     write_tree(robot, broken)
     status = deploy(rcyaml, "status")
     assert [line.split()[:2] for line in status.stdout.splitlines()[1:]] == [["base", "ready"], ["arm", "ready"]]
-    assert status.stderr == "robot.ddsl.yaml cannot be read (see `rcyaml check`): this is about what runs of it\n"
+    assert (
+        status.stderr == "robot.ddsl.yaml cannot be read (see `rcyaml check`): the running processes are used instead\n"
+    )
     assert "base | hello\n" in deploy(rcyaml, "logs", "base").stdout
     assert deploy(rcyaml, "up").exit_code == 1
     assert deploy(rcyaml, "down", "arm").stdout == "arm   stopped\n"
@@ -173,7 +175,7 @@ def test_a_second_name_means_the_same_process(robot: Path, rcyaml: Rcyaml, free_
     assert result.stdout.endswith("2 to start\n"), result.output
 
 
-def test_what_a_process_prints_cannot_command_the_terminal(robot: Path, rcyaml: Rcyaml) -> None:
+def test_output_of_a_process_cannot_control_the_terminal(robot: Path, rcyaml: Rcyaml) -> None:
     script = r"printf '\033[31mred\033[0m \033]0;title\007 \033[2Jgone\n'; exec sleep 600"
     document = {"deployment": "Robot", "components": {"base": {"program": "sh", "args": ["-c", script]}}}
     write_tree(robot, {"robot.ddsl.yaml": json.dumps(document)})
@@ -193,24 +195,24 @@ NEVER = ROBOT.replace("after: [base]}", "after: [base], ready: {log: never, with
 
 
 def coming_up(robot: Path) -> subprocess.Popen[bytes]:
-    """An `up` that waits in vain for `arm`."""
+    """An `up` that waits for `arm`, which never becomes ready."""
     write_tree(robot, {"robot.ddsl.yaml": NEVER})
     up = start(robot, "up", "robot.ddsl.yaml", stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     assert up.stdout and up.stdout.readline() == b"base  ready\n"
     return up
 
 
-def test_interrupted_it_leaves_what_runs(robot: Path, place: Place) -> None:
+def test_an_interrupted_up_leaves_processes_running(robot: Path, place: Place) -> None:
     up = coming_up(robot)
     until(lambda: place.pids().get("arm"), "arm is started")
     up.send_signal(signal.SIGINT)
     with up.stdout as rest:
-        assert b"what runs goes on" in rest.read()
+        assert b"running processes keep running" in rest.read()
     assert up.wait(20) == 130
     assert all(place.pids().values())
 
 
-def test_the_next_up_goes_on_where_a_killed_one_left_off(robot: Path, place: Place, rcyaml: Rcyaml) -> None:
+def test_up_after_a_killed_up(robot: Path, place: Place, rcyaml: Rcyaml) -> None:
     up = coming_up(robot)
     up.kill()
     up.stdout.close()
@@ -221,7 +223,7 @@ def test_the_next_up_goes_on_where_a_killed_one_left_off(robot: Path, place: Pla
     assert place.pids()["base"] == base and place.observe()["arm"].state == "running"
 
 
-def test_the_supervisor_is_killed_while_it_comes_up(robot: Path, place: Place) -> None:
+def test_the_supervisor_is_killed_during_up(robot: Path, place: Place) -> None:
     up = coming_up(robot)
     os.kill(place.keeper_and_supervisor()[1], signal.SIGKILL)
     with up.stdout as rest:
@@ -231,11 +233,11 @@ def test_the_supervisor_is_killed_while_it_comes_up(robot: Path, place: Place) -
     place.wait_gone()
 
 
-def test_attached_it_ends_with_ctrl_c(robot: Path, place: Place) -> None:
+def test_an_attached_up_ends_with_ctrl_c(robot: Path, place: Place) -> None:
     attached = start(robot, "up", "robot.ddsl.yaml", "--attach", stdout=subprocess.PIPE)
     assert attached.stdout
     seen = b""
-    while b"Ctrl-C takes it down" not in seen or b"base | hello" not in seen:
+    while b"Ctrl-C stops it" not in seen or b"base | hello" not in seen:
         seen += os.read(attached.stdout.fileno(), 1000)
     assert start(robot, "restart", ".", "arm").wait(60) == 0  # meanwhile others may work on it
     attached.send_signal(signal.SIGINT)
@@ -245,7 +247,7 @@ def test_attached_it_ends_with_ctrl_c(robot: Path, place: Place) -> None:
     place.wait_gone()
 
 
-def test_attached_and_interrupted_while_it_comes_up(robot: Path, place: Place) -> None:
+def test_an_attached_up_is_interrupted_while_processes_start(robot: Path, place: Place) -> None:
     write_tree(robot, {"robot.ddsl.yaml": ROBOT.replace("ready: {log: hello}", "ready: {log: never, within: 60 s}")})
     attached = start(robot, "up", "robot.ddsl.yaml", "--attach", stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     assert attached.stdout
@@ -254,12 +256,12 @@ def test_attached_and_interrupted_while_it_comes_up(robot: Path, place: Place) -
         seen += os.read(attached.stdout.fileno(), 1000)
     attached.send_signal(signal.SIGINT)
     with attached.stdout as rest:
-        assert b"interrupted: all was taken down" in rest.read()
+        assert b"interrupted: all processes were stopped" in rest.read()
     assert attached.wait(20) == 130
     place.wait_gone()
 
 
-def test_attached_it_ends_when_all_have_ended(robot: Path, rcyaml: Rcyaml, place: Place) -> None:
+def test_an_attached_up_ends_with_its_processes(robot: Path, rcyaml: Rcyaml, place: Place) -> None:
     write_tree(robot, {"robot.ddsl.yaml": "deployment: Robot\ncomponents:\n  a: {program: echo, args: [done]}\n"})
     result = deploy(rcyaml, "up", "--attach")
     assert result.exit_code == 0 and "a | done" in result.stdout
@@ -286,7 +288,7 @@ def test_logs_are_followed(robot: Path, rcyaml: Rcyaml) -> None:
     deploy(rcyaml, "down")
 
 
-def test_on_a_terminal_the_user_is_asked(robot: Path, place: Place) -> None:
+def test_on_a_terminal_the_user_chooses(robot: Path, place: Place) -> None:
     write_tree(robot, {"robot.ddsl.yaml": FAILING})
     ours, theirs = pty.openpty()
     up = start(robot, "up", "robot.ddsl.yaml", stdin=theirs, stdout=theirs, stderr=theirs)
@@ -305,7 +307,7 @@ def test_on_a_terminal_the_user_is_asked(robot: Path, place: Place) -> None:
         pass  # the other end is closed
     os.close(ours)
     assert up.wait(20) == 1
-    assert b"what was started was kept" in seen and seen.count(b"RC7004") == 1
+    assert b"the started processes keep running" in seen and seen.count(b"RC7004") == 1
     assert place.observe()["arm"].state == "running"
     place.down()
 
@@ -327,10 +329,10 @@ def test_an_address_that_does_not_resolve(robot: Path, rcyaml: Rcyaml) -> None:
     )
     result = deploy(rcyaml, "up", "--engine", "local")
     assert result.exit_code == 1
-    assert "error[RC7008]: 'base' belongs on the host 'moon' (nowhere.invalid)" in result.stderr
+    assert "error[RC7008]: 'base' runs on the host 'moon' (nowhere.invalid)" in result.stderr
 
 
-def test_only_one_changes_it_at_a_time(robot: Path, rcyaml: Rcyaml, place: Place) -> None:
+def test_only_one_command_changes_a_deployment_at_a_time(robot: Path, rcyaml: Rcyaml, place: Place) -> None:
     from robocomp_yaml.deploy import folder
 
     with folder.locked(place.folder):
@@ -339,8 +341,8 @@ def test_only_one_changes_it_at_a_time(robot: Path, rcyaml: Rcyaml, place: Place
     assert procfs.marked(place.folder) == []
 
 
-def test_a_host_is_asked_over_ssh(robot: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch) -> None:
-    """An `ssh` that runs here what it is to run there."""
+def test_a_host_is_probed_over_ssh(robot: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A fake `ssh` that runs the command on this machine."""
     document = ROBOT.replace("components:", "hosts:\n  arm: {address: 192.0.2.7, user: robot}\ncomponents:")
     fake = '#!/bin/sh\nfor last; do :; done\necho "$@" | head -1 > ssh.log\nexec sh -c "$last"\n'
     write_tree(robot, {"robot.ddsl.yaml": document, "bin/ssh": fake})
@@ -354,21 +356,21 @@ def test_a_host_is_asked_over_ssh(robot: Path, rcyaml: Rcyaml, monkeypatch: pyte
 
 
 def test_several_hosts_need_icegrid_too(robot: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch) -> None:
-    from robocomp_yaml.deploy.probe import NODE, Wanted
+    from robocomp_yaml.deploy.probe import NODE, ProgramQuery
 
     hosts = "hosts: {one: 127.0.0.1, two: 127.0.0.2}\ncomponents:\n"
     entries = "  a: {program: sh, host: one}\n  b: {program: sh, host: two}\n"
     write_tree(robot, {"robot.ddsl.yaml": f"deployment: Robot\n{hosts}{entries}"})
     result = deploy(rcyaml, "probe", "one", "--format", "json")
     assert [one["program"] for one in json.loads(result.stdout)["hosts"]["one"]] == ["sh", "icegridnode"]
-    monkeypatch.setattr("robocomp_yaml.deploy.probe.programs", lambda network: {Wanted("no-node"): (NODE,)})
+    monkeypatch.setattr("robocomp_yaml.deploy.probe.programs", lambda network: {ProgramQuery("no-node"): (NODE,)})
     assert deploy(rcyaml, "probe", "one").exit_code == 1
 
 
 def test_a_program_that_a_host_lacks(robot: Path, rcyaml: Rcyaml) -> None:
     write_tree(robot, {"robot.ddsl.yaml": ROBOT.replace("program: sleep", "program: no-such-sleep")})
     result = deploy(rcyaml, "probe")
-    assert result.exit_code == 1 and "no-such-sleep  not there, or not executable, for arm" in result.stdout
+    assert result.exit_code == 1 and "no-such-sleep  missing, or not executable, for arm" in result.stdout
 
 
 def test_a_program_that_lacks_something(robot: Path, rcyaml: Rcyaml) -> None:
@@ -403,10 +405,10 @@ components:
 """
 
 
-def test_a_component_is_looked_at_by_the_python_that_would_run_it(
+def test_a_component_is_probed_with_its_own_python(
     robot: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The workspace's, which has Ice, and a module that no other has."""
+    """The Python of the workspace, which has Ice and another module."""
     rule = language("python").text("runtime/interpreter.py")
     write_tree(robot, {
         "robot.ddsl.yaml": "deployment: Robot\ncomponents:\n  arm: {program: ./arm/bin/ArmComp}\n",
@@ -435,7 +437,7 @@ def test_a_component_is_looked_at_by_the_python_that_would_run_it(
     ]  # fmt: skip
 
 
-def test_it_is_exported(robot: Path, rcyaml: Rcyaml) -> None:
+def test_export(robot: Path, rcyaml: Rcyaml) -> None:
     assert 'server id="arm"' in deploy(rcyaml, "export", "--as", "icegrid").stdout
     assert "wrote out/Robot-arm.service" in deploy(rcyaml, "export", "--as", "systemd", "-o", "out").stdout
     assert (robot / "out/Robot-arm.service").stat().st_mode & 0o077 == 0
@@ -447,7 +449,7 @@ def test_an_export_overwrites_only_what_it_wrote(robot: Path, rcyaml: Rcyaml) ->
 
     write_tree(robot, {"Robot.xml": "<rcmanager/>"})  # what the deployment was migrated from
     refused = run()
-    assert refused.exit_code == 1 and "'Robot.xml' is there already" in refused.stderr
+    assert refused.exit_code == 1 and "'Robot.xml' exists, and rcyaml did not write it" in refused.stderr
     assert (robot / "Robot.xml").read_text(encoding="utf-8") == "<rcmanager/>"
     (robot / "Robot.xml").unlink()
     assert run().exit_code == 0

@@ -1,4 +1,4 @@
-"""`api.Deployment`: what the commands of `rcyaml deploy` do, as data."""
+"""`api.Deployment`: the commands of `rcyaml deploy` as functions."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def test_groups_steps_and_states(legs: Path) -> None:
     assert deployment.down() == [] and deployment.diagnostics == []
 
 
-def test_who_is_asked_decides_what_becomes_of_the_rest(legs: Path) -> None:
+def test_a_callback_chooses_what_happens_after_a_failure(legs: Path) -> None:
     write_tree(legs, {"robot.ddsl.yaml": BROKEN})
     asked: list[str] = []
 
@@ -74,7 +74,7 @@ def test_who_is_asked_decides_what_becomes_of_the_rest(legs: Path) -> None:
         deployment.down()
 
 
-def test_who_stays_has_all_taken_down_at_the_end(legs: Path) -> None:
+def test_an_attached_up_takes_all_down_at_its_end(legs: Path) -> None:
     lines: list[str] = []
 
     def on_up(enough: asyncio.Event) -> None:
@@ -95,16 +95,16 @@ def test_who_stays_has_all_taken_down_at_the_end(legs: Path) -> None:
         (lambda: opened(engine="icegrd"), "no engine 'icegrd'; did you mean 'icegrid'?"),
         (lambda: opened().up(on_failure="rolback"), "did you mean 'rollback'?"),
         (lambda: opened().export("systmd"), "did you mean 'systemd'?"),
-        (lambda: opened(path="other.ddsl.yaml"), "there is no deployment at 'other.ddsl.yaml'"),
+        (lambda: opened(path="other.ddsl.yaml"), "'other.ddsl.yaml' is not a deployment"),
     ],
 )
-def test_what_is_not_known_is_refused(legs: Path, call: Callable[[], object], said: str) -> None:
+def test_unknown_names_are_rejected(legs: Path, call: Callable[[], object], said: str) -> None:
     with pytest.raises(api.Refused, match=said.replace("?", r"\?")):
         call()
     assert not (legs / ".rcyaml/deployments").exists()
 
 
-def test_one_at_a_time_may_change_it(legs: Path) -> None:
+def test_only_one_process_changes_a_deployment_at_a_time(legs: Path) -> None:
     deployment = opened()
     with folder.locked(deployment.network.folder), pytest.raises(api.Faulty, match="another rcyaml is changing"):
         deployment.up()
@@ -112,7 +112,7 @@ def test_one_at_a_time_may_change_it(legs: Path) -> None:
     assert deployment.down() == []
 
 
-def test_documents_with_errors_are_no_deployment(legs: Path) -> None:
+def test_documents_with_errors_are_rejected(legs: Path) -> None:
     write_tree(legs, {"robot.ddsl.yaml": LEGS.replace("[left]", "[lfet]")})
     with pytest.raises(api.Faulty) as raised:
         opened()

@@ -1,4 +1,4 @@
-"""What a deployment does when something of it fails: the rows of the table of faults in docs/deploying.md."""
+"""Faults of a deployment: the rows of the table of faults in docs/deploying.md."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ from robocomp_yaml.deploy import operations
 from robocomp_yaml.deploy.carry_out import SKIPPED
 from robocomp_yaml.deploy.engine import GIVEN_UP, RUNNING
 from robocomp_yaml.deploy.local import channel, procfs
-from robocomp_yaml.network.network import NEVER, Endpoint, Process, Readiness, Restart, Variable
+from robocomp_yaml.network.network import NEVER, Endpoint, EnvironmentVariable, Process, Readiness, RestartRule
 from small_networks import Place, config_of, is_alive, listener, shell, sleeper
 
 FAILS = "echo about to fail; exit 3"
-ONCE = Restart(policy=NEVER)
+ONCE = RestartRule(policy=NEVER)
 DEEP = "(setsid sh -c 'sleep 600 & sleep 600' &) ; sleep 600 & wait"
 
 
@@ -36,7 +36,7 @@ def codes(result: operations.Result) -> list[str]:
 # A process fails while the network comes up.
 
 
-def test_what_was_started_stops_and_the_log_is_shown(place: Place) -> None:
+def test_after_a_failure_started_processes_stop_and_the_log_is_shown(place: Place) -> None:
     result = place.up(sleeper("a"), shell("b", FAILS, "a", restart=ONCE), sleeper("c", "b"))
     assert codes(result) == ["RC7004"]
     assert result.diagnostics[0].message == "'b' ended before it was ready: exit code 3"
@@ -45,7 +45,7 @@ def test_what_was_started_stops_and_the_log_is_shown(place: Place) -> None:
     assert set(place.pids().values()) == {0}
 
 
-def test_what_ran_before_is_rolled_back_to(place: Place) -> None:
+def test_rollback(place: Place) -> None:
     def network(value: str, last: Process) -> tuple[Process, ...]:
         return (sleeper("a"), shell("b", 'cat "$0"; exec sleep 600', "a", config=config_of("b", f"x={value}\n")), last)
 
@@ -61,7 +61,7 @@ def test_what_ran_before_is_rolled_back_to(place: Place) -> None:
     assert place.up(*network("1", sleeper("gone"))).plan.is_empty
 
 
-def test_the_independent_go_on_where_that_is_wanted(place: Place) -> None:
+def test_keep_lets_independent_processes_go_on(place: Place) -> None:
     result = place.up(
         shell("a", FAILS, restart=ONCE), sleeper("b", "a"), sleeper("c"), replace(sleeper("d", "a"), optional=("a",)),
         on_failure=operations.KEEP_GOING,
@@ -70,25 +70,25 @@ def test_the_independent_go_on_where_that_is_wanted(place: Place) -> None:
     assert {name for name, pid in place.pids().items() if pid} == {"c", "d"}
 
 
-def test_one_that_is_never_ready(place: Place, free_port: Ports) -> None:
+def test_a_process_that_is_never_ready(place: Place, free_port: Ports) -> None:
     result = place.up(sleeper("a", ready=Readiness(port=free_port(), within=0.3)))
     assert codes(result) == ["RC7003"]
     assert "nothing listens on port" in result.diagnostics[0].message
 
 
-def test_one_that_runs_but_is_not_ready_is_told_by_each_up(place: Place, free_port: Ports) -> None:
+def test_a_running_process_that_is_not_ready_is_reported_by_each_up(place: Place, free_port: Ports) -> None:
     never = sleeper("a", ready=Readiness(port=free_port(), within=0.3))
     place.up(never, sleeper("b"), on_failure=operations.KEEP_GOING)
     pids = place.pids()
     result = place.up(never, sleeper("b"))
     assert result.plan.is_empty and codes(result) == ["RC7003"]
     assert place.pids() == pids and pids["a"]
-    result = place.up(never, sleeper("b", env=(Variable("X", "1"),)))
+    result = place.up(never, sleeper("b", env=(EnvironmentVariable("X", "1"),)))
     assert codes(result) == ["RC7003"] and result.outcome.began == ["b"]
     assert place.observe()["b"].state == RUNNING
 
 
-def test_a_port_that_another_program_has(place: Place, free_port: Ports) -> None:
+def test_a_port_that_another_program_uses(place: Place, free_port: Ports) -> None:
     port = free_port()
     with socket.create_server(("127.0.0.1", port)):
         served = listener("a", port, endpoints=(Endpoint("Laser", "laser", port, f"tcp -p {port}"),))
@@ -97,11 +97,11 @@ def test_a_port_that_another_program_has(place: Place, free_port: Ports) -> None
     assert f"(pid {os.getpid()})" in result.diagnostics[0].message
     assert place.pids() == {}  # nothing at all was started
     assert not place.up(sleeper("b"), served).diagnostics
-    changed = replace(served, env=(Variable("X", "1"),))
+    changed = replace(served, env=(EnvironmentVariable("X", "1"),))
     assert not place.up(sleeper("b"), changed).diagnostics  # its own port is not in its own way
 
 
-def test_ports_that_another_deployment_has(place: Place, free_port: Ports, tmp_path: Path) -> None:
+def test_ports_that_another_deployment_uses(place: Place, free_port: Ports, tmp_path: Path) -> None:
     ports = free_port(), free_port()
     script = (
         "import socket\nfor port in {}: globals()[f's{{port}}'] = socket.create_server(('127.0.0.1', port))\n"
@@ -123,9 +123,9 @@ def test_ports_that_another_deployment_has(place: Place, free_port: Ports, tmp_p
 @pytest.mark.parametrize(
     ("command", "reason"),
     [
-        (("no-such-program",), "no program 'no-such-program' is in the PATH"),
-        (("/no/such/file",), "there is no file '/no/such/file'"),
-        (("/etc/passwd",), "'/etc/passwd' is no program that may be run"),
+        (("no-such-program",), "PATH contains no program 'no-such-program'"),
+        (("/no/such/file",), "the file '/no/such/file' is missing"),
+        (("/etc/passwd",), "'/etc/passwd' is not executable"),
     ],
 )
 def test_a_program_that_cannot_be_run(place: Place, command: tuple[str, ...], reason: str) -> None:
@@ -134,19 +134,19 @@ def test_a_program_that_cannot_be_run(place: Place, command: tuple[str, ...], re
     assert place.pids() == {}
 
 
-def test_a_file_that_is_no_program_after_all(place: Place) -> None:
+def test_a_file_that_is_not_a_valid_program(place: Place) -> None:
     program = place.root / "program"
     program.write_bytes(b"\x7fELF, but not really")
     program.chmod(0o755)
     result = place.up(replace(sleeper("a"), command=(str(program),)))
-    reason = f"'{program}' is no program of this kind of machine"
+    reason = f"'{program}' is not a program for this kind of machine"
     assert [found.message for found in result.diagnostics] == [f"'a' cannot be started: {reason}"]
 
 
 # A process ends while the network runs.
 
 
-def test_one_that_crashes_is_started_again(place: Place) -> None:
+def test_a_crashed_process_is_restarted(place: Place) -> None:
     place.up(sleeper("a"), sleeper("b", "a"))
     before = place.pids()
     os.kill(before["a"], signal.SIGKILL)
@@ -154,11 +154,11 @@ def test_one_that_crashes_is_started_again(place: Place) -> None:
     running = place.observe()["a"]
     assert (running.restarts, running.last_exit) == (1, "SIGKILL")
     assert place.pids()["b"] == before["b"]
-    assert "rcyaml: ended by itself: SIGKILL; starting again in 0.1 s" in place.log("a")
+    assert "rcyaml: ended by itself: SIGKILL; restarting in 0.1 s" in place.log("a")
 
 
 def test_a_crash_loop_is_given_up(place: Place) -> None:
-    short = Restart(delay=0.01, longest=0.02, tries=3)
+    short = RestartRule(delay=0.01, longest=0.02, tries=3)
     result = place.up(shell("a", FAILS, restart=short))
     assert codes(result) == ["RC7004"]
     assert result.diagnostics[0].message == "'a' ended before it was ready: exit code 3, after 3 restarts"
@@ -166,7 +166,7 @@ def test_a_crash_loop_is_given_up(place: Place) -> None:
     assert place.log("a")[-1] == "rcyaml: given up: it ended 4 times within 60 s, the last time with exit code 3"
 
 
-def test_one_that_was_given_up_starts_with_the_next_up(place: Place) -> None:
+def test_a_process_that_was_given_up_starts_with_the_next_up(place: Place) -> None:
     flag = place.root / "broken"
     flag.touch()
     flaky = shell("a", f"[ -e {flag} ] && exit 1; exec sleep 600", restart=ONCE)
@@ -178,16 +178,16 @@ def test_one_that_was_given_up_starts_with_the_next_up(place: Place) -> None:
     assert place.observe()["a"].state == RUNNING
 
 
-def test_a_program_that_vanishes_between_two_runs(place: Place) -> None:
+def test_a_program_that_is_removed_between_two_runs(place: Place) -> None:
     program = place.root / "program"
     program.symlink_to("/bin/sleep")
-    place.up(replace(sleeper("a", restart=Restart(delay=0.01, tries=2)), command=(str(program), "600")))
+    place.up(replace(sleeper("a", restart=RestartRule(delay=0.01, tries=2)), command=(str(program), "600")))
     program.unlink()
     os.kill(place.pids()["a"], signal.SIGKILL)
-    assert place.wait_for_state("a", GIVEN_UP).last_exit == f"there is no file '{program}'"
+    assert place.wait_for_state("a", GIVEN_UP).last_exit == f"the file '{program}' is missing"
 
 
-def test_one_that_will_not_end_is_killed(place: Place) -> None:
+def test_a_process_that_ignores_sigterm_is_killed(place: Place) -> None:
     place.up(shell("a", "trap '' TERM; while :; do sleep 0.05; done"))
     pid = place.pids()["a"]
 
@@ -203,7 +203,7 @@ def test_one_that_will_not_end_is_killed(place: Place) -> None:
 
 
 def family(place: Place) -> set[int]:
-    """Everything of the deployment that is alive, also what has left its session and lost its parent."""
+    """All running processes of the deployment, including orphans outside its sessions."""
     return {pid for pid in procfs.marked(place.folder) if is_alive(pid)}
 
 
@@ -212,7 +212,7 @@ def deep_family(place: Place, count: int) -> set[int]:
     return family(place)
 
 
-def test_what_a_process_started_ends_with_it(place: Place) -> None:
+def test_descendants_end_with_their_process(place: Place) -> None:
     place.up(shell("a", DEEP, restart=ONCE), sleeper("b"))
     deep_family(place, 2 + 1 + 5)
     b = place.pids()["b"]
@@ -220,7 +220,7 @@ def test_what_a_process_started_ends_with_it(place: Place) -> None:
     until(lambda: family(place) <= {b, *place.keeper_and_supervisor()}, lambda: f"{family(place)}")
 
 
-def test_down_ends_what_left_its_session(place: Place) -> None:
+def test_down_ends_descendants_in_other_sessions(place: Place) -> None:
     place.up(shell("a", DEEP))
     deep_family(place, 2 + 5)
     place.down()
@@ -238,7 +238,7 @@ def test_the_supervisor_is_killed(place: Place) -> None:
 
 
 def test_the_keeper_is_killed(place: Place) -> None:
-    """The supervisor and all that it runs go on."""
+    """The supervisor and its processes go on."""
     place.up(shell("a", DEEP))
     before = place.pids()
     os.kill(place.keeper_and_supervisor()[0], signal.SIGKILL)
@@ -247,7 +247,7 @@ def test_the_keeper_is_killed(place: Place) -> None:
     place.wait_gone()
 
 
-def test_both_are_killed_at_once(place: Place) -> None:
+def test_supervisor_and_keeper_are_killed(place: Place) -> None:
     network = (shell("a", DEEP), sleeper("b"))
     place.up(*network)
     deep_family(place, 2 + 6)
@@ -261,7 +261,7 @@ def test_both_are_killed_at_once(place: Place) -> None:
 
 
 def test_the_folder_is_deleted_while_it_runs(place: Place) -> None:
-    """What runs cannot be asked any more: the next `up` ends it and starts anew, and nothing runs twice."""
+    """The supervisor cannot be reached any more: the next `up` kills its processes and starts them again, each once."""
     place.up(sleeper("a"))
     old = family(place)
     shutil.rmtree(place.folder)
@@ -270,7 +270,7 @@ def test_the_folder_is_deleted_while_it_runs(place: Place) -> None:
     assert len(family(place)) == 3
 
 
-def test_a_signal_to_the_supervisor_takes_all_down(place: Place) -> None:
+def test_a_signal_to_the_supervisor_ends_all_processes(place: Place) -> None:
     place.up(shell("a", DEEP), sleeper("b"))
     os.kill(place.keeper_and_supervisor()[0], signal.SIGTERM)
     place.wait_gone()
@@ -280,10 +280,10 @@ def test_a_signal_to_the_supervisor_takes_all_down(place: Place) -> None:
 # Secrets, logs, clocks.
 
 
-def test_a_secret_is_nowhere(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_secret_is_not_visible_anywhere(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
     secret = "correct-horse-battery"
     monkeypatch.setenv("ROBOT_TOKEN", secret)
-    token = Variable("TOKEN", source="ROBOT_TOKEN")
+    token = EnvironmentVariable("TOKEN", source="ROBOT_TOKEN")
     said = shell("a", 'printf "%s" "$TOKEN" | wc -c; exec sleep 600', env=(token,))
     place.up(said)
     until(lambda: str(len(secret)) in [line.strip() for line in place.log("a")], "it has got it")
@@ -294,7 +294,7 @@ def test_a_secret_is_nowhere(place: Place, monkeypatch: pytest.MonkeyPatch) -> N
 
 
 def test_a_variable_that_is_not_set(place: Place) -> None:
-    result = place.up(sleeper("a", env=(Variable("TOKEN", source="RCYAML_TEST_NOT_SET"),)))
+    result = place.up(sleeper("a", env=(EnvironmentVariable("TOKEN", source="RCYAML_TEST_NOT_SET"),)))
     assert codes(result) == ["RC7006"] and place.pids() == {}
 
 
@@ -320,7 +320,7 @@ def test_a_log_of_limited_size(place: Place, monkeypatch: pytest.MonkeyPatch) ->
 
 
 def test_a_full_disk(place: Place, small_disk: Path, tmp_path: Path) -> None:
-    """Lines are lost, and that is said once there is room again; the process does not notice."""
+    """Lines are lost, which is reported when there is space again. The process goes on."""
     place.root = small_disk
     talk = "i=0; while [ $i -lt 4000 ]; do echo $i a line that takes room on the disk, as lines do; i=$((i+1)); done"
     wait = f"touch {tmp_path}/full; while [ ! -e {tmp_path}/go ]; do sleep 0.02; done"
@@ -334,8 +334,8 @@ def test_a_full_disk(place: Place, small_disk: Path, tmp_path: Path) -> None:
     assert any(line.startswith("rcyaml: ") and line.endswith("they could not be written") for line in place.log("a"))
 
 
-def test_only_logs_know_what_time_it_is() -> None:
-    """Clocks are set while robots run: what waits or measures goes by a clock that nobody sets."""
+def test_only_logs_use_the_time_of_day() -> None:
+    """Clocks are set while robots run: waits and measurements use a monotonic clock."""
     folder = Path(robocomp_yaml.deploy.__file__).parent
     asking = ("time.time", "time.time_ns", "time.gmtime", "datetime.now")
     users = {
@@ -353,12 +353,12 @@ def test_the_supervisor_is_small(place: Place) -> None:
     assert used < 40 << 20, f"{used >> 20} MiB"
 
 
-def test_two_at_once(place: Place) -> None:
+def test_two_deployments(place: Place) -> None:
     with own_folder.locked(place.folder) as first, own_folder.locked(place.folder, patience=0.05) as second:
         assert first and not second
 
 
-def test_what_talks_nonsense_to_the_socket_harms_nothing(place: Place) -> None:
+def test_nonsense_on_the_control_socket_is_ignored(place: Place) -> None:
     place.up(sleeper("a"))
     before = place.pids()
     for text in (b"\n", b"{}\n", b"GET / HTTP/1.1\r\n\r\n", b'{"id": 1, "do": "nothing"}\n', b"[]\n"):

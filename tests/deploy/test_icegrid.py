@@ -1,4 +1,4 @@
-"""A network on three hosts, run by IceGrid: components that call each other, and each part of it killed in turn."""
+"""A network on three hosts, run by IceGrid: components call each other, and each part of the network is killed once."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ components:
 
 @pytest.fixture(scope="module")
 def talk(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Deployment]:
-    """The network, up on three hosts; two of the nodes were started by hand where that is needed."""
+    """The running network on three hosts. Two of the nodes were started by hand if necessary."""
     pytest.importorskip("IceGrid", reason="Ice for Python is not installed (Debian: python3-zeroc-ice)")
     words = {
         "words/rcyaml.yaml": "interfaces: [interfaces/]\n",
@@ -87,7 +87,7 @@ def talk(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Deployment]:
 
 
 def _start_by_hand(deployment: Deployment) -> None:
-    """Without SSH, `up` says what to do, and starts nothing else."""
+    """Without SSH, `up` has a hint for each node, and starts nothing else."""
     said = deployment.deploy("up", code=1)
     assert "error[RC7021]" in said and "'head'" in said
     assert re.search(r"ssh 10\.99\.0\.2 bash -s < \S*hosts/head\.sh", said)
@@ -98,7 +98,7 @@ def _start_by_hand(deployment: Deployment) -> None:
 
 @pytest.fixture(autouse=True)
 def ready(talk: Deployment) -> dict[str, int]:
-    """The pids when a test begins: everything is ready."""
+    """The pids at the start of a test, when all processes are ready."""
     return {name: one["pid"] for name, one in talk.until_ready().items()}
 
 
@@ -126,13 +126,13 @@ def test_a_variable_comes_from_a_file_of_its_host(talk: Deployment) -> None:
     assert kept and not [path for path in kept if b"$morning" in path.read_bytes()]
 
 
-def test_a_second_up_touches_nothing(talk: Deployment, ready: dict[str, int]) -> None:
+def test_a_second_up_changes_nothing(talk: Deployment, ready: dict[str, int]) -> None:
     assert "nothing to do" in talk.deploy("up")
     assert talk.pids() == ready
 
 
-def test_a_node_that_is_started_twice_leaves_what_is_at_work_as_it_is(talk: Deployment, ready: dict[str, int]) -> None:
-    """Bash reads a script while it carries it out: another one does not take its place in the same file."""
+def test_the_second_start_of_a_node_changes_no_running_script(talk: Deployment, ready: dict[str, int]) -> None:
+    """Bash reads a script while it runs: a new version of the script is another file."""
     if not talk.hosts.prefix:
         pytest.skip("nodes of this machine are not started by hand")
     script = talk.state / "nodes" / "arm" / "run"
@@ -142,18 +142,18 @@ def test_a_node_that_is_started_twice_leaves_what_is_at_work_as_it_is(talk: Depl
     assert talk.pids() == ready
 
 
-def test_a_killed_component_is_back(talk: Deployment, ready: dict[str, int]) -> None:
+def test_a_killed_component_is_restarted(talk: Deployment, ready: dict[str, int]) -> None:
     before = talk.status()["mouth"]["restarts"]
     os.kill(ready["mouth"], signal.SIGKILL)
     until(lambda: talk.pids()["mouth"] not in (0, ready["mouth"]), lambda: talk.logs())
     now = talk.until_ready()
     assert now["mouth"]["restarts"] == before + 1
     assert {name: one["pid"] for name, one in now.items() if name != "mouth"} == _without(ready, "mouth")
-    assert "ended by itself: SIGKILL; starting again" in talk.logs("mouth")
+    assert "ended by itself: SIGKILL; restarting" in talk.logs("mouth")
     assert talk.copies("mouth") == 1
 
 
-def test_a_killed_icestorm_is_back_with_its_subscribers(talk: Deployment, ready: dict[str, int]) -> None:
+def test_a_killed_icestorm_is_restarted_with_its_subscribers(talk: Deployment, ready: dict[str, int]) -> None:
     os.kill(ready["storm"], signal.SIGKILL)
     until(lambda: talk.pids()["storm"] not in (0, ready["storm"]), lambda: talk.logs())
     now = talk.until_ready()
@@ -161,7 +161,7 @@ def test_a_killed_icestorm_is_back_with_its_subscribers(talk: Deployment, ready:
     test_a_topic_crosses_hosts(talk)
 
 
-def test_a_killed_runner_takes_its_component_with_it_and_both_are_back(talk: Deployment, ready: dict[str, int]) -> None:
+def test_a_killed_runner_ends_its_component_and_both_are_restarted(talk: Deployment, ready: dict[str, int]) -> None:
     runner = int((talk.state / "status" / "speech").read_text().split("|")[1])
     os.kill(runner, signal.SIGKILL)
     until(lambda: talk.pids()["speech"] not in (0, ready["speech"]), lambda: talk.logs())
@@ -169,8 +169,8 @@ def test_a_killed_runner_takes_its_component_with_it_and_both_are_back(talk: Dep
     assert _without(talk.pids(), "speech") == _without(ready, "speech")
 
 
-def test_a_host_that_is_gone_is_reported_and_comes_back(talk: Deployment, ready: dict[str, int]) -> None:
-    """Its processes end with its node; nothing of them is doubled when it returns."""
+def test_a_lost_host_is_reported_and_comes_back(talk: Deployment, ready: dict[str, int]) -> None:
+    """Its processes end with its node, and each runs once when the host is back."""
     talk.kill_daemon("nodes/arm", for_good=True)
     until(lambda: talk.copies("mouth") == 0 == talk.copies("hearer"), "the processes of a dead node end")
     status = talk.status()
@@ -182,15 +182,15 @@ def test_a_host_that_is_gone_is_reported_and_comes_back(talk: Deployment, ready:
     assert talk.copies("mouth") == 1 == talk.copies("hearer")
 
 
-def test_a_killed_node_is_started_again_on_its_host(talk: Deployment, ready: dict[str, int]) -> None:
+def test_a_killed_node_is_restarted_on_its_host(talk: Deployment, ready: dict[str, int]) -> None:
     talk.kill_daemon("nodes/head", for_good=False)
     until(lambda: talk.pids()["teller"] not in (0, ready["teller"]), lambda: talk.logs())
     talk.until_ready()
     assert talk.copies("teller") == 1 == talk.copies("speech")
 
 
-def test_a_host_that_is_cut_off_works_on(talk: Deployment, ready: dict[str, int]) -> None:
-    """Nobody knows how it is meanwhile; when it is back, it is found as it was, and nothing is doubled."""
+def test_a_host_without_a_connection_works_on(talk: Deployment, ready: dict[str, int]) -> None:
+    """Its state is unknown until it is back. Then its processes are unchanged, and each runs once."""
     talk.hosts.need_a_network("so no cable to pull")
     talk.hosts.link("arm", "down")
     try:
@@ -201,9 +201,9 @@ def test_a_host_that_is_cut_off_works_on(talk: Deployment, ready: dict[str, int]
     assert {name: one["pid"] for name, one in talk.until_ready().items()} == ready
 
 
-@pytest.mark.parametrize("for_good", [False, True], ids=["started again by its guard", "with its guard"])
-def test_without_the_registry_everything_runs_on(talk: Deployment, ready: dict[str, int], for_good: bool) -> None:
-    """A component that is killed meanwhile is back all the same: its own host sees to that."""
+@pytest.mark.parametrize("for_good", [False, True], ids=["restarted by its guard", "with its guard"])
+def test_without_the_registry_all_processes_go_on(talk: Deployment, ready: dict[str, int], for_good: bool) -> None:
+    """A component that is killed in the meantime is restarted by its own host."""
     talk.kill_daemon("registry", for_good=for_good)
     os.kill(ready["mouth"], signal.SIGKILL)
 
@@ -216,14 +216,14 @@ def test_without_the_registry_everything_runs_on(talk: Deployment, ready: dict[s
     assert talk.copies("mouth") == 1
 
 
-def test_a_killed_keeper_is_back_and_keeps(talk: Deployment, ready: dict[str, int]) -> None:
+def test_a_killed_keeper_is_restarted_and_works(talk: Deployment, ready: dict[str, int]) -> None:
     def keepers() -> list[int]:
         return [int(path.parent.name) for path in Path("/proc").glob("[0-9]*/cmdline") if _is_keeper(path, talk.folder)]
 
     (old,) = keepers()
     os.kill(old, signal.SIGKILL)
     until(lambda: len(keepers()) == 1 and keepers() != [old], "IceGrid restarts the keeper")
-    test_a_killed_runner_takes_its_component_with_it_and_both_are_back(talk, ready)
+    test_a_killed_runner_ends_its_component_and_both_are_restarted(talk, ready)
 
 
 def _is_keeper(path: Path, folder: str) -> bool:
@@ -234,7 +234,7 @@ def _is_keeper(path: Path, folder: str) -> bool:
     return b"robocomp_yaml.deploy.icegrid.keeper" in words and folder.encode() in words
 
 
-def test_a_changed_component_alone_restarts(talk: Deployment, ready: dict[str, int]) -> None:
+def test_only_a_changed_component_restarts(talk: Deployment, ready: dict[str, int]) -> None:
     document = talk.root / "talk.ddsl.yaml"
     text = document.read_text()
     document.write_text(text.replace("components/mouth, host: arm", "components/mouth, args: [--N=1], host: arm"))
@@ -246,13 +246,13 @@ def test_a_changed_component_alone_restarts(talk: Deployment, ready: dict[str, i
     talk.deploy("up")
 
 
-def test_only_its_owner_can_read_what_it_holds(talk: Deployment) -> None:
+def test_only_the_owner_can_read_the_files(talk: Deployment) -> None:
     for folder, _, files in os.walk(talk.folder):
         for path in (Path(folder), *(Path(folder, name) for name in files)):
             assert path.stat().st_mode & 0o077 == 0, path
 
 
-def test_nobody_without_the_key_is_let_in(talk: Deployment) -> None:
+def test_without_the_key_no_connection(talk: Deployment) -> None:
     place = json.loads((talk.state / "registry.json").read_text())
     said = talk.hosts.run("arm", [
         "icegridadmin", f"--Ice.Default.Locator=rcyaml/Locator:ssl -h {place['address']} -p {place['port']}",
@@ -261,7 +261,7 @@ def test_nobody_without_the_key_is_let_in(talk: Deployment) -> None:
     assert said.returncode != 0 and "head" not in said.stdout
 
 
-def test_down_leaves_nothing_and_up_begins_again(talk: Deployment) -> None:
+def test_down_leaves_nothing_and_up_starts_again(talk: Deployment) -> None:
     talk.deploy("down")
     assert [name for name in ("mouth", "speech", "teller", "hearer", "storm") if talk.copies(name)] == []
     talk.deploy("up")

@@ -1,4 +1,5 @@
-"""What fails on another host of a network that IceGrid runs: told as on one's own, and nothing is left half done."""
+"""Faults on another host of a network that IceGrid runs: they are reported as on this machine, and nothing is left
+over."""
 
 from __future__ import annotations
 
@@ -32,7 +33,7 @@ components:
 
 @pytest.fixture(scope="module")
 def hosts(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Deployment]:
-    """A program runs on the first host; the node of the other one was started by hand where that is needed."""
+    """A program runs on the first host. The node of the other host was started by hand if necessary."""
     pytest.importorskip("IceGrid", reason="Ice for Python is not installed (Debian: python3-zeroc-ice)")
     root = tmp_path_factory.mktemp("faults")
     with three_hosts() as hosts:
@@ -57,7 +58,7 @@ def write_document(deployment: Deployment, *entries: str) -> None:
 
 
 def fails(hosts: Deployment, entry: str, *words: str) -> str:
-    """What `up` says of a process `bad` on the other host that fails; what ran before goes on."""
+    """The output of `up` for a failing process `bad` on the other host. What ran before goes on."""
     before = hosts.pids()["near"]
     write_document(hosts, entry, "behind: {program: sleep, args: ['600'], host: onboard, after: [bad]}")
     said = hosts.deploy("up", *words, code=1)
@@ -77,7 +78,7 @@ def test_a_program_that_cannot_be_run(hosts: Deployment, program: str, reason: s
     assert re.search(r"error\[RC700[24]\]", said) and reason in said, said
 
 
-def test_a_port_that_another_program_has(hosts: Deployment, free_port: Ports) -> None:
+def test_a_port_that_another_program_uses(hosts: Deployment, free_port: Ports) -> None:
     port = free_port()
     inside = ["ip", "netns", "exec", f"{hosts.hosts.prefix}arm"] if hosts.hosts.prefix else []
     script = LISTEN.replace("'127.0.0.1'", "''")
@@ -90,10 +91,10 @@ def test_a_port_that_another_program_has(hosts: Deployment, free_port: Ports) ->
     finally:
         other.kill()
         other.wait()
-    assert f"error[RC7001]: 'bad' is to serve port {port}, which another program has: one on the host 'arm'" in said
+    assert f"error[RC7001]: 'bad' needs port {port}, which another program uses: a program on the host 'arm'" in said
 
 
-def test_one_that_is_never_ready(hosts: Deployment, free_port: Ports) -> None:
+def test_a_process_that_is_never_ready(hosts: Deployment, free_port: Ports) -> None:
     ready = f"ready: {{port: {free_port()}, within: 0.5 s}}"
     said = fails(hosts, f"bad: {{program: sh, args: [-c, 'echo no motor; exec sleep 600'], host: arm, {ready}}}")
     assert "error[RC7003]: 'bad' was not ready within 0.5 s: nothing listens on port" in said
@@ -108,8 +109,8 @@ def test_a_crash_loop(hosts: Deployment) -> None:
     assert hosts.logs("bad").count("no power") == 3
 
 
-def test_a_secret_is_nowhere(hosts: Deployment) -> None:
-    """Neither one of the environment nor one of the document is in a command, which everybody can see."""
+def test_a_secret_is_not_visible_anywhere(hosts: Deployment) -> None:
+    """A secret of the environment or of the document is in no command, because commands are visible to everybody."""
     own = "TOKEN: {env: ROBOT_TOKEN}, PASSWORD: 'swordfish $HOME \\\\ ''q'''"
     script = 'echo $(printf %s $TOKEN | wc -c) $(printf %s "$PASSWORD" | wc -c); exec sleep 600'
     write_document(hosts, f"bad: {{program: sh, args: [-c, '{script}'], host: arm, env: {{{own}}}}}",

@@ -1,4 +1,4 @@
-"""A network on three hosts, run by IceGrid: a gate between a group and those outside, and processes that move."""
+"""A network on three hosts, run by IceGrid: a gate of a group, and processes that move."""
 
 from __future__ import annotations
 
@@ -34,33 +34,33 @@ groups:
   face: {{components: [mouth], expose: {{Mouth: {{member: mouth, rate: 50, allow: [move]}}}}}}
 """
 GREETING = 4
-"""Words that speech says when it starts, each with a call of `move`; then it calls `close`."""
+"""The words for which speech calls `move` when it starts. Then it calls `close`."""
 
 
 @pytest.fixture(scope="module")
 def talk(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Deployment]:
-    """The network, up on three hosts."""
+    """The running network on three hosts."""
     pytest.importorskip("IceGrid", reason="Ice for Python is not installed (Debian: python3-zeroc-ice)")
     with talking_head(tmp_path_factory.mktemp("moves"), NETWORK, _start_one_after_the_other) as deployment:
         yield deployment
 
 
 def _start_one_after_the_other(talk: Deployment) -> None:
-    """Without a node of its host, nothing starts that needs it; others may."""
+    """Without a node, the processes of its host do not start; others can."""
     talk.deploy("up", "watch")
     talk.start_node("head")
     said = talk.deploy("up", "--on-failure", "keep", code=1)
-    assert said.count("error[RC7021]") == 1 and "'arm'" in said and "what was started was kept" in said
+    assert said.count("error[RC7021]") == 1 and "'arm'" in said and "the started processes keep running" in said
     assert {name for name, one in talk.status().items() if one["ready"]} == {"watch", "blink"}
     talk.start_node("arm")
 
 
-def test_a_gate_on_another_host_lets_pass_what_it_may(talk: Deployment) -> None:
+def test_a_gate_on_another_host_forwards_allowed_calls(talk: Deployment) -> None:
     assert _hosts(talk) == {"mouth": "arm", "face.gate": "arm", "speech": "head", "watch": "onboard", "blink": "head"}
     _greets(talk)
 
 
-def test_a_gate_that_is_killed_is_back_and_its_users_go_on(talk: Deployment) -> None:
+def test_a_killed_gate_is_restarted_and_its_users_go_on(talk: Deployment) -> None:
     before = talk.pids()
     os.kill(before["face.gate"], 9)
     until(lambda: talk.pids()["face.gate"] not in (0, before["face.gate"]), lambda: talk.logs())
@@ -69,7 +69,7 @@ def test_a_gate_that_is_killed_is_back_and_its_users_go_on(talk: Deployment) -> 
 
 
 def test_a_component_moves_and_those_that_use_it_follow(talk: Deployment) -> None:
-    """From one host to the other, with its gate; whoever calls it is told where it is now."""
+    """It moves to another host with its gate, and its callers get the new address."""
     before = talk.until_ready()
     _move(talk, "arm", "onboard")
     planned = json.loads(talk.deploy("plan", "--format", "json"))["plan"]
@@ -89,8 +89,8 @@ def test_a_component_moves_and_those_that_use_it_follow(talk: Deployment) -> Non
     assert "nothing to do" in talk.deploy("up")
 
 
-def test_a_component_moves_away_from_a_host_that_is_cut_off(talk: Deployment) -> None:
-    """There it goes on, and nobody calls it; it ends when that host is back."""
+def test_a_component_moves_away_from_a_host_without_a_connection(talk: Deployment) -> None:
+    """The old one goes on without callers, and ends when its host is back."""
     talk.hosts.need_a_network("so no cable to pull")
     _move(talk, "onboard", "arm")
     talk.deploy("up")
@@ -112,7 +112,7 @@ def test_a_component_moves_away_from_a_host_that_is_cut_off(talk: Deployment) ->
     _greets(talk)
 
 
-def test_what_moved_is_followed_restarted_and_taken_down(talk: Deployment) -> None:
+def test_a_moved_component_has_logs_restart_and_down(talk: Deployment) -> None:
     follower = talk.begin("logs", "-f", "mouth", "speech")
     assert follower.stdout and follower.stdout.readline()  # what there is; from here on it follows
     before = talk.until_ready()
@@ -130,9 +130,9 @@ def test_what_moved_is_followed_restarted_and_taken_down(talk: Deployment) -> No
 
 
 def _greets(talk: Deployment) -> None:
-    """Speech has said its greeting as often as it was started; what its gate forbids did not pass."""
+    """Speech has made its calls once for each start. The gate did not forward forbidden calls."""
     times = talk.logs("speech").count("SpeechComp is running")
-    until(lambda: talk.logs("speech").count("lets pass move, not 'close'") == times, lambda: talk.logs())
+    until(lambda: talk.logs("speech").count("allows move, not 'close'") == times, lambda: talk.logs())
     assert talk.logs("speech").count("with the mouth") == GREETING * times
     assert talk.logs("mouth").count("moves to") == GREETING * times
     assert "closes" not in talk.logs("mouth")

@@ -1,4 +1,4 @@
-"""A node started over SSH: a real sshd on another host, keys of the test's own, and nothing left behind."""
+"""A node is started over SSH: with a real sshd on another host and keys of the test, and without leftovers."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ pytestmark = [
 
 @pytest.fixture
 def reached_by_ssh(tmp_path: Path) -> Iterator[Deployment]:
-    """Two hosts; the second is reached over SSH, with a key that only this test's home has."""
+    """Two hosts. The second is reached over SSH, with a key in the home of this test."""
     pytest.importorskip("asyncssh", reason="asyncssh is not installed (extra `ssh`)")
     pytest.importorskip("IceGrid", reason="Ice for Python is not installed (Debian: python3-zeroc-ice)")
     with three_hosts() as hosts:
@@ -79,7 +79,7 @@ def test_a_node_is_started_over_ssh_and_ended_by_down(reached_by_ssh: Deployment
 
 
 def _commands(deployment: Deployment) -> bytes:
-    """What runs of the deployment."""
+    """The running processes of the deployment."""
     found = []
     for path in Path("/proc").glob("[0-9]*/cmdline"):
         try:

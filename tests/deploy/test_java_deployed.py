@@ -1,4 +1,4 @@
-"""A component in Java is deployed beside one in Python that calls it, and that it calls."""
+"""A component in Java and one in Python are deployed, and call each other."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ def test_java_beside_python(
     assert up.exit_code == 0, up.output
     until(lambda: "said: one 20" in rcyaml("deploy", "logs", "robot.ddsl.yaml", "ear").output, "they call each other")
 
-    # Other values, and another build, are seen; nothing else restarts.
+    # Changed values, and a new build, restart the component, and no other.
     before = place.pids()
     write(6)
     assert "~ ear    restart: config loud: 5 → 6\n" in rcyaml("deploy", "plan", "robot.ddsl.yaml").stdout
@@ -103,7 +103,7 @@ def test_java_beside_python(
     assert "~ ear    restart: " in rcyaml("deploy", "plan", "robot.ddsl.yaml").stdout
     assert rcyaml("deploy", "up", "robot.ddsl.yaml").exit_code == 0
 
-    # An interface that changed since: compiled and built again.
+    # The interface has changed: both are compiled and built again.
     talk = tmp_path / "Talk.idsl.yaml"
     talk.write_text(talk.read_text().replace("say:", "tell: {}, say:"))
     told = rcyaml("deploy", "plan", "robot.ddsl.yaml").output

@@ -1,4 +1,4 @@
-"""A network of RCManager's, migrated: `deploy up` starts it in order, with the words that it always had."""
+"""A migrated network of RCManager: `deploy up` starts it in order, with the same commands."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def rcyaml(*words: str) -> Result:
 
 @pytest.fixture
 def manager(place: Place, free_port: Ports) -> Path:
-    """Two programs in Python, of which the first one in the file needs the second."""
+    """Two programs in Python. The first one in the file depends on the second."""
     folder = place.root
     base, js = free_port(), free_port()
     python = sys.executable

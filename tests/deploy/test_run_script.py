@@ -1,4 +1,4 @@
-"""The script that runs a process for IceGrid, by itself: words and texts as they are, restarts, logs, the end."""
+"""The script that runs a process for IceGrid, without IceGrid: arguments, environment, restarts, logs, the end."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ ONCE = "1 no 10 100 5 60000"
 
 @dataclass
 class Runner:
-    """One process `arm`, run as IceGrid would; `last` is its Ice.Config."""
+    """One process `arm`, run as by IceGrid. `last` is its Ice.Config."""
 
     folder: Path
     environment: dict[str, str] = field(default_factory=dict)
@@ -39,7 +39,7 @@ class Runner:
         return self.started[-1]
 
     def to_end(self, *words: str, rule: str = ONCE, **environment: str) -> str:
-        """The log of a process that ended by itself, for good, without the times."""
+        """The log of a process that has ended for good, without the times."""
         assert self.start(*words, rule=rule, **environment).wait(20) == 0
         until(lambda: "ended by itself" in self.log or "given up" in self.log or "rcyaml: the" in self.log, "the log")
         return self.log
@@ -51,13 +51,13 @@ class Runner:
         return "\n".join(line[len("2026-11-21T10:02:03.123Z ") :] for line in lines)
 
     def said_pid(self) -> int:
-        """The number that the program says, wherever it stands among the lines of the log."""
+        """The number that the program prints, in any line of the log."""
         found = until(lambda: re.search(r"^it is (\d+)\.$", self.log, re.MULTILINE), lambda: self.log)
         return int(found[1])
 
     @property
     def told(self) -> tuple[str, str, int]:
-        """Its state, how it last ended, and the restarts."""
+        """Its state, how its last run ended, and the number of restarts."""
         last = of_text((self.folder / "state" / "icegrid" / "status" / "arm").read_text())
         assert last
         return last.state, last.last_exit, last.restarts
@@ -76,12 +76,12 @@ def show(*words: str) -> list[str]:
     return ["=sh", "=-c", '=printf "%s|" "$@"; echo', "=sh", *(f"={word}" for word in words)]
 
 
-def test_words_reach_the_program_as_they_are(runner: Runner) -> None:
+def test_arguments_are_passed_unchanged(runner: Runner) -> None:
     words = ["", "two words", "$HOME", "${x}", "'\"\\", "*", "--Ice.Config=mine", "é"]
     assert "|".join(words) + "|" in runner.to_end(*show(*words))
 
 
-def test_its_environment_is_set_and_ours_is_not_left(runner: Runner) -> None:
+def test_its_environment_is_set_without_that_of_the_script(runner: Runner) -> None:
     entries = {"RCYAML_ENTRY_0": "ONE=a b\\0044c=\\\\n", "RCYAML_ENTRY_11": "EMPTY="}
     log = runner.to_end("e0", "e11", "sTWO=SECRET", "=env", SECRET="s3cr t", RCYAML_CONFIG="x", **entries)
     assert "\nONE=a b$c=\\n\n" in log and "\nEMPTY=\n" in log and "\nTWO=s3cr t\n" in log
@@ -100,7 +100,7 @@ def test_its_environment_is_set_and_ours_is_not_left(runner: Runner) -> None:
         (("sLC_ALL=LC_ALL",), {"LC_ALL": "C", "RCYAML_LANGUAGE": "C.UTF-8"}, "C.UTF-8"),
     ],
 )
-def test_its_language_is_that_of_its_document_or_of_the_node(
+def test_its_locale_is_from_its_document_or_the_node(
     runner: Runner, monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...], environment: dict[str, str],
     is_set: str | None,
 ) -> None:  # fmt: skip
@@ -115,7 +115,7 @@ def test_its_language_is_that_of_its_document_or_of_the_node(
     ("raw", "meant"),
     [(b"a $b\\n\n", b"a $b\\n"), (b"a\r\n", b"a"), (b"a\r", b"a\r"), (b"", b""), (b"\xff\n\n", b"\xff\n")],
 )
-def test_a_variable_that_a_file_holds(runner: Runner, tmp_path: Path, raw: bytes, meant: bytes) -> None:
+def test_a_variable_from_a_file(runner: Runner, tmp_path: Path, raw: bytes, meant: bytes) -> None:
     (tmp_path / "my token").write_bytes(raw)
     words = ("=python3", "=-c", "=import os; print(ascii(os.fsencode(os.environ['TOKEN'])))")
     log = runner.to_end("rTOKEN=~/my token", *words, HOME=str(tmp_path))
@@ -123,7 +123,7 @@ def test_a_variable_that_a_file_holds(runner: Runner, tmp_path: Path, raw: bytes
 
 
 @pytest.mark.parametrize("raw", [None, b"a\0b", b"a" * 140_000])
-def test_one_that_cannot_be_read_is_said(runner: Runner, tmp_path: Path, raw: bytes | None) -> None:
+def test_an_unreadable_file_is_reported(runner: Runner, tmp_path: Path, raw: bytes | None) -> None:
     if raw:
         (tmp_path / "token").write_bytes(raw)
     runner.start(f"rTOKEN={tmp_path}/token", "=echo", "=here I am").wait(20)
@@ -133,18 +133,18 @@ def test_one_that_cannot_be_read_is_said(runner: Runner, tmp_path: Path, raw: by
     assert state == "given up" and "TOKEN is the text of" in how
 
 
-def test_a_language_that_the_node_had_not_is_said(runner: Runner) -> None:
+def test_a_locale_that_the_node_lacks_is_reported(runner: Runner) -> None:
     log = runner.to_end("sTWO=LC_ALL", "=echo", "=here I am", LC_ALL="C", RCYAML_LANGUAGE="none")
     assert "the variable LC_ALL was not set" in log and "here I am" not in log
 
 
-def test_a_secret_that_is_not_there_is_said_and_nothing_is_started(runner: Runner) -> None:
+def test_a_missing_variable_is_reported_and_nothing_starts(runner: Runner) -> None:
     log = runner.to_end("sTWO=NO_SUCH_SECRET", "=echo", "=here I am")
     assert "the variable NO_SUCH_SECRET was not set" in log and "here I am" not in log
     assert runner.told == ("given up", "the variable NO_SUCH_SECRET is not set", 0)
 
 
-def test_a_configuration_is_written_as_it_is_and_for_its_owner(runner: Runner) -> None:
+def test_a_configuration_is_written_unchanged_for_its_owner_only(runner: Runner) -> None:
     pytest.importorskip("IceGrid", reason="Ice for Python is not installed (Debian: python3-zeroc-ice)")
     from robocomp_yaml.deploy.icegrid.descriptors import encoded
 
@@ -155,10 +155,10 @@ def test_a_configuration_is_written_as_it_is_and_for_its_owner(runner: Runner) -
     assert path.stat().st_mode & 0o077 == 0
 
 
-def test_one_that_fails_again_and_again_is_given_up(runner: Runner) -> None:
+def test_a_process_that_fails_repeatedly_is_given_up(runner: Runner) -> None:
     log = runner.to_end("=sh", "=-c", "=exit 3", rule="1 on-failure 10 20 2 60000")
     assert log.count("rcyaml: started") == 3
-    assert "exit code 3; starting again in 10 ms" in log and "exit code 3; starting again in 20 ms" in log
+    assert "exit code 3; restarting in 10 ms" in log and "exit code 3; restarting in 20 ms" in log
     assert "given up: it ended 3 times within 60 s, the last time with exit code 3" in log
     assert runner.told == ("given up", "exit code 3", 2)
 
@@ -167,12 +167,12 @@ def test_one_that_fails_again_and_again_is_given_up(runner: Runner) -> None:
     ("policy", "code", "state"),
     [("on-failure", 0, "ended"), ("no", 0, "ended"), ("no", 1, "given up"), ("always", 0, "given up")],
 )
-def test_what_the_policies_do(runner: Runner, policy: str, code: int, state: str) -> None:
+def test_policies(runner: Runner, policy: str, code: int, state: str) -> None:
     runner.to_end("=sh", "=-c", f"=exit {code}", rule=f"1 {policy} 10 20 1 60000")
     assert runner.told == (state, f"exit code {code}", 1 if policy == "always" else 0)
 
 
-def test_a_newer_rule_counts(runner: Runner) -> None:
+def test_a_newer_rule_applies(runner: Runner) -> None:
     rules = runner.folder / "state" / "icegrid" / "rules"
     rules.mkdir(parents=True)
     (rules / "arm").write_text("2 no 10 20 1 60000\n")
@@ -180,12 +180,12 @@ def test_a_newer_rule_counts(runner: Runner) -> None:
     assert runner.told == ("given up", "exit code 3", 0)
 
 
-def test_a_program_that_is_not_there_ends_like_one_that_fails(runner: Runner) -> None:
+def test_a_missing_program_ends_like_a_failing_one(runner: Runner) -> None:
     assert "no-such-program" in runner.to_end("=no-such-program")
     assert runner.told[:2] == ("given up", "exit code 127")
 
 
-def test_asked_to_end_it_takes_all_it_started_with_it(runner: Runner) -> None:
+def test_sigterm_ends_the_whole_process_group(runner: Runner) -> None:
     process = runner.start("=sh", "=-c", "=sleep 600 & echo it is $!.; wait")
     until(lambda: "started, pid" in runner.log, lambda: runner.log)
     child = runner.said_pid()
@@ -195,7 +195,7 @@ def test_asked_to_end_it_takes_all_it_started_with_it(runner: Runner) -> None:
     assert runner.told[0] == "stopped"
 
 
-def test_one_that_does_not_listen_is_killed(runner: Runner) -> None:
+def test_a_process_that_ignores_sigterm_is_killed(runner: Runner) -> None:
     process = runner.start(
         "=sh", "=-c", "=trap '' TERM; echo deaf; while :; do sleep 0.1; done", RCYAML_STOP_WITHIN="0.3"
     )
@@ -205,7 +205,7 @@ def test_one_that_does_not_listen_is_killed(runner: Runner) -> None:
     assert runner.told[:2] == ("stopped", "SIGKILL")
 
 
-def test_when_it_is_killed_so_is_the_program(runner: Runner) -> None:
+def test_a_killed_script_ends_its_program(runner: Runner) -> None:
     process = runner.start("=sh", "=-c", "=echo it is $$.; exec sleep 600")
     pid = runner.said_pid()
     process.kill()
@@ -213,7 +213,7 @@ def test_when_it_is_killed_so_is_the_program(runner: Runner) -> None:
     until(lambda: not _is_alive(pid), "the program ends")
 
 
-def test_when_what_keeps_the_log_is_killed_the_log_goes_on(runner: Runner) -> None:
+def test_after_a_kill_of_the_log_keeper_the_log_goes_on(runner: Runner) -> None:
     count = "i=0; while [ $i -lt 60 ]; do i=$((i+1)); echo line $i; sleep 0.02; done; exit 3"
     process = runner.start("=sh", "=-c", f"={count}")
     for line in ("line 5", "line 20"):
@@ -237,7 +237,7 @@ def test_logs_have_a_limit(runner: Runner) -> None:
 
 
 def test_a_full_disk(runner: Runner, small_disk: Path, tmp_path: Path) -> None:
-    """Lines are lost, and that is said once there is room again; the process does not notice."""
+    """Lines are lost, which is reported when there is space again. The process goes on."""
     runner.folder = small_disk / "folder"
     (small_disk / "ballast").write_bytes(bytes(150_000))
     talk = "i=0; while [ $i -lt 4000 ]; do echo $i a line that takes room on the disk, as lines do; i=$((i+1)); done"
@@ -256,7 +256,7 @@ def test_a_full_disk(runner: Runner, small_disk: Path, tmp_path: Path) -> None:
 
 
 def test_nothing_of_icegrid_stays_open(runner: Runner) -> None:
-    """Else it would take a process for alive as long as something that it started lives."""
+    """Otherwise IceGrid would wait for the end of all descendants of a process."""
     ours, theirs = os.pipe()
     os.set_inheritable(theirs, True)
     command = [

@@ -1,4 +1,4 @@
-"""The units that are exported for systemd, under a systemd of their own: they start, in order, and come back."""
+"""Units exported for systemd run in a systemd of the test: they start in order, and are restarted."""
 
 from __future__ import annotations
 
@@ -16,7 +16,15 @@ import pytest
 from conftest import write_tree
 from processes import Running, until
 from robocomp_yaml.emit.exports import export
-from robocomp_yaml.network.network import LOOPBACK, PROGRAM, Host, Network, Process, Restart, Variable
+from robocomp_yaml.network.network import (
+    LOOPBACK,
+    PROGRAM,
+    EnvironmentVariable,
+    Network,
+    NetworkHost,
+    Process,
+    RestartRule,
+)
 from small_networks import config_of, shell, sleeper
 
 MANAGER = shutil.which("systemd", path="/usr/lib/systemd:/lib/systemd")
@@ -40,7 +48,7 @@ Systemctl = Callable[..., str]
 
 @pytest.fixture
 def systemctl() -> Iterator[Systemctl]:
-    """`systemctl(WORDS)` at a `systemctl.manager` whose home is `systemctl.home`; what it prints."""
+    """`systemctl(WORDS)` returns the output for a `systemctl.manager` with the home `systemctl.home`."""
     if MANAGER is None or os.geteuid() != 0:
         pytest.skip("systemd is not installed here (Debian: systemd), or only root may have one of its own")
     with tempfile.TemporaryDirectory(prefix="systemd") as name:
@@ -51,7 +59,7 @@ def systemctl() -> Iterator[Systemctl]:
                                            stderr=subprocess.STDOUT))  # fmt: skip
 
         def run(*words: str) -> str:
-            """It is obeyed only where its caller is among the manager's own processes."""
+            """The manager accepts it only from its own processes."""
             children = Path(f"/proc/{manager.process.pid}/task/{manager.process.pid}/children").read_text()
             inside = ["nsenter", "--pid", "--mount", "--target", *children.split()]
             asked = [*inside, "systemctl", "--user", *words]
@@ -76,8 +84,8 @@ def systemctl() -> Iterator[Systemctl]:
 
 
 def install(systemctl: Systemctl, *processes: Process) -> None:
-    """As docs/exports.md says: units to where the manager looks for them, and config/ to where they look for it."""
-    network = Network("Robot", "/robot.ddsl.yaml", "/f", {LOOPBACK: Host(LOOPBACK)})
+    """Installs units and config/ as docs/exports.md says."""
+    network = Network("Robot", "/robot.ddsl.yaml", "/f", {LOOPBACK: NetworkHost(LOOPBACK)})
     network.processes = {process.name: process for process in processes}
     settings = systemctl.home / ".config"  # type: ignore[attr-defined]
     for path, text in export(network, "systemd").items():
@@ -91,7 +99,7 @@ def test_the_units_run(systemctl: Systemctl, tmp_path: Path) -> None:
     folder.mkdir()
     odd = Process(
         "odd", LOOPBACK, ("python3", "-c", SCRIPT, *ODD), str(folder), PROGRAM, is_ice=False,
-        env=(Variable("TITLE", 'a $title 50% "q" \\x'), Variable("TOKEN", source="ROBOT_TOKEN")),
+        env=(EnvironmentVariable("TITLE", 'a $title 50% "q" \\x'), EnvironmentVariable("TOKEN", source="ROBOT_TOKEN")),
     )  # fmt: skip
     logged = f"echo $0 >> {tmp_path}/order; exec sleep 600"
     config = config_of("configured", "x = $HOME 100%\n")
@@ -120,13 +128,13 @@ def test_the_units_run(systemctl: Systemctl, tmp_path: Path) -> None:
     assert states == ["inactive"] * 3
 
 
-def test_what_crashes_comes_back_and_not_for_ever(systemctl: Systemctl, tmp_path: Path) -> None:
-    loop = shell("loop", f"echo again >> {tmp_path}/crashes; exit 3", restart=Restart(delay=0.01, tries=3))
+def test_a_crashed_unit_is_restarted_a_limited_number_of_times(systemctl: Systemctl, tmp_path: Path) -> None:
+    loop = shell("loop", f"echo again >> {tmp_path}/crashes; exit 3", restart=RestartRule(delay=0.01, tries=3))
     install(systemctl, loop, sleeper("steady"))
     systemctl("start", "Robot.target")
     until(lambda: systemctl("is-active", "Robot-steady.service") == "active\n", "it runs")
     systemctl("kill", "-s", "KILL", "Robot-steady.service")
-    until(lambda: systemctl("show", "-P", "NRestarts", "Robot-steady.service") == "1\n", "it is started again")
+    until(lambda: systemctl("show", "-P", "NRestarts", "Robot-steady.service") == "1\n", "it is restarted")
     until(lambda: systemctl("is-active", "Robot-steady.service") == "active\n", "it runs again")
     until(lambda: systemctl("is-active", "Robot-loop.service") == "failed\n", "it is given up")
     assert (tmp_path / "crashes").read_text() == "again\n" * 4, "once, and three times more"

@@ -40,18 +40,18 @@ class Hosts:
     why: str = ""
 
     def need_a_network(self, for_what: str) -> None:
-        """Skips the test where all hosts are this machine."""
+        """Skips the test if all hosts are this machine."""
         if not self.prefix:
             pytest.skip(f"there are no network namespaces here, {for_what}: {self.why}")
 
     def run(self, host: str, command: list[str], **how: Any) -> subprocess.CompletedProcess[str]:
-        """A command's outcome on a host."""
+        """The result of a command on a host."""
         how["env"] = self._environment(how.get("env", {}))
         inside = self._inside(host)
         return subprocess.run([*inside, *command], capture_output=True, text=True, check=False, timeout=60, **how)
 
     def begin(self, host: str, command: list[str], **how: Any) -> subprocess.Popen[str]:
-        """A command that goes on, whose output is read from a pipe."""
+        """A running command on a host, with its output in a pipe."""
         how["env"] = self._environment(how.get("env", {}))
         return subprocess.Popen([*self._inside(host), *command], stdout=subprocess.PIPE, text=True, **how)
 
@@ -59,17 +59,17 @@ class Hosts:
         return ["ip", "netns", "exec", self.prefix + host] if self.prefix else []
 
     def _environment(self, more: dict[str, str]) -> dict[str, str]:
-        """This Python comes first, since components start with it."""
+        """PATH begins with this Python, with which components start."""
         path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
         return {**os.environ, "PATH": path, **more}
 
     def link(self, host: str, state: str) -> None:
-        """Plugs the host's cable in or out: `up` or `down`."""
+        """Sets the host's network link `up` or `down`."""
         _ip("-n", f"{self.prefix}net", "link", "set", f"port{NAMES.index(host)}", state)
 
 
 class NotPermitted(Exception):
-    """A step that network namespaces need; the text is what the system says against it."""
+    """A step for network namespaces failed; the text is the reason."""
 
 
 @contextmanager
@@ -82,7 +82,7 @@ def three_hosts() -> Iterator[Hosts]:
 
 
 def _joined(prefix: str) -> Hosts:
-    """Hosts in namespaces that see each other and run commands; where one step fails, loopback addresses."""
+    """Hosts in connected namespaces; if a step fails, loopback addresses."""
     addresses = {name: f"10.99.0.{number}" for number, name in enumerate(NAMES, 1)}
     hosts = Hosts(addresses, prefix)
     try:
@@ -144,7 +144,7 @@ def talking_head(
 
 @dataclass
 class Deployment:
-    """The deployment `Talk`, brought up from the first of three hosts."""
+    """The deployment `Talk`, whose commands run on the first of three hosts."""
 
     hosts: Hosts
     root: Path
@@ -159,7 +159,7 @@ class Deployment:
         return Path(self.folder) / "state" / "icegrid"
 
     def rcyaml(self, *words: str, code: int | None = 0) -> str:
-        """What a command prints, run on the first host; its exit code must be `code`, if that is not None."""
+        """The output of a command on the first host. Its exit code must be `code`, if that is not None."""
         done = self.hosts.run(
             "onboard", [sys.executable, "-m", "robocomp_yaml", *words], cwd=self.root, env=self.environment
         )
@@ -167,7 +167,7 @@ class Deployment:
         return done.stdout + done.stderr
 
     def begin(self, what: str, *words: str) -> subprocess.Popen[str]:
-        """A command of `deploy` that goes on, on the first host."""
+        """A running command of `deploy` on the first host."""
         command = [sys.executable, "-m", "robocomp_yaml", "deploy", what, "talk.ddsl.yaml", *words]
         return self.hosts.begin("onboard", command, cwd=self.root, env=self.environment)
 
@@ -175,7 +175,7 @@ class Deployment:
         return self.rcyaml("deploy", what, "talk.ddsl.yaml", *words, code=code)
 
     def status(self) -> dict[str, Any]:
-        """What `status` says of each process, by its name."""
+        """The status of each process, by its name."""
         said = json.loads(self.deploy("status", "--format", "json", code=None))
         return {one["name"]: one for one in said["processes"]}
 
@@ -183,7 +183,7 @@ class Deployment:
         return {name: one["pid"] for name, one in self.status().items()}
 
     def until_ready(self) -> dict[str, Any]:
-        """The status when everything is ready."""
+        """The status when all processes are ready."""
         status: dict[str, Any] = {}
 
         def is_ready() -> bool:
@@ -197,22 +197,22 @@ class Deployment:
         return self.deploy("logs", *names, "-n", "1000")
 
     def start_node(self, host: str) -> None:
-        """By hand, as the hint says: the script goes to bash on that host."""
+        """Starts nodes by hand as in the hint: bash on the host runs the script."""
         with open(self.state / "hosts" / f"{host}.sh", encoding="utf-8") as script:
             done = self.hosts.run(host, ["bash", "-s"], stdin=script)
         assert done.returncode == 0, done.stderr
 
     def kill_daemon(self, which: str, *, for_good: bool) -> None:
-        """Kills the registry (`registry`) or a node (`nodes/HOST`); for good: also what would start it again."""
+        """Kills the registry (`registry`) or a node (`nodes/HOST`). `for_good` kills its guard, too."""
         for file in ("pid", "program") if for_good else ("program",):
             os.kill(int((self.state / which / file).read_text()), signal.SIGKILL)
 
     def copies(self, name: str) -> int:
-        """How many processes are the program of this name, without its runner and its log."""
+        """The number of processes with the program of this name, without its runner and its log."""
         mark = f"{self.folder}:{name}"
         roots = [pid for pid in procfs.pids() if procfs.mark_of(pid) == mark]
         return sum(1 for pid in roots if (entry := procfs.entry(pid)) and entry.group == pid and not entry.is_dead)
 
     def clean_up(self) -> None:
-        """Kills whatever is left."""
+        """Kills all processes that are left."""
         kill_left(self.folder)

@@ -1,6 +1,6 @@
 """Every command that the documentation shows is run, and prints what the page says.
 
-In a page, a code block behind `<!-- file: PATH -->` is a file (an existing one is replaced), and a `console` block is a
+In a page, a code block after `<!-- file: PATH -->` is a file (an existing one is replaced), and a `console` block is a
 session: lines that start with `$ ` are commands, the others what they print. A page's blocks are run from top to
 bottom in one empty folder. `<!-- in: FOLDER -->` starts from a copy of a folder of the project. A line `…` stands for
 any lines. `pytest tests/docs --update-golden` writes what the commands print.
@@ -102,3 +102,25 @@ def test_the_pages_show_commands() -> None:
 def test_links_lead_somewhere(page: Path) -> None:
     for link in re.findall(r"\]\((?!https?:|#|mailto:)([^)#\s]+)", page.read_text(encoding="utf-8")):
         assert (page.parent / link).exists(), link
+
+
+_FENCE = re.compile(r"^(`{3,}).*?^\1$", re.MULTILINE | re.DOTALL)
+_NAMED = re.compile(r"`([a-z_]+/[a-z0-9_*/]*[a-z0-9_*])(\.[a-z]+|\.[A-Z]+|/)?`")
+FOLDERS = {
+    **dict.fromkeys(("benchmarks", "docs", "examples", "migrate", "schemas", "templates", "tests", "tools"), ROOT),
+    **{path.parent.name: path.parents[1] for path in (ROOT / "robocomp_yaml").glob("*/__init__.py")},
+}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_paths_of_the_project_exist(page: Path) -> None:
+    """A path in a folder of the project or of the package: a folder, a file, a module, or a name in a module."""
+    for path, suffix in _NAMED.findall(_FENCE.sub("", page.read_text(encoding="utf-8"))):
+        if home := FOLDERS.get(path.partition("/")[0]):
+            suffix = ".py" if suffix.isupper() else suffix.strip("/")
+            assert any(home.glob(path + suffix)) or any(home.glob(f"{path}.py")), path + suffix
+
+
+def test_pages_name_paths_of_the_project() -> None:
+    text = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    assert len({path for path, _ in _NAMED.findall(text) if path.partition("/")[0] in FOLDERS}) > 20

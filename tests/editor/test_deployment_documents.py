@@ -85,11 +85,11 @@ COMPLETIONS = [
     (D + "groups:\n  a: {expose: {Speech: {m|}}}", ["member", "rate", "allow", "doc"]),
     (D + "include: |", ["list of deployments", "deployments with names"]),
 ]  # fmt: skip
-A_NAME = "a name has letters, digits, _ and -, and starts with no digit"
+A_NAME = "a name consists of letters, digits, _ and -, and does not start with a digit"
 TIME = "a time is milliseconds, such as 500, or has a unit, such as 500 ms or 10 s"
 ONE = "an entry has one of component:, program: and process:"
 MESSAGES = [
-    ("- a", ["1:1 a deployment document is a mapping: deployment: Robot, and the components that it consists of"]),
+    ("- a", ["1:1 a deployment document is a mapping: deployment: Robot, and its components"]),
     ("doc: x", ["1:1 the key 'deployment' is missing"]),
     ("deployment: a b", ["1:13 deployment: is a name: letters, digits, _ and -, not starting with a digit"]),
     (D + "component: {}", ["2:1 Property component is not allowed."]),
@@ -97,7 +97,7 @@ MESSAGES = [
     (
         D + "hosts: {a: [10.0.0.2]}",
         [
-            "2:12 behind a host's name stands its address, onboard: 10.0.0.2, or more, onboard: {address: 10.0.0.2, "
+            "2:12 a host's value is its address, onboard: 10.0.0.2, or a mapping, onboard: {address: 10.0.0.2, "
             "user: robot}"
         ],
     ),
@@ -106,9 +106,7 @@ MESSAGES = [
     (D + "services: {s: {icestorm: {port: 0}}}", ["2:33 a port is a whole number from 1 to 65535"]),
     (
         D + "components: [a]",
-        [
-            "2:13 components: is a mapping of names to what runs, such as speech: {component: ../speech/speech.cdsl.yaml}"
-        ],
+        ["2:13 components: is a mapping of names to entries, such as speech: {component: ../speech/speech.cdsl.yaml}"],
     ),
     (
         D + "components: {a: b}",
@@ -118,11 +116,11 @@ MESSAGES = [
     (D + "components: {a: {component: b, program: c}}", [f"2:17 {ONE}"]),
     (
         D + "components: {a: {process: b, port: 1}}",
-        ["2:30 a second name of a process has only endpoints:; all else stands with the first"],
+        ["2:30 a second name of a process has only endpoints:; all other keys belong to the first name"],
     ),
     (
         D + "components: {a: {program: b, set: {c: 1}}}",
-        ["2:30 this is for a component; a program has args:, config: and endpoints:"],
+        ["2:30 this key is for components; a program has args:, config: and endpoints:"],
     ),
     (E + "prot: 1", ["5:5 Property prot is not allowed."]),
     (E + "port: 70000", ["5:11 a port is a whole number from 1 to 65535"]),
@@ -134,7 +132,7 @@ MESSAGES = [
     (
         E + "connect: {A: [b]}",
         [
-            "5:18 a connection leads to an entry, such as mouth or mouth.Mouth, or to a proxy in quotes, such as "
+            "5:18 a connection is an entry, such as mouth or mouth.Mouth, or a proxy in quotes, such as "
             '"mouth:tcp -h 10.0.0.9 -p 10002"'
         ],
     ),
@@ -149,7 +147,7 @@ MESSAGES = [
     (
         E + "ready: 10 sec",
         [
-            "5:12 ready: is a time, such as 10 s, or says how to tell: {port: 10003, within: 10 s}, {command: […]} or "
+            "5:12 ready: is a time, such as 10 s, or a condition: {port: 10003, within: 10 s}, {command: […]} or "
             "{log: …}"
         ],
     ),

@@ -17,10 +17,11 @@ from robocomp_yaml.source.discover import kind_of
 DOCUMENTS = Path(__file__).resolve().parent / "documents"
 C = "component: A\nlanguage: cpp\n"
 NAME = "letters, digits and underscores, not starting with a digit"
+A_NAME = "a name consists of letters, digits and underscores, and does not start with a digit"
 TYPE = "a type is a name, such as float, Pose or CommonTypes.Pose"
 MEMBER = "a member is a type, such as float or CommonTypes.Pose, or {type: float, default: 0, unit: m, doc: …}"
 PARAMETER = "a parameter is a type, such as float or CommonTypes.Pose, or {type: float, unit: m/s, doc: …}"
-METHOD = "a method is a mapping, such as {in: {text: string}, returns: bool}, or nothing"
+METHOD = "a method is a mapping, such as {in: {text: string}, returns: bool}, or an empty value"
 ENUM = "enum: is a list of names, [spanish, english], or a mapping of names to numbers, {spanish: 0, english: 5}"
 RANGE = "an enumerator's value is an integer from 0 to 2147483647"
 ENTRY = "an entry is an interface, such as Camera, or {Camera1: Camera}, or {Camera1: {interface: Camera, "
@@ -45,7 +46,7 @@ IDSL: list[tuple[str, list[str]]] = [
     ("module: A\nconstants: {c: {type: int, value: [1]}}",
      ["2:35 a constant's value is one value: true, 100, a text, or the name of an enumerator"]),
     ("module: A\nconstants: {c: {type: in t, value: 1}}", [f"2:23 {TYPE}"]),
-    ("module: A\nconstants: {1c: {type: int, value: 1}}", [f"2:13 a name has {NAME}"]),
+    ("module: A\nconstants: {1c: {type: int, value: 1}}", [f"2:13 {A_NAME}"]),
     ("module: A\nconstants: {c: {type: int, value: 1, unit: 3}}", ["2:44 unit: is text, such as m/s"]),
     ('module: A\nconstants: {c: {type: int, value: 1, unit: "m\\t"}}',
      ["2:44 this is one line of text, without control characters"]),
@@ -53,7 +54,7 @@ IDSL: list[tuple[str, list[str]]] = [
      ["2:8 types: is a mapping of names to types, such as Pose: {struct: {x: float, y: float}}"]),
     ("module: A\ntypes: {P: int}",
      ["2:12 a type is a struct, an enum, a sequence or a map, such as {struct: {x: float, y: float}}"]),
-    ("module: A\ntypes: {a b: {sequence: int}}", [f"2:9 a name has {NAME}"]),
+    ("module: A\ntypes: {a b: {sequence: int}}", [f"2:9 {A_NAME}"]),
     ("module: A\ntypes: {P: {strct: {x: int}}}", ["2:13 Property strct is not allowed."]),
     ("module: A\ntypes: {P: {struct: [x]}}",
      ["2:21 struct: is a mapping of names to types, such as {x: float, y: float}"]),
@@ -67,18 +68,18 @@ IDSL: list[tuple[str, list[str]]] = [
     ("module: A\ntypes: {P: {enum: one}}", [f"2:19 {ENUM}"]),
     ("module: A\ntypes: {P: {enum: [one, 2]}}", [f"2:25 an enumerator is a name: {NAME}"]),
     ("module: A\ntypes: {P: {enum: {one: first}}}",
-     ["2:25 an enumerator has an integer from 0 to 2147483647, nothing, or {value: 5, doc: …}"]),
+     ["2:25 an enumerator's value is an integer from 0 to 2147483647, empty, or {value: 5, doc: …}"]),
     ("module: A\ntypes: {P: {enum: {one: -1}}}", [f"2:25 {RANGE}"]),
     ("module: A\ntypes: {P: {enum: {one: {value: 3000000000}}}}", [f"2:33 {RANGE}"]),
     ("module: A\ntypes: {P: {enum: {one: {value: x}}}}", [f"2:33 {RANGE}"]),
     ("module: A\ntypes: {P: {sequence: [int]}}", [f"2:23 {TYPE}"]),
     ("module: A\ntypes: {P: {map: int}}",
-     ["2:18 map: is the types of the keys and of the values, such as {key: string, value: Pose}"]),
+     ["2:18 map: is a mapping with the types of key and value, such as {key: string, value: Pose}"]),
     ("module: A\ntypes: {P: {map: {value: int}}}", ["2:13 the key 'key' is missing"]),
     ("module: A\ntypes: {P: {map: {key: int}}}", ["2:13 the key 'value' is missing"]),
     ("module: A\ntypes: {P: {map: {key: 3, value: int}}}", [f"2:24 {TYPE}"]),
     ("module: A\nexceptions: {E: what}",
-     ["2:17 an exception is a mapping, such as {doc: …, struct: {what: string}}, or nothing"]),
+     ["2:17 an exception is a mapping, such as {doc: …, struct: {what: string}}, or an empty value"]),
     ("module: A\nexceptions: [E]",
      ["2:13 exceptions: is a mapping of names to exceptions, such as HardwareFailed: {struct: {what: string}}"]),
     ("module: A\ninterfaces: [I]",
@@ -109,16 +110,16 @@ IDSL: list[tuple[str, list[str]]] = [
     ("module: A\ntopics: {T: {methods: [f]}}",
      ["2:23 methods: is a mapping of names to methods, such as spoken: {in: {text: string}}"]),
     ("module: A\ntopics: {T: {methods: {f: {returns: int}}}}",
-     ["2:28 a topic carries one way: its methods have only in:"]),
+     ["2:28 a topic is one-way: its methods have only in:"]),
     ("module: A\ntopics: {T: {methods: {f: {in: {x: int}, out: {y: int}}}}}",
-     ["2:42 a topic carries one way: its methods have only in:"]),
+     ["2:42 a topic is one-way: its methods have only in:"]),
     ("module: A\ntopics: {T: {methods: {f: int}}}",
-     ["2:27 a method of a topic is a mapping, such as {in: {text: string}}, or nothing"]),
+     ["2:27 a method of a topic is a mapping, such as {in: {text: string}}, or an empty value"]),
 ]  # fmt: skip
 
 CDSL: list[tuple[str, list[str]]] = [
     ("[]",
-     ["1:1 a component document is a mapping: component: SpeechComp, language: python, and what it offers and needs"]),
+     ["1:1 a component document is a mapping: component: SpeechComp, language: python, and its interfaces"]),
     ("language: cpp", ["1:1 the key 'component' is missing"]),
     ("component: A", ["1:1 the key 'language' is missing"]),
     (C + "implement: [A]", ["3:1 Property implement is not allowed."]),
@@ -131,16 +132,16 @@ CDSL: list[tuple[str, list[str]]] = [
     (C + "implements: A", ["3:13 implements: is a list of interfaces, such as [Speech]"]),
     (C + "implements: [3]", [f"3:14 {PORT}"]),
     (C + "implements: [{A: [B]}]",
-     ["3:18 behind a name stands an interface, {Camera1: Camera}, or more, {Camera1: {interface: Camera, doc: …}}"]),
+     ["3:18 the value of a name is an interface, {Camera1: Camera}, or a mapping, {Camera1: {interface: Camera, doc: …}}"]),
     (C + "implements: [{A: {absent: fail}}]", ["3:19 Property absent is not allowed."]),
     (C + "requires: {A: B}", ["3:11 requires: is a list of interfaces, such as [Mouth, {Mouth1: Mouth}]"]),
     (C + "requires: [a-b]", [f"3:12 {PROXY}"]),
     (C + "requires: [{}]", [f"3:12 {PROXY}"]),
     (C + "requires: [{A: B, C: D}]",
-     ["3:12 one name in each entry: - {Camera1: Camera} and - {Camera2: Camera} are two entries"]),
-    (C + "requires: [{1A: B}]", [f"3:13 a name has {NAME}"]),
+     ["3:12 each entry has one name: - {Camera1: Camera} and - {Camera2: Camera} are two entries"]),
+    (C + "requires: [{1A: B}]", [f"3:13 {A_NAME}"]),
     (C + "requires: [{A: [B]}]",
-     ["3:16 behind a name stands an interface, {Camera1: Camera}, or more, {Camera1: {interface: Camera, "
+     ["3:16 the value of a name is an interface, {Camera1: Camera}, or a mapping, {Camera1: {interface: Camera, "
       "absent: ignore, timeout: 10 s}}"]),
     (C + "requires: [{A: {interface: 3}}]", ["3:28 an interface is a name, such as Camera or RoboCompCamera.Camera"]),
     (C + "requires: [{A: {absent: no}}]", ["3:25 absent: is wait, fail or ignore"]),
@@ -166,9 +167,9 @@ CDSL: list[tuple[str, list[str]]] = [
     (C + "statemachine: {initial: a, states: [a]}",
      ["3:36 states: is a mapping of names to states, such as {compute: {}}"]),
     (C + "statemachine: {initial: a, states: {a: b}}",
-     ["3:40 a state is a mapping, such as {initial: sense, states: {sense: {}, act: {}}}, or nothing"]),
+     ["3:40 a state is a mapping, such as {initial: sense, states: {sense: {}, act: {}}}, or an empty value"]),
     (C + "statemachine: {initial: a, transitions: [a]}",
-     ["3:41 transitions: is a mapping of states to where they go, such as {initialize: compute}"]),
+     ["3:41 transitions: is a mapping of states to their transitions, such as {initialize: compute}"]),
     (C + "statemachine: {initial: a, transitions: {a: 3}}",
      ["3:45 a transition is a state, or a mapping such as {to: finalize, event: stop}"]),
     (C + "statemachine: {initial: a, transitions: {a: [b, 3]}}",
@@ -188,7 +189,7 @@ CDSL: list[tuple[str, list[str]]] = [
      ["3:67 after: is a time with its unit, such as 100 ms or 5 s"]),
     (C + "statemachine: {initial: a, transitions: {a: {do: {send: b, id: [c]}}}}", ["3:64 id: is a name"]),
     (C + "statemachine: {initial: a, transitions: {a: {do: {cancel: 3}}}}",
-     ["3:59 cancel: is the id of something sent"]),
+     ["3:59 cancel: is the id of a sent event"]),
     (C + "statemachine: {initial: a, transitions: {a: {to: b, internal: 1}}}", ["3:63 internal: is true or false"]),
     (C + "statemachine: {initial: a, states: {a: {parallel: 1}}}", ["3:51 parallel: is true or false"]),
     (C + "statemachine: {initial: a, states: {a: {history: flat}}}", ["3:50 history: is shallow or deep"]),
@@ -199,7 +200,7 @@ CDSL: list[tuple[str, list[str]]] = [
     (C + "uses: {libraries: {pip: a}}", ["3:19 libraries: is a list, such as [{cmake: OpenCV}, {pip: numpy}]"]),
     (C + "uses: {libraries: [numpy]}", ["3:20 a library is a mapping, such as {cmake: OpenCV} or {pip: numpy}"]),
     (C + 'uses: {libraries: [{version: "3"}]}',
-     ["3:20 a library says where it is from: cmake, pkg-config, link or pip"]),
+     ["3:20 a library has one of the keys cmake, pkg-config, link and pip"]),
     (C + "uses: {sources: [3]}", ["3:18 a source is a relative path, such as Classes/rcdraw/rcdraw.cpp"]),
     (C + "uses: {classes: [3]}", ["3:18 a class is a name, such as rapplication"]),
     (C + "uses: {libraries: [{cmake: 3}]}", ["3:28 cmake: is the name of a package, such as OpenCV"]),
@@ -218,7 +219,7 @@ WORKSPACE: list[tuple[str, list[str]]] = [
     ("output: {slice: [a]}", ["1:17 slice: is a folder, such as slice/"]),
     ("output: {runtime: [a]}", ["1:19 runtime: is a folder, such as runtime/"]),
     ("plugins: a", ["1:10 plugins: is a list of distributions, such as [rcyaml-acme]"]),
-    ("plugins: [a, a]", ["1:10 plugins: names each plug-in once"]),
+    ("plugins: [a, a]", ["1:10 plugins: is a list without duplicates"]),
     ("plugins: [a b]", ["1:11 a plug-in is the name of a distribution, such as rcyaml-acme"]),
     ("lint: [RC2003]", ["1:7 lint: is a mapping of codes to severities, such as {RC2003: warning}"]),
     ("lint: {X2003: note}", ["1:8 a code is RC and four digits, such as RC2003"]),

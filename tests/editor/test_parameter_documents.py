@@ -112,17 +112,17 @@ VALUE_COMPLETIONS = [
     (VALUES + "  Yolo: {u|}", ["use_gpu"]),
 ]
 VALUE_MESSAGES = [
-    ("  mode: fats", ["2:9 this is one of slow, fast"]),
-    ("  volume: 101", ["2:11 this is a whole number from 0 to 100 (percent)"]),
-    ("  volume: true", ["2:11 this is a whole number from 0 to 100 (percent)"]),
+    ("  mode: fats", ["2:9 this must be one of slow, fast"]),
+    ("  volume: 101", ["2:11 this must be a whole number from 0 to 100 (percent)"]),
+    ("  volume: true", ["2:11 this must be a whole number from 0 to 100 (percent)"]),
     ("  volume: {env: SPEECH_VOLUME}", []),
     ("  volume: {file: volume.txt}", []),
-    ("  volume: {file: volume/}", ["2:18 file: is the path of a file"]),
-    ("  volume: {env: 7}", ["2:17 env: is the name of an environment variable: letters, digits and underscores"]),
+    ("  volume: {file: volume/}", ["2:18 file: must be the path of a file"]),
+    ("  volume: {env: 7}", ["2:17 env: must be the name of an environment variable: letters, digits and underscores"]),
     ("  volum: 1", ["2:3 Property volum is not allowed."]),
-    ("  motors: []", ["2:11 there must be from 1 to 2 entries"]),
-    ("  motors: [{name: a, vel: 3}]", ["2:27 this is a number from 0 to 2 (rad/s)"]),
-    ("  motors: {name: a}", ["2:11 this is a list of from 1 to 2 entries, each entry Motor"]),
+    ("  motors: []", ["2:11 there must be 1 to 2 entries"]),
+    ("  motors: [{name: a, vel: 3}]", ["2:27 this must be a number from 0 to 2 (rad/s)"]),
+    ("  motors: {name: a}", ["2:11 this must be a list of 1 to 2 entries, each of type Motor"]),
     ("  volume: null\n  mode:", []),
 ]
 

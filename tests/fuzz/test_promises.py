@@ -185,14 +185,14 @@ LIMITS = {
     "attributes of one element of XML": xml.MAX_ATTRIBUTES,
     "plain values of a component's parameters": parameters.MAX_VALUES, "types inside of types": parameters.MAX_DEPTH,
     "a constraint": expression.MAX_LENGTH, "nesting of a constraint": expression.MAX_DEPTH, "a count in a `pattern:`": pattern.MAX_COUNT,
-    "what the counts of a `pattern:` come to, together": pattern_match.MAX_PLACES,
-    "processes of a deployment": deployment_documents.MOST,
-    "includes inside of each other": deployment_documents.DEEPEST,
+    "sum of all counts of a `pattern:`": pattern_match.MAX_STATES,
+    "processes of a deployment": deployment_documents.MAX_INSTANCES,
+    "nested includes": deployment_documents.MAX_DEPTH,
 }  # fmt: skip
 
 
 def test_the_limits_are_those_that_are_told() -> None:
     page = (ROOT / "SECURITY.md").read_text(encoding="utf-8")
-    told = re.findall(r"^\| ([^|]+) \| ([0-9][0-9,]*)[^|]* \| (RC\d{4}|refused) \|$", page, re.MULTILINE)
+    told = re.findall(r"^\| ([^|]+) \| ([0-9][0-9,]*)[^|]* \| (RC\d{4}|rejected) \|$", page, re.MULTILINE)
     assert {what: int(number.replace(",", "")) for what, number, _ in told} == LIMITS
-    assert {code for _, _, code in told if code != "refused"} <= set(table())
+    assert {code for _, _, code in told if code != "rejected"} <= set(table())

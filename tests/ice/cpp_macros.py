@@ -1,8 +1,7 @@
-"""Which names the headers that generated C++ includes define as macros, and which outside of any namespace, asked of
-the compiler.
+"""Asks the compiler which macros the headers of generated C++ define, and which names are in no namespace.
 
-`make macros` writes them to robocomp_yaml/languages/cpp/, and keeps what stands there: another version of a compiler or of a
-library knows others.
+`make macros` adds them to robocomp_yaml/languages/cpp/. Names in it stay: other versions of compilers and libraries have
+other names.
 """
 
 from __future__ import annotations
@@ -20,7 +19,7 @@ GLOBALS = TABLE.with_name("globals.py")
 FAMILIES = ("GL_", "QT_", "Q_")
 SETS = {"ALWAYS": "in every component", "SINCE_20": "with C++20 and later", "QT": "where there is a dialog"}
 _HEAD = """\
-\"\"\"Names that the headers which generated C++ includes define as macros: nothing else can have them in C++.
+\"\"\"Names of the macros that the headers of generated C++ define: nothing else in C++ can have them.
 
 Made by `make macros`, which adds what the compiler at hand knows. Do not edit: change tests/ice/cpp_macros.py.
 \"\"\"
@@ -40,19 +39,23 @@ def is_macro(name: str, standard: int, has_dialog: bool) -> bool:
         or (has_dialog and (name in QT or name.startswith(FAMILIES)))
     )"""
 _GLOBALS_HEAD = """\
-\"\"\"Names of the C library's functions, types and variables, which stand outside of any namespace: in C++ none can be
-called so.
+\"\"\"Names of the C library's functions, types and variables, which are in no namespace: nothing in C++ can have them.
 
 Made by `make macros`, which adds what the compiler at hand knows. Do not edit: change tests/ice/cpp_macros.py.
 \"\"\"
 
 from __future__ import annotations"""
+SUFFIXES = ("", "f", "l", "f32", "f32x", "f64", "f64x", "f128")
+_GLOBALS_FOOT = f"""
+_SUFFIXES = {SUFFIXES}  # of the types of numbers
+GLOBALS = _OTHERS.union(f"{{name}}{{suffix}}" for name in _FUNCTIONS for suffix in _SUFFIXES)
+""".replace("'", '"')
 _SLICE = "module M { struct S { int a; }; exception E { S s; }; interface I { S f(out int a) throws E; }; };\n"
 _INCLUDE = re.compile(r"^#include <(?!Q|\{|genericworker)([^>]+)>", re.MULTILINE)
 
 
 def found() -> dict[str, set[str]]:
-    """The macros of this machine, by the sets of the table that they belong to; no `QT` where there is none."""
+    """The macros of this machine, by the sets of the table; without `QT` if Qt is not installed."""
     with tempfile.TemporaryDirectory() as folder:
         include = headers(Path(folder))
         always = _macros(include, 17)
@@ -66,8 +69,8 @@ def found() -> dict[str, set[str]]:
 
 
 def found_globals() -> set[str]:
-    """The names of this machine that cannot be those of namespaces: each word of the headers is tried, but for what is
-    known as a macro or a keyword."""
+    """The names of this machine that a namespace cannot have: each word of the headers is tried, except for known macros
+    and keywords."""
     sys.path.insert(0, str(ROOT))
     from robocomp_yaml.languages.cpp import KEYWORDS
     from robocomp_yaml.languages.cpp.macros import EVER
@@ -88,7 +91,7 @@ def found_globals() -> set[str]:
 
 
 def headers(folder: Path) -> list[str]:
-    """All that the fixed sources include, and what slice2cpp makes."""
+    """Includes of the fixed sources and of slice2cpp's code."""
     (folder / "M.ice").write_text(_SLICE)
     subprocess.run(["slice2cpp", "--output-dir", str(folder), "M.ice"], cwd=folder, check=True)
     sources = sorted(path for path in (TABLE.parent / "templates").rglob("*") if path.is_file())
@@ -101,7 +104,7 @@ def headers(folder: Path) -> list[str]:
 
 
 def _macros(headers: list[str], standard: int, *flags: str) -> set[str]:
-    """Those that an interface can name, and that stand for something else than themselves."""
+    """The macros that an interface can name, and that do not expand to themselves."""
     source = "".join(f"#include <{header}>\n" for header in headers)
     listed = _preprocessed(source, standard, "-dM", *flags)
     names = set(re.findall(r"^#define (\w+)", listed, re.MULTILINE))
@@ -113,13 +116,13 @@ def _macros(headers: list[str], standard: int, *flags: str) -> set[str]:
 
 
 def _preprocessed(source: str, standard: int, *flags: str) -> str:
-    """With what a component's build defines by itself: for Ice, and in CMake's Release."""
+    """With the macros that a component's build defines: for Ice, and for CMake's Release."""
     command = ["g++", f"-std=c++{standard}", "-DICE_CPP11_MAPPING", "-DNDEBUG", "-O2", "-E", *flags, "-x", "c++", "-"]
     return subprocess.run(command, input=source, capture_output=True, text=True, check=True).stdout
 
 
 def _can_be_named(name: str) -> bool:
-    """Slice takes underscores between other characters only, and leaves `ice…` to Ice; some families are large."""
+    """Slice allows underscores only between other characters, and reserves `ice…`; some families are large."""
     return all(name.split("_")) and not name.lower().startswith("ice") and not name.startswith(FAMILIES)
 
 
@@ -128,6 +131,14 @@ def table(sets: dict[str, set[str]]) -> str:
     parts = [_HEAD, *(_listed(name, sets[name], f"  # {when}") for name, when in SETS.items())]
     parts.append(_FOOT.replace("{families}", str(FAMILIES).replace("'", '"')))
     return "\n\n".join(parts) + "\n"
+
+
+def globals_table(names: set[str]) -> str:
+    """The module globals.py: mathematical functions are listed once for all of their types."""
+    functions = {name for name in names if all(f"{name}{suffix}" in names for suffix in SUFFIXES)}
+    others = names - {f"{name}{suffix}" for name in functions for suffix in SUFFIXES}
+    parts = [f"{_GLOBALS_HEAD}\n", _listed("_FUNCTIONS", functions, "  # of mathematics"), _listed("_OTHERS", others)]
+    return "\n".join(parts) + _GLOBALS_FOOT
 
 
 def _listed(name: str, names: set[str], comment: str = "") -> str:
@@ -146,13 +157,13 @@ def main() -> None:
         known[name] |= macros
     known["SINCE_20"] -= known["ALWAYS"]
     known["QT"] -= known["ALWAYS"]
-    TABLE.write_text(table(known), encoding="utf-8")  # before the rest asks for it
+    TABLE.write_text(table(known), encoding="utf-8")  # before it is imported below
     names = found_globals()
     if GLOBALS.is_file():
         from robocomp_yaml.languages.cpp import globals as cpp_globals
 
         names |= cpp_globals.GLOBALS
-    GLOBALS.write_text(f"{_GLOBALS_HEAD}\n\n{_listed('GLOBALS', names)}\n", encoding="utf-8")
+    GLOBALS.write_text(globals_table(names), encoding="utf-8")
 
 
 if __name__ == "__main__":

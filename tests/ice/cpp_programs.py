@@ -1,4 +1,4 @@
-"""C++ components, built with CMake once for a whole run of the tests: each costs many seconds."""
+"""C++ components, built with CMake once per test run: each takes many seconds."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ in_all_builds = pytest.mark.skipif(
 
 @dataclass(frozen=True)
 class Program:
-    """A built component. Its folder is shared between tests: each brings a config of its own."""
+    """A built component. Tests share its folder: each uses a config of its own."""
 
     name: str
     root: Path
@@ -43,7 +43,7 @@ class Program:
         return self.root / "bin" / self.name
 
     def command(self, folder: Path, properties: Mapping[str, object]) -> list[str | Path]:
-        """Runs it with a config that holds these."""
+        """Runs it with a config with these properties."""
         config = folder / f"{self.name}.config"
         config.write_text("".join(f"{key} = {value}\n" for key, value in properties.items()))
         return [self.path, config]
@@ -54,7 +54,7 @@ Programs = Callable[[str], Program]
 
 HERE = Path(__file__).resolve().parent
 CACHE = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "rcyaml" / "test-objects"
-# As fast as can be: the compiler optimizes nothing, and need not compile twice what other tests build too.
+# Fast builds: without optimization, and with objects that other tests have built.
 FAST = (
     "-DCMAKE_BUILD_TYPE=Plain", f"-DCMAKE_PROJECT_INCLUDE={HERE / 'kept_objects.cmake'}",
     f"-DKEPT_OBJECTS={';'.join((sys.executable, str(HERE / 'kept_objects.py'), str(CACHE)))}",
@@ -62,7 +62,7 @@ FAST = (
 
 
 def cmake(root: Path, *options: str) -> None:
-    """Configures and builds; any warning fails."""
+    """Configures and builds; a warning is a failure."""
     folder = str(root / "build")
     for command in (
         ["cmake", "-S", str(root), "-B", folder, "-DCMAKE_CXX_FLAGS=-Werror", *options],
@@ -74,7 +74,7 @@ def cmake(root: Path, *options: str) -> None:
 
 @contextmanager
 def locked(file: Path) -> Iterator[None]:
-    """One process at a time."""
+    """A lock between processes."""
     with file.open("w") as stream:
         fcntl.flock(stream, fcntl.LOCK_EX)
         yield
@@ -82,7 +82,7 @@ def locked(file: Path) -> Iterator[None]:
 
 @pytest.fixture(scope="session")
 def programs(tmp_path_factory: pytest.TempPathFactory) -> Programs:
-    """`programs("Server")`: built by the first test that asks, in whichever of pytest-xdist's processes."""
+    """`programs("Server")`: built by the first test that needs it, in any of pytest-xdist's processes."""
     sources = {name: {"src/specificworker.cpp": source} for name, source in SOURCES.items()}
     return shared_programs(tmp_path_factory.getbasetemp(), "c++ ñ", DOCUMENTS, sources)  # with a blank and more
 
@@ -90,8 +90,8 @@ def programs(tmp_path_factory: pytest.TempPathFactory) -> Programs:
 def shared_programs(
     base: Path, name: str, documents: Mapping[str, str], sources: Mapping[str, Mapping[str, str]]
 ) -> Programs:
-    """Programs of these documents, with the user's files of each component, in a folder of this name that pytest-xdist's
-    processes share."""
+    """Programs of these documents, with the user's files of each component, in a folder that pytest-xdist's processes
+    share."""
     shared = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
     folder = shared / name
     folder.mkdir(exist_ok=True)

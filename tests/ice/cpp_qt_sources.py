@@ -1,5 +1,5 @@
-"""The C++ components with Qt that the tests build: windows, and specific workers as users of RoboComp's own tool write
-them, in three generations."""
+"""The C++ components with Qt that the tests build: windows, and specific workers for RoboComp's own tool, in three
+generations."""
 
 from __future__ import annotations
 

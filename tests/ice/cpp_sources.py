@@ -252,5 +252,5 @@ void SpecificWorker::Arm_betray() {}
 void SpecificWorker::Arm_block(float) {}
 """
 
-# The user's part; a component that is not here keeps its skeleton.
+# The user's part; a component without an entry keeps its skeleton.
 SOURCES = {"Server": SERVER, "Client": CLIENT, "Turns": TURNS, "Radio": RADIO, "Mutual": MUTUAL}

@@ -1,4 +1,4 @@
-"""Java components, built once for a whole run of the tests."""
+"""Java components, built once per test run."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ needs_java = pytest.mark.skipif(
 
 
 def java_build(root: Path) -> None:
-    """As users build it; any warning of the compiler fails."""
+    """Builds as users do; a warning of the compiler is a failure."""
     done = subprocess.run([root / "generated" / "build"], capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
     assert done.stderr == ""

@@ -1,4 +1,4 @@
-"""Stands before the C++ compiler in builds of tests: what was compiled once, in whichever folder, is taken from there.
+"""Runs instead of the C++ compiler in builds of tests: an object that was compiled once, in any folder, is reused.
 
 As a program: `kept_objects.py FOLDER COMPILER WORD…`, of which FOLDER is where objects are kept, for a week since they
 were last of use. An object is known by its source after the preprocessor, and by the compiler and its words without
@@ -27,7 +27,7 @@ def compile_or_take(folder: Path, command: list[str]) -> int:
     made = Path(command[command.index("-o") + 1])
     text = subprocess.run(_preprocess(command), stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
     if text.returncode:
-        return subprocess.run(command).returncode  # it says itself what is wrong
+        return subprocess.run(command).returncode  # it prints its errors
     folder.mkdir(parents=True, exist_ok=True)
     kept = folder / hashlib.sha256(_identity(command) + text.stdout).hexdigest()
     with kept.with_suffix(".lock").open("w") as lock:
@@ -46,7 +46,7 @@ def compile_or_take(folder: Path, command: list[str]) -> int:
 
 
 def _preprocess(command: list[str]) -> list[str]:
-    """Writes the text, without the paths that it is from, to standard output, and the dependencies where they belong."""
+    """Writes the text to standard output, without the paths of its folder, and the dependencies to their file."""
     end = command.index("-o")
     return [*command[:end], *command[end + 2 :], "-E", "-P"]
 
@@ -66,7 +66,7 @@ def _forget_the_old(folder: Path) -> None:
             if path.stat().st_mtime < time.time() - _WEEK:
                 path.unlink()
         except FileNotFoundError:
-            continue  # another process was faster
+            continue  # another process has stored it first
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""A C++ component whose other side is not there: waiting, failing, ignoring, and what it says."""
+"""A C++ component whose servers are absent: waiting, failing, ignoring, and its messages."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ pytestmark = [pytest.mark.slow, needs_cpp]
 
 @pytest.fixture
 def client(programs: Programs) -> Program:
-    """Waits for Arm and, no longer than half a second, for Late; needs Arm2; does not mind Hand."""
+    """Waits for Arm, and for Late at most half a second; fails without Arm2; ignores Hand."""
     return programs("Client")
 
 
 @pytest.fixture
 def served(programs: Programs, start: Start, free_port: Ports, tmp_path: Path) -> str:
-    """An Arm that is there."""
+    """A running Arm."""
     endpoint, other = (f"tcp -h 127.0.0.1 -p {free_port()}" for _ in range(2))
     start(programs("Server").command(tmp_path, {"Arm.Endpoints": endpoint, "Hand.Endpoints": other}))
     return f"arm:{endpoint}"
@@ -34,7 +34,7 @@ def nobody(free_port: Ports) -> str:
 
 
 def proxies(address: str, **others: str) -> dict[str, str]:
-    """All proxies of the client to one address, but for these."""
+    """Proxies of the client to one address, except for `proxies`."""
     return {f"{name}Proxy": others.get(name, address) for name in ("Arm", "Arm2", "Hand", "Late")}
 
 
@@ -63,7 +63,7 @@ def test_a_signal_ends_the_wait(client: Program, start: Start, nobody: str, tmp_
 
 
 def test_a_signal_ends_the_wait_for_a_silent_host(client: Program, start: Start, tmp_path: Path) -> None:
-    """One that takes the connection and never says a word."""
+    """A server that accepts the connection and never answers."""
     with socket.create_server(("127.0.0.1", 0)) as silent:
         address = f"arm:tcp -h 127.0.0.1 -p {silent.getsockname()[1]}"
         waiting = start(client.command(tmp_path, proxies(address))).wait_for("(no answer in time)")
@@ -83,11 +83,11 @@ def test_it_waits_no_longer_than_its_timeout(
 def test_it_fails_at_once(client: Program, start: Start, served: str, nobody: str, tmp_path: Path) -> None:
     failing = start(client.command(tmp_path, proxies(served, Arm2=nobody)))
     assert failing.exit_code() == 1
-    assert last_line(failing) == f"ERROR Client: Arm2 at {nobody} is not there (connection refused)"
+    assert last_line(failing) == f"ERROR Client: Arm2 at {nobody} does not answer (connection refused)"
 
 
 def test_it_does_not_mind(client: Program, start: Start, served: str, nobody: str, tmp_path: Path) -> None:
-    """Nor does the other proxies' wait hang on it; a call then ends in Ice's exception."""
+    """The wait for other proxies does not block it either; a call then fails with an exception of Ice."""
     running = start(client.command(tmp_path, proxies(served, Hand=nobody))).wait_for("Client is running")
     assert "nobody grasps\n" in running.output
 
@@ -97,11 +97,11 @@ def test_it_does_not_mind(client: Program, start: Start, served: str, nobody: st
     [
         ("hand:{endpoint}", "the process answers, but has no such object"),
         ("arm:tcp -h no-such-host.invalid -p 1", "host no-such-host.invalid is unknown"),
-        ("arm", "it has no endpoint, and there is no locator to ask"),
+        ("arm", "it has no endpoint, and no locator is configured"),
     ],
 )
 def test_why_it_is_absent(client: Program, start: Start, served: str, tmp_path: Path, address: str, why: str) -> None:
     text = address.format(endpoint=served.partition(":")[2])
     failing = start(client.command(tmp_path, proxies(served, Arm2=text)))
     assert failing.exit_code() == 1
-    assert last_line(failing) == f"ERROR Client: Arm2 at {text} is not there ({why})"
+    assert last_line(failing) == f"ERROR Client: Arm2 at {text} does not answer ({why})"

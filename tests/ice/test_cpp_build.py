@@ -1,4 +1,4 @@
-"""Building C++ components: from the command line on, again and again, and when something is missing."""
+"""Building C++ components: on the command line, repeatedly, and with missing tools."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ SLICE = ["slice2cpp", "--header-ext", "ice.h", "--source-ext", "ice.cpp"]
 
 
 def slices(root: Path) -> list[str]:
-    """Compiles the component's Slice; the option that finds its headers."""
+    """Compiles the component's Slice; returns the option for its headers."""
     (root / "build").mkdir(exist_ok=True)
     names = sorted(str(file) for folder in ("slice", "generated/slice") for file in (root / folder).glob("*.ice"))
     subprocess.run([*SLICE, f"-I{root / 'slice'}", "--output-dir", "build", *names], cwd=root, check=True)
@@ -30,7 +30,7 @@ def slices(root: Path) -> list[str]:
 
 
 def test_from_the_command_line_on(rcyaml: Callable[..., Result], tmp_path: Path, start: Start) -> None:
-    """A component as it was compiled, built and run; a second build does nothing; a new source is taken."""
+    """Compiles, builds and runs a component; a second build does nothing; a new source is built."""
     root = tmp_path / "a component"
     documents = {**INTERFACES, "a component/x.cdsl.yaml": cdsl("Fresh", "cpp", implements=["Hand"], requires=["Arm"])}
     write_tree(tmp_path, documents)
@@ -55,12 +55,12 @@ def test_ice_is_missing(tmp_path: Path) -> None:
     command = ["cmake", "-S", str(root), "-B", str(root / "build"), "-DCMAKE_DISABLE_FIND_PACKAGE_Ice=ON"]
     done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode != 0
-    assert "Lonely needs Ice 3.7 for C++, which is not installed here." in done.stderr
+    assert "Lonely needs Ice 3.7 for C++, which is not installed." in done.stderr
     assert "sudo apt install libzeroc-ice-dev zeroc-ice-compilers" in done.stderr
 
 
 def test_a_method_that_the_user_lacks(tmp_path: Path) -> None:
-    """The interface has gained one, or lost one: the user's class compiles all the same."""
+    """The interface has gained or lost a method: the user's class compiles all the same."""
     root = build({**INTERFACES, "x/x.cdsl.yaml": cdsl("X", "cpp", implements=["Hand"])}, tmp_path)["X"].root
     header = root / "src" / "specificworker.h"
     header.write_text(header.read_text().replace("Hand_grasp(", "Hand_gripped("))
@@ -70,7 +70,7 @@ def test_a_method_that_the_user_lacks(tmp_path: Path) -> None:
 
 
 def test_a_method_that_no_longer_fits(tmp_path: Path) -> None:
-    """The compiler says which one is hidden."""
+    """The compiler names the hidden one."""
     root = build({**INTERFACES, "x/x.cdsl.yaml": cdsl("X", "cpp", implements=["Hand"])}, tmp_path)["X"].root
     header = root / "src" / "specificworker.h"
     header.write_text(header.read_text().replace("Hand_grasp(", "Hand_grasp(int, "))
@@ -79,10 +79,10 @@ def test_a_method_that_no_longer_fits(tmp_path: Path) -> None:
     assert "Hand_grasp(const RoboCompTypes::Image&)" in done.stderr and "was hidden" in done.stderr
 
 
-# All components of other tests are built in C++17.
+# The components of all other tests are built with C++17.
 @pytest.mark.parametrize("standard", [pytest.param(17, marks=in_all_builds), 20])
 def test_the_golden_component(tmp_path: Path, standard: int) -> None:
-    """And the whole run time with it, in the standard that components ask for."""
+    """The run time is built with the standard of the component too."""
     golden = ROOT / "tests" / "golden" / "cpp" / "mouth"
     root = build(MOUTH, tmp_path)["MouthComp"].root
     for name in ("generated/genericworker.cpp", "src/specificworker.cpp"):

@@ -16,7 +16,7 @@ pytestmark = [pytest.mark.slow, needs_cpp]
 
 
 class Addresses:
-    """Where the server of a test listens."""
+    """The address of a test's server."""
 
     def __init__(self, free_port: Ports) -> None:
         arm, hand = free_port(), free_port()
@@ -50,7 +50,7 @@ def python(build: Build) -> dict[str, Built]:
 
 
 def says_all(said: str) -> bool:
-    """What a C++ client prints that was answered as it should."""
+    """The lines of a C++ client for correct answers."""
     lines = said.splitlines()
     for line in ("move 2 0", "state right 2 1 3", "blocked at 1 9.5", "timed out", "grasp cba"):
         assert line in lines, said

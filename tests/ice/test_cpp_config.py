@@ -1,4 +1,4 @@
-"""The config of a C++ component: where it comes from, its two spellings, and what is wrong with it in one line."""
+"""The config of a C++ component: its location, its two spellings, and its errors in one line."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def endpoints(free_port: Ports) -> dict[str, str]:
 
 
 def fails(start: Start, program: Program, folder: Path, *arguments: str) -> str:
-    """The one line that it says before it ends, without the time."""
+    """The only line of output before the component ends, without the time."""
     running = start([program.path, *arguments], cwd=folder)
     assert running.exit_code() == 1, running.output
     (line,) = running.output.splitlines()
@@ -39,7 +39,7 @@ def write(folder: Path, text: str | bytes) -> None:
 
 
 def test_toml_dialect(server: Program, start: Start, free_port: Ports, ice: Any, tmp_path: Path) -> None:
-    """Keys the other way round, values in double quotes."""
+    """Keys in the other spelling, values in double quotes."""
     arm = free_port()
     properties = {
         "Endpoints.Arm": f'"tcp -h 127.0.0.1 -p {arm}"',
@@ -70,7 +70,7 @@ def test_ice_config_names_the_file(server: Program, start: Start, endpoints: dic
 def test_the_current_folder_does_not_matter(
     server: Program, start: Start, endpoints: dict[str, str], tmp_path: Path
 ) -> None:
-    """The default config is the component's own, also when the program is reached through a link."""
+    """The default config is the component's own, also if the program is started through a link."""
     copy = Program("Server", tmp_path / "copy")
     (copy.root / "bin").mkdir(parents=True)
     shutil.copy(server.path, copy.path)
@@ -129,7 +129,7 @@ def test_a_port_that_is_taken(server: Program, start: Start, tmp_path: Path) -> 
 @pytest.mark.parametrize("wrong", ["arm:tcp -p x", ":tcp -p 1", '"'])
 def test_a_wrong_proxy(programs: Programs, start: Start, tmp_path: Path, wrong: str) -> None:
     write(tmp_path, f"ArmProxy = {wrong}\n")
-    message = f"the proxy to Arm is '{wrong}' in my.config: that is no proxy ("
+    message = f"the proxy to Arm is '{wrong}' in my.config, which is not a proxy ("
     assert fails(start, programs("Client"), tmp_path, "my.config").startswith(message)
 
 
@@ -145,16 +145,16 @@ def test_a_wrong_period(server: Program, start: Start, tmp_path: Path, wrong: st
 
 
 def test_bytes_that_are_no_text(server: Program, start: Start, endpoints: dict[str, str], tmp_path: Path) -> None:
-    """In a comment they do not matter; nor do a BOM and CRLF."""
+    """Such bytes are allowed in comments; so are a BOM and CRLF."""
     write(tmp_path, b"# \xe1rbol\nArm.Endpoints = tcp -p \xff\xfe\n")
-    assert fails(start, server, tmp_path, "my.config") == "my.config:2: this line is not in UTF-8"
+    assert fails(start, server, tmp_path, "my.config") == "my.config:2: this line is not UTF-8"
     lines = [f"{key} = {value}".encode() for key, value in endpoints.items()]
     write(tmp_path, b"\xef\xbb\xbf" + b"\r\n".join([*lines, b"name = \xc3\xb1", b"# \xe1rbol", b""]))
     start([server.path, "my.config"], cwd=tmp_path).wait_for("Server is running")
 
 
 def test_wrong_usage(server: Program, start: Start) -> None:
-    for arguments, said in ((["a", "b"], "one CONFIG, please, not 2: a b"), (["-x"], "there is no option -x")):
+    for arguments, said in ((["a", "b"], "expected one CONFIG, got 2: a b"), (["-x"], "unknown option -x")):
         running = start([server.path, *arguments])
         assert running.exit_code() == 2
         assert running.output.startswith(f"Server: {said}\n\nusage: bin/Server [CONFIG]")

@@ -1,4 +1,4 @@
-"""Real interfaces in C++: every operation as slice2cpp declares it, and, for a sample, what g++ says."""
+"""Real interfaces in C++: every operation as slice2cpp declares it; a sample is compiled by g++."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from robocomp_yaml.cli import group
 from robocomp_yaml.diag.diagnostic import ERROR
 from robocomp_yaml.emit import slice as slice_target
 from robocomp_yaml.emit.component import of_language
-from robocomp_yaml.languages.cpp.ports import Ports
+from robocomp_yaml.languages.cpp.ports import port_views
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.component import Component, Language, Use
 from robocomp_yaml.pipeline import analyse
@@ -30,7 +30,7 @@ SAMPLE = 6 if "RCYAML_ALL_BUILDS" in os.environ else 3
 
 @pytest.fixture(scope="module")
 def modules(tmp_path_factory: pytest.TempPathFactory) -> list[LinkedModule]:
-    """The corpus' interfaces that have no error, by name."""
+    """The interfaces of the corpus without errors, by name."""
     folder = tmp_path_factory.mktemp("yaml")
     CliRunner().invoke(group, ["migrate", str(CORPUS / "idsl"), "-o", str(folder)])
     analysis = analyse([str(folder)])
@@ -44,7 +44,7 @@ def modules(tmp_path_factory: pytest.TempPathFactory) -> list[LinkedModule]:
 
 
 def component(linked: LinkedModule) -> LinkedComponent:
-    """Implements, requires, publishes and subscribes all that the module defines."""
+    """Implements, requires, publishes and subscribes everything in the module."""
     ports = tuple(Port(Use(i.name, i.name), i, linked) for i in linked.module.all_interfaces)
     topics = tuple(port for port in ports if any(m.can_be_published for m in port.interface.methods))
     return LinkedComponent(
@@ -62,7 +62,7 @@ def compile_slice(modules: list[LinkedModule], folder: Path) -> None:
 
 
 def plain(declaration: str, own: str) -> str:
-    """Without the names of parameters, and without what names the own module or the global scope."""
+    """Without names of parameters, and without the names of the own module and the global scope."""
     flat = re.sub(r"\(\s+", "(", re.sub(r"\s+", " ", declaration))
     head, _, rest = flat.partition("(")
     types = [re.sub(r"(?<=[&\w]) \w+$", "", word) for word in rest.split(", ") if word]
@@ -72,7 +72,7 @@ def plain(declaration: str, own: str) -> str:
 
 
 def operations(header: str, own: str) -> Iterator[str]:
-    """Those of the C++11 mapping, in the order of the file."""
+    """The operations of the C++11 mapping, in the order of the file."""
     for returns, name, parameters in OPERATION.findall(header.partition("#else // C++98 mapping")[0]):
         yield plain(f"{returns} {name}({parameters.removesuffix(', ')}", own)
 
@@ -88,11 +88,11 @@ def test_every_operation_is_declared_as_ice_declares_it(modules: list[LinkedModu
         module = linked.module
         header = (tmp_path / f"{slice_target.file_name(linked)}.h").read_text(encoding="utf-8")
         expected = sorted(operations(header, module.name))
-        services = Ports(component(linked)).implements
+        services = port_views(component(linked)).implements
         got = [operation.declaration for service in services for operation in service.operations]
         ours = [re.sub(r"(, )?\s*const Ice::Current&\) override$", "", text).rstrip(",") for text in got]
         assert sorted(plain(text, module.name) for text in ours) == expected, module.path
-        for proxy in {accessor.proxy for accessor in Ports(component(linked)).requires}:
+        for proxy in {accessor.proxy for accessor in port_views(component(linked)).requires}:
             assert f"class {proxy.rpartition('::')[2]};" in header
         checked += len(expected)
     assert checked == sum(len(i.methods) for m in modules for i in m.module.all_interfaces) > 400

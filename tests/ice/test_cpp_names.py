@@ -1,4 +1,4 @@
-"""Odd names: whatever IDSL and Slice take becomes C++ that compiles without warnings, runs and answers."""
+"""Odd names: every name that IDSL and Slice accept becomes C++ that compiles without warnings, runs and answers."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from processes import Ports, Start
 from robocomp_yaml.languages.cpp.names import ICE_ESCAPES, ice_name
 
 SLICE = set("bool class const double enum false float int long module short struct true void".split())
-# What C++ has and had, and what Ice's code or ours might trip over.
+# Words of C++, present and past, and names that Ice's code or generated code uses.
 OTHERS = """
     char8_t co_await co_return co_yield concept consteval constinit final import module override
     begin checkedCast clear cb context current current_ data describe end ex exc identity name operation response
@@ -160,7 +160,7 @@ void SpecificWorker::goto_if(const _cpp_operator& given)
 @pytest.mark.slow
 @needs_cpp
 def test_odd_names(tmp_path: Path, start: Start, free_port: Ports, icestorm: object) -> None:
-    """The skeleton compiles; so does a worker that answers itself, through a proxy that is called `this`."""
+    """The skeleton compiles; so does a worker that calls itself through a proxy named `this`."""
     odd = Program("test", build(DOCUMENTS, tmp_path)["test"].root)
     source = odd.root / "src" / "specificworker.cpp"
     (odd.root / "src" / "skeleton.cpp").write_text(source.read_text().replace("SpecificWorker::", "Skeleton::"))

@@ -1,4 +1,4 @@
-"""C++ components with Qt, offscreen: windows, and specific code written for RoboComp's own tool, in three generations."""
+"""C++ components with Qt, offscreen: windows, and specific code for RoboComp's own tool, in three generations."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def qt_programs(tmp_path_factory: pytest.TempPathFactory) -> Programs:
 def test_a_window_and_its_worker_have_threads(
     qt_programs: Programs, start: Start, tmp_path: Path, free_port: Ports, ice: Any, slices: None
 ) -> None:
-    """The window answers while the worker is busy; they hand things to each other; closing it stops the component."""
+    """The window answers while the worker is busy; they pass jobs to each other; closing it stops the component."""
     import RoboCompArm
 
     port = free_port()
@@ -47,7 +47,7 @@ def test_a_window_and_its_worker_have_threads(
     assert ticks > 10, "about 50 in half a second, however busy the worker and this machine are"
     RoboCompArm.ArmPrx.uncheckedCast(ice.stringToProxy(f"arm:tcp -h 127.0.0.1 -p {port}")).move([], False)
     assert running.exit_code(3) == 0
-    assert "ending without it" not in running.output
+    assert "the process ends anyway" not in running.output
 
 
 @needs_qt
@@ -56,23 +56,23 @@ def test_signals_stop_a_window(qt_programs: Programs, start: Start, tmp_path: Pa
     for number in (signal.SIGINT, signal.SIGTERM):
         running = start(command, env=OFFSCREEN).wait_for("Window is running")
         assert running.stop(number) == 0
-        assert "ending without it" not in running.output
+        assert "the process ends anyway" not in running.output
     assert start([*command, "--startup-check"], env=OFFSCREEN).exit_code() == 0
     refused = start(command, env=NO_SCREEN)
     assert refused.exit_code() == 1
-    assert "there is no screen for the window" in refused.output and refused.output.count("\n") == 1
+    assert "the window has no screen" in refused.output and refused.output.count("\n") == 1
 
 
 @needs_qt
 @in_all_builds
 def test_a_dialog_as_it_was_written(qt_programs: Programs, start: Start, tmp_path: Path) -> None:
-    """The form is ours; rejecting a dialog closes it."""
+    """The generated form is used; rejecting a dialog closes it."""
     running = start(qt_programs("Dialog").command(tmp_path, {}), env=OFFSCREEN)
     assert running.exit_code() == 0
 
 
 def _configs(arm: int, hand: int, behavior: int, icestorm: Storm) -> tuple[dict[str, object], dict[str, object]]:
-    """Those of a server and of its client."""
+    """The commands of a server and of its client."""
     common: dict[str, object] = {
         "TopicManager.Proxy": icestorm.manager,
         "ArmEvents": f"Events{arm}",
@@ -101,7 +101,7 @@ def _configs(arm: int, hand: int, behavior: int, icestorm: Storm) -> tuple[dict[
 def test_robocomps_generations(
     qt_programs: Programs, start: Start, tmp_path: Path, free_port: Ports, icestorm: Storm, behavior: Any, name: str
 ) -> None:
-    """Interfaces, a topic, parameters; the period by either side; an orderly end."""
+    """Interfaces, a topic, parameters; either side sets the period; it stops in order."""
     port = free_port()
     server, client = _configs(free_port(), free_port(), port, icestorm)
     calling = start(qt_programs("Latest").command(tmp_path, client))
@@ -124,7 +124,7 @@ def test_robocomps_generations(
     assert calling.stop() == 0
     behavior(port).killYourSelf()
     assert serving.exit_code(3) == 0
-    assert "Destroying SpecificWorker\n" in serving.output and "ending without it" not in serving.output
+    assert "Destroying SpecificWorker\n" in serving.output and "the process ends anyway" not in serving.output
 
 
 @needs_qt
@@ -149,7 +149,7 @@ def test_robocomps_own_stop_and_check(
 @needs_qt
 @in_all_builds
 def test_robocomps_window(qt_programs: Programs, start: Start, tmp_path: Path) -> None:
-    """There the worker is the window."""
+    """The worker is the window."""
     running = start(qt_programs("Face").command(tmp_path, {"Period.Compute": 20}), env=OFFSCREEN)
     assert running.exit_code() == 0
     assert "clicked 1\n" in running.output
@@ -170,7 +170,7 @@ def test_robocomps_skeleton(
 
 
 def test_without_qt(tmp_path: Path) -> None:
-    """One readable line says what to install; and a component without a window does not ask."""
+    """One readable line says what to install; a component without a window does not need it."""
     keys: dict[str, Any] = {"gui": {"toolkit": "qt", "base": "QWidget"}}
     built = build({**INTERFACES, "any.cdsl.yaml": cdsl("Any", "cpp", **keys)}, tmp_path / "with")["Any"]
     hidden = ["-DCMAKE_DISABLE_FIND_PACKAGE_QT=ON", "-DCMAKE_DISABLE_FIND_PACKAGE_Qt6=ON"]

@@ -1,4 +1,4 @@
-"""A C++ component stops in order, within two seconds, whatever it is doing; CommonBehavior and the worker's period."""
+"""A C++ component stops in order, within two seconds, at any time; CommonBehavior and the worker's period."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Ask = Callable[[int], Any]
 
 @pytest.fixture
 def server(programs: Programs, free_port: Ports, tmp_path: Path) -> list[str | Path]:
-    """The command that starts it."""
+    """The command of the component."""
     ports = {f"{name}.Endpoints": f"tcp -h 127.0.0.1 -p {free_port()}" for name in ("Arm", "Hand")}
     return programs("Server").command(tmp_path, ports)
 
@@ -28,7 +28,7 @@ def server(programs: Programs, free_port: Ports, tmp_path: Path) -> list[str | P
 def test_a_signal_stops_it(server: list[str | Path], start: Start, number: int) -> None:
     running = start(server).wait_for("Server is running")
     assert running.stop(number) == 0
-    assert "ending without it" not in running.output, "at once: nothing holds it up"
+    assert "the process ends anyway" not in running.output, "at once: nothing holds it up"
     assert "terminate" not in running.output
 
 
@@ -43,7 +43,7 @@ def test_with_a_method_that_is_stuck(
     call = RoboCompArm.ArmPrx.uncheckedCast(ice.stringToProxy(f"arm:{endpoint}")).blockAsync(60)
     running.wait_for("blocking")
     assert running.stop(number, within=2.0) == 0
-    assert "WARNING stop: a method is still running after 1.5 s: ending without it" in running.output
+    assert "WARNING stop: a method is still running after 1.5 s: the process ends anyway" in running.output
     assert call.exception(5) is not None
 
 
@@ -59,7 +59,7 @@ def test_start_and_stop_again_and_again(server: list[str | Path], start: Start) 
     for _ in range(10):
         running = start([*server, "--startup-check"])
         assert running.exit_code() == 0
-        assert "Server starts as it should" in running.output
+        assert "Server: the startup check has passed" in running.output
 
 
 @pytest.fixture
@@ -69,7 +69,7 @@ def port(free_port: Ports) -> int:
 
 @pytest.fixture
 def turns(programs: Programs, port: int, tmp_path: Path) -> list[str | Path]:
-    """The command that starts a component whose worker says when it has a turn."""
+    """The command of a component whose worker prints each turn."""
     endpoint = f"tcp -h 127.0.0.1 -p {port}"
     return programs("Turns").command(
         tmp_path, {"CommonBehavior.Endpoints": endpoint, "Ice.Warn.Connections": 0, "a": 1}
@@ -77,13 +77,13 @@ def turns(programs: Programs, port: int, tmp_path: Path) -> list[str | Path]:
 
 
 def rows(running: Running) -> list[tuple[int, int]]:
-    """The number and the moment of each turn so far."""
+    """The number and the time of each turn so far."""
     lines = [line.split() for line in running.output.splitlines() if line.startswith("turn ")]
     return [(int(line[1]), int(line[2])) for line in lines if len(line) == 4]
 
 
 def test_a_turn_every_period(turns: list[str | Path], start: Start) -> None:
-    """A failure is logged and survived; after a turn that took long, the next ones come on the old beat."""
+    """A failure is logged, and the next turn follows; after a long turn, the following ones keep the old beat."""
     running = start(turns)
     until(lambda: len(rows(running)) > 20, "twenty turns")
     assert "ERROR Turns: compute() failed: the third one fails\n" in running.output
@@ -119,27 +119,27 @@ def test_what_it_is_told(turns: list[str | Path], start: Start, behavior: Ask, p
         asked.setPeriod(wrong)
         assert asked.getPeriod() == 20
         said = f"period.compute is {wrong} ms, and must be at least 1 ms"
-        running.wait_for(f"WARNING Turns: setPeriod({wrong}) refused: {said}")
+        running.wait_for(f"WARNING Turns: setPeriod({wrong}) rejected: {said}")
     asked.setParameterList(asked.getParameterList())
     running.wait_for("INFO Turns: parameters changed by setParameterList: none")
     changed = asked.getParameterList()
     changed["a"].value, changed["period.compute"].value = "2", "99"
     asked.setParameterList(changed)
-    running.wait_for("WARNING Turns: setParameterList refused: there is no parameter 'a'")
+    running.wait_for("WARNING Turns: setParameterList rejected: unknown parameter 'a'")
     assert asked.getPeriod() == 20, "all, or none"
     config = Path(turns[1])
     config.write_text(config.read_text() + "period.compute = 30\n")
     asked.reloadConfig()
     assert asked.getPeriod() == 30
-    running.wait_for("INFO Turns: the config is read again; the period is 30 ms")
+    running.wait_for("INFO Turns: config reloaded, the period is 30 ms")
     config.write_text("period.compute = soon\n")
     asked.reloadConfig()
     assert asked.getPeriod() == 30
-    running.wait_for("WARNING Turns: reloadConfig refused: ")
+    running.wait_for("WARNING Turns: reloadConfig rejected: ")
     running.wait_for("period.compute must be a whole number (ms), and is 'soon'")
     asked.killYourSelf()
     assert running.exit_code(2) == 0
-    assert "INFO Turns: asked to stop" in running.output
+    assert "INFO Turns: stop requested through CommonBehavior" in running.output
 
 
 def test_it_answers_while_it_waits(
@@ -157,7 +157,7 @@ def test_it_answers_while_it_waits(
 def test_a_call_that_came_too_early(
     programs: Programs, start: Start, ice: Any, slices: None, free_port: Ports, tmp_path: Path
 ) -> None:
-    """It waits for the end of initialize(); when that never comes, it gets an exception, and does not hold us up."""
+    """It waits until initialize() returns; if it never does, the call fails and does not delay the end."""
     import Ice
     import RoboCompArm
 
@@ -174,7 +174,7 @@ def test_a_call_that_came_too_early(
 
 
 def test_ices_own_process_facet(server: list[str | Path], start: Start, ice: Any, free_port: Ports) -> None:
-    """IceGrid stops programs so."""
+    """As IceGrid does."""
     import Ice
 
     endpoint = f"tcp -h 127.0.0.1 -p {free_port()}"

@@ -1,4 +1,4 @@
-"""`rcyaml build` with components in C++: one tree, one run, and what is known of their programs afterwards."""
+"""`rcyaml build` with C++ components: one tree, one run, and what is known of their programs afterwards."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def test_a_workspace(rcyaml: Rcyaml, tmp_path: Path) -> None:
     arm, leg = tmp_path / "arm", tmp_path / "leg"
     assert rcyaml("compile").exit_code == 0
 
-    # Ctrl-C, with which compilers end, too, and all goes on from there.
+    # Ctrl-C ends compilers too; the next build continues from there.
     command = [Path(sys.executable).with_name("rcyaml"), "build"]
     begun = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     until = time.monotonic() + 120
@@ -68,32 +68,32 @@ def test_a_workspace(rcyaml: Rcyaml, tmp_path: Path) -> None:
     assert build(rcyaml) == {"ArmComp": "up to date", "LegComp": "up to date"}
     assert rcyaml("deploy", "plan").exit_code == 0
 
-    # Editors know how each file is compiled, and the user's repository holds none of it.
+    # Editors know how each file is compiled; the user's repository ignores these files.
     commands = json.loads((tmp_path / "compile_commands.json").read_text())
     assert {str(arm / "src" / "specificworker.cpp"), str(leg / "src" / "specificworker.cpp")} <= {
         one["file"] for one in commands
     }
     assert (tmp_path / "build" / "Release" / ".gitignore").read_text() == "*\n"
 
-    # What is shared is compiled once, and what one compiler refuses keeps no other component from being built.
+    # Shared code is compiled once; an error in one component does not prevent others from being built.
     objects = [path.name for path in (tmp_path / "build").rglob("Arm.ice.cpp.o")]
     assert objects == ["Arm.ice.cpp.o"]
     mend = append(arm / "src" / "specificworker.cpp", "int lifted()\n{\n    return opne();\n}\n")
     append(leg / "src" / "specificworker.cpp", "// more\n")
     told = rcyaml("build")
     assert told.exit_code == 1
-    assert "refuses this: ‘opne’ was not declared" in told.stdout
+    assert "rejects this: ‘opne’ was not declared" in told.stdout
     line = (arm / "src" / "specificworker.cpp").read_text().splitlines().index("    return opne();") + 1
     assert f"arm/src/specificworker.cpp:{line}:12" in told.stdout and "    return opne();\n" in told.stdout
     assert "built       leg/bin/LegComp" in told.stdout and "failed      ArmComp" in told.stdout
     plan = rcyaml("deploy", "plan")
     assert plan.exit_code == 1
-    assert "the program of 'arm' is older than what it is made of: arm/src/specificworker.cpp" in plan.stderr
+    assert "the program of 'arm' is older than its sources: arm/src/specificworker.cpp" in plan.stderr
     mend()
     assert rcyaml("deploy", "plan").exit_code == 0, "changed back is not changed"
     assert build(rcyaml) == {"ArmComp": "up to date", "LegComp": "up to date"}
 
-    # What the linker misses is told, too.
+    # Undefined symbols of the linker are reported too.
     mend = append(arm / "src" / "specificworker.cpp", "int nowhere();\nint somewhere() { return nowhere(); }\n")
     told = rcyaml("build", "arm")
     assert "ArmComp cannot be built: the linker finds no definition of nowhere()" in told.stdout
@@ -101,7 +101,7 @@ def test_a_workspace(rcyaml: Rcyaml, tmp_path: Path) -> None:
     mend()
     assert rcyaml("deploy", "plan").exit_code == 0
 
-    # A header beside the component, which only its own CMake knows.
+    # A header beside the component, which only its own CMake file adds.
     write_tree(tmp_path, {"common/longest.h": "constexpr int limit = 3;\n"})
     append(
         leg / "CMakeLists.txt", 'target_include_directories(LegComp PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}/../common")\n'
@@ -109,11 +109,11 @@ def test_a_workspace(rcyaml: Rcyaml, tmp_path: Path) -> None:
     append(leg / "src" / "specificworker.cpp", '#include "longest.h"\nint most() { return limit; }\n')
     assert build(rcyaml, "leg") == {"LegComp": "built"}
     (tmp_path / "common" / "longest.h").write_text("constexpr int limit = 4;\n")
-    assert "the program of 'leg' is older than what it is made of: common/longest.h" in rcyaml("deploy", "plan").stderr
+    assert "the program of 'leg' is older than its sources: common/longest.h" in rcyaml("deploy", "plan").stderr
     assert build(rcyaml, "leg") == {"LegComp": "built"}
     assert rcyaml("deploy", "plan").exit_code == 0
 
-    # A new method: compile says it, the deployment refuses, and up builds.
+    # A new method: compile reports it, the deployment fails, and up builds.
     (tmp_path / "Arm.idsl.yaml").write_text(DOCUMENTS["Arm.idsl.yaml"].replace("}}}}}", "}}, drop: }}}"))
     assert rcyaml("compile", "--merge").stdout.splitlines()[-1] == "build again: ArmComp, LegComp: `rcyaml build`"
     assert rcyaml("deploy", "plan").stderr.count("RC7016") == 2
@@ -122,35 +122,35 @@ def test_a_workspace(rcyaml: Rcyaml, tmp_path: Path) -> None:
     assert up.exit_code == 0, up.output
     assert re.search(r"^arm +ready$", up.stdout, re.MULTILINE)
 
-    # CMake itself builds what it always did; that program is judged by its time, and linked again by the next build.
+    # CMake builds as before; that program is judged by its time, and the next build links it again.
     stamp = (arm / ".rcyaml" / "builds" / "stamp.json").read_text()
     (arm / "bin" / "ArmComp").write_bytes((arm / "bin" / "ArmComp").read_bytes())
     assert rcyaml("deploy", "plan").exit_code == 0
     assert build(rcyaml, "arm") == {"ArmComp": "built"}
     assert (arm / ".rcyaml" / "builds" / "stamp.json").read_text() != stamp
 
-    # A component whose CMake fails is told of, and keeps no other from being built.
+    # A component whose CMake fails is reported; the others are built.
     write_tree(tmp_path, LIDAR)
     rcyaml("compile")
     append(tmp_path / "lidar" / "CMakeLists.txt", 'message(FATAL_ERROR "the SDK of the lidar is not there")\n')
     append(arm / "src" / "specificworker.cpp", "// yet more\n")
     told = rcyaml("build")
     assert (
-        "CMake refuses this: the SDK of the lidar is not there" in told.stdout
+        "CMake rejects this: the SDK of the lidar is not there" in told.stdout
         and "lidar/CMakeLists.txt:" in told.stdout
     )
     assert "3 components: 1 built, 1 up to date, 1 failed" in told.stdout
 
-    # Only trees are taken away: a part of one is made again.
+    # Only whole trees are deleted: a missing part of one is built again.
     assert "removed  build/Release/components/LegComp/" in rcyaml("build", "--clean", "leg").stdout
     assert build(rcyaml, "leg") == {"LegComp": "built"}
     assert "removed  build/Release/" in rcyaml("build", "--clean").stdout
     assert not (tmp_path / "build" / "Release").exists() and (arm / "bin" / "ArmComp").is_file()
-    assert rcyaml("build", "--clean").stdout == "there is no build tree\n"
+    assert rcyaml("build", "--clean").stdout == "no build tree exists\n"
 
 
 def _compilers(folder: Path) -> list[str]:
-    """What still runs in a folder."""
+    """The processes that still run in a folder."""
     found = []
     for pid in filter(str.isdigit, os.listdir("/proc")):
         try:
@@ -163,7 +163,7 @@ def _compilers(folder: Path) -> list[str]:
 
 @in_all_builds
 def test_components_that_need_trees_of_their_own(rcyaml: Rcyaml, tmp_path: Path) -> None:
-    """Two have a target of the same name, and one takes its folder for the top: each builds by itself, so it does here."""
+    """Two have a target of the same name, and one refers to its folder as the top: each builds alone, and so here."""
     write_tree(tmp_path, SMALL)
     rcyaml("compile")
     for name in ("one", "two"):

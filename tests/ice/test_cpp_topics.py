@@ -17,11 +17,11 @@ pytestmark = [pytest.mark.slow, needs_cpp]
 
 @pytest.fixture
 def radio(programs: Programs) -> Program:
-    """Publishes ArmEvents when it starts, and then listens to them."""
+    """Publishes ArmEvents at start, and then subscribes to them."""
     return programs("Radio")
 
 
-# So that what one publishes itself comes late is no matter to it.
+# The worker's own events come late, so they must not matter.
 DEAF_TO_ITSELF = {"Proxies.ArmEventsPubPrefix": "elsewhere"}
 
 
@@ -72,7 +72,7 @@ def test_cpp_hears_python(radio: Program, build: Build, start: Start, icestorm: 
 
 
 def test_an_interface_as_a_topic(radio: Program, build: Build, start: Start, icestorm: Storm, tmp_path: Path) -> None:
-    """Only its methods that a topic can carry call the worker."""
+    """Only the methods that a topic can carry call the worker."""
     assert "Arm_betray" in (text := (radio.root / "generated" / "genericworker.h").read_text())
     assert "Arm_move" not in text
     built = build({**INTERFACES, "p/p.cdsl.yaml": cdsl("Shouter", publishes=["Arm"])})["Shouter"]

@@ -1,4 +1,4 @@
-"""Names that C++ cannot have: what `check` says of an interface, and what slice2cpp and g++ make of it."""
+"""Names that are illegal in C++: what `check` reports for an interface, and what slice2cpp and g++ accept."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ exceptions:
 """
 METHOD = "interfaces: {{Map: {{methods: {{{}}}}}}}\n"
 
-# Every way in which a name may meet a type, or another name, in what Ice generates.
+# Every way in which a name may clash with a type, or with another name, in Ice's generated code.
 PARAMETERS = [
     f"f: {{{given}}}"
     for one, name in (("Pose", "Pose"), ("Side", "Side"), ("Path", "Path"), ("Names", "Names"), ("int", "Pose"),
@@ -60,7 +60,7 @@ MEMBERS = [
 
 
 def documents() -> dict[str, str]:
-    """A document for each, by its stem."""
+    """A document for each name, by its stem."""
     texts = [TYPES + METHOD.format(methods) for methods in (*PARAMETERS, *RESULTS)]
     for member in MEMBERS:
         at = "exceptions:\n" if "exceptions:" in member else "types:\n"
@@ -69,7 +69,7 @@ def documents() -> dict[str, str]:
 
 
 def refused(folder: Path, stems: list[str]) -> set[str]:
-    """Those whose C++ has errors: all are compiled as one, since Ice's headers take long."""
+    """The stems whose C++ has errors. All are compiled together, because Ice's headers take long."""
     files = [f"{stem}.ice" for stem in stems]
     subprocess.run(["slice2cpp", "-I.", *files], cwd=folder, check=True)
     (folder / "headers").mkdir()
@@ -82,7 +82,7 @@ def refused(folder: Path, stems: list[str]) -> set[str]:
 
 
 def test_names_of_types(tmp_path: Path, rcyaml: Callable[..., Any], diagnostics: Check) -> None:
-    """`check` refuses what the compiler refuses, and nothing else."""
+    """`check` rejects what the compiler rejects, and nothing else."""
     texts = documents()
     component = f"component: C\nlanguage: cpp\nimports: [{', '.join(texts)}]\n"
     said = diagnostics({**{f"{stem}.idsl.yaml": text for stem, text in texts.items()}, "c.cdsl.yaml": component})
@@ -113,8 +113,8 @@ def test_the_table_has_what_stands_in_no_namespace() -> None:
     assert {"time", "log", "index", "FILE", "int8_t"} <= names and "Time" not in cpp_globals.GLOBALS
 
 
-# A macro with arguments is none where no `(` follows, but is refused all the same: what the component's own code does
-# with the name is not known.
+# A macro with arguments is not expanded without a `(`, but is rejected too: how the component's own code uses the name
+# is unknown.
 POSITIONS = {
     "enumerator": "enum E {{ first, {} }};", "member": "struct S {{ int {}; }};",
     "exception": "exception {} {{ int a; }};",
@@ -127,7 +127,7 @@ CALLED = ("exception", "member of an exception", "method")
 
 
 def test_macros_at_every_place(tmp_path: Path) -> None:
-    """A sample, since each name has a dozen of places. Between them stand names that nobody minds."""
+    """A sample: each name has a dozen positions. Harmless names are between them."""
     plain = sorted(cpp_macros.ALWAYS - {"assert", "FD_SET", "offsetof"})
     words = ["EOF", "errno", "M_PI", *random.Random(7).sample([w for w in plain if not w.islower()], 2)]
     stems: dict[str, tuple[str, str]] = {}

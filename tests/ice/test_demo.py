@@ -32,8 +32,8 @@ def test_the_network_answers(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stdout + done.stderr
     assert not done.stderr and "warning" not in done.stdout.lower() and "\x1b" not in done.stdout
     parts = (
-        "10 documents: nothing wrong\n", "ShellyHead: 3 processes as wanted\n", "$ python3 say.py 'speech:tcp -h 127.0.0.1",
-        "Speech.say('I am up and running') answers True\n", "speech   ready", "says 'running' with the mouth", "stopped\n",
+        "10 documents: nothing wrong\n", "ShellyHead: 3 processes as desired\n", "$ python3 say.py 'speech:tcp -h 127.0.0.1",
+        "Speech.say('I am up and running') returns True\n", "speech   ready", "says 'running' with the mouth", "stopped\n",
     )  # fmt: skip
     places = [done.stdout.find(part) for part in parts]
     assert -1 not in places and places == sorted(places), done.stdout
@@ -44,7 +44,7 @@ def test_without_ice(tmp_path: Path) -> None:
     done = demo(tmp_path, RCYAML_PYTHON="/no/such/python")
     assert done.returncode == 1
     assert "10 documents: nothing wrong\n" in done.stdout and "deploy up" not in done.stdout
-    assert done.stderr.startswith("make: RCYAML_PYTHON names /no/such/python, which is not there")
+    assert done.stderr.startswith("make: RCYAML_PYTHON names /no/such/python, which does not exist")
 
 
 def test_a_call_of_nobody_says_so(tmp_path: Path) -> None:
@@ -63,4 +63,4 @@ def test_a_call_of_nobody_says_so(tmp_path: Path) -> None:
         )
     nobody = called("speech:tcp -h 127.0.0.1 -p 9", "Hello")
     assert nobody.returncode == 1
-    assert nobody.stderr == "say.py: nobody answers at 'speech:tcp -h 127.0.0.1 -p 9': Connection refused\n"
+    assert nobody.stderr == "say.py: no server answers at 'speech:tcp -h 127.0.0.1 -p 9': Connection refused\n"

@@ -113,7 +113,7 @@ def test_what_is_not_allowed_does_not_pass(gate: Callable[[str], Gate], member: 
     running = gate("allow: []")
     with pytest.raises(Ice.UnknownException) as refused:
         running.call("moveTo")
-    assert refused.value.unknown == "the group that serves Mouth lets pass nothing, not 'moveTo'"
+    assert refused.value.unknown == "the group that serves Mouth allows nothing, not 'moveTo'"
     running.proxy.ice_ping()
     assert [operation for operation, _ in member.calls] == ["ice_ping"]
 

@@ -20,10 +20,10 @@ from robocomp_yaml.network.network import (
     LOOPBACK,
     PROGRAM,
     ConfigFile,
-    Host,
+    EnvironmentVariable,
     Network,
+    NetworkHost,
     Process,
-    Variable,
 )
 
 pytestmark = pytest.mark.skipif(
@@ -80,10 +80,10 @@ def open_place() -> Iterator[Path]:
 
 
 def test_a_program_runs_with_its_own_words(admin: Admin, tmp_path: Path, open_place: Path) -> None:
-    network = Network("Small", "/small.ddsl.yaml", str(tmp_path), {LOOPBACK: Host(LOOPBACK)})
+    network = Network("Small", "/small.ddsl.yaml", str(tmp_path), {LOOPBACK: NetworkHost(LOOPBACK)})
     network.processes["echo"] = Process(
         "echo", LOOPBACK, ("python3", "-c", SCRIPT, *ODD), str(open_place), PROGRAM, is_ice=False,
-        env=(Variable("TITLE", TITLE), Variable("NONE"), Variable("FROM", source="PATH")),
+        env=(EnvironmentVariable("TITLE", TITLE), EnvironmentVariable("NONE"), EnvironmentVariable("FROM", source="PATH")),
     )  # fmt: skip
     (tmp_path / "small.xml").write_text(export(network, "icegrid")["Small.xml"], encoding="utf-8")
     assert admin(f"application add {tmp_path / 'small.xml'}").stderr == ""
@@ -97,7 +97,7 @@ def test_a_program_reads_a_configuration_of_its_own(admin: Admin, tmp_path: Path
     text = "a = \"b\" # no property\n${x} $HOME 100% \\ 'c'\n" * 200
     script = SCRIPT.replace("sys.argv[1:]", "[open(word.rpartition('=')[2]).read() for word in sys.argv[1:]]")
     script = script.replace('[os.environ[name] for name in ("TITLE", "NONE", "FROM")]', "len(sys.argv)")
-    network = Network("Small", "/small.ddsl.yaml", str(tmp_path), {LOOPBACK: Host(LOOPBACK)})
+    network = Network("Small", "/small.ddsl.yaml", str(tmp_path), {LOOPBACK: NetworkHost(LOOPBACK)})
     network.processes["read"] = Process(
         "read", LOOPBACK, ("python3", "-c", script, CONFIG, f"--file={CONFIG}"), str(open_place), PROGRAM,
         config=ConfigFile("config/read", text),

@@ -1,5 +1,5 @@
-"""A window and a state machine in one component: buttons fire events, and handlers, in the worker's thread, hand things
-to the window."""
+"""A window and a state machine in one component: buttons fire events, and handlers, in the worker's thread, pass jobs to
+the window."""
 
 from __future__ import annotations
 
@@ -95,7 +95,7 @@ def assert_each_in_its_thread(running: Running) -> None:
     assert running.exit_code() == 0
     said = [line for line in running.output.splitlines() if line.startswith("> ")]
     assert said == ["> waiting ", "> working ", "> label says working in main", "> left "], running.output
-    assert "ending without it" not in running.output and "Traceback" not in running.output
+    assert "the process ends anyway" not in running.output and "Traceback" not in running.output
 
 
 def test_python(build: Build, start: Start) -> None:

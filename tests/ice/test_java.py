@@ -1,4 +1,4 @@
-"""Java components over real Ice: they call and are called by components in other languages, publish, listen, stop."""
+"""Java components over real Ice: they call components in other languages and are called, publish, subscribe, stop."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ BOTH = pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM], ids=["
 
 @pytest.fixture(scope="session")
 def built(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
-    """The folder of a component, built by the first test that asks."""
+    """The folder of a component, which the first test that needs it builds."""
     base = tmp_path_factory.getbasetemp()
     shared = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
     folder = shared / "java ñ"  # with a blank and more
@@ -51,7 +51,7 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
 
 @pytest.fixture
 def program(built: Callable[[str], Path], tmp_path: Path) -> Program:
-    """`program("Server", {key: value})`: the command that runs it with a config that holds these."""
+    """`program("Server", {key: value})`: the command that runs it with a config with these properties."""
 
     def command(name: str, properties: dict[str, str]) -> list[str | Path]:
         config = tmp_path / f"{name}.config"
@@ -158,7 +158,7 @@ def test_two_that_require_each_other(
 def test_a_signal_stops_it(program: Program, addresses: Addresses, start: Start, number: int) -> None:
     running = start(program("Server", addresses.endpoints)).wait_for("Server is running")
     assert running.stop(number) == 0
-    assert "ending without it" not in running.output, "at once: nothing holds it up"
+    assert "the process ends anyway" not in running.output, "at once: nothing holds it up"
 
 
 def test_with_a_method_that_is_stuck(
@@ -171,7 +171,7 @@ def test_with_a_method_that_is_stuck(
     call = RoboCompArm.ArmPrx.uncheckedCast(proxy).blockAsync(60)
     running.wait_for("blocking")
     assert running.stop(signal.SIGTERM, within=2.0) == 0
-    assert "WARNING stop: a method is still running after 1.5 s: ending without it" in running.output
+    assert "WARNING stop: a method is still running after 1.5 s: the process ends anyway" in running.output
     assert call.exception(5) is not None
 
 
@@ -186,8 +186,8 @@ def test_while_it_waits_for_others(program: Program, addresses: Addresses, start
     [
         ({}, [], 1, "the endpoint of Arm is not configured: set Arm.Endpoints or Endpoints.Arm in "),
         ({"Arm.Endpoints": "tpc"}, [], 1, "cannot serve Arm at 'tpc' ("),
-        ({}, ["one", "two"], 2, "Server: one CONFIG, please, not 3: "),
-        ({}, ["-x"], 2, "Server: there is no option -x\n"),
+        ({}, ["one", "two"], 2, "Server: expected one CONFIG, got 3: "),
+        ({}, ["-x"], 2, "Server: unknown option -x\n"),
         ({"period.compute": "often"}, [], 1, "period.compute must be a whole number (ms), and is 'often'"),
         ({}, ["--help"], 0, "usage: bin/Server [CONFIG]"),
     ],
@@ -201,7 +201,7 @@ def test_what_cannot_start_says_why(
 
 
 def test_what_the_launcher_lacks_is_said(built: Callable[[str], Path], tmp_path: Path) -> None:
-    """Without Java, without Ice, without a build; each with what mends it."""
+    """Without Java, without Ice, without a build; each message has a hint."""
     root = tmp_path / "server"
     shutil.copytree(built("Server"), root)
     program = root / "bin" / "Server"
@@ -212,11 +212,11 @@ def test_what_the_launcher_lacks_is_said(built: Callable[[str], Path], tmp_path:
         return done.stderr
 
     assert said(JAVA_HOME="/nowhere") == (
-        "Server: there is no Java: apt install openjdk-17-jre-headless, or set JAVA_HOME\n"
+        "Server: Java is not installed: apt install openjdk-17-jre-headless, or set JAVA_HOME\n"
     )
-    assert "Server: Ice 3.7 for Java is not there: apt install libzeroc-ice3.7-java" in said(ICE_JAVA="/nowhere")
+    assert "Server: Ice 3.7 for Java is not installed: apt install libzeroc-ice3.7-java" in said(ICE_JAVA="/nowhere")
     (root / "build" / "Server.jar").unlink()
-    assert said() == f"Server: it is not built: {root}/generated/build\n"
+    assert said() == f"Server: it is not built yet: run {root}/generated/build\n"
 
 
 def test_a_build_that_is_older_than_its_code_is_told(built: Callable[[str], Path], tmp_path: Path) -> None:
@@ -224,7 +224,7 @@ def test_a_build_that_is_older_than_its_code_is_told(built: Callable[[str], Path
     shutil.copytree(built("Server"), root)
     os.utime(root / "src" / "SpecificWorker.java", (2e9, 2e9))
     done = subprocess.run([root / "bin" / "Server", "--help"], capture_output=True, text=True)
-    assert done.stderr == f"Server: what it is made of has changed since it was built: {root}/generated/build\n"
+    assert done.stderr == f"Server: its sources have changed since it was built: run {root}/generated/build\n"
 
 
 def test_a_method_that_lacks_is_named_by_the_build(built: Callable[[str], Path], tmp_path: Path) -> None:
@@ -235,11 +235,11 @@ def test_a_method_that_lacks_is_named_by_the_build(built: Callable[[str], Path],
     done = subprocess.run([root / "generated" / "build"], capture_output=True, text=True)
     assert done.returncode == 1
     assert "does not override abstract method Hand_grasp(byte[])" in done.stderr
-    assert done.stderr.endswith("Server: javac refuses the code, see above\n")
+    assert done.stderr.endswith("Server: javac cannot compile the code, see above\n")
 
 
 def test_a_build_refuses_what_it_cannot_do(built: Callable[[str], Path], tmp_path: Path) -> None:
-    """Another's program in its place, an old compiler, no compiler; a failed build leaves the last one."""
+    """A file of another program, an old compiler, no compiler; a failed build keeps the last program."""
     root = tmp_path / "server"
     shutil.copytree(built("Server"), root)
     program, build_ = root / "bin" / "Server", root / "generated" / "build"
@@ -252,17 +252,17 @@ def test_a_build_refuses_what_it_cannot_do(built: Callable[[str], Path], tmp_pat
         assert sorted(path.name for path in (root / "build").iterdir()) == [".gitignore", "Server.jar"]
         return done.stderr
 
-    assert said(JAVA_HOME="/nowhere").startswith("Server: there is no javac: apt install openjdk-17-jdk-headless")
+    assert said(JAVA_HOME="/nowhere").startswith("Server: javac is not installed: apt install openjdk-17-jdk-headless")
     old = tmp_path / "old" / "bin" / "javac"
     old.parent.mkdir(parents=True)
     old.write_text("#!/bin/sh\necho javac 11.0.2\n")
     old.chmod(0o755)
-    assert said(JAVA_HOME=str(tmp_path / "old")).endswith("is of Java 11: 17 or later is needed\n")
+    assert said(JAVA_HOME=str(tmp_path / "old")).endswith("has version 11: Java 17 or later is required\n")
     (root / "src" / "Odd.java").write_text("class {")
-    assert said().endswith("Server: javac refuses the code, see above\n")
+    assert said().endswith("Server: javac cannot compile the code, see above\n")
     program.write_text("#!/bin/sh\necho mine\n")
     before = program.read_bytes(), before[1]
-    assert said() == f"Server: {program} is not of a build: move it away\n"
+    assert said() == f"Server: {program} was not created by a build: move it away\n"
 
 
 def test_common_behavior(program: Program, addresses: Addresses, start: Start, ice: Any, free_port: Ports) -> None:

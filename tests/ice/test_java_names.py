@@ -1,4 +1,4 @@
-"""Odd names: whatever IDSL and Slice take becomes Java that compiles, runs and answers, or `check` refuses it."""
+"""Odd names: every name that IDSL and Slice accept becomes Java that compiles, runs and answers, or `check` rejects it."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from robocomp_yaml.languages.java.names import ICE_ESCAPES
 # Words of Slice, which no document can use.
 SLICE = set("boolean byte bool class const double enum extends false float implements int interface long object optional "
             "short string struct throws true void".split())  # fmt: skip
-# What the run time, the generated files, Ice's code or Java's libraries might trip over.
+# Names that the run time, generated files, Ice's code or Java's libraries use.
 OTHERS = """
     Boolean Comparable Data Deprecated Double Error Exception Exceptions Integer Iterable Kind List Live Log Main Map Math
     Member Named Optional Parameters Record Runtime Services Store System Table Thread Values Worker GenericWorker
@@ -30,7 +30,7 @@ OTHERS = """
     sealed serialVersionUID slice store transitive uses value values valueOf var with worker write read yield
     com java zeroc
 """.split()
-# Slice takes names that differ only in case for the same.
+# For Slice, names that differ only in case are the same.
 DISTINCT = sorted({name.lower(): name for name in sorted({*ICE_ESCAPES, *OTHERS})}.values())
 NAMES = [name for name in DISTINCT if name not in SLICE]
 
@@ -47,7 +47,7 @@ def test_what_ice_escapes(tmp_path: Path) -> None:
 
 
 def listed(kind: str) -> list[str]:
-    """Names that this kind of thing may have."""
+    """Names that this kind of definition may have."""
     return [name for name in NAMES if name not in INSIDE.get(kind, ())]
 
 
@@ -191,7 +191,7 @@ def test_what_java_cannot_have_is_refused(rcyaml: Check, tmp_path: Path, kind: s
 @pytest.mark.slow
 @needs_java
 def test_java_does_not_have_it(tmp_path: Path) -> None:
-    """Of each kind what is refused, asked of the compilers: only what fails is refused."""
+    """For each kind, the compilers decide: only names that they reject are rejected."""
     taken = []
     for kind, name in REFUSED:
         text = {

@@ -1,4 +1,4 @@
-"""What stands before the compiler in builds of tests: an object is taken from where it was kept only if it is the same."""
+"""The compiler's cache of test builds: a kept object is used only if it is the same."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ pytestmark = pytest.mark.skipif(shutil.which("g++") is None, reason="there is no
 
 
 def compiled(root: Path, text: str, *words: str) -> int:
-    """Compiles a source below `root` as CMake does, which says where it lies; the exit code."""
+    """Compiles a source below `root` as CMake does; returns the exit code."""
     (root / "include").mkdir(parents=True, exist_ok=True)
     (root / "include" / "x.h").write_text("#pragma once\n")
     (root / "x.cpp").write_text(f'#include "x.h"\n{text}\n')

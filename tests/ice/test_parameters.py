@@ -65,7 +65,7 @@ class Component:
         return self.folder / "my.config"
 
     def write(self, **changes: str | None) -> None:
-        """The config; keys with '_' for '.'; None leaves one out."""
+        """The config; '_' in keys stands for '.'; None removes a property."""
         held = {**CONFIG, "CommonBehavior.Endpoints": f"tcp -h 127.0.0.1 -p {self.port}"}
         for key, value in changes.items():
             held[key.replace("_", ".")] = value  # type: ignore[assignment]
@@ -101,7 +101,7 @@ Ask = Callable[[int], Any]
 
 
 def changed(asked: Any, **changes: str) -> dict[str, Any]:
-    """The parameter list with other values; keys with '_' for '.'."""
+    """The parameter list with other values; '_' in keys stands for '.'."""
     listed = asked.getParameterList()
     made = type(next(iter(listed.values())))
     for key, value in changes.items():
@@ -132,7 +132,7 @@ def test_the_command_line_has_the_last_word(component: Component, start: Start) 
         ("--basicPeriod=soon", "basicPeriod must be a whole number (ms), and is 'soon'"),
         ("--motors.1.vel=2.5", "motors[1].vel is 2.5 rad/s, and must be from 0 to 2 rad/s"),
         ("--mode=fst", "mode is 'fst', and must be one of slow, fast"),
-        ("--Arm.NumMotors=0", "motors has 0 entries, and must have from 1 to 4"),
+        ("--Arm.NumMotors=0", "motors has 0 entries, and must have 1 to 4"),
         ("--motors.0.min=2", "a motor's min must be below its max"),
         (
             "--token=${env:NOBODY_HAS_THIS}",
@@ -153,7 +153,7 @@ def test_file_and_options_are_told_apart(component: Component, start: Start) -> 
     assert running.exit_code() == 1
     said = "basicPeriod is 2000 ms, and must be from 1 to 1000 ms; motors[0].vel is 9 rad/s, and must be from 0 to 2"
     where = f"{component.config} and --motors.0.vel on the command line"
-    assert f"2 parameters cannot be as given by {where}: {said} rad/s\n" in running.output
+    assert f"2 parameters have invalid values in {where}: {said} rad/s\n" in running.output
 
 
 def test_a_file_that_is_wrong_by_itself(component: Component, start: Start) -> None:
@@ -174,12 +174,12 @@ def test_a_misspelled_property_is_told_of(component: Component, start: Start) ->
     options = ["--motors.0.velo=1", "--moters.0.vel=1", "--BasicPeriod=1", "--bsaicPeriod=1", "--Ice.Trace.Network=0"]
     running = component.run(start, *options, "--Endpoints.Arm=", "--basics=1").wait_for("ParaComp is running")
     for key in ("motors.0.speed", "offsets.z"):
-        running.wait_for(f"WARNING ParaComp: {component.config}: there is no parameter '{key}'")
-    running.wait_for("WARNING ParaComp: --motors.0.velo on the command line: there is no parameter 'motors.0.velo'")
+        running.wait_for(f"WARNING ParaComp: {component.config}: unknown parameter '{key}'")
+    running.wait_for("WARNING ParaComp: --motors.0.velo on the command line: unknown parameter 'motors.0.velo'")
     for key, meant in (("moters.0.vel", "motors"), ("BasicPeriod", "basicPeriod"), ("bsaicPeriod", "basicPeriod")):
         where = f"WARNING ParaComp: --{key} on the command line: "
-        running.wait_for(f"{where}there is no parameter '{key}' (did you mean '{meant}'?)")
-    assert running.output.count("there is no parameter") == 6
+        running.wait_for(f"{where}unknown parameter '{key}' (did you mean '{meant}'?)")
+    assert running.output.count("unknown parameter") == 6
 
 
 def test_no_half_of_a_change_is_seen_by_another_thread(component: Component, start: Start) -> None:
@@ -217,7 +217,7 @@ def test_changes_from_another_process(component: Component, start: Start, behavi
     asked.setPeriod(44)
     running.wait_for("[period.compute] fast")
     asked.setParameterList(changed(asked, basicPeriod="9"))
-    running.wait_for("[basicPeriod] fast /dev/usb 10 ")  # which a listener did
+    running.wait_for("[basicPeriod] fast /dev/usb 10 ")  # by a listener
 
 
 @pytest.mark.parametrize(
@@ -227,8 +227,8 @@ def test_changes_from_another_process(component: Component, start: Start, behavi
         ("basicPeriod", "", "basicPeriod must be a whole number (ms), and is ''"),
         ("motors_0_min", "1", "a motor's min must be below its max"),
         ("device", "/dev/x", "device cannot be changed while the component runs: it is not editable"),
-        ("motors_9_vel", "1", "there is no parameter 'motors.9.vel'"),
-        ("CommonBehavior_Endpoints", "tcp", "there is no parameter 'CommonBehavior.Endpoints'"),
+        ("motors_9_vel", "1", "unknown parameter 'motors.9.vel'"),
+        ("CommonBehavior_Endpoints", "tcp", "unknown parameter 'CommonBehavior.Endpoints'"),
         ("gains_size", "-1", "gains must be a list, and is '-1'"),
     ],
 )
@@ -239,7 +239,7 @@ def test_a_bad_value_is_refused_and_all_others_with_it(
     asked = behavior(component.port)
     before = asked.getParameterList()
     asked.setParameterList(changed(asked, **{"mode": "fast", key: value}))
-    running.wait_for(f"WARNING ParaComp: setParameterList refused: {said}")
+    running.wait_for(f"WARNING ParaComp: setParameterList rejected: {said}")
     assert asked.getParameterList() == before
     assert "[mode" not in running.output
 
@@ -260,14 +260,14 @@ def test_reading_the_config_again(component: Component, start: Start, behavior: 
     running.wait_for("[basicPeriod,motors[0].vel] fast /dev/usb 77 s3cret#1 1 a:0.75 b:2")
     component.write(basicPeriod="78", Arm_M0="a,-1,1,9")
     asked.reloadConfig()
-    running.wait_for("reloadConfig refused: ").wait_for("motors[0].vel is 9 rad/s, and must be from 0 to 2 rad/s")
+    running.wait_for("reloadConfig rejected: ").wait_for("motors[0].vel is 9 rad/s, and must be from 0 to 2 rad/s")
     component.write(basicPeriod="78", Arm_Device="/dev/other")
     asked.reloadConfig()
     running.wait_for("device cannot be changed while the component runs: it is not editable")
     assert asked.getParameterList()["basicPeriod"].value == "77"
     component.config.unlink()
     asked.reloadConfig()
-    until(lambda: running.output.count("reloadConfig refused") == 3, "the third refusal")
+    until(lambda: running.output.count("reloadConfig rejected") == 3, "the third refusal")
     assert asked.getParameterList()["basicPeriod"].value == "77"
 
 
@@ -281,7 +281,7 @@ SECRETS = ("4711", "oak", "elm", "hunter2", "beech", "birch", "larch")
     [
         (("--pin=17",), "pin is ***, and must be from 1000 to 9999"),
         (("--pin=hunter2",), "pin must be a whole number, and is ***"),
-        (("--locks.0=hunter2", "--locks.1=hunter2"), "locks holds *** twice"),
+        (("--locks.0=hunter2", "--locks.1=hunter2"), "locks contains *** twice"),
         (("--password=HUNTER2",), "password is ***, and must match [a-z0-9]+"),
         (("--door=unter2x",), "door is ***, and must be one of the 2 values allowed"),
         (("--speed=unter2",), "speed is ***, and must be one of the 2 values allowed"),
@@ -290,8 +290,8 @@ SECRETS = ("4711", "oak", "elm", "hunter2", "beech", "birch", "larch")
             "comes from the file /nowhere/pin, which cannot be read: No such file or directory",
         ),
         (("--mode=${file:/}",), "mode is '${file:/}', and must be one of slow, fast"),
-        (("--mode=${file:/etc}",), "mode comes from the file /etc, which is no regular file"),
-        (("--mode=${file:/dev/zero}",), "mode comes from the file /dev/zero, which is no regular file"),
+        (("--mode=${file:/etc}",), "mode comes from the file /etc, which is not a regular file"),
+        (("--mode=${file:/dev/zero}",), "mode comes from the file /dev/zero, which is not a regular file"),
     ],
 )
 def test_a_secret_that_is_wrong_is_not_shown(
@@ -330,7 +330,7 @@ def test_what_is_hidden_stays_when_it_comes_back(component: Component, start: St
     running.wait_for("parameters changed by setParameterList: locks.1\n")
     for key, value in (("locks_2", "***"), ("server", "http://bob:***@elsewhere")):
         asked.setParameterList(changed(asked, locks_size="3" if key == "locks_2" else "2", **{key: value}))
-        running.wait_for(f"refused: {key.replace('_', '.')} is to hold ***, which stands for what is not shown")
+        running.wait_for(f"rejected: {key.replace('_', '.')} cannot be ***, which is shown instead of a secret")
     told = [line for line in running.output.splitlines() if not line.startswith("safe:")]
     assert not [line for line in told for secret in (*SECRETS, "ash", "8000") if secret in line]
 
@@ -354,7 +354,7 @@ def test_any_plain_value_can_come_from_a_file(component: Component, start: Start
     asked = behavior(component.port)
     assert asked.getParameterList()["basicPeriod"].value == "${file:period}"
     (component.folder / "vel").unlink()
-    asked.setParameterList(changed(asked, mode="fast"))  # what was read is not read again
+    asked.setParameterList(changed(asked, mode="fast"))  # references are not read again
     running.wait_for("[mode] fast /dev/usb 77")
     (component.folder / "vel").write_text("0.25")
     (component.folder / "period").write_text("88")
@@ -365,7 +365,7 @@ def test_any_plain_value_can_come_from_a_file(component: Component, start: Start
 @pytest.mark.parametrize(
     ("content", "said"),
     [
-        (b"a\0b", "which holds a NUL"),
+        (b"a\0b", "which contains a NUL character"),
         (b"x" * ((1 << 20) + 1), "which is larger than 1 MiB"),
         (b"\xff\xfe", "which is not in UTF-8"),
         (b"\xed\xa0\x80", "which is not in UTF-8"),
@@ -398,7 +398,7 @@ PAPER = ROOT / "examples" / "jointmotor"
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_the_papers_component(rcyaml: Callable[..., Any], tmp_path: Path, start: Start, language: str) -> None:
-    """JointMotorComp as it is in the paper: compiled with its values, it reads them."""
+    """JointMotorComp of the paper: compiled with its values, it reads them."""
     shutil.copytree(PAPER, tmp_path, dirs_exist_ok=True)
     root, spoken = tmp_path / language, of_languages.spoken(language)
     if not root.is_dir():  # the example is in two languages
@@ -410,7 +410,7 @@ def test_the_papers_component(rcyaml: Callable[..., Any], tmp_path: Path, start:
     worker = root / spoken.worker
     worker.write_text(spoken.paper + spoken.stubs(worker.read_text()))
     spoken.build(root)
-    (program,) = (root / "bin").glob("[!.]*")  # beside a .gitignore
+    (program,) = (root / "bin").glob("[!.]*")  # not the .gitignore
     running = start([*spoken.command(program), "--startup-check"])
     running.wait_for("Dunkermotoren /dev/ttyUSB0 115200 220 2\n")
     running.wait_for("dunker0 A 1 -3.14 3.14 0 0.9\ndunker1 B 0 -3.14 3.14 0 0.9\n")

@@ -10,7 +10,7 @@ from hypothesis import HealthCheck, assume, example, given, settings
 from hypothesis import strategies as st
 
 from robocomp_yaml.source import ice_endpoint, ice_proxy
-from robocomp_yaml.source.ice_options import Refused
+from robocomp_yaml.source.ice_options import InvalidIceText
 
 Ice = pytest.importorskip("Ice", reason="needs Ice's Python module (Debian: python3-zeroc-ice)")
 
@@ -67,7 +67,7 @@ def communicator():
 def is_taken(parse, text: str) -> bool:
     try:
         parse(text)
-    except Refused as refused:
+    except InvalidIceText as refused:
         assert 0 <= refused.start <= refused.end <= len(text)
         assert refused.problem
         return False

@@ -1,4 +1,4 @@
-"""A Python component whose other side is not there: waiting, failing, ignoring, and what it says."""
+"""A Python component whose servers are absent: waiting, failing, ignoring, and its messages."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def test_a_signal_ends_the_wait(build: Build, start: Start, free_port: Ports, nu
 
 
 def test_a_signal_ends_the_wait_for_a_silent_host(build: Build, start: Start) -> None:
-    """One that takes the connection and never says a word."""
+    """A server that accepts the connection and never answers."""
     with socket.create_server(("127.0.0.1", 0)) as silent:
         waiting = start(client(build, silent.getsockname()[1]).command)
         waiting.wait_for("(no answer in time)")
@@ -69,7 +69,7 @@ def test_it_fails_at_once(build: Build, start: Start, free_port: Ports) -> None:
     failing = start(client(build, port, absent="fail").command)
     assert failing.exit_code() == 1
     (line,) = failing.output.splitlines()
-    assert line.endswith(f"ERROR Client: Arm at arm:tcp -h 127.0.0.1 -p {port} is not there (connection refused)")
+    assert line.endswith(f"ERROR Client: Arm at arm:tcp -h 127.0.0.1 -p {port} does not answer (connection refused)")
 
 
 def test_it_does_not_mind(build: Build, start: Start, free_port: Ports) -> None:
@@ -94,7 +94,7 @@ def test_an_unknown_host(build: Build, start: Start) -> None:
 
 
 def test_a_timeout_holds_for_each_call(build: Build, start: Start, free_port: Ports) -> None:
-    """A method that takes longer than the proxy's timeout ends in Ice's exception."""
+    """A call that takes longer than the proxy's timeout fails with an exception of Ice."""
     port = free_port()
     server = build({**INTERFACES, "s/s.cdsl.yaml": cdsl("Server", implements=["Arm"])})["Server"]
     worker = server.root / "src" / "specificworker.py"

@@ -1,4 +1,4 @@
-"""CommonBehavior of a Python component, asked by another process; and its worker's period."""
+"""CommonBehavior of a Python component, called from another process; and its worker's period."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def component(build: Build, port: int) -> Built:
 
 
 def turns(running: Running) -> list[tuple[int, int]]:
-    """The number and the moment of each turn so far."""
+    """The number and the time of each turn so far."""
     rows = [line.split() for line in running.output.splitlines() if line.startswith("turn ")]
     return [(int(row[1]), int(row[2])) for row in rows if len(row) == 4]
 
@@ -79,13 +79,13 @@ def test_what_it_is_told(component: Built, start: Start, behavior: Ask, port: in
     for wrong in (0, -5):
         asked.setPeriod(wrong)
         assert asked.getPeriod() == 20
-        running.wait_for(f"WARNING Worker: setPeriod({wrong}) refused")
+        running.wait_for(f"WARNING Worker: setPeriod({wrong}) rejected")
     asked.setParameterList(asked.getParameterList())
     running.wait_for("parameters changed by setParameterList: none")
     changed = asked.getParameterList()
     changed["Arm.Speed"].value, changed["period.compute"].value = "2", "99"
     asked.setParameterList(changed)
-    running.wait_for("setParameterList refused: there is no parameter 'Arm.Speed'")
+    running.wait_for("setParameterList rejected: unknown parameter 'Arm.Speed'")
     assert asked.getPeriod() == 20, "all, or none"
     config = component.root / "etc" / "config"
     config.write_text(config.read_text() + "period.compute = 30\n")
@@ -112,7 +112,7 @@ def test_it_answers_while_it_starts(component: Built, start: Start, behavior: As
 
 
 def test_the_period(component: Built, start: Start) -> None:
-    """No drift; an exception costs one turn; turns missed in a long one are left out; the rest keep the beat."""
+    """No drift; an exception costs one turn; turns missed in a long one are skipped; the others keep the beat."""
     running = start(component.command)
     until(lambda: len(turns(running)) >= 15, "15 turns")
     seen = dict(turns(running))

@@ -64,7 +64,7 @@ class SpecificWorker(GenericWorker):
 
 @pytest.fixture
 def pair(build: Build, free_port: Ports) -> tuple[Built, Built]:
-    """A server and a client that knows where it is."""
+    """A server, and a client with its address."""
     built = build(
         {
             **INTERFACES,
@@ -87,7 +87,7 @@ def pair(build: Build, free_port: Ports) -> tuple[Built, Built]:
 
 
 def test_one_calls_the_other(pair: tuple[Built, Built], start: Start) -> None:
-    """Several interfaces, two proxies to one, results with `out`, and exceptions, declared and not."""
+    """Several interfaces, two proxies to one of them, results with `out`, declared and undeclared exceptions."""
     server, client = pair
     serving = start(server.command).wait_for("Server is running")
     said = start(client.command).wait_for("Client is running").output
@@ -103,7 +103,7 @@ def test_one_calls_the_other(pair: tuple[Built, Built], start: Start) -> None:
 
 
 def test_it_runs_as_it_was_compiled(pair: tuple[Built, Built], build: Build, start: Start) -> None:
-    """The skeleton answers every method with a value of the right type."""
+    """The skeleton returns a value of the right type from every method."""
     server, client = pair
     build({})
     (client.root / "src" / "specificworker.py").write_text(CLIENT)
@@ -151,7 +151,7 @@ def test_two_that_require_each_other(build: Build, start: Start, free_port: Port
 
 
 def test_the_current_folder_does_not_matter(pair: tuple[Built, Built], start: Start, tmp_path: Any) -> None:
-    """Through a link, too; and a config that is named is relative to the caller's folder."""
+    """Also through a link; a config on the command line is relative to the caller's folder."""
     server, _ = pair
     (tmp_path / "link").symlink_to(server.root / "bin" / "Server")
     command = [server.command[0], tmp_path / "link"]

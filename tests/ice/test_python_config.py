@@ -1,4 +1,4 @@
-"""The config of a Python component: where it comes from, its two spellings, and what is wrong with it in one line."""
+"""The config of a Python component: its location, its two spellings, and its errors in one line."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def both(build: Build) -> Built:
 
 
 def fails(start: Start, component: Built, *arguments: str, code: int = 1) -> str:
-    """The one line that it says before it ends, without the time."""
+    """The only line of output before the component ends, without the time."""
     running = start([*component.command, *arguments], cwd=component.root)
     assert running.exit_code() == code, running.output
     (line,) = running.output.splitlines()
@@ -36,7 +36,7 @@ def fails(start: Start, component: Built, *arguments: str, code: int = 1) -> str
 
 
 def test_toml_dialect(both: Built, start: Start, free_port: Ports, ice: Any) -> None:
-    """Keys the other way round, values in double quotes."""
+    """Keys in the other spelling, values in double quotes."""
     arm = free_port()
     both.configure(
         {
@@ -107,12 +107,12 @@ def test_a_port_that_is_taken(arm: Built, start: Start) -> None:
 @pytest.mark.parametrize("wrong", ["hand:tcp -p x", ":tcp -p 1", '"'])
 def test_a_wrong_proxy(both: Built, start: Start, free_port: Ports, wrong: str) -> None:
     both.configure({"Arm.Endpoints": f"tcp -p {free_port()}", "HandProxy": wrong})
-    assert fails(start, both).startswith(f"the proxy to Hand is '{wrong}' in etc/config: that is no proxy (")
+    assert fails(start, both).startswith(f"the proxy to Hand is '{wrong}' in etc/config, which is not a proxy (")
 
 
 def test_a_proxy_without_endpoint(both: Built, start: Start, free_port: Ports) -> None:
     both.configure({"Arm.Endpoints": f"tcp -p {free_port()}", "HandProxy": "hand"})
-    start(both.command).wait_for("waiting for Hand at hand ... (it has no endpoint, and there is no locator to ask)")
+    start(both.command).wait_for("waiting for Hand at hand ... (it has no endpoint, and no locator is configured)")
 
 
 @pytest.mark.parametrize("wrong", ["soon", "0", "-3", "1.5"])
@@ -125,7 +125,7 @@ def test_a_wrong_period(arm: Built, start: Start, wrong: str) -> None:
 
 
 def test_lines_that_are_no_properties(arm: Built, start: Start, free_port: Ports) -> None:
-    """Ice warns and goes on; a BOM and CRLF are nothing special."""
+    """Ice warns and continues; a BOM and CRLF are allowed."""
     arm.configure({})
     text = f"\ufeffArm.Endpoints = tcp -p {free_port()}\r\nno property\r\n# é\r\nname = ñ\r\n"
     (arm.root / "etc" / "config").write_bytes(text.encode())
@@ -134,17 +134,17 @@ def test_lines_that_are_no_properties(arm: Built, start: Start, free_port: Ports
 
 
 def test_bytes_that_are_no_text(arm: Built, start: Start, free_port: Ports) -> None:
-    """In a comment they do not matter."""
+    """Such bytes are allowed in comments."""
     arm.configure({})
     config = arm.root / "etc" / "config"
     config.write_bytes(b"# \xe1rbol\nArm.Endpoints = tcp -p \xff\xfe\n")
-    assert fails(start, arm) == "etc/config:2: this line is not in UTF-8"
+    assert fails(start, arm) == "etc/config:2: this line is not UTF-8"
     config.write_bytes(b"# \xe1rbol\nArm.Endpoints = tcp -p %d # \xe1\n" % free_port())
     start(arm.command).wait_for("ArmComp is running")
 
 
 def test_wrong_usage(arm: Built, start: Start) -> None:
-    for arguments, said in ((["a", "b"], "one CONFIG, please, not 2: a b"), (["-x"], "there is no option -x")):
+    for arguments, said in ((["a", "b"], "expected one CONFIG, got 2: a b"), (["-x"], "unknown option -x")):
         running = start([*arm.command, *arguments])
         assert running.exit_code() == 2
         assert running.output.startswith(f"ArmComp: {said}\n\nusage: bin/ArmComp [CONFIG]")
@@ -157,7 +157,7 @@ def test_help_needs_no_ice(arm: Built) -> None:
 
 
 def test_a_newer_python_in_front(arm: Built, free_port: Ports, tmp_path: Path) -> None:
-    """One without Ice: the component runs in the workspace's."""
+    """That Python has no Ice: the component runs with the workspace's."""
     arm.configure({"Arm.Endpoints": f"tcp -p {free_port()}"})
     (tmp_path / "front").mkdir()
     front = tmp_path / "front" / "python3"
@@ -167,16 +167,16 @@ def test_a_newer_python_in_front(arm: Built, free_port: Ports, tmp_path: Path) -
     environment = {**os.environ, "PATH": f"{front.parent}:{os.environ['PATH']}"}
     program = [arm.command[1], "--startup-check"]
     done = subprocess.run(program, env=environment, capture_output=True, text=True)
-    assert done.returncode == 0 and "ArmComp starts as it should" in done.stdout + done.stderr
+    assert done.returncode == 0 and "ArmComp: the startup check has passed" in done.stdout + done.stderr
 
 
 def test_without_ice(arm: Built) -> None:
-    """What is set is the only one that is tried."""
+    """If the variable is set, no other Python is tried."""
     environment = {**os.environ, "RCYAML_PYTHON": "/no/such/python"}
     done = subprocess.run(arm.command, env=environment, capture_output=True, text=True)
     assert done.returncode == 1 and not done.stdout
     (line,) = done.stderr.splitlines()
-    assert line.startswith("ArmComp: RCYAML_PYTHON names /no/such/python, which is not there: let it name a Python")
+    assert line.startswith("ArmComp: RCYAML_PYTHON names /no/such/python, which does not exist: set it to a Python")
 
 
 def test_the_slice_folder_is_gone(arm: Built, start: Start) -> None:
@@ -190,6 +190,6 @@ def test_slice_that_ice_refuses(arm: Built, start: Start) -> None:
     (arm.root / "slice" / "Arm.ice").write_text("module M { nonsense }\n")
     running = start(arm.command, cwd=arm.root)
     assert running.exit_code() == 1
-    said = "Ice does not take slice/Arm.ice (see above): compile the component again"
+    said = "Ice rejects slice/Arm.ice (see above): compile the component again"
     assert running.output.splitlines()[-1].endswith(said)
     assert "Traceback" not in running.output

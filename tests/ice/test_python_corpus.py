@@ -25,7 +25,7 @@ RUNNER = Path(__file__).parent / "run_components.py"
 
 
 def lists(interfaces: tuple[Interface, ...]) -> dict[str, object]:
-    """Everything that a component can do with them; proxies have names of their own, so that none clash."""
+    """All kinds of ports for the interfaces; proxies have unique names."""
     names = [interface.name for interface in interfaces]
     return {
         "implements": names,
@@ -37,8 +37,8 @@ def lists(interfaces: tuple[Interface, ...]) -> dict[str, object]:
 
 @pytest.fixture
 def components(tmp_path: Path, free_port: Ports, icestorm: Storm) -> dict[str, tuple[Path, int]]:
-    """By the name of its interface file, a component for each that has no error, configured; and how many calls each
-    can make."""
+    """For each interface file without errors, a configured component, by the file's name; and the number of calls that
+    it can make."""
     CliRunner().invoke(group, ["migrate", str(CORPUS / "idsl"), "-o", str(tmp_path / "idsl")])
     analysis = pipeline.analyse([str(tmp_path / "idsl")])
     faulty = {d.span.file for d in analysis.diagnostics if d.severity == ERROR}

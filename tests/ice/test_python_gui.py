@@ -1,4 +1,4 @@
-"""Python components with a window, offscreen: it answers whatever the worker does, and closing it stops the component."""
+"""Python components with a window, offscreen: it answers while the worker is busy, and closing it stops the component."""
 
 from __future__ import annotations
 
@@ -118,7 +118,7 @@ def test_closing_the_window_stops_the_component(
     running = start(component.command, env=OFFSCREEN).wait_for("Any is running")
     RoboCompArm.ArmPrx.uncheckedCast(ice.stringToProxy(f"arm:tcp -h 127.0.0.1 -p {port}")).move([], False)
     assert running.exit_code(3) == 0
-    assert "ending without it" not in running.output
+    assert "the process ends anyway" not in running.output
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
@@ -126,7 +126,9 @@ def test_signals_stop_it(window: Callable[..., tuple[Built, int]], start: Start,
     component, _ = window("QWidget")
     running = start(component.command, env=OFFSCREEN).wait_for("Any is running")
     assert running.stop(number) == 0
-    assert "ending without it" not in running.output and "Traceback" not in running.output.split("initialize in")[0]
+    assert (
+        "the process ends anyway" not in running.output and "Traceback" not in running.output.split("initialize in")[0]
+    )
 
 
 @pytest.mark.parametrize("base", BASES)
@@ -139,7 +141,7 @@ def test_the_skeleton_runs(window: Callable[..., tuple[Built, int]], start: Star
 
 
 def test_it_waits_for_others_with_its_window_open(build: Build, start: Start, free_port: Ports) -> None:
-    """A signal ends it while a proxy is not there yet."""
+    """A signal stops the component while a server is still absent."""
     pytest.importorskip("PySide6", reason="PySide6 is not installed (PySide6-Essentials<6.11)")
     keys: dict[str, Any] = {"gui": {"toolkit": "qt", "base": "QWidget"}, "requires": ["Arm"]}
     built = build({**INTERFACES, "any.cdsl.yaml": cdsl("Any", **keys)})["Any"]
@@ -152,8 +154,11 @@ def test_it_waits_for_others_with_its_window_open(build: Build, start: Start, fr
 @pytest.mark.parametrize(
     ("form", "says"),
     [
-        ("<ui", "src/mainUI.ui is no form"),
-        (FORM.format(base="QWidget").replace("guiDlg", "Other"), "is not the form of a guiDlg"),
+        ("<ui", "src/mainUI.ui is not a form"),
+        (
+            FORM.format(base="QWidget").replace("guiDlg", "Other"),
+            "src/mainUI.ui is not a form for the window: its <class> must be guiDlg",
+        ),
         (FORM.format(base="QMainWindow").replace("<widget class", "<widget  class"), None),
     ],
     ids=["no-xml", "another-class", "fine"],
@@ -189,7 +194,7 @@ def test_without_a_screen(window: Callable[..., tuple[Built, int]], start: Start
     component, _ = window("QWidget", "")
     refused = start(component.command, env={"DISPLAY": "", "WAYLAND_DISPLAY": "", "QT_QPA_PLATFORM": ""})
     assert refused.exit_code() == 1
-    assert "there is no screen for the window" in refused.output and refused.output.count("\n") == 1
+    assert "the window has no screen" in refused.output and refused.output.count("\n") == 1
 
 
 ROBOCOMP = """
@@ -221,7 +226,7 @@ class SpecificWorker(GenericWorker):
 
 @pytest.mark.parametrize("base", BASES)
 def test_robocomps_own(build: Build, start: Start, base: str) -> None:
-    """There the worker is the window."""
+    """The worker is the window."""
     pytest.importorskip("PySide6", reason="PySide6 is not installed (PySide6-Essentials<6.11)")
     keys: dict[str, Any] = {"gui": {"toolkit": "qt", "base": base}, "compatibility": "robocomp"}
     built = build({**INTERFACES, "any.cdsl.yaml": cdsl("Any", **keys)})["Any"].configure({})

@@ -1,4 +1,4 @@
-"""Odd names: whatever IDSL and Slice take becomes Python that imports, runs and answers."""
+"""Odd names: every name that IDSL and Slice accept becomes Python that imports, runs and answers."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ ATTRIBUTES = "compute initialize period log mutex communicator getPeriod setPeri
 BUILTINS = "c self cls current context list dict str id type super property match case result worker".split()
 NAMES = [*KEYWORDS, *ICE, *ATTRIBUTES, *BUILTINS]
 
-# Words that rcyaml advises against, since other programs in Python may not load the interface.
+# Words that rcyaml warns of, because other Python programs may not be able to load the interface.
 ALLOWED = {"rcyaml.yaml": "lint: {RC1006: off}\n"}
 
 METHODS = "\n".join(f"      {name}: {{in: {{{name}: int, x: string}}, returns: string}}" for name in NAMES)
@@ -57,7 +57,7 @@ class SpecificWorker(GenericWorker):
 
 
 def test_methods_and_parameters(build: Build, start: Start, free_port: Ports) -> None:
-    """Called like keywords, builtins, Ice's own words and the worker's attributes."""
+    """Names of keywords, builtins, of Ice, and of the worker's attributes."""
     endpoint = f"tcp -h 127.0.0.1 -p {free_port()}"
     built = build(ODD)
     server = built["Server"].configure({"Odd.Endpoints": endpoint})
@@ -131,7 +131,7 @@ class SpecificWorker(Skeleton):
 
 
 def python(name: str) -> str:
-    """As Ice's mapping would have it."""
+    """The names that Ice's mapping gives."""
     return f"_{name}" if keyword.iskeyword(name) or name == "print" else name
 
 

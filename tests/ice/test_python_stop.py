@@ -1,4 +1,4 @@
-"""A Python component stops in order, within two seconds, whatever it is doing."""
+"""A Python component stops in order, within two seconds, at any time."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def write(arm: Built, methods: str) -> None:
 def test_a_signal_stops_it(arm: Built, start: Start, number: int) -> None:
     running = start(arm.command).wait_for("ArmComp is running")
     assert running.stop(number) == 0
-    assert "ending without it" not in running.output, "at once: nothing holds it up"
+    assert "the process ends anyway" not in running.output, "at once: nothing holds it up"
     assert "Traceback" not in running.output and "terminate" not in running.output
 
 
@@ -48,7 +48,7 @@ def test_with_a_method_that_is_stuck(arm: Built, start: Start, ice: Any, slices:
     call = proxy(ice, arm).blockAsync(60)
     running.wait_for("blocking")
     assert running.stop(number, within=2.0) == 0
-    assert "ending without it" in running.output
+    assert "the process ends anyway" in running.output
     assert call.exception(5) is not None
 
 
@@ -60,7 +60,7 @@ def test_with_a_compute_that_is_stuck(arm: Built, start: Start, number: int) -> 
 
 
 def test_while_it_initializes(arm: Built, start: Start, ice: Any, slices: None) -> None:
-    """A call that waits for the end of initialize() gets an exception, and does not hold it up."""
+    """A call that waits for initialize() fails, and does not delay the end."""
     write(arm, "    def initialize(self):\n        print('busy')\n        while not self._stopping.wait(0.1): pass\n")
     running = start(arm.command).wait_for("busy")
     call = proxy(ice, arm).moveAsync([], False)
@@ -107,11 +107,11 @@ def test_many_signals(arm: Built, start: Start) -> None:
 
 
 def test_start_and_stop_again_and_again(arm: Built, start: Start) -> None:
-    """The end of the process is clean: threads that are still in Ice would abort it now and then."""
+    """The process ends cleanly: threads that are still in Ice would sometimes abort it."""
     for _ in range(5):
         running = start([*arm.command, "--startup-check"])
         assert running.exit_code() == 0
-        assert "ArmComp starts as it should" in running.output
+        assert "ArmComp: the startup check has passed" in running.output
 
 
 def test_ice_admin_stops_it(arm: Built, start: Start, ice: Any, free_port: Ports) -> None:
@@ -127,7 +127,7 @@ def test_ice_admin_stops_it(arm: Built, start: Start, ice: Any, free_port: Ports
 
 
 def test_before_it_has_started(arm: Built, start: Start) -> None:
-    """At any moment of its start: never a traceback."""
+    """At any moment of its start, without a traceback."""
     for delay in (0.15, 0.2, 0.25, 0.3, 0.35):
         running = start(arm.command)
         time.sleep(delay)

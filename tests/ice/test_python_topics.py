@@ -78,7 +78,7 @@ def test_events_arrive_in_order(
 
 
 def test_two_subscribers_and_one_that_goes(pair: tuple[Built, Built], start: Start, icestorm: Storm) -> None:
-    """Each gets all; one that stopped has unsubscribed, and can come back."""
+    """Each subscriber gets all events; one that has stopped has unsubscribed, and can subscribe again."""
     publisher, subscriber = pair
     for component in pair:
         component.configure({"TopicManager.Proxy": icestorm.manager, "ArmEvents": "Two"})
@@ -110,7 +110,7 @@ def test_the_topic_manager_is_not_configured(pair: tuple[Built, Built], start: S
 
 
 def test_an_interface_published_and_subscribed_by_one(build: Build, start: Start, icestorm: Storm) -> None:
-    """A component may hear itself; of an interface's methods only what topics can carry is there."""
+    """A component may receive its own events; of an interface, only methods that topics can carry are called."""
     documents = {**INTERFACES, "e/e.cdsl.yaml": cdsl("Echo", publishes=["Arm"], subscribes=["Arm"])}
     echo = build(documents)["Echo"].configure({"TopicManager.Proxy": icestorm.manager, "Arm": "Echo"})
     generic = (echo.root / "generated" / "genericworker.py").read_text()

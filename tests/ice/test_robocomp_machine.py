@@ -30,7 +30,7 @@ def assert_patrols(running: Running, behavior: Behavior, port: int) -> None:
     said = [line[2:] for line in running.output.splitlines() if line.startswith("> ")]
     assert said == EXPECTED, running.output
     assert running.stop() == 0
-    assert "ending without it" not in running.output and "Traceback" not in running.output
+    assert "the process ends anyway" not in running.output and "Traceback" not in running.output
 
 
 def configured(built: Built, port: int) -> Built:
@@ -54,7 +54,7 @@ def test_the_skeleton_in_python(
     build: Build, start: Start, free_port: Ports, behavior: Behavior, robocomps_qt: Mapping[str, str],
     keys: dict[str, Any],
 ) -> None:  # fmt: skip
-    """The machine starts by itself, and `events` fires its events, too."""
+    """The machine starts by itself, and `events` fires its events too."""
     if keys and "PYTHONPATH" in robocomps_qt:
         pytest.skip("windows need PySide6")
     port = free_port()
@@ -90,7 +90,7 @@ def test_cpp(build: Build, start: Start, free_port: Ports, behavior: Behavior, t
 @in_all_builds
 @pytest.mark.slow
 def test_the_skeleton_in_cpp(build: Build, start: Start, free_port: Ports, behavior: Behavior) -> None:
-    """With all that a machine may have, and with a window; the machine starts by itself."""
+    """With every feature of a machine, and with a window; the machine starts by itself."""
     port = free_port()
     guarded = '<transition event="t_initialize_to_compute" cond="ready" target="compute"><script>greet</script>'
     files = documents("cpp", gui={"toolkit": "qt", "base": "QDialog"})

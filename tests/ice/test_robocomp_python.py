@@ -1,4 +1,4 @@
-"""Specific code written for RoboComp's own tool runs on our generic part: with PySide6, and without any Qt."""
+"""Specific code for RoboComp's own tool runs on the generated generic part: with PySide6, and without any Qt."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from scenario import INTERFACES, cdsl
 
 @pytest.fixture
 def pair(build: Build, free_port: Ports, icestorm: Storm) -> Callable[[str], tuple[Built, Built, int]]:
-    """`pair(code)`: a server with this specific code and its client, configured; the port of the server's
+    """`pair(code)`: a configured server with this specific code and its client, and the TCP port of the server's
     CommonBehavior."""
 
     def made(code: str) -> tuple[Built, Built, int]:
@@ -87,7 +87,7 @@ def test_compute_fails_and_goes_on(
     start: Start,
     behavior: Callable[[int], Any],
 ) -> None:
-    """An exception in a slot is shown, and the next turn comes; CommonBehavior and the user's code agree on the period."""
+    """An exception in a slot is logged, and the next turn follows; CommonBehavior and user's code share the period."""
     server, _, port = pair(SERVER_2023)
     serving = start(server.command, env=robocomps_qt)
     until(lambda: serving.output.count("ZeroDivisionError") > 1, lambda: serving.output)
@@ -120,7 +120,7 @@ def test_startup_check_and_user_stop(
 
 
 def test_more_of_qt_than_there_is(build: Build, start: Start, tmp_path: Path) -> None:
-    """One readable line, where the user's code needs the real thing."""
+    """One readable line, if the user's code needs the real Qt."""
     (tmp_path / "hidden" / "PySide6").mkdir(parents=True)
     (tmp_path / "hidden" / "PySide6" / "__init__.py").write_text(NO_QT)
     component = build({**INTERFACES, "any.cdsl.yaml": cdsl("Any", compatibility="robocomp")})["Any"].configure({})
@@ -128,7 +128,7 @@ def test_more_of_qt_than_there_is(build: Build, start: Start, tmp_path: Path) ->
         (component.root / "src" / "specificworker.py").write_text(f"{line}from genericworker import *\n")
         refused = start(component.command, env={"PYTHONPATH": str(tmp_path / "hidden")})
         assert refused.exit_code() == 1
-        assert "src/ needs more of Qt than there is" in refused.output and "pip install" in refused.output
+        assert "src/ needs a part of Qt that is not installed" in refused.output and "pip install" in refused.output
         assert "Traceback" not in refused.output
 
 

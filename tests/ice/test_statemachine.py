@@ -1,4 +1,4 @@
-"""The same state machine in a component of each language: the same handlers in the same order, seen from outside."""
+"""The same state machine in a component of each language: the same handlers in the same order."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ statemachine:
     gone: {to: failing, event: push}
 """
 
-# Fires an event whenever the machine has come to where the next one belongs.
+# Fires an event whenever the machine has reached the state for the next one.
 PYTHON = """
 from generated.genericworker import GenericWorker
 

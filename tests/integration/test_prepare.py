@@ -1,4 +1,4 @@
-"""What `make demo` and `make test` install first, and what they say of it; other programs stand for apt and sudo."""
+"""What `make demo` and `make test` install first, and what they print; apt and sudo are replaced by scripts."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ RECORD = 'echo "${0##*/} $*" >> "$LOG"\n'
 
 
 class Machine:
-    """A machine whose only programs are those that a test puts there."""
+    """A machine with only the programs of a test."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder / "bin"
@@ -51,7 +51,7 @@ def machine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Machine:
 
 @pytest.fixture
 def prepare(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
-    """Called by root, for an environment elsewhere."""
+    """tools/prepare.py, run by root, for an environment in another folder."""
     spec = importlib.util.spec_from_file_location("prepare", ROOT / "tools" / "prepare.py")
     assert spec and spec.loader
     module = importlib.util.module_from_spec(spec)
@@ -63,20 +63,20 @@ def prepare(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
     return module
 
 
-def test_root_has_them_installed(prepare: ModuleType, machine: Machine, capsys: pytest.CaptureFixture[str]) -> None:
+def test_root_installs_them(prepare: ModuleType, machine: Machine, capsys: pytest.CaptureFixture[str]) -> None:
     prepare.main("system", "demo", "python3-zeroc-ice", "cowsay")
     words = shlex.join(prepare.APT)
     assert [line for line in machine.called if not line.startswith("dpkg")] == [
         f"apt-get {words} update", "noninteractive",
         f"apt-get {words} install -y --no-install-recommends python3-zeroc-ice cowsay", "noninteractive",
     ]  # fmt: skip
-    said = capsys.readouterr().out
-    assert said.startswith("make demo needs packages of Debian, and installs them: python3-zeroc-ice cowsay\n")
-    assert "installing 2 packages, which takes about half a minute ...\n  done after " in said
-    assert "Unpacking" not in said, "what apt says is of interest where it fails"
+    output = capsys.readouterr().out
+    assert output.startswith("make demo needs packages of Debian, and installs them: python3-zeroc-ice cowsay\n")
+    assert "installing 2 packages, which takes about half a minute ...\n  done after " in output
+    assert "Unpacking" not in output, "what apt says is of interest where it fails"
 
 
-def test_what_is_there_is_not_asked_for(
+def test_installed_packages_are_not_requested(
     prepare: ModuleType, machine: Machine, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Node and Ice may come from elsewhere."""
@@ -87,32 +87,32 @@ def test_what_is_there_is_not_asked_for(
     assert not any(line.startswith("apt-get") for line in machine.called) and not capsys.readouterr().out
 
 
-def test_what_apt_says_is_shown_where_it_fails(prepare: ModuleType, machine: Machine) -> None:
+def test_the_output_of_apt_is_shown_if_it_fails(prepare: ModuleType, machine: Machine) -> None:
     machine.has("apt-get", 'case "$*" in *install*) echo E: Unable to locate package cowsay; exit 100;; esac')
     with pytest.raises(prepare.Failed) as failed:
         prepare.main("system", "demo", "cowsay")
-    said = str(failed.value)
-    assert said.startswith("E: Unable to locate package cowsay\n\ninstalling cowsay failed, see above: env apt-get ")
+    output = str(failed.value)
+    assert output.startswith("E: Unable to locate package cowsay\n\ninstalling cowsay failed, see above: env apt-get ")
 
 
 @pytest.mark.parametrize("sudo", [True, False], ids=["may", "may not"])
 @pytest.mark.parametrize("goal", ["demo", "test"])
-def test_others_have_them_installed_by_a_sudo_that_does_not_ask(
+def test_others_install_them_by_sudo_without_password(
     prepare: ModuleType, machine: Machine, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str],
     sudo: bool, goal: str,
 ) -> None:  # fmt: skip
     monkeypatch.setattr(prepare.os, "geteuid", lambda: 1000)
     machine.has("sudo", 'shift; "$@"' if sudo else "echo sudo: a password is required >&2; exit 1")
     prepare.main("system", goal, "cowsay")
-    said = capsys.readouterr()
-    assert not said.err
+    output = capsys.readouterr()
+    assert not output.err
     if sudo:
         assert machine.called[-2].endswith(" install -y --no-install-recommends cowsay")
         assert machine.called[-1] == "noninteractive"
     else:
         assert not any(line.startswith("apt-get") for line in machine.called)
         skipped = "some tests will be skipped; to run them all: sudo apt install cowsay\n"
-        assert said.out == (skipped if goal == "test" else ""), "the demo says it where it ends"
+        assert output.out == (skipped if goal == "test" else ""), "the demo says it where it ends"
 
 
 def test_no_debian_and_no_sudo(
@@ -128,7 +128,7 @@ def test_no_debian_and_no_sudo(
 
 @pytest.fixture
 def pip(prepare: ModuleType) -> Callable[[int], None]:
-    """An environment whose Python calls no pip: it makes noise, and ends with this code."""
+    """An environment whose Python prints many lines instead of running pip, and exits with this code."""
 
     def make(code: int) -> None:
         prepare.PYTHON.parent.mkdir(parents=True)
@@ -139,18 +139,18 @@ def pip(prepare: ModuleType) -> Callable[[int], None]:
     return make
 
 
-def test_pip_is_quiet_as_long_as_all_is_well(
+def test_the_output_of_pip_is_hidden_if_it_succeeds(
     prepare: ModuleType, pip: Callable[[int], None], capsys: pytest.CaptureFixture[str]
 ) -> None:
     pip(0)
     prepare.main("environment", "test")
-    said = capsys.readouterr()
-    assert not said.err and re.fullmatch(
-        r"installing rcyaml and what its tests need into \S+venv \.\.\.\n  done after \d+ s\n", said.out
+    output = capsys.readouterr()
+    assert not output.err and re.fullmatch(
+        r"installing rcyaml and what its tests need into \S+venv \.\.\.\n  done after \d+ s\n", output.out
     )
 
 
-def test_all_that_pip_said_is_shown_where_it_fails(prepare: ModuleType, pip: Callable[[int], None]) -> None:
+def test_the_output_of_pip_is_shown_if_it_fails(prepare: ModuleType, pip: Callable[[int], None]) -> None:
     pip(1)
     with pytest.raises(prepare.Failed) as failed:
         prepare.main("environment")
@@ -163,24 +163,24 @@ def test_a_python_that_is_too_old(prepare: ModuleType, monkeypatch: pytest.Monke
         prepare.main("environment")
 
 
-def test_without_rights_two_ways_are_said(
+def test_without_rights_two_ways_are_printed(
     prepare: ModuleType, machine: Machine, capsys: pytest.CaptureFixture[str]
 ) -> None:
     machine.has("g++")
     prepare.main("advise")
-    said = capsys.readouterr().out
-    assert "\n  sudo apt install python3-zeroc-ice\n" in said and "\n  make ice demo\n" in said
-    assert "some ten minutes" in said and "headers" not in said
+    output = capsys.readouterr().out
+    assert "\n  sudo apt install python3-zeroc-ice\n" in output and "\n  make ice demo\n" in output
+    assert "some ten minutes" in output and "headers" not in output
     machine.has("g++", "exit 1")
     prepare.main("advise")
-    assert "needs g++ and the headers of Python, OpenSSL and bzip2, not all of which are here (g++ python3-dev" in (
+    assert "needs g++ and the headers of Python, OpenSSL and bzip2, some of which are missing (g++ python3-dev" in (
         capsys.readouterr().out
     )
     with pytest.raises(prepare.Failed, match="installs these:\n  sudo apt install g\\+\\+ python3-dev"):
         prepare.main("ice")
 
 
-def test_compiling_says_how_far_it_is(
+def test_compiling_shows_progress(
     prepare: ModuleType, machine: Machine, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     machine.has("g++")
@@ -195,19 +195,19 @@ def test_compiling_says_how_far_it_is(
     monkeypatch.setattr(prepare.Progress, "note", note, raising=False)
     prepare.main("ice")
     assert [note for note in notes if note] == ["1 of about 250 files", "2 of about 250 files"]
-    assert "Ice is compiled for this Python, which takes some ten minutes.\n" in capsys.readouterr().out
+    assert "Compiling Ice for this Python takes some ten minutes.\n" in capsys.readouterr().out
 
 
-def test_on_a_terminal_one_line_is_renewed(
+def test_on_a_terminal_one_line_is_updated(
     prepare: ModuleType, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(prepare.sys.stdout, "isatty", lambda: True, raising=False)
     prepare.call(["/bin/sh", "-c", "echo one; sleep 0.5"], "counting", str.strip)
-    said = capsys.readouterr().out
-    assert "\rcounting ... 0 s  one\x1b[K" in said and re.search(r"\r\x1b\[Kcounting: done after \d s\n$", said)
+    output = capsys.readouterr().out
+    assert "\rcounting ... 0 s  one\x1b[K" in output and re.search(r"\r\x1b\[Kcounting: done after \d s\n$", output)
 
 
-def test_the_goals_are_those_that_help_names() -> None:
+def test_help_lists_the_goals() -> None:
     help_ = subprocess.run(["make", "-C", ROOT, "--no-print-directory", "help"], capture_output=True, text=True).stdout
     named = set(re.findall(r"^make ([\w-]+) ", help_, re.MULTILINE))
     text = (ROOT / "Makefile").read_text(encoding="utf-8")
@@ -222,7 +222,7 @@ def test_the_goals_are_those_that_help_names() -> None:
 RUNTIME = "robocomp_yaml/languages/python/templates/runtime"
 
 
-def test_it_reads_with_the_pythons_that_make_may_find() -> None:
-    """What it needs itself is asked of an older one too, which says so in words."""
+def test_it_parses_with_old_pythons() -> None:
+    """An older Python must parse it, to print that it is too old."""
     for path in ("tools/prepare.py", f"{RUNTIME}/interpreter.py", f"{RUNTIME}/main.py"):
         ast.parse((ROOT / path).read_text(encoding="utf-8"), feature_version=(3, 7))

@@ -45,7 +45,7 @@ def test_nothing_is_found(name: str) -> None:
 
 def test_a_check_that_is_not_there(capsys: pytest.CaptureFixture[str]) -> None:
     assert lint.main("typos") == 2
-    assert "there is no typos: rules, " in capsys.readouterr().err
+    assert "unknown: typos; there are rules, " in capsys.readouterr().err
 
 
 def mypy(folder: Path, text: str) -> subprocess.CompletedProcess[str]:

@@ -2,9 +2,9 @@
 
     python tests/mutation/run.py [--mutants 60] [--seed 1] [WORD …]
 
-Mutants are drawn by chance, the same for a seed and a text; words choose the files whose paths hold one of them. A
-mutant is noticed where a unit test fails that runs its line. It is put into the functions of a process that has all of
-these tests loaded, and is forked for each mutant: so one costs no more than its tests.
+Mutants are drawn at random, the same ones for the same seed and code; words select the files whose paths contain one of
+them. A mutant is killed if a unit test that runs its line fails. One process loads all of these tests, and forks for each
+mutant, which replaces functions in the fork: a mutant costs no more than its tests.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ from robocomp_yaml.source.digest import digest
 
 ROOT = Path(__file__).resolve().parents[2]
 AREAS = (
-    "link", "model", "parameters", "values", "network", "legacy/settings", "deploy/plan.py", "deploy/differences.py",
+    "link", "model", "parameters", "network", "legacy/settings", "deploy/plan.py", "deploy/differences.py",
     "deploy/carry_out.py", "deploy/operations.py",
 )  # fmt: skip
 TESTS = "tests/unit"

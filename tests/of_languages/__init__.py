@@ -1,4 +1,4 @@
-"""What the tests that run over languages need of each: a module a language, called as the language, with `SPOKEN`.
+"""What tests for all languages need of each: a module per language, with the language's name and `SPOKEN`.
 
 A language that has no module here is not tested by them, and a test says so.
 """

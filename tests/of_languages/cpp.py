@@ -1,4 +1,4 @@
-"""C++: built with CMake, as fast as can be."""
+"""C++: built with CMake, without optimization."""
 
 from __future__ import annotations
 

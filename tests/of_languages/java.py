@@ -103,7 +103,7 @@ public class SpecificWorker extends GenericWorker {
 
 
 def _stubs(skeleton: str) -> str:
-    """What stands behind compute()."""
+    """The text after compute()."""
     _, brace, stubs = skeleton.partition("public void compute() throws Exception {\n    }\n")
     assert brace
     return stubs

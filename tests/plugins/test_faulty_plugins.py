@@ -71,14 +71,14 @@ def found(done: subprocess.CompletedProcess[str]) -> dict[str, dict[str, object]
         ("checks/a", "def check(:\n", "SyntaxError: invalid syntax (mod.py, line 1)"),
         ("checks/a", "raise SystemExit(3)\n", "SystemExit: 3"),
         ("checks/a", "KIND = 'cdsl'\n", "mod has no check"),
-        ("checks/a", "KIND = 'cdsl'\ncheck = 1\n", "check is no function"),
-        ("checks/a", "KIND = 'yaml'\ndef check(program): ...\n", "KIND is 'yaml', and is to be one of"),
+        ("checks/a", "KIND = 'cdsl'\ncheck = 1\n", "check is not a function"),
+        ("checks/a", "KIND = 'yaml'\ndef check(program): ...\n", "KIND is 'yaml', which is not one of"),
         ("exports/a", "", "mod has no export"),
-        ("exports/A b", "def export(network): ...\n", "its name has other characters"),
-        ("graphs/a", "draw = None\n", "draw is no function"),
+        ("exports/A b", "def export(network): ...\n", "its name has characters other than"),
+        ("graphs/a", "draw = None\n", "draw is not a function"),
         ("formats/a", "RULES = ''\n", "mod has no convert"),
-        ("languages/a", "LANGUAGE = 'a'\n", "LANGUAGE is no TargetLanguage"),
-        ("checks/a", PAGE.replace("{code}", "odd1"), "'odd1' is no code"),
+        ("languages/a", "LANGUAGE = 'a'\n", "LANGUAGE is not a TargetLanguage"),
+        ("checks/a", PAGE.replace("{code}", "odd1"), "'odd1' is not a code"),
         ("checks/a", PAGE.replace("code('{code}')", "code('ODD002')").replace("{code}", "ODD001"), "ODD002"),
     ],
 )
@@ -166,7 +166,7 @@ def test_one_that_is_not_installed(rcyaml: Run, site: Path, tmp_path: Path) -> N
 
 def test_one_that_is_none(rcyaml: Run, tmp_path: Path) -> None:
     workspace(tmp_path, "jinja2")
-    assert "'jinja2' is installed, and is no plug-in of rcyaml" in rcyaml("check").stdout
+    assert "'jinja2' is installed, and is not a plug-in of rcyaml" in rcyaml("check").stdout
 
 
 @pytest.mark.parametrize("text", ["plugins: acme", "plugins: {acme: 1}", "plugins: [../acme]", "plugins: [a, a]"])
@@ -230,7 +230,7 @@ def test_a_picture_that_fails(rcyaml: Run, site: Path, tmp_path: Path) -> None:
     installed(site, "acme", {"graphs/odd": "mod"}, {"mod.py": "def draw(picture):\n    return picture\n"})
     workspace(tmp_path, "acme", **NETWORK)
     done = rcyaml("graph", "--as", "odd")
-    assert done.returncode == 1 and "it gives no text" in done.stderr
+    assert done.returncode == 1 and "it returns no text" in done.stderr
 
 
 @pytest.mark.parametrize(

@@ -122,7 +122,7 @@ def test_every_example_fits(folder: Path, document: str) -> None:
 ])  # fmt: skip
 def test_where_no_example_is_found_the_document_says_so(folder: Path, document: str) -> None:
     text = new(folder, document)
-    assert "no example was found that fits the constraints" in text
+    assert "no example satisfies the constraints" in text
     assert "\n  # a:\n" in text
     for told in errors(folder, text):
         assert re.search(r"\ba has no value|must hold", told), told

@@ -9,8 +9,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from conftest import CORPUS, needs_corpus
-from robocomp_yaml.legacy import flat, reading
-from robocomp_yaml.legacy.reading import Source
+from robocomp_yaml.legacy import grammar, reading
 from robocomp_yaml.source import properties
 
 PIECES = ("\\", " ", "#", "=", "a", "bc", "\t", "\r", "\\ ", '"', "é", "\n", "\\\\", "\n", "a=1\n")
@@ -53,16 +52,19 @@ def agree(text: str) -> None:
             assert text[line.entry.at - 1] == "="
             assert properties.read(f"k={text[line.entry.at : line.stop]}").entries[0].value == line.entry.value
             assert text[line.start + line.entry.column - 1] not in " \t\r"
-    tree, comments = flat.parse(Source("config", text))
-    for token in comments:
+    parsed = grammar.parse_flat(text)
+    for token in parsed.comments:
         assert text[token.start_pos : token.end_pos] == token and token.startswith("#")
-    kept = sum(end - start for start, end in _places(tree, comments))
+    kept = sum(end - start for start, end in _places(parsed))
     assert kept + sum(text.count(c) for c in " \t\r\n") >= len(text.removeprefix("\ufeff")), "all else is in the tree"
 
 
-def _places(tree: flat.Tree, comments: list[flat.Token]) -> list[tuple[int, int]]:
-    spans = [(line.meta.start_pos, line.meta.end_pos) for line in flat.lines(tree)]
-    spans += [(token.start_pos or 0, token.end_pos or 0) for token in comments]
+def _places(parsed: grammar.Parsed) -> list[tuple[int, int]]:
+    assert parsed.tree is not None
+    spans = [
+        (line.meta.start_pos, line.meta.end_pos) for line in parsed.tree.iter_subtrees() if line is not parsed.tree
+    ]
+    spans += [(token.start_pos or 0, token.end_pos or 0) for token in parsed.comments]
     spans.sort()
     assert all(end <= start for (_, end), (start, _) in pairwise(spans)), "nothing is there twice"
     return spans

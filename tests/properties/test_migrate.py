@@ -9,11 +9,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
-from robocomp_yaml.legacy import document, ledger
+from robocomp_yaml.legacy import document
 from robocomp_yaml.legacy.convert import Converted, convert
 from robocomp_yaml.legacy.draft import ConfigDraft
-from robocomp_yaml.model import build_component, build_interface
-from robocomp_yaml.model.component import Component, Gui, Language, Option, Use
+from robocomp_yaml.legacy.ledger import LedgerEntry
+from robocomp_yaml.legacy.sources import LegacyFile
+from robocomp_yaml.model import build_component, build_interface, located
+from robocomp_yaml.model.component import Component, Gui, Language, Use
 from robocomp_yaml.model.interface import (
     BASIC_TYPES,
     Enum,
@@ -229,7 +231,7 @@ def components(draw: st.DrawFn) -> Component:
         tuple(Import(name) for name in draw(st.lists(NAMES, max_size=3, unique=True))),
         ports(), ports(), ports(), ports(),
         gui=draw(st.none() | st.sampled_from(["QWidget", "QDialog"]).map(lambda base: Gui("qt", base))),
-        options=tuple(map(Option, draw(st.lists(st.sampled_from(["dsr", "agmagent"]), max_size=2, unique=True)))),
+        options=tuple(map(located.Text, draw(st.lists(st.sampled_from(["dsr", "agmagent"]), max_size=2, unique=True)))),
     )  # fmt: skip
 
 
@@ -248,7 +250,7 @@ def cdsl_text(draw: st.DrawFn, component: Component) -> str:
     if component.gui:
         clauses.append(f"gui Qt({component.gui.base});")
     if component.options:
-        clauses.append(f"options {', '.join(option.name for option in component.options)};")
+        clauses.append(f"options {', '.join(option.text for option in component.options)};")
     for clause in draw(st.permutations(clauses)):
         out.space()
         out.put(clause)
@@ -282,7 +284,7 @@ PIECES = st.lists(st.sampled_from([*SAMPLE.split(" "), *OTHERS]))
 def test_nothing_makes_it_stumble_and_every_line_is_counted(name: str, text: str | bytes) -> None:
     result, written = _converted(name, text)
     assert result.refused == any(d.severity == "error" for d in result.diagnostics)
-    entry = ledger.Entry(result, diagnostics=[*result.diagnostics])
+    entry = LedgerEntry(LegacyFile(result.path, "", ""), result, diagnostics=[*result.diagnostics])
     if result.source is not None:
         assert entry.lines().total() == result.source.lines
         for diagnostic in result.diagnostics:

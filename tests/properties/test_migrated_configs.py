@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from parameters import as_dict
 from robocomp_yaml.legacy.migration import migrate
-from robocomp_yaml.legacy.settings.plan import Guesses
+from robocomp_yaml.legacy.settings.plan import Corrections
 from robocomp_yaml.parameters.layers.effective import effective
 from robocomp_yaml.parameters.writing.properties import properties
 from robocomp_yaml.pipeline import analyse
@@ -60,7 +60,7 @@ def test_the_properties_come_back(text: str) -> None:
         path = Path(folder) / "etc" / "config"
         path.parent.mkdir()
         path.write_text(text, encoding="utf-8")
-        run = migrate([folder], None, (), force=False, guesses=Guesses(), exact=True)
+        run = migrate([folder], None, (), force=False, guesses=Corrections(), exact=True)
         run.write()
         (entry,) = run.entries
         assert entry.lines().total() == entry.file.source.lines  # type: ignore[union-attr]

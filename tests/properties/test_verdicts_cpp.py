@@ -90,7 +90,7 @@ def test_the_same_verdict_about_the_same_parameters(subjects: Subjects) -> None:
 
 def _blamed(problems: list[str]) -> list[str]:
     """The parameter that each message names; the languages spell values in their own ways."""
-    return sorted(re.split(r" (?:must be|is|has|holds) ", problem)[0] for problem in problems)
+    return sorted(re.split(r" (?:must be|is|has|contains) ", problem)[0] for problem in problems)
 
 
 def test_properties_are_read_alike(subjects: Subjects) -> None:

@@ -14,7 +14,7 @@ from pathlib import Path
 from robocomp_yaml import semantics
 from robocomp_yaml.emit.machines import lower
 from robocomp_yaml.languages import language
-from robocomp_yaml.languages.cpp import machine_text
+from robocomp_yaml.languages.cpp import statemachine as cpp_statemachine
 from robocomp_yaml.languages.python.statemachine import tables
 from robocomp_yaml.model.statemachine import StateMachine
 
@@ -74,7 +74,7 @@ def run_cpp(machines: Mapping[str, StateMachine], folder: Path) -> dict[str, Tra
         '#pragma once\n#include "machine/tables.h"\n#include <map>\n'
         "namespace machine { const std::map<std::string, Machine>& cases(); }\n"
     )
-    functions = "\n".join(machine_text.functions(lower.lower(machine), name) for name, machine in machines.items())
+    functions = "\n".join(cpp_statemachine.functions(lower.lower(machine), name) for name, machine in machines.items())
     entries = ", ".join(f'{{"{name}", {name}()}}' for name in machines)
     (folder / "cases.cpp").write_text(
         f'#include "cases.h"\nnamespace machine {{\nnamespace {{\n{functions}\n}}\n'

@@ -37,7 +37,7 @@ public:
         logged_ += (logged_.empty() ? "" : ",") + label + " " + value;
     }
 
-    void complain(const std::string&) override
+    void warn(const std::string&) override
     {
     }
 

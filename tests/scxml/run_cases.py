@@ -37,7 +37,7 @@ class Host:
     def log(self, label: str, value: Any) -> None:
         self.logged.append(f"{label} {'' if value is None else value}")
 
-    def complain(self, message: str) -> None:
+    def warn(self, message: str) -> None:
         pass
 
 

@@ -19,9 +19,9 @@ pytestmark = w3c.needs_cases
 # Why a case does not pass in Python. What is not listed here passes.
 NOT_IN_PYTHON = {
     "test216": "`srcexpr` would need a reader of SCXML at run time: what is invoked is compiled in",
-    "test240": "refused: there is no state 'subFinal1'",
+    "test240": "refused: unknown state 'subFinal1'",
     "test352": "the port compares with 'scxml', the W3C and case 198 with the processor's address",
-    "test401": "refused: <assign> lacks the attribute 'location'",
+    "test401": "refused: <assign> has no attribute 'location', which is required",
     "test525": "the port adds a text to a list, which Python does not",
 }
 

@@ -1,4 +1,4 @@
-"""Walks of directed graphs: their order, circles, and chains that no recursion could follow."""
+"""Algorithms on directed graphs: order, cycles, and chains that are too long for recursion."""
 
 from __future__ import annotations
 
@@ -15,51 +15,53 @@ graphs = st.dictionaries(st.integers(0, 8), st.lists(st.integers(0, 8), max_size
 )
 
 
-def test_the_nearest_are_reached_first() -> None:
+def test_breadth_first_order() -> None:
     graph = {"a": "bc", "b": "d", "c": "ad", "d": "b"}
-    assert list(digraph.reached("a", graph.__getitem__)) == ["a", "b", "c", "d"]
-    assert list(digraph.reached("db", graph.__getitem__)) == ["d", "b"]
-    assert not digraph.reached("", graph.__getitem__)
+    assert list(digraph.reachable("a", graph.__getitem__)) == ["a", "b", "c", "d"]
+    assert list(digraph.reachable("db", graph.__getitem__)) == ["d", "b"]
+    assert not digraph.reachable("", graph.__getitem__)
 
 
-def test_inner_ones_come_first_in_the_order_they_are_named() -> None:
+def test_postorder_in_the_order_of_successors() -> None:
     graph = {"a": "bc", "b": "d", "c": "d", "d": ""}
-    assert list(digraph.inner_first("a", graph.__getitem__)) == ["d", "b", "c", "a"]
-    assert list(digraph.inner_first("cab", graph.__getitem__)) == ["d", "c", "b", "a"]
+    assert list(digraph.postorder("a", graph.__getitem__)) == ["d", "b", "c", "a"]
+    assert list(digraph.postorder("cab", graph.__getitem__)) == ["d", "c", "b", "a"]
 
 
-def test_a_circle_ends_where_it_began() -> None:
-    assert list(digraph.inner_first("a", {"a": "b", "b": "c", "c": "a"}.__getitem__)) == ["c", "b", "a"]
+def test_postorder_of_a_cycle() -> None:
+    assert list(digraph.postorder("a", {"a": "b", "b": "c", "c": "a"}.__getitem__)) == ["c", "b", "a"]
 
 
 def test_long_chains() -> None:
-    assert len(digraph.reached([0], CHAIN.__getitem__)) == LONG + 1
-    assert next(digraph.inner_first([0], CHAIN.__getitem__)) == LONG
-    assert digraph.knots(CHAIN) == [] and digraph.waves(CHAIN) == [(number,) for number in range(LONG, -1, -1)]
-    (knot,) = digraph.knots(CHAIN | {LONG: [0]})
-    assert digraph.circle(CHAIN | {LONG: [0]}, knot, 7)[:2] == [7, 8] and len(knot) == LONG + 1
+    assert len(digraph.reachable([0], CHAIN.__getitem__)) == LONG + 1
+    assert next(digraph.postorder([0], CHAIN.__getitem__)) == LONG
+    assert digraph.cyclic_components(CHAIN) == [] and digraph.generations(CHAIN) == [
+        (number,) for number in range(LONG, -1, -1)
+    ]
+    (component,) = digraph.cyclic_components(CHAIN | {LONG: [0]})
+    assert digraph.cycle_through(CHAIN | {LONG: [0]}, component, 7)[:2] == [7, 8] and len(component) == LONG + 1
 
 
-def test_a_circle_goes_by_the_first_that_follows_and_the_shortest_way_back() -> None:
+def test_a_cycle_by_the_first_successor_and_the_shortest_path_back() -> None:
     graph = {"a": "ba", "b": "ca", "c": "a", "d": "a", "e": "e"}
-    knots = digraph.knots(graph)
-    assert sorted(map(sorted, knots)) == [["a", "b", "c"], ["e"]]
-    assert digraph.circle(graph, {"a", "b", "c"}, "a") == ["a", "b"]
-    assert digraph.circle(graph, {"a", "b", "c"}, "c") == ["c", "a", "b"]
-    assert digraph.circle(graph, {"e"}, "e") == ["e"]
+    components = digraph.cyclic_components(graph)
+    assert sorted(map(sorted, components)) == [["a", "b", "c"], ["e"]]
+    assert digraph.cycle_through(graph, {"a", "b", "c"}, "a") == ["a", "b"]
+    assert digraph.cycle_through(graph, {"a", "b", "c"}, "c") == ["c", "a", "b"]
+    assert digraph.cycle_through(graph, {"e"}, "e") == ["e"]
 
 
 @given(graphs)
-def test_waves_and_knots_agree_of_whether_there_is_a_circle(graph: dict[int, list[int]]) -> None:
-    waves, knots = digraph.waves(graph), digraph.knots(graph)
-    assert (waves is None) == bool(knots)
-    for knot in knots:
-        for start in knot:
-            around = digraph.circle(graph, knot, start)
+def test_generations_and_components_agree_whether_there_is_a_cycle(graph: dict[int, list[int]]) -> None:
+    generations, components = digraph.generations(graph), digraph.cyclic_components(graph)
+    assert (generations is None) == bool(components)
+    for component in components:
+        for start in component:
+            around = digraph.cycle_through(graph, component, start)
             assert len(set(around)) == len(around) and around[0] == start
             assert all(after in graph[one] for one, after in zip(around, [*around[1:], start], strict=True))
-    if waves is not None:
-        level = {node: number for number, wave in enumerate(waves) for node in wave}
+    if generations is not None:
+        level = {node: number for number, generation in enumerate(generations) for node in generation}
         assert all(level[other] < level[node] for node, others in graph.items() for other in others)
-        order = list(digraph.inner_first(graph, graph.__getitem__))
+        order = list(digraph.postorder(graph, graph.__getitem__))
         assert all(order.index(other) < order.index(node) for node, others in graph.items() for other in others)

@@ -1,4 +1,4 @@
-"""What components are called at Acme."""
+"""The names of components at Acme."""
 
 from robocomp_yaml.api.plugins import Family, Hint
 
@@ -8,10 +8,10 @@ PAGE = Family("""
 *warning*
 
 ```message
-component {name} is called otherwise than Acme's components
+the name of component {name} does not follow Acme's rule
 ```
 
-At Acme the name of a component ends in `Comp`, so that logs show what is a component and what is an interface.
+At Acme the name of a component ends in `Comp`, so that components and interfaces can be distinguished in logs.
 
 Wrong:
 
@@ -44,5 +44,5 @@ def check(program):
         if not component.name.endswith("Comp"):
             better = f"{component.name}Comp"
             yield OTHER_NAME.at(
-                component.span, name=component.name, hint=Hint(f"call it {better}", component.name, better)
+                component.span, name=component.name, hint=Hint(f"rename it to {better}", component.name, better)
             )

@@ -1,4 +1,4 @@
-"""ROS messages (`Pose2D.msg`) of plain values, each a struct in a module of its own."""
+"""Converts ROS messages (`Pose2D.msg`) of plain values, each to a struct in a module of its own."""
 
 from pathlib import Path
 
@@ -14,7 +14,7 @@ names: '[A-Za-z_][A-Za-z0-9_]*'
 doc: {strip: '(?!)', drop: '(?!)'}
 words: {TYPE: a type, NAME: a name, ARRAY: '', $END: the end of the file}
 places: {member: comment}
-repairs: {repeated: "the second '{text}' is left out"}
+repairs: {repeated: "the second '{text}' is dropped"}
 refusals:
   refused_array: an array has no name in a ROS message, and needs one in IDSL; write the document by hand
   refused_uint64: Slice has no type for uint64

@@ -13,6 +13,6 @@ def export(network):
     rows.writerow(["process", "host", "command", "after"])
     for process in network.processes.values():
         if process.env:
-            raise Unwritable("a table has no place for an environment", process.name, process.span)
+            raise Unwritable("a table cannot express an environment", process.name, process.span)
         rows.writerow([process.name, process.host, shlex.join(process.command), " ".join(process.after)])
     return {f"{network.name}.csv": out.getvalue()}

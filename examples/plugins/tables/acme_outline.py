@@ -1,4 +1,4 @@
-"""A network as an outline: hosts, and what runs on each."""
+"""A network as an outline: the hosts with their processes."""
 
 
 def draw(picture):

@@ -1,21 +1,30 @@
-"""The document that `rcyaml new deployment` writes: the components of the workspace, each of them once."""
+"""The document that `rcyaml new deployment` writes: each component of the workspace, once."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import msgspec
 
-if TYPE_CHECKING:
-    from robocomp_yaml.link.program import LinkedComponent, Port
-    from robocomp_yaml.parameters.types import Parameters
+from robocomp_yaml.api.new.documents import NewDocument, free, require_name
+from robocomp_yaml.api.which import VALUES
+from robocomp_yaml.emit.render import render
+from robocomp_yaml.link.documents import Documents
+from robocomp_yaml.link.linker import Linker
+from robocomp_yaml.link.program import LinkedComponent, Port
+from robocomp_yaml.link.workspace import ImportSearch
+from robocomp_yaml.link.workspace_files import modeline
+from robocomp_yaml.parameters.types import Parameters
+from robocomp_yaml.pipeline import search_folders
+from robocomp_yaml.source.discover import of_kind
+from robocomp_yaml.source.yaml_text import flow
 
 _SUFFIX = "comp"
 
 
-class DeploymentView(msgspec.Struct, frozen=True):
+class NewDeploymentView(msgspec.Struct, frozen=True):
     modeline: str
     name: str
     rows: list[str]
@@ -23,35 +32,28 @@ class DeploymentView(msgspec.Struct, frozen=True):
     has_components: bool
 
 
-def deployment_document(root: str, name: str) -> tuple[str, str]:
-    """Path and text: in the workspace's folder of deployments."""
-    from robocomp_yaml.emit.render import render
-    from robocomp_yaml.link.workspace_files import modeline
-
-    path = os.path.join(root, "deployments", f"{name.lower()}.ddsl.yaml")
+def deployment_document(root: str, name: str) -> NewDocument:
+    """The document, in the workspace's folder of deployments. Raises Refused if the name is not possible, or the
+    document exists."""
+    require_name(name)
+    path = free(os.path.join(root, "deployments", f"{name.lower()}.ddsl.yaml"))
     components = _components(root)
     names = _names(components)
     rows = [row for linked in components for row in _entry(linked, path, names, components)]
     has_topics = any(linked.component.publishes or linked.component.subscribes for linked in components)
-    view = DeploymentView(modeline("ddsl", path, root), name, rows, has_topics, bool(components))
-    return path, render("new/deployment.ddsl.yaml.j2", view)
+    view = NewDeploymentView(modeline("ddsl", path, root), name, rows, has_topics, bool(components))
+    return NewDocument(path, render("new/deployment.ddsl.yaml.j2", view))
 
 
 def _components(root: str) -> list[LinkedComponent]:
-    """The components of a workspace that have no errors, in the order of their paths."""
-    from robocomp_yaml.link.documents import Documents
-    from robocomp_yaml.link.linker import Linker
-    from robocomp_yaml.link.workspace import Search
-    from robocomp_yaml.pipeline import search_folders
-    from robocomp_yaml.source.discover import of_kind
-
-    program = Linker(Documents(), Search(search_folders(()))).link(of_kind(root, "cdsl"))
+    """The components of a workspace that have no errors, sorted by path."""
+    program = Linker(Documents(), ImportSearch(search_folders(()))).link(of_kind(root, "cdsl"))
     sound = (linked for linked in program.components.values() if not linked.broken)
     return sorted(sound, key=lambda linked: linked.component.path)
 
 
 def _names(components: Sequence[LinkedComponent]) -> dict[LinkedComponent, str]:
-    """A name of its own for each, by what the component is called: SpeechComp is `speech`."""
+    """A unique name for each component, from its own name: `speech` for SpeechComp."""
     names: dict[LinkedComponent, str] = {}
     for linked in components:
         plain = linked.component.name.lower()
@@ -68,10 +70,9 @@ def _entry(
     document = os.path.relpath(linked.component.path, os.path.dirname(path))
     yield f"  {names[linked]}:"
     yield f"    component: {document}"
-    missing = {} if _has_values(linked) else _required(linked.parameters.parameters)
+    values = os.path.join(os.path.dirname(linked.component.path), VALUES)
+    missing = {} if os.path.isfile(values) else _required(linked.parameters.parameters)
     if missing:
-        from robocomp_yaml.source.yaml_text import flow
-
         yield f"    set: {flow(missing)}  # examples: these have no default"
     connect = list(_connections(linked, names, components))
     if connect:
@@ -79,39 +80,38 @@ def _entry(
         yield from connect
 
 
-def _has_values(linked: LinkedComponent) -> bool:
-    return os.path.isfile(os.path.join(os.path.dirname(linked.component.path), "etc", "config.yaml"))
-
-
 def _required(parameters: Parameters) -> dict[str, Any]:
-    """A value, for example, of each parameter that needs one."""
+    """An example of a value for each parameter that requires one."""
     from robocomp_yaml.parameters.examples.fitting import fitted
 
     found: dict[str, Any] = {}
-    for path, value in fitted(parameters).given.items():
-        here = found
+    for path, value in fitted(parameters).present.items():
+        node = found
         for step in path[:-1]:
-            here = here.setdefault(step, {})
-        here[path[-1]] = value
+            node = node.setdefault(step, {})
+        node[path[-1]] = value
     return found
 
 
 def _connections(
     linked: LinkedComponent, names: dict[LinkedComponent, str], components: Sequence[LinkedComponent]
 ) -> Iterator[str]:
-    """What has to be said: who serves it where several do, and where it is where nobody does."""
+    """The connections that do not follow from the documents: which of several servers to use, and where an external
+    server is."""
     for port in linked.requires:
-        serving = [other for other in components if other is not linked for p in other.implements if _equal(p, port)]
+        serving = [
+            other for other in components if other is not linked
+            for own in other.implements if _interface(own) == _interface(port)
+        ]  # fmt: skip
         if len(serving) == 1:
             continue
         if serving:
             others = ", ".join(dict.fromkeys(names[other] for other in serving[1:]))
             yield f"      {port.name}: {names[serving[0]]}  # or {others}"
         else:
-            where = f'"{port.interface.name.lower()}:tcp -h localhost -p 10000"'
-            yield f"      {port.name}: {where}  # no component here implements it: where is it?"
+            proxy = f'"{port.interface.name.lower()}:tcp -h localhost -p 10000"'
+            yield f"      {port.name}: {proxy}  # no component of this workspace implements it: set its proxy"
 
 
-def _equal(port: Port, other: Port) -> bool:
-    mine, theirs = (port.scope.module.name, port.interface.name), (other.scope.module.name, other.interface.name)
-    return mine == theirs
+def _interface(port: Port) -> tuple[str, str]:
+    return port.scope.module.name, port.interface.name

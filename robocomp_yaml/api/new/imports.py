@@ -1,75 +1,68 @@
-"""What a new component imports: the documents of the workspace that define the interfaces it names."""
+"""The imports of a new component: the documents of the workspace that define its interfaces."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Sequence
 
+from robocomp_yaml.api.refusals import meant
 from robocomp_yaml.diag.errors import Refused
+from robocomp_yaml.link.workspace import read
+from robocomp_yaml.pipeline import analyse, search_folders
 
 
 def interface_folder(root: str) -> str:
-    """The folder for new interfaces: the first that the workspace declares."""
-    from robocomp_yaml.link.workspace import read
-
+    """The folder for new interfaces: the first one that the workspace declares."""
     declared = read(root)[0].interfaces
     return declared[0] if declared else os.path.join(root, "interfaces")
 
 
 def interfaces_of(root: str, include: Sequence[str] = ()) -> dict[str, list[tuple[str, str]]]:
-    """The interfaces and topics that documents of the workspace define: name to (module, path), sorted."""
-    from robocomp_yaml.link.workspace import read
-    from robocomp_yaml.pipeline import analyse
-
+    """The interfaces and topics that documents of the workspace define: by name, the sorted (module, path) of each."""
     folders = [root, *read(root)[0].interfaces, *include]
     program = analyse([folder for folder in folders if os.path.isdir(folder)], include).program
     found: dict[str, set[tuple[str, str]]] = {}
     for linked in program.modules.values():
-        for interface in linked.module.all_interfaces:
-            found.setdefault(interface.name, set()).add((linked.module.name, linked.module.path))
+        for one in linked.module.all_interfaces:
+            found.setdefault(one.name, set()).add((linked.module.name, linked.module.path))
     return {name: sorted(found[name]) for name in sorted(found)}
 
 
-def imports_for(root: str, document: str, wanted: Sequence[str], include: Sequence[str] = ()) -> list[str]:
-    """What a component document must import for the interfaces wanted, each once."""
-    if not wanted:
+def imports_for(root: str, document: str, names: Sequence[str], include: Sequence[str] = ()) -> list[str]:
+    """The imports that a component document needs for these interfaces. Raises Refused if one is unknown or
+    ambiguous."""
+    if not names:
         return []
     known = interfaces_of(root, include)
-    paths = [_defining(name, known) for name in wanted]
+    paths = [_defining(name, known) for name in names]
     searched = {os.path.realpath(folder) for folder in _searched(root, include)}
     return list(dict.fromkeys(_spelled(path, document, searched) for path in paths))
 
 
 def _searched(root: str, include: Sequence[str]) -> Iterator[str]:
-    from robocomp_yaml.link.workspace import read
-    from robocomp_yaml.pipeline import search_folders
-
     yield from read(root)[0].interfaces
     yield from search_folders(include)
 
 
-def _defining(wanted: str, known: dict[str, list[tuple[str, str]]]) -> str:
-    """The document that defines an interface, given as `Interface` or `Module.Interface`."""
-    from robocomp_yaml.diag.suggest import suggest
-
-    module, _, name = wanted.rpartition(".")
+def _defining(interface: str, known: dict[str, list[tuple[str, str]]]) -> str:
+    """The document that defines an interface, named as `Interface` or `Module.Interface`."""
+    module, _, name = interface.rpartition(".")
     candidates = [
         (defining, path)
         for defining, path in known.get(name, ())
         if not module or module in (defining, os.path.basename(path).removesuffix(".idsl.yaml"))
     ]
     if not candidates:
-        meant = suggest(name, known)
-        hint = f"did you mean '{meant}'?" if meant else "`rcyaml new interface NAME` writes one"
-        raise Refused(f"no document of this workspace defines an interface '{wanted}'; {hint}")
+        hint = meant(name, known, "`rcyaml new interface NAME` writes one")
+        raise Refused(f"no document of this workspace defines an interface '{interface}'{hint}")
     if len(candidates) > 1:
         named = " or ".join(f"{defining}.{name}" for defining, _ in candidates)
-        raise Refused(f"several documents define an interface '{wanted}': say {named}")
+        raise Refused(f"several documents define an interface '{interface}': write {named}")
     return candidates[0][1]
 
 
 def _spelled(path: str, document: str, searched: set[str]) -> str:
-    """An import: the document's name where it is looked for anyway, else a relative path."""
+    """The text of an import: the name of the document if its folder is searched, else a relative path."""
     name = os.path.basename(path).removesuffix(".idsl.yaml")
     if os.path.realpath(os.path.dirname(path)) in searched:
         return name

@@ -1,4 +1,4 @@
-"""What a workspace consists of, besides documents, and how new documents come into one."""
+"""The files of a workspace besides its documents, and adding new documents to it."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 import msgspec
 
 from robocomp_yaml import languages, resources
-from robocomp_yaml.api import new
+from robocomp_yaml.api.new.documents import NewDocument, component_document, interface_document
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.link import workspace_files
 from robocomp_yaml.link.workspace import root_above
@@ -18,27 +18,27 @@ from robocomp_yaml.transactions import whole_file
 EXAMPLE = "Hello"
 WROTE, KEPT, NOTE = "wrote", "kept", "note"
 Report = Callable[[str, str], None]
-"""Who is told of each file as it is done, WROTE or KEPT with its path, and what to NOTE."""
+"""Called with each file when it is done: WROTE or KEPT with its path, or NOTE with a text."""
 
 
-class WorkspaceView(msgspec.Struct, frozen=True):
+class NewWorkspaceView(msgspec.Struct, frozen=True):
     modeline: str
 
 
 def init(folder: str, report: Report, *, bare: bool = False) -> None:
-    """Makes a folder a workspace that already checks; without documents, and unless it is to be `bare`, it gets an
-    example of each kind. Nothing that is there is overwritten. Raises OSError where it cannot be written."""
+    """Makes a folder a workspace that checks. A folder without documents gets an example interface and component,
+    unless `bare`. Existing files are kept. Raises OSError if a file cannot be written."""
     is_empty = not os.path.isdir(folder) or not list(documents_below(folder))
     _make(folder, report)
     if is_empty and not bare:
-        _write(new.interface_document(folder, EXAMPLE), report)
+        _write(interface_document(folder, EXAMPLE), report)
         example = {"implements": [EXAMPLE]}
-        _write(new.component_document(folder, f"{EXAMPLE}Comp", languages.DEFAULT, example), report)
+        _write(component_document(folder, f"{EXAMPLE}Comp", languages.DEFAULT, example), report)
 
 
-def create(make: Callable[[str], new.NewDocument], report: Report) -> str:
-    """Writes a document into the workspace of this folder, which becomes one where there is none; its path. `make`
-    gives it for the folder of a workspace: what it refuses leaves none behind. Raises OSError as `init` does."""
+def create(make: Callable[[str], NewDocument], report: Report) -> str:
+    """Writes a document into the workspace of this folder, or into a new one. Returns its path. `make` gets the folder
+    of the workspace; if it raises Refused, no workspace is created. Raises OSError if a file cannot be written."""
     root = root_above(".")
     if root is None:
         root = "."
@@ -66,8 +66,8 @@ def _make(folder: str, report: Report) -> None:
         report(NOTE, problem)
 
 
-def _write(document: new.NewDocument, report: Report) -> None:
-    """Writes a document where nothing stands yet."""
+def _write(document: NewDocument, report: Report) -> None:
+    """Writes a document that does not exist yet."""
     os.makedirs(os.path.dirname(document.path) or ".", exist_ok=True)
     whole_file.create(document.path, document.text)
     report(WROTE, document.path)
@@ -75,6 +75,6 @@ def _write(document: new.NewDocument, report: Report) -> None:
 
 def _files(folder: str) -> Iterator[tuple[str, str]]:
     path = os.path.normpath(os.path.join(folder, WORKSPACE_FILE))
-    view = WorkspaceView(workspace_files.modeline("workspace", path, folder))
+    view = NewWorkspaceView(workspace_files.modeline("workspace", path, folder))
     yield path, render("new/workspace.yaml.j2", view)
     yield os.path.normpath(os.path.join(folder, ".gitignore")), resources.text("templates/new/gitignore")

@@ -1,1 +1,1 @@
-"""Components: what their lists may say together."""
+"""Checks of components."""

@@ -1,56 +1,79 @@
-"""Components: what their lists may say together."""
+"""Components: names, folders, ports and libraries."""
 
 from __future__ import annotations
 
 import os
+import re
+from collections import Counter
 from collections.abc import Iterator
+from itertools import count
 
-from msgspec.structs import replace
-
+from robocomp_yaml.check import repeated
 from robocomp_yaml.diag.codes import cdsl as codes
 from robocomp_yaml.diag.codes.files import NAME_TOO_LONG
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.fix import removal
 from robocomp_yaml.link.program import LinkedComponent, Port, Program
+from robocomp_yaml.link.workspace import root_above
+from robocomp_yaml.model.component import LINK, LISTS, PIP, Component, Library
 from robocomp_yaml.source.file_names import LONGEST_NAME, is_too_long, shortened
 
-_LONGEST_SUFFIX = "_autogen"  # the folder of what CMake makes for Qt
-LISTS = ("implements", "requires", "publishes", "subscribes")
+_NUMBERS = r" *(>=|<=|==|=|>|<)? *\d+(\.\d+)* *"
+_LONGEST_SUFFIX = "_autogen"  # CMake's folder for generated Qt code
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    folders: dict[str, LinkedComponent] = {}
-    for linked in sorted(program.components.values(), key=lambda c: c.component.path):
+    for linked in program.components.values():
         component = linked.component
         if is_too_long(component.name + _LONGEST_SUFFIX):
             limit = LONGEST_NAME - len(_LONGEST_SUFFIX)
             yield NAME_TOO_LONG.at(component.span, name=shortened(component.name), limit=limit, hint="shorten it")
         yield from _names(linked)
         yield from _topics(linked)
-        folder = os.path.dirname(linked.component.path)
-        first = folders.setdefault(folder, linked).component
-        if first is not linked.component:
-            yield codes.SAME_FOLDER.at(
-                linked.component.span,
-                name=linked.component.name,
-                other=first.name,
-                hint="give each component a folder of its own",
-                related=[Related("the other one", first.span)],
-            )
+        yield from _libraries(component)
+    components = sorted((linked.component for linked in program.components.values()), key=lambda each: each.path)
+    for first, component in repeated(components, lambda each: os.path.dirname(each.path)):
+        yield codes.SAME_FOLDER.at(
+            component.span,
+            name=component.name,
+            other=first.name,
+            hint="give each component a folder of its own",
+            related=[Related("the other component", first.span)],
+        )
+    yield from _same_names(components)
 
 
-def _is_same(one: Port, other: Port) -> bool:
-    return replace(one.use, span=other.use.span) == other.use
+def _same_names(components: list[Component]) -> Iterator[Diagnostic]:
+    """A component's name is unique in its workspace, except that the same component may be in several languages.
+    Documents without a workspace count as one workspace. The component with the longer path is reported, because copies
+    are called `speech2`, `speech (copy)` or `old/speech`."""
+
+    def identity(component: Component) -> tuple[str, str, str]:
+        root = root_above(os.path.dirname(component.path))
+        return component.name, component.language.name, "" if root is None else os.path.realpath(root)
+
+    names = Counter(component.name for component in components)
+    same = [component for component in components if names[component.name] > 1]
+    for other, component in repeated(sorted(same, key=lambda each: len(each.path)), identity):
+        free = next(f"{component.name}{n}" for n in count(2) if f"{component.name}{n}" not in names)
+        names[free] = 1
+        yield codes.SAME_NAME.at(
+            component.span,
+            name=component.name,
+            other=other.path,
+            related=[Related("the other component", other.span)],
+            hint=f"rename the copy: `component: {free}`",
+        )
 
 
 def _names(linked: LinkedComponent) -> Iterator[Diagnostic]:
-    """Each entry has a name of its own in its list, and each proxy a name of its own in code."""
+    """Names are unique in a list, and so are the names of proxies in code."""
     for list_ in LISTS:
         names: dict[str, Port] = {}
         accessors: dict[str, Port] = {}
         for port in getattr(linked, list_):
             if port.interface.name == "CommonBehavior" and list_ == "implements":
-                yield codes.COMMON_BEHAVIOR.at(port.use.span, hint="leave it out", fixes=[removal(port.use.span)])
+                yield codes.COMMON_BEHAVIOR.at(port.use.span, hint="remove it", fixes=[removal(port.use.span)])
             if port.name in names:
                 free = next(f"{port.name}{n}" for n in range(1, 1000) if f"{port.name}{n}" not in names)
                 entry = f"{{{free}: {port.use.interface}}}"
@@ -58,9 +81,9 @@ def _names(linked: LinkedComponent) -> Iterator[Diagnostic]:
                     port.use.span,
                     name=port.name,
                     list=list_,
-                    hint="leave it out" if list_ != "requires" else f"write {entry}, or leave it out",
-                    related=[Related("it stands here first", names[port.name].use.span)],
-                    fixes=[removal(port.use.span, safe=list_ != "requires" and _is_same(port, names[port.name]))],
+                    hint="remove it" if list_ != "requires" else f"write {entry}, or remove it",
+                    related=[Related("the first one", names[port.name].use.span)],
+                    fixes=[removal(port.use.span, safe=list_ != "requires" and port.use == names[port.name].use)],
                 )
                 continue
             names[port.name] = port
@@ -74,13 +97,13 @@ def _names(linked: LinkedComponent) -> Iterator[Diagnostic]:
                     name=port.name,
                     other=other.name,
                     accessor=accessor,
-                    hint=f"give one of them a name of its own: {{{port.name}2: {port.use.interface}}}",
-                    related=[Related(f"'{other.name}' stands here", other.use.span)],
+                    hint=f"rename one of them: {{{port.name}2: {port.use.interface}}}",
+                    related=[Related(f"'{other.name}'", other.use.span)],
                 )
 
 
 def _topics(linked: LinkedComponent) -> Iterator[Diagnostic]:
-    """What is published goes one way; what is a topic is not called."""
+    """Topics are published and subscribed; what is published has no results."""
     for port in (*linked.publishes, *linked.subscribes):
         lost = [method.name for method in port.interface.methods if not method.can_be_published]
         if lost and not port.interface.is_topic:
@@ -89,3 +112,19 @@ def _topics(linked: LinkedComponent) -> Iterator[Diagnostic]:
         for port in ports:
             if port.interface.is_topic:
                 yield codes.TOPIC_IMPLEMENTED.at(port.use.span, name=port.interface.name, done=done)
+
+
+def _libraries(component: Component) -> Iterator[Diagnostic]:
+    by_entry: dict[int, list[Library]] = {}
+    for library in component.libraries:
+        by_entry.setdefault(library.entry, []).append(library)
+    for libraries in by_entry.values():
+        if len(libraries) > 1:
+            kinds = " and ".join(f"`{library.kind}`" for library in libraries)
+            yield codes.LIBRARY_OF_TWO_KINDS.at(libraries[1].span, places=kinds, hint="write two entries")
+    for library in component.libraries:
+        is_numeric = all(re.fullmatch(_NUMBERS, part) for part in library.version.split(",")) and library.kind != LINK
+        if library.version and library.kind != PIP and not is_numeric:
+            yield codes.LIBRARY_VERSION.at(
+                library.version_span, version=library.version.strip(), kind=f"`{library.kind}`"
+            )

@@ -1,4 +1,4 @@
-"""Windows: the form in `src/` has what `gui:` promises."""
+"""Windows: the form in `src/` agrees with `gui:`."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from robocomp_yaml.diag.codes import forms as codes
+from robocomp_yaml.diag.codes import cdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import LinkedComponent, Program
@@ -27,26 +27,26 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 
 def _form(linked: LinkedComponent, gui: Gui, disk: Disk) -> Iterator[Diagnostic]:
-    """Nothing where there is no form yet: `compile` writes one."""
+    """Checks the form of a component. A missing form is no error, because `compile` writes one."""
     path = os.path.normpath(os.path.join(os.path.dirname(linked.component.path), FORM))
     if disk.state(path) == NOTHING:
         return
-    raw, said = disk.read(path)
+    raw, diagnostics = disk.read(path)
     if raw is None:
-        yield from (codes.NOT_A_FORM.at(Span(path), reason=fault.message) for fault in said)
+        yield from (codes.NOT_A_FORM.at(Span(path), reason=fault.message) for fault in diagnostics)
         return
-    from robocomp_yaml.source.form import read  # with the parser of XML, which few need
+    from robocomp_yaml.source.form import read  # it imports the parser of XML, which few runs need
 
-    form, said = read(path, raw)
-    yield from said
+    form, diagnostics = read(path, raw)
+    yield from diagnostics
     if form is not None:
-        yield from _promises(form, gui)
+        yield from _agrees(form, gui)
 
 
-def _promises(form: Form, gui: Gui) -> Iterator[Diagnostic]:
+def _agrees(form: Form, gui: Gui) -> Iterator[Diagnostic]:
     if form.class_name != CLASS:
-        found = f"'{form.class_name}'" if form.class_name else "missing"
-        yield codes.NO_DIALOG.at(form.class_span, found=found, hint=f"write <class>{CLASS}</class>")
+        shown = f"'{form.class_name}'" if form.class_name else "missing"
+        yield codes.NO_DIALOG.at(form.class_span, found=shown, hint=f"write <class>{CLASS}</class>")
     if not form.widget:
         yield codes.NOT_A_FORM.at(form.widget_span, reason="it has no <widget>")
     elif form.widget not in (gui.base, "QWidget"):
@@ -54,6 +54,6 @@ def _promises(form: Form, gui: Gui) -> Iterator[Diagnostic]:
             form.widget_span,
             found=form.widget,
             base=gui.base,
-            hint=f"write `base: {form.widget}`, or make it a {gui.base} in the form",
-            related=[Related("the component says so here", gui.span)],
+            hint=f"write `base: {form.widget}`, or change the form to a {gui.base}",
+            related=[Related("the component's `gui:`", gui.span)],
         )

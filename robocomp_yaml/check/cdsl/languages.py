@@ -1,12 +1,11 @@
-"""Components say nothing that their language does not have."""
+"""Components use only what their language has."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
 from robocomp_yaml import languages
-from robocomp_yaml.diag.codes import languages as codes
-from robocomp_yaml.diag.codes import uses
+from robocomp_yaml.diag.codes import cdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.languages.record import CAPABILITIES, STANDARD, TargetLanguage
@@ -18,9 +17,9 @@ def check(program: Program) -> Iterator[Diagnostic]:
     for linked in program.components.values():
         component = linked.component
         language = component.language.target
-        for key, span in _said(component):
+        for key, span in _used(component):
             if key in language.ignored:
-                yield uses.OTHER_LANGUAGE.at(span, language=language.title, key=key)
+                yield codes.OTHER_LANGUAGE.at(span, language=language.title, key=key)
             elif key not in language.has:
                 more = program.plugins_of(component.path).languages
                 yield codes.NOT_AVAILABLE.at(
@@ -28,12 +27,12 @@ def check(program: Program) -> Iterator[Diagnostic]:
                     key=key,
                     language=language.title,
                     hint=_hint(key, language, more),
-                    related=[Related(f"the component is in {language.title}", component.language.span)],
+                    related=[Related(f"the component's language is {language.title}", component.language.span)],
                 )
 
 
-def _said(component: Component) -> Iterator[tuple[str, Span]]:
-    """What the document asks for, and where."""
+def _used(component: Component) -> Iterator[tuple[str, Span]]:
+    """The capabilities that a document uses, with their spans."""
     for key, span in component.keys_span:
         if key in CAPABILITIES:
             yield key, span
@@ -48,4 +47,4 @@ def _said(component: Component) -> Iterator[tuple[str, Span]]:
 def _hint(key: str, language: TargetLanguage, more: Iterable[TargetLanguage]) -> str:
     others = languages.listed(other.title for other in languages.with_capability(key, more))
     has = languages.listed((one for one in CAPABILITIES if one in language.has), "and")
-    return f"leave it out, or write the component in {others}; {language.title} has {has}"
+    return f"remove it, or write the component in {others}; {language.title} has {has}"

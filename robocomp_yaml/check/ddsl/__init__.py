@@ -1,1 +1,1 @@
-"""Checks of deployments, by the networks that they come to."""
+"""Checks of deployments, on the networks that are derived from them."""

@@ -1,7 +1,6 @@
-"""Whether what a network starts is there: executables, programs and folders, as far as they are this machine's.
+"""Whether the executables, programs and folders of a network exist, for processes on this machine.
 
-This depends on more than documents: `check` says it as a warning, since a fresh checkout has no builds, and `deploy`
-cannot do without.
+`check` reports missing ones as warnings, because a fresh checkout has no builds; `deploy` requires them.
 """
 
 from __future__ import annotations
@@ -14,25 +13,24 @@ from collections.abc import Iterator
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.model.deployment import CONFIG
-from robocomp_yaml.network.draft import is_loopback
-from robocomp_yaml.network.network import ICESTORM, Network, Process
+from robocomp_yaml.network.network import ICESTORM, Network, Process, is_loopback
 
 
 def missing(network: Network, *, environment: bool = False) -> Iterator[Diagnostic]:
-    """A warning for each process that could not be started. `environment`: what PATH should find is looked for, too."""
-    here = {name for name, host in network.hosts.items() if is_this_machine(host.address)}
+    """A warning for each process that cannot be started. With `environment`, programs are also looked up in PATH."""
+    local = {name for name, host in network.hosts.items() if is_this_machine(host.address)}
     for process in network.enabled():
         program = process.command[0]
-        if process.host not in here or CONFIG in program:  # which is an error already
+        if process.host not in local or CONFIG in program:  # reported as an error already
             continue
         if process.component and not os.path.lexists(program):
             yield codes.NOT_BUILT.at(process.span, name=process.name, path=_shown(program), hint=process.build)
         elif problem := _problem(process, program, environment):
-            yield codes.NO_PROGRAM.at(process.span, name=process.name, problem=problem, hint=_mend(process))
+            yield codes.NO_PROGRAM.at(process.span, name=process.name, problem=problem, hint=_hint(process))
 
 
 def is_this_machine(address: str) -> bool:
-    """Whether an address is one of this machine's own; names are compared, not resolved."""
+    """Whether an address is one of this machine. Host names are compared, not resolved."""
     if is_loopback(address) or address == socket.gethostname():
         return True
     family = socket.AF_INET6 if ":" in address else socket.AF_INET
@@ -57,13 +55,13 @@ def _problem(process: Process, program: str, environment: bool) -> str:
         path = next((variable.value for variable in process.env if variable.name == "PATH"), None)
         if shutil.which(program, path=path) is None:
             return f"PATH finds no '{program}'"
-    # the folder of an IceStorm is the deployment's own, which is made when it is started
+    # rcyaml creates the folder of an IceStorm when it starts the deployment
     if process.kind != ICESTORM and not os.path.isdir(process.cwd):
         return f"there is no folder {_shown(process.cwd)} to run in"
     return ""
 
 
-def _mend(process: Process) -> str:
+def _hint(process: Process) -> str:
     if process.kind == ICESTORM:
         return "install Debian's zeroc-icebox and libzeroc-icestorm3.7"
     program = process.command[0]
@@ -73,6 +71,6 @@ def _mend(process: Process) -> str:
 
 
 def _shown(path: str) -> str:
-    """As its user would open it from here."""
+    """A path relative to the current folder, if it is below it."""
     relative = os.path.relpath(path)
     return path if relative.startswith("..") else relative

@@ -1,1 +1,1 @@
-"""Interfaces: names, references, cycles, and what Slice cannot say."""
+"""Checks of interfaces."""

@@ -1,4 +1,4 @@
-"""Constants and defaults: that each value fits its type."""
+"""Values of constants and defaults fit their types."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from robocomp_yaml.model.interface import Enum, ExceptionType, Literal, Struct, 
 from robocomp_yaml.source.retyped import BOOL, INTEGER, NUMBER, STRING, retyped
 
 RANGES = {"byte": (0, 255), "short": (-(2**15), 2**15 - 1), "int": (-(2**31), 2**31 - 1), "long": (-(2**63), 2**63 - 1)}
-_WANTED = {"bool": BOOL, "string": STRING, "float": NUMBER, "double": NUMBER}
-LONGEST_STRING = 10_000  # characters; Slice's preprocessor dies of lines above 64 KiB
+_EXPECTED = {"bool": BOOL, "string": STRING, "float": NUMBER, "double": NUMBER}
+LONGEST_STRING = 10_000  # characters; Slice's preprocessor crashes on lines above 64 KiB
 MOST_LISTED = 8
 
 
@@ -25,7 +25,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
         for constant in linked.module.constants:
             yield from _fits(linked, constant.type, constant.value, default=False)
         for definition in (*linked.module.types, *linked.module.exceptions):
-            if isinstance(definition, Struct | ExceptionType):
+            if isinstance(definition, (Struct, ExceptionType)):
                 for member in definition.members:
                     if member.default is not None:
                         yield from _fits(linked, member.type, member.default, default=True)
@@ -34,14 +34,14 @@ def check(program: Program) -> Iterator[Diagnostic]:
 def _fits(linked: LinkedModule, type_: TypeRef, value: Literal, *, default: bool) -> Iterator[Diagnostic]:
     enum = None
     if not type_.is_basic:
-        found = linked.find(type_)
-        if found is None:
-            return  # said of the type
-        if not isinstance(found[1], Enum):
+        target = linked.find(type_)
+        if target is None:
+            return  # the unknown type is reported
+        if not isinstance(target[1], Enum):
             code, span = (codes.DEFAULT_TYPE, value.span) if default else (codes.CONSTANT_TYPE, type_.span)
-            yield code.at(span, type=type_.text, hint="only basic types and enums have values that can be written")
+            yield code.at(span, type=type_.text, hint="use a basic type or an enum")
             return
-        enum = found[1]
+        enum = target[1]
     reason, hint = _of_enum(enum, value) if enum else _of_basic(type_.text, value)
     if reason:
         yield codes.MISFIT.at(
@@ -50,7 +50,7 @@ def _fits(linked: LinkedModule, type_: TypeRef, value: Literal, *, default: bool
             type=type_.text,
             reason=reason,
             hint=hint,
-            fixes=() if enum else retyped([_WANTED.get(type_.text, INTEGER)], value.lexeme, value.value, value.span),
+            fixes=() if enum else retyped([_EXPECTED.get(type_.text, INTEGER)], value.lexeme, value.value, value.span),
         )
     elif type_.text in ("float", "double"):
         yield from _arrives(type_.text, value)
@@ -64,8 +64,8 @@ def _arrives(type_name: str, value: Literal) -> Iterator[Diagnostic]:
         reason, hint = "its C++ for this number does not compile", "use double"
         yield codes.NUMBER.at(value.span, value=_shown(value), reason=reason, hint=hint)
     elif not numbers.arrives(number, type_name):
-        kept = numbers.printed(number)
-        reason, hint = f"it becomes {kept}", "where that is not enough, let the programs that use it define it"
+        written = numbers.printed(number)
+        reason, hint = f"it becomes {written}", "if that is not exact enough, define it in the programs that use it"
         yield codes.NUMBER.at(value.span, value=_shown(value), reason=reason, hint=hint)
 
 
@@ -78,7 +78,7 @@ def _of_enum(enum: Enum, value: Literal) -> tuple[str, str | Hint]:
 
 
 def _of_basic(type_name: str, value: Literal) -> tuple[str, str]:
-    """Why a value does not fit a basic type, and what to do; ('', '') where it does."""
+    """Why a value does not fit a basic type, and a hint; ('', '') if it fits."""
     match type_name, value.value:
         case "bool", bool():
             return "", ""
@@ -120,9 +120,9 @@ def _of_real(type_name: str, number: float, lexeme: str) -> tuple[str, str]:
 
 def _of_string(text: str) -> tuple[str, str]:
     if len(text) > LONGEST_STRING:
-        return f"it has more than {LONGEST_STRING} characters", "keep long texts in a file of their own"
+        return f"it has more than {LONGEST_STRING} characters", "put long texts into a file"
     if "\0" in text or any(0xD800 <= ord(c) <= 0xDFFF for c in text):
-        return "it holds a NUL or half a character", "leave that character out"
+        return "it contains a NUL or half a character", "remove that character"
     return "", ""
 
 

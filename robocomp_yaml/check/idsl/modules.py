@@ -1,23 +1,27 @@
-"""Modules that meet: documents that some importer joins must not define the same name, nor become the same file.
+"""Modules that are imported together must not define the same name, nor become the same Slice file.
 
-Two documents may have a module of the same name, as long as nobody needs both. So the rules are asked of each module
-and component that brings two such documents together, and of none that merely imports it.
+Two documents may have modules of the same name if nothing imports both. So an error is reported for each module or
+component that is the first to import both, directly or not; not again for those that import it.
 """
 
 from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.digraph import reached
+from robocomp_yaml.digraph import reachable
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.references import macro
 from robocomp_yaml.patterns import pattern
+
+if TYPE_CHECKING:
+    from robocomp_yaml.model.component import Component
+    from robocomp_yaml.model.interface import Module
 
 Importer = LinkedModule | LinkedComponent
 
@@ -39,39 +43,40 @@ def check(program: Program) -> Iterator[Diagnostic]:
             yield codes.FILE_NAME.at(
                 linked.module.span, name=linked.module.stem, hint="use letters, digits and underscores"
             )
-    for alike in (*by_name.values(), *by_file.values()):
-        if len(alike) > 1:
-            yield from _meetings(alike, importers)
+    for same in (*by_name.values(), *by_file.values()):
+        if len(same) > 1:
+            yield from _imported_together(same, importers)
 
 
-def _meetings(alike: list[LinkedModule], importers: dict[Importer, list[Importer]]) -> Iterator[Diagnostic]:
-    """What is wrong where two of these documents first meet."""
+def _imported_together(same: list[LinkedModule], importers: dict[Importer, list[Importer]]) -> Iterator[Diagnostic]:
+    """Checks each importer that is the first to import two of these modules."""
     seen_by: dict[Importer, dict[LinkedModule, None]] = defaultdict(dict)
-    for linked in alike:
+    for linked in same:
         itself: list[Importer] = [linked]
-        for importer in reached(itself, lambda importer: importers.get(importer, ())):
+        for importer in reachable(itself, lambda importer: importers.get(importer, ())):
             seen_by[importer][linked] = None
     for importer, sees in seen_by.items():
         below = [seen_by.get(imported, {}) for imported in importer.imports]
         if len(sees) > 1 and not any(len(lower) == len(sees) for lower in below):
             first, *others = sees
             for other in others:
-                yield from _together(importer, first, other)
+                yield from _conflict(importer, first, other)
 
 
-def _together(importer: Importer, one: LinkedModule, other: LinkedModule) -> Iterator[Diagnostic]:
-    related = [Related(f"{linked.module.stem} stands here", linked.module.span) for linked in (one, other)]
+def _conflict(importer: Importer, one: LinkedModule, other: LinkedModule) -> Iterator[Diagnostic]:
+    related = [Related(f"the module of {linked.module.stem}", linked.module.span) for linked in (one, other)]
     first, second = one.module, other.module
+    document = importer.component if isinstance(importer, LinkedComponent) else importer.module
 
     def at(code: Code, hint: str, **facts: Any) -> Diagnostic:
-        span = _import_of(importer, other) or _import_of(importer, one) or _span(importer)
+        span = _import_of(document, other) or _import_of(document, one) or document.span
         return code.at(span, hint=hint, related=related, one=first.path, two=second.path, **facts)
 
     if macro(first.stem) == macro(second.stem):
         yield at(codes.SAME_FILE, "rename one of the documents", file=f"{second.stem}.ice")
     elif first.name != second.name:
         if first.name.lower() == second.name.lower():
-            yield at(codes.MODULE_CASE, "spell both alike, or rename one", name=first.name, second=second.name)
+            yield at(codes.MODULE_CASE, "use the same spelling, or rename one", name=first.name, second=second.name)
     else:
         names = {definition.name.lower(): definition.name for definition in first.definitions}
         twice = [definition.name for definition in second.definitions if definition.name.lower() in names]
@@ -79,13 +84,6 @@ def _together(importer: Importer, one: LinkedModule, other: LinkedModule) -> Ite
             yield at(codes.REDEFINED, "import only one of them", name=twice[0], module=first.name)
 
 
-def _import_of(importer: Importer, linked: LinkedModule) -> Span | None:
-    document = importer.component if isinstance(importer, LinkedComponent) else importer.module
-    for imported in document.imports:
-        if imported.text.rpartition("/")[2].removesuffix(".idsl.yaml").lower() == linked.module.stem.lower():
-            return imported.span
-    return None
-
-
-def _span(importer: Importer) -> Span:
-    return importer.component.span if isinstance(importer, LinkedComponent) else importer.module.span
+def _import_of(document: Component | Module, linked: LinkedModule) -> Span | None:
+    stem = linked.module.stem.lower()
+    return next((imported.span for imported in document.imports if imported.stem.lower() == stem), None)

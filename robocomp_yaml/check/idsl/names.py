@@ -1,7 +1,7 @@
-"""Names within a module: what Slice lets them be, and that no two are alike.
+"""Names in a module: names that Slice allows, and duplicates.
 
-Reserved words of target languages are no concern, since Ice's mappings escape them: but for a few that the one to
-Python forgets. What C++ cannot have all the same, `cpp` says.
+Reserved words of target languages are allowed, because Ice's mappings escape them, except a few in Python. Names that
+cannot be used in a language nevertheless are the subject of that language's own checks.
 """
 
 from __future__ import annotations
@@ -12,12 +12,13 @@ from typing import Any
 
 import msgspec
 
+from robocomp_yaml.check import repeated
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.fix import Hint
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.link.references import Name, groups, kind_of
+from robocomp_yaml.link.references import Identifier, groups, kind_of
 from robocomp_yaml.model.interface import Module
 
 RESERVED = frozenset(
@@ -29,8 +30,8 @@ UNESCAPED_IN_PYTHON = frozenset(("False", "True", "as", "async", "await", "nonlo
 LONGEST_NAME = 200
 
 
-class Fault(msgspec.Struct, frozen=True):
-    """Why Slice does not take a word; `facts` fill the code's message beside the word and its kind."""
+class SliceNameFault(msgspec.Struct, frozen=True):
+    """Why Slice rejects a name; `facts` are for the message, in addition to the name and its kind."""
 
     code: Code
     hint: str | Hint = "choose another name"
@@ -43,8 +44,8 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 
 def _module(module: Module) -> Iterator[Diagnostic]:
-    yield from _legal(Name("module", module.name, module.span))
-    defined = [Name(kind_of(d), d.name, d.span) for d in module.definitions]
+    yield from _legal(Identifier("module", module.name, module.span))
+    defined = [Identifier(kind_of(d), d.name, d.span) for d in module.definitions]
     yield from _distinct(f"module {module.name}", sorted(defined, key=lambda name: name.span), "definitions")
     yield from _not_named_as("module", module.name, defined)
     for name in defined:
@@ -60,46 +61,46 @@ def _module(module: Module) -> Iterator[Diagnostic]:
                 yield from _distinct(owner, group, f"{group[0].kind}s")
 
 
-def _legal(name: Name) -> Iterator[Diagnostic]:
+def _legal(name: Identifier) -> Iterator[Diagnostic]:
     fault = fault_of(name.text)
     if fault is None and name.kind == "method" and name.text == "staticmethod":
-        fault = Fault(codes.PYTHON_WORD)
+        fault = SliceNameFault(codes.PYTHON_WORD)
     if fault is not None:
         word = name.text if len(name.text) <= LONGEST_NAME else f"{name.text[:20]}…"
         yield fault.code.at(name.span, name=word, kind=name.kind, hint=fault.hint, **fault.facts)
 
 
 @lru_cache(maxsize=10_000)
-def fault_of(word: str) -> Fault | None:
-    """Whether Slice takes a word as an identifier; its characters are the schema's matter."""
+def fault_of(word: str) -> SliceNameFault | None:
+    """Why Slice rejects a word as an identifier, or None. The schema checks the characters."""
     if word in RESERVED:
         other = word[0].swapcase() + word[1:]
-        return Fault(codes.RESERVED_WORD, f"choose another name; '{other}' is allowed")
+        return SliceNameFault(codes.RESERVED_WORD, f"choose another name; '{other}' is allowed")
     if word in UNESCAPED_IN_PYTHON:
-        return Fault(codes.PYTHON_WORD)
+        return SliceNameFault(codes.PYTHON_WORD)
     parts = [part for part in word.split("_") if part]
     if "_".join(parts) != word:
-        reason = "underscores stand alone, between other characters"
+        reason = "each underscore must be between other characters"
         better = "_".join(parts) if parts and not parts[0][0].isdigit() else ""
         hint = Hint(f"write '{better}'", word, better) if better else "choose another name"
-        return Fault(codes.ILLEGAL_NAME, hint, {"reason": reason})
+        return SliceNameFault(codes.ILLEGAL_NAME, hint, {"reason": reason})
     if word[:3].lower() == "ice":
-        return Fault(codes.ILLEGAL_NAME, facts={"reason": f"names that start with '{word[:3]}' are Ice's own"})
+        return SliceNameFault(
+            codes.ILLEGAL_NAME, facts={"reason": f"names that start with '{word[:3]}' are reserved for Ice"}
+        )
     if word.endswith(RESERVED_SUFFIXES):
         suffix = next(suffix for suffix in RESERVED_SUFFIXES if word.endswith(suffix))
-        return Fault(codes.ILLEGAL_NAME, facts={"reason": f"names that end in '{suffix}' are Ice's own"})
+        return SliceNameFault(
+            codes.ILLEGAL_NAME, facts={"reason": f"names that end in '{suffix}' are reserved for Ice"}
+        )
     if len(word) > LONGEST_NAME:
-        return Fault(codes.ILLEGAL_NAME, facts={"reason": f"a name has at most {LONGEST_NAME} characters"})
+        return SliceNameFault(codes.ILLEGAL_NAME, facts={"reason": f"a name has at most {LONGEST_NAME} characters"})
     return None
 
 
-def _distinct(owner: str, names: Iterable[Name], kinds: str) -> Iterator[Diagnostic]:
-    first: dict[str, Name] = {}
-    for name in names:
-        other = first.setdefault(name.text.lower(), name)
-        if other is name:
-            continue
-        related = [Related(f"'{other.text}' stands here first", other.span)]
+def _distinct(owner: str, names: Iterable[Identifier], kinds: str) -> Iterator[Diagnostic]:
+    for other, name in repeated(names, lambda name: name.text.lower()):
+        related = [Related(f"the first '{other.text}'", other.span)]
         if other.text == name.text:
             yield codes.DUPLICATE_NAME.at(
                 name.span, owner=owner, kinds=kinds, name=name.text, hint="rename one of them", related=related
@@ -111,12 +112,12 @@ def _distinct(owner: str, names: Iterable[Name], kinds: str) -> Iterator[Diagnos
                 kinds=kinds,
                 name=name.text,
                 other=other.text,
-                hint="rename one of them: Slice takes both for the same name",
+                hint="rename one of them: in Slice, case does not distinguish names",
                 related=related,
             )
 
 
-def _not_named_as(outer: str, outer_name: str, names: Iterable[Name]) -> Iterator[Diagnostic]:
+def _not_named_as(outer: str, outer_name: str, names: Iterable[Identifier]) -> Iterator[Diagnostic]:
     for name in names:
         if name.text.lower() == outer_name.lower():
             yield codes.NAME_OF_OUTER.at(
@@ -125,5 +126,5 @@ def _not_named_as(outer: str, outer_name: str, names: Iterable[Name]) -> Iterato
                 name=name.text,
                 outer=outer,
                 outer_name=outer_name,
-                hint="choose another name: Slice allows no such pair, in whatever case",
+                hint="choose another name, not one that differs only in case",
             )

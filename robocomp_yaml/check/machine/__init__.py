@@ -1,1 +1,1 @@
-"""State machines: what a schema cannot say of them."""
+"""Checks of state machines."""

@@ -1,4 +1,4 @@
-"""State machines: the data model, and what conditions, values and scripts say in it. Nothing is run."""
+"""State machines: the data model, and the syntax of conditions, values and scripts in it. Nothing is executed."""
 
 from __future__ import annotations
 
@@ -12,172 +12,110 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.languages.record import STATEMACHINE, TargetLanguage
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.model import conditions
-from robocomp_yaml.model.machine_index import MachineIndex
-from robocomp_yaml.model.statemachine import (
-    NULL,
-    PYTHON,
-    Action,
-    Assign,
-    Cancel,
-    Foreach,
-    If,
-    Log,
-    Param,
-    Payload,
-    Script,
-    Send,
-    StateMachine,
-    Text,
-    Value,
-)
+from robocomp_yaml.model import statemachine as model
+from robocomp_yaml.model.located import Text
+from robocomp_yaml.model.machine_index import MachineIndex, indexes
+from robocomp_yaml.model.statemachine import NULL, PYTHON
+
+_VALUE, _CONDITION, _SCRIPT = "the value", "the condition", "the script"
+_Expression = tuple[str, Text | None]
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
     for linked in program.components.values():
-        if linked.machine is not None and STATEMACHINE in linked.component.language.target.has:
-            yield from of(linked.machine, linked.component.language.target)
+        language = linked.component.language.target
+        for index in indexes(linked.machine) if STATEMACHINE in language.has else ():
+            yield from _machine(index, language)
 
 
-def of(machine: StateMachine, language: TargetLanguage) -> Iterator[Diagnostic]:
-    """What a machine says in a data model that a component in this language does not have."""
-    index = MachineIndex(machine)
-    name = machine.datamodel or NULL
+def _machine(index: MachineIndex, language: TargetLanguage) -> Iterator[Diagnostic]:
+    """Checks a machine of a component in this language."""
+    name = index.machine.datamodel or NULL
     if name not in language.datamodels:
         others = [other for other in language.datamodels if other != NULL]
-        hint = f'write "{others[0]}"' if others else "leave it out: then conditions are guards of the worker"
-        yield codes.DATAMODEL.at(machine.datamodel_span, name=name, language=language.title, hint=hint)
-    elif name == PYTHON:
-        yield from _Python(index).run()
+        hint = f'write "{others[0]}"' if others else "remove it; then conditions consist of guards of the worker"
+        yield codes.DATAMODEL.at(index.machine.datamodel_span, name=name, language=language.title, hint=hint)
     else:
-        yield from _Null(index).run()
-    for invoked in index.invoked():
-        yield from of(invoked, language)
+        faults = _faults_in_python if name == PYTHON else _faults_in_null
+        for what, text in _expressions(index):
+            yield from faults(index, what, text) if text is not None else ()
 
 
-class _Visitor:
-    """Walks over every expression of a machine; what is wrong with each kind, the data models say."""
-
-    def __init__(self, index: MachineIndex) -> None:
-        self.index = index
-
-    def run(self) -> Iterator[Diagnostic]:
-        for state in self.index.states:
-            for data in state.data:
-                yield from self.variable("<data>", data.id)
-                yield from self.value(data.value)
-            for invoke in state.invokes:
-                yield from self.value(invoke.type)
-                yield from self.value(invoke.source)
-                yield from self.place("idlocation", invoke.id_location)
-                yield from self.payload(invoke.payload)
-            yield from self.payload(state.done)
-        for _, transition in self.index.transitions():
-            yield from self.condition(transition.condition)
-        for action in self.index.actions():
-            yield from self.action(action)
-
-    def action(self, action: Action) -> Iterator[Diagnostic]:
-        match action:
-            case Send():
-                for value in (action.event, action.target, action.type, action.delay):
-                    yield from self.value(value)
-                yield from self.place("idlocation", action.id_location)
-                yield from self.payload(action.payload)
-            case Cancel(id=value):
-                yield from self.value(value)
-            case Log(value=value) if value is not None:
-                yield from self.value(value)
-            case Assign(location=location, value=value):
-                yield from self.place("<assign>", location)
-                yield from self.value(value)
-            case Foreach(array=array):
-                yield from self.place("<foreach>", array)
-            case Script(code=code):
-                yield from self.script(code)
-            case If(branches=branches):
-                for condition, _ in branches:
-                    yield from self.condition(condition)
-
-    def payload(self, payload: Payload) -> Iterator[Diagnostic]:
-        for param in payload.params:
-            yield from self.param(param)
-        if payload.content is not None:
-            yield from self.value(payload.content)
-
-    def param(self, param: Param) -> Iterator[Diagnostic]:
-        yield from self.value(param.value)
-
-    def place(self, what: str, text: Text | None) -> Iterator[Diagnostic]:
-        if text is not None:
-            yield from self.variable(what, text)
-
-    def variable(self, what: str, text: Text) -> Iterator[Diagnostic]:
-        raise NotImplementedError
-
-    def value(self, value: Value) -> Iterator[Diagnostic]:
-        raise NotImplementedError
-
-    def condition(self, text: Text | None) -> Iterator[Diagnostic]:
-        raise NotImplementedError
-
-    def script(self, code: Text) -> Iterator[Diagnostic]:
-        raise NotImplementedError
+def _expressions(index: MachineIndex) -> Iterator[_Expression]:
+    """Every expression of a machine, with its kind: a value, a condition, a script, or the element that names a
+    variable."""
+    for state in index.states:
+        for data in state.data:
+            yield "<data>", data.id
+            yield _VALUE, data.value.expr
+        for invoke in state.invokes:
+            yield from ((_VALUE, invoke.type.expr), (_VALUE, invoke.source.expr), ("idlocation", invoke.id_location))
+            yield from _of_payload(invoke.payload)
+        yield from _of_payload(state.done)
+    yield from ((_CONDITION, transition.condition) for _, transition in index.transitions())
+    for action in index.actions():
+        yield from _of_action(action)
 
 
-class _Null(_Visitor):
-    """Literals, guards and actions."""
+def _of_action(action: model.Action) -> Iterator[_Expression]:
+    match action:
+        case model.Send():
+            for value in (action.event, action.target, action.type, action.delay):
+                yield _VALUE, value.expr
+            yield "idlocation", action.id_location
+            yield from _of_payload(action.payload)
+        case model.Cancel(id=value):
+            yield _VALUE, value.expr
+        case model.Log(value=value) if value is not None:
+            yield _VALUE, value.expr
+        case model.Assign(location=location, value=value):
+            yield from (("<assign>", location), (_VALUE, value.expr))
+        case model.Foreach(array=array):
+            yield "<foreach>", array
+        case model.Script(code=code):
+            yield _SCRIPT, code
+        case model.If(branches=branches):
+            yield from ((_CONDITION, condition) for condition, _ in branches)
 
-    def variable(self, what: str, text: Text) -> Iterator[Diagnostic]:
+
+def _of_payload(payload: model.Payload) -> Iterator[_Expression]:
+    yield from ((_VALUE, param.value.expr) for param in payload.params)
+    if payload.content is not None:
+        yield _VALUE, payload.content.expr
+
+
+_READERS: dict[str, Callable[[str], object]] = {
+    _VALUE: conditions.literal, _CONDITION: conditions.condition, _SCRIPT: conditions.script
+}  # fmt: skip
+
+
+def _faults_in_null(index: MachineIndex, what: str, text: Text) -> Iterator[Diagnostic]:
+    """Checks an expression of the data model `null`, and the states in its conditions."""
+    if what not in _READERS:
         yield codes.NEEDS_DATAMODEL.at(text.span, what=what)
-
-    def value(self, value: Value) -> Iterator[Diagnostic]:
-        if value.expr is not None:
-            yield from self._fits("the value", value.expr, conditions.literal)
-
-    def script(self, code: Text) -> Iterator[Diagnostic]:
-        yield from self._fits("the script", code, conditions.script)
-
-    def condition(self, text: Text | None) -> Iterator[Diagnostic]:
-        if text is None:
-            return
-        wrong = list(self._fits("the condition", text, conditions.condition))
-        yield from wrong
-        if not wrong:
-            for name in conditions.names(conditions.condition(text.text), conditions.IN):
-                if name not in self.index.by_id:
-                    yield codes.UNKNOWN_STATE.at(text.span, id=name, hint=self.index.similar(name))
-
-    def _fits(self, what: str, text: Text, read: Callable[[str], object]) -> Iterator[Diagnostic]:
-        try:
-            read(text.text)
-        except conditions.NotInLanguage as error:
-            shown = " ".join(text.text.split())
-            shown = shown if len(shown) <= 40 else f"{shown[:39]}…"
-            yield codes.NOT_IN_LANGUAGE.at(text.span, what=what, text=shown, reason=str(error))
+        return
+    try:
+        read = _READERS[what](text.text)
+    except conditions.NullSyntaxError as error:
+        shown = " ".join(text.text.split())
+        shown = shown if len(shown) <= 40 else f"{shown[:39]}…"
+        yield codes.NOT_IN_LANGUAGE.at(text.span, what=what, text=shown, reason=str(error))
+        return
+    for name in conditions.names(read, conditions.IN) if isinstance(read, conditions.Condition) else ():
+        if name not in index.by_id:
+            yield codes.UNKNOWN_STATE.at(text.span, id=name, hint=index.similar(name))
 
 
-class _Python(_Visitor):
-    """Python's syntax."""
-
-    def variable(self, what: str, text: Text) -> Iterator[Diagnostic]:
-        return iter(())
-
-    def value(self, value: Value) -> Iterator[Diagnostic]:
-        if value.expr is not None:
-            yield from self._parses("the value", value.expr, "eval")
-
-    def condition(self, text: Text | None) -> Iterator[Diagnostic]:
-        if text is not None:
-            yield from self._parses("the condition", text, "eval")
-
-    def script(self, code: Text) -> Iterator[Diagnostic]:
-        yield from self._parses("the script", Text(textwrap.dedent(code.text.strip("\n")), code.span), "exec")
-
-    def _parses(self, what: str, text: Text, mode: str) -> Iterator[Diagnostic]:
-        try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore")
-                ast.parse(text.text.strip() if mode == "eval" else text.text, mode=mode)
-        except (SyntaxError, ValueError, MemoryError, RecursionError) as error:
-            reason = error.msg if isinstance(error, SyntaxError) else str(error) or "it is too deeply nested"
-            yield codes.PYTHON_SYNTAX.at(text.span, what=what, reason=reason)
+def _faults_in_python(_: MachineIndex, what: str, text: Text) -> Iterator[Diagnostic]:
+    """Checks the syntax of an expression in Python."""
+    if what not in _READERS:
+        return
+    is_script = what == _SCRIPT
+    code = textwrap.dedent(text.text.strip("\n")) if is_script else text.text.strip()
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            ast.parse(code, mode="exec" if is_script else "eval")
+    except (SyntaxError, ValueError, MemoryError, RecursionError) as error:
+        reason = error.msg if isinstance(error, SyntaxError) else str(error) or "it is too deeply nested"
+        yield codes.PYTHON_SYNTAX.at(text.span, what=what, reason=reason)

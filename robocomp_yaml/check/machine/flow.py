@@ -1,4 +1,4 @@
-"""State machines: states that nothing leads to, circles without an end, events that are lost or never come."""
+"""State machines: unreachable states, endless circles, events that are lost or never sent."""
 
 from __future__ import annotations
 
@@ -8,33 +8,26 @@ from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.model.machine_index import MachineIndex, is_unconditional, prefixes
-from robocomp_yaml.model.statemachine import HISTORY, PARALLEL, Raise, Send, State, StateMachine, Text, Transition
+from robocomp_yaml.model.located import Text
+from robocomp_yaml.model.machine_index import MANY, MachineIndex, indexes, is_unconditional, prefixes
+from robocomp_yaml.model.statemachine import HISTORY, PARALLEL, Send, State, StateMachine, Transition
 from robocomp_yaml.semantics.events import beginning
 
-_MANY = 500  # names to look for a similar one in
 _PLATFORM = ("done.", "error", "*", ".*")
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
     for linked in program.components.values():
-        if linked.machine is not None and linked.machine.root.states:
-            yield from _of(linked.machine)
-
-
-def _of(machine: StateMachine) -> Iterator[Diagnostic]:
-    index = MachineIndex(machine)
-    yield from _unreachable(index)
-    yield from _endless(index)
-    yield from _unheard(index)
-    yield from _never_sent(index)
-    for invoked in index.invoked():
-        if invoked.root.states:
-            yield from _of(invoked)
+        for index in indexes(linked.machine):
+            if index.machine.root.states:
+                yield from _unreachable(index)
+                yield from _endless(index)
+                yield from _unheard(index)
+                yield from _never_sent(index)
 
 
 def _unreachable(index: MachineIndex) -> Iterator[Diagnostic]:
-    """The outermost ones. Not told where a name is wrong: then everything behind it would be."""
+    """Reports the outermost unreachable states. If a name is unknown, none is reported, because too many would be."""
     if index.machine.strays or any(
         target.text not in index.by_id
         for state in index.states
@@ -51,26 +44,30 @@ def _unreachable(index: MachineIndex) -> Iterator[Diagnostic]:
             continue
         reached.add(state.number)
         if state.kind == HISTORY:
-            around = index.ancestors(state)[:1]
-            todo += index.targets(state.initial) if state.initial else index.defaults(around[0])
+            parent = index.ancestors(state)[0]
+            todo += index.targets(state.initial) if state.initial else index.defaults(parent)
             continue
-        around = index.ancestors(state)
-        todo += around
-        for parent in around:
+        ancestors = index.ancestors(state)
+        todo += ancestors
+        for parent in ancestors:
             if parent.kind == PARALLEL:
                 todo += index.defaults(parent)
         if state.number in targets or not any(child.number in reached for child in state.states):
-            todo += index.defaults(state)  # it is not only entered because a state in it is
+            todo += index.defaults(state)  # it may be entered by itself, not only with a state inside
         for transition in state.transitions:
             todo += index.targets(transition)
     for state in index.machine.states:
-        lost = state.number not in reached
-        if lost and state.kind != HISTORY and all(one.number in reached for one in index.ancestors(state)[:1]):
+        is_unreachable = state.number not in reached
+        if (
+            is_unreachable
+            and state.kind != HISTORY
+            and all(one.number in reached for one in index.ancestors(state)[:1])
+        ):
             yield codes.UNREACHABLE.at(state.span, id=state.id or "(without a name)")
 
 
 def _endless(index: MachineIndex) -> Iterator[Diagnostic]:
-    """Transitions that are taken at once, and lead back to where they came from."""
+    """Reports circles of transitions that are taken at once."""
     seen: set[int] = set()
     for start in index.machine.states:
         path: dict[int, State] = {}
@@ -82,70 +79,48 @@ def _endless(index: MachineIndex) -> Iterator[Diagnostic]:
         if state is not None and state.number in path:
             members = list(path.values())
             circle = members[list(path).index(state.number) :]
-            place = next(t.span for s in _sources(index, state) for t in s.transitions if not t.events)
+            span = next(t.span for s in [state, *index.ancestors(state)] for t in s.transitions if not t.events)
             names = " → ".join(member.id or "(without a name)" for member in (*circle, state))
-            yield codes.ENDLESS.at(place, circle=names, hint="give one of the transitions an event or a condition")
-
-
-def _sources(index: MachineIndex, state: State) -> list[State]:
-    return [state, *index.ancestors(state)]
+            yield codes.ENDLESS.at(span, circle=names, hint="give one of the transitions an event or a condition")
 
 
 def _at_once(index: MachineIndex, state: State) -> State | None:
-    """Where the machine goes from an atomic state whatever happens; None where that depends, or it stays."""
+    """The state to which the machine always goes on at once; None if there is none, or if it depends."""
     while state.states:
         inner = index.defaults(state)
         if state.kind == PARALLEL or len(inner) != 1 or inner[0].kind == HISTORY:
             return None
         state = inner[0]
-    ancestors = _sources(index, state)
+    ancestors = [state, *index.ancestors(state)]
     if any(ancestor.kind == PARALLEL for ancestor in ancestors):
         return None
     transition = next((t for source in ancestors for t in source.transitions if not t.events), None)
     if transition is None or not is_unconditional(transition, index.machine.datamodel):
         return None
-    found = index.targets(transition) if transition.targets else [state]
-    return found[0] if len(found) == 1 and found[0].kind != HISTORY else None
+    targets = index.targets(transition) if transition.targets else [state]
+    return targets[0] if len(targets) == 1 and targets[0].kind != HISTORY else None
 
 
 def _sent(machine: StateMachine) -> tuple[list[Text], bool]:
-    """The events that a machine and those it invokes raise and send, and whether these are all."""
-    index = MachineIndex(machine)
-    found, complete = [], True
-    for action in index.actions():
-        if isinstance(action, Raise):
-            found.append(action.event)
-        elif isinstance(action, Send):
-            complete &= action.event.expr is None
-            if action.event.literal:
-                found.append(Text(action.event.literal, action.event.span))
-    complete &= all(invoke.source.expr is None for invoke in index.invokes())
-    for invoked in index.invoked():
-        inner, inner_complete = _sent(invoked)
-        found += inner
-        complete &= inner_complete
-    return found, complete
+    """The events that a machine and its invoked machines raise or send, and whether these are all."""
+    events: list[Text] = []
+    complete = True
+    for index in indexes(machine):
+        events += (event for event, _ in index.sends())
+        complete &= not any(isinstance(action, Send) and action.event.expr for action in index.actions())
+        complete &= all(invoke.source.expr is None for invoke in index.invokes())
+    return events, complete
 
 
 def _unheard(index: MachineIndex) -> Iterator[Diagnostic]:
-    """What the machine sends to itself, and no transition waits for."""
+    """Reports events that the machine sends to itself and no transition waits for."""
     heard = [event.text for _, transition in index.transitions() for event in transition.events]
     known = {beginning(descriptor) for descriptor in heard}
     named = [descriptor for descriptor in known if descriptor and not descriptor.startswith(_PLATFORM)]
-    for action in index.actions():
-        if isinstance(action, Raise):
-            event = action.event
-        elif isinstance(action, Send) and action.event.literal and _to_itself(action):
-            event = Text(action.event.literal, action.event.span)
-        else:
-            continue
-        if known.isdisjoint(prefixes(event.text)):
-            hint = did_you_mean(event.text, sorted(named)[:_MANY], open_=True)
+    for event, is_own in index.sends():
+        if is_own and known.isdisjoint(prefixes(event.text)):
+            hint = did_you_mean(event.text, sorted(named)[:MANY], open_=True)
             yield codes.UNHEARD.at(event.span, event=event.text, hint=hint)
-
-
-def _to_itself(send: Send) -> bool:
-    return send.target.expr is None and send.target.literal in (None, "", "#_internal")
 
 
 def _never_sent(index: MachineIndex) -> Iterator[Diagnostic]:
@@ -155,7 +130,7 @@ def _never_sent(index: MachineIndex) -> Iterator[Diagnostic]:
     heads = {prefix for event in known for prefix in prefixes(event)}
     listed = "`events:`" if index.machine.inline else "`rc:events`"
     for state, transition in index.transitions():
-        signals = {f"t_{state.id}_to_{target.text}" for target in transition.targets}  # what RoboComp's code fires
+        signals = {f"t_{state.id}_to_{target.text}" for target in transition.targets}  # RoboComp's code fires these
         for event in transition.events:
             if event.text in signals:
                 continue
@@ -164,9 +139,9 @@ def _never_sent(index: MachineIndex) -> Iterator[Diagnostic]:
             elif fired and complete and beginning(event.text) not in heads:
                 hint = did_you_mean(
                     event.text,
-                    known[:_MANY],
+                    known[:MANY],
                     open_=True,
-                    otherwise=f"list it under {listed}, for the component's code to fire it",
+                    otherwise=f"list it under {listed}, if the component's code fires it",
                 )
                 yield codes.NEVER_SENT.at(event.span, event=event.text, why="", hint=hint)
 
@@ -179,11 +154,11 @@ def _platform(index: MachineIndex, transition: Transition, event: Text) -> Itera
     if what == "state":
         state = index.by_id.get(name)
         if state is None:
-            why = f": there is no state '{name}'"
+            why = f": unknown state '{name}'"
             yield codes.NEVER_SENT.at(event.span, event=event.text, why=why, hint=index.similar(name))
         elif not index.can_be_done(state):
             why = f": '{name}' has no final state in " + ("each of its parts" if state.kind == PARALLEL else "it")
             yield codes.NEVER_SENT.at(event.span, event=event.text, why=why)
     elif what == "invoke":
         if all(invoke.id and name not in prefixes(invoke.id) for invoke in index.invokes()):
-            yield codes.NEVER_SENT.at(event.span, event=event.text, why=": nothing is invoked under this name")
+            yield codes.NEVER_SENT.at(event.span, event=event.text, why=": no invocation has this id")

@@ -1,1 +1,1 @@
-"""Parameters and values: types, limits, constraints, and their spelling as properties."""
+"""Checks of parameters and values."""

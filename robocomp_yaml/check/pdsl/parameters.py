@@ -1,9 +1,9 @@
-"""Parameters: defaults, alone and together, names in code, and the legacy table."""
+"""Parameters: defaults, constraints on defaults, names in code, and the legacy table."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from robocomp_yaml import languages
@@ -11,13 +11,10 @@ from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.languages.record import TargetLanguage
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.model.names import is_identifier
 from robocomp_yaml.parameters.defaults import defaults
 from robocomp_yaml.parameters.expressions import evaluate
-from robocomp_yaml.parameters.types import Member, Parameters, RecordType
+from robocomp_yaml.parameters.types import Parameters, RecordType, ResolvedMember
 from robocomp_yaml.parameters.verdict.specification import default_faults, spelling_faults
-
-Languages = tuple[TargetLanguage, ...]
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
@@ -36,14 +33,17 @@ def check(program: Program) -> Iterator[Diagnostic]:
         yield from spelling_faults(parameters)
 
 
-def _names(record: RecordType, known: Languages) -> Iterator[Diagnostic]:
-    """Of a record, and of the groups in it."""
-    names: dict[tuple[str, str], Member] = {}
+def _names(record: RecordType, known: Iterable[TargetLanguage]) -> Iterator[Diagnostic]:
+    """Checks the names of a struct's members, and of those in its groups."""
+    names: dict[tuple[str, str], ResolvedMember] = {}
     for member in record.members:
         if member.is_group and isinstance(member.type, RecordType):
             yield from _names(member.type, known)
-        if not is_identifier(member.code_name):
-            yield codes.NO_IDENTIFIER.at(member.span, name=member.name, hint=f"for instance as: {_free(member.name)}")
+        name = member.code_name
+        if not (name.isascii() and name.isidentifier() and not name.startswith("__")):
+            yield codes.NO_IDENTIFIER.at(
+                member.span, name=member.name, hint=f"for instance as: {_as_identifier(member.name)}"
+            )
             continue
         for language in known:
             code = language.in_code(member.code_name)
@@ -55,32 +55,32 @@ def _names(record: RecordType, known: Languages) -> Iterator[Diagnostic]:
                     other=other.name,
                     code=code,
                     language=language.title,
-                    hint="give one of them another name in code with as:",
-                    related=[Related(f"'{other.name}' stands here", other.span)],
+                    hint="set another name in code for one of them with as:",
+                    related=[Related(f"'{other.name}'", other.span)],
                 )
                 break
 
 
-def _free(name: str) -> str:
-    """An identifier that is like it."""
-    made = re.sub(r"[^A-Za-z0-9_]", "_", name).lstrip("_")
-    return made if made[:1].isalpha() else f"p{made}"
+def _as_identifier(name: str) -> str:
+    """A legal identifier similar to a name."""
+    identifier = re.sub(r"[^A-Za-z0-9_]", "_", name).lstrip("_")
+    return identifier if identifier[:1].isalpha() else f"p{identifier}"
 
 
-def _take_as_given(record: RecordType, data: dict[str, Any]) -> None:
-    """What has to be given has a value, which is not known: as a reference has."""
+def _add_unknown_values(record: RecordType, data: dict[str, Any]) -> None:
+    """Adds required parameters with an unknown value: a reference to the environment."""
     for member in record.members:
         if isinstance(member.type, RecordType) and member.is_group:
             inner = data[member.code_name] = dict(data.get(member.code_name, {}))
-            _take_as_given(member.type, inner)
+            _add_unknown_values(member.type, inner)
         elif member.required:
             data[member.code_name] = {"env": "GIVEN"}
 
 
 def _defaults_together(parameters: Parameters) -> Iterator[Diagnostic]:
-    """Constraints that are broken where nobody gives a value; what has no default is not known here."""
+    """Reports constraints that the defaults violate. Values of required parameters are unknown."""
     data = dict(evaluate.by_code_names(parameters.root, defaults(parameters.root)))
-    _take_as_given(parameters.root, data)
+    _add_unknown_values(parameters.root, data)
     for constraint in parameters.constraints:
         if not evaluate.holds(constraint.expression, data):
             yield codes.DEFAULTS_BREAK.at(constraint.span, message=constraint.message)

@@ -1,4 +1,4 @@
-"""Names of properties: each belongs to one parameter, and none to Ice, an adapter or a proxy."""
+"""Names of properties: each belongs to one parameter, and to nothing of Ice or of the component's ports."""
 
 from __future__ import annotations
 
@@ -13,22 +13,11 @@ from robocomp_yaml.parameters.types import BasicType, EnumType, leaves
 from robocomp_yaml.semantics.connections import endpoints, proxy
 from robocomp_yaml.semantics.spellings import pattern
 
-_ICE = (
-    "Ice",
-    "IceStorm",
-    "IceBox",
-    "IceGrid",
-    "IceSSL",
-    "IceDiscovery",
-    "IceLocatorDiscovery",
-    "IcePatch2",
-    "IceBridge",
-    "IceMX",
-    "Freeze",
-    "Glacier2",
-    "DataStorm",
+_ICE = frozenset(
+    "Ice IceStorm IceBox IceGrid IceSSL IceDiscovery IceLocatorDiscovery IcePatch2 IceBridge IceMX Freeze Glacier2 "
+    "DataStorm".split()
 )
-_OURS = {
+_RESERVED = {
     "Endpoints": "the endpoints",
     "Proxies": "the proxies",
     "TopicManager": "the topic manager",
@@ -44,45 +33,45 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 def _property_names(linked: LinkedParameters) -> Iterator[Diagnostic]:
     parameters = linked.parameters
-    places = {path: member.span for path, member in leaves(parameters.root)}
-    places |= {spelling.path: spelling.span for spelling in parameters.spellings if spelling.path in places}
-    yield from _among_themselves(linked, places)
-    taken = dict(_taken(linked.component)) if linked.component else {}
+    spans = {path: member.span for path, member in leaves(parameters.root)}
+    spans |= {spelling.path: spelling.span for spelling in parameters.spellings if spelling.path in spans}
+    yield from _within_document(linked, spans)
+    taken = dict(_properties_of_ports(linked.component)) if linked.component else {}
     types = {path: member.type for path, member in leaves(parameters.root)}
     warned: set[str] = set()
     for path, key, is_spelled in exact_keys(parameters):
         first = key.partition(".")[0]
-        has_tail = "." in key or not (is_spelled or isinstance(types[path], BasicType | EnumType))
+        has_tail = "." in key or not (is_spelled or isinstance(types[path], (BasicType, EnumType)))
         if key in taken:
-            yield codes.PROPERTY_CLASH.at(places[path], name=path, other=taken[key], property=key)
+            yield codes.PROPERTY_CLASH.at(spans[path], name=path, other=taken[key], property=key)
         elif has_tail and first in _ICE:
-            yield codes.PROPERTY_CLASH.at(places[path], name=path, other="a setting of Ice", property=f"{first}.…")
-        elif has_tail and first in _OURS:
-            yield codes.PROPERTY_CLASH.at(places[path], name=path, other=_OURS[first], property=f"{first}.…")
+            yield codes.PROPERTY_CLASH.at(spans[path], name=path, other="a property of Ice", property=f"{first}.…")
+        elif has_tail and first in _RESERVED:
+            yield codes.PROPERTY_CLASH.at(spans[path], name=path, other=_RESERVED[first], property=f"{first}.…")
         elif has_tail and first in taken and first not in warned:
             warned.add(first)
-            yield codes.PROPERTY_PREFIX.at(places[path], name=path, other=taken[first])
+            yield codes.PROPERTY_PREFIX.at(spans[path], name=path, other=taken[first])
 
 
-def _among_themselves(linked: LinkedParameters, places: dict[str, Span]) -> Iterator[Diagnostic]:
+def _within_document(linked: LinkedParameters, spans: dict[str, Span]) -> Iterator[Diagnostic]:
     keys: dict[str, str] = {}
     for path, key, _ in exact_keys(linked.parameters):
         other = keys.setdefault(key, path)
         if other != path:
-            yield codes.PROPERTY_CLASH.at(places[path], name=path, other=f"'{other}'", property=key)
+            yield codes.PROPERTY_CLASH.at(spans[path], name=path, other=f"'{other}'", property=key)
     rows: dict[str, str] = {}
     for path, row in row_keys(linked.parameters):
         other = rows.setdefault(row, path)
         if other != path:
-            yield codes.PROPERTY_CLASH.at(places[path], name=path, other=f"'{other}'", property=row)
+            yield codes.PROPERTY_CLASH.at(spans[path], name=path, other=f"'{other}'", property=row)
         in_row = pattern(row)
         for key, owner in keys.items():
             if owner != path and in_row.match(key):
-                yield codes.PROPERTY_CLASH.at(places[path], name=path, other=f"'{owner}'", property=key)
+                yield codes.PROPERTY_CLASH.at(spans[path], name=path, other=f"'{owner}'", property=key)
 
 
-def _taken(component: LinkedComponent) -> Iterator[tuple[str, str]]:
-    """The names of properties that the component's connections use, and whose they are."""
+def _properties_of_ports(component: LinkedComponent) -> Iterator[tuple[str, str]]:
+    """The properties that the component's ports use, each with its owner."""
     names = [port.name for port in (*component.implements, *component.subscribes)]
     for name in ("CommonBehavior", *names, *(f"{port.name}Topic" for port in component.subscribes)):
         yield name, f"the adapter {name}"

@@ -1,4 +1,4 @@
-"""Values documents: each by itself, with all that it builds on, and what of it Ice's properties can hold."""
+"""Values documents: their texts for Ice, ports and layers, and their effective values."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.codes.files import BAD_ICE_TEXT
 from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic, has_errors
 from robocomp_yaml.diag.suggest import did_you_mean
-from robocomp_yaml.link.attachments import leads_to
+from robocomp_yaml.link.attachments import refers_to
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues, Program
 from robocomp_yaml.model.build_interface import entries
 from robocomp_yaml.parameters.layers.effective import Effective, document_faults
-from robocomp_yaml.parameters.writing.harmless import is_harmless
 from robocomp_yaml.parameters.writing.properties import properties
+from robocomp_yaml.parameters.writing.writable import is_surely_writable
 from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source.ice_endpoint import parse_endpoints
-from robocomp_yaml.source.ice_options import Refused
+from robocomp_yaml.source.ice_options import InvalidIceText
 from robocomp_yaml.source.ice_proxy import parse_proxy
 from robocomp_yaml.source.tree import Mapping, Node, Scalar
 
@@ -26,11 +26,11 @@ _SUCH_AS = {"endpoint": "tcp -p 10001", "proxy": '"mouth:tcp -h localhost -p 100
 
 def check(program: Program) -> Iterator[Diagnostic]:
     for linked in sorted(program.values.values(), key=lambda values: values.document.path):
-        yield from of_document(linked, program)
+        yield from check_document(linked, program)
 
 
-def of_document(linked: LinkedValues, program: Program, *, complete: bool = False) -> Iterator[Diagnostic]:
-    """`complete`: to be judged as the values of a component even where another document builds on it."""
+def check_document(linked: LinkedValues, program: Program, *, complete: bool = False) -> Iterator[Diagnostic]:
+    """Checks a values document; with `complete` as the values of a component, even if other documents extend it."""
     yield from _texts_of_ice(linked)
     if linked.parameters is None:
         if not linked.is_extended and not linked.document.component and not linked.broken:
@@ -40,32 +40,32 @@ def of_document(linked: LinkedValues, program: Program, *, complete: bool = Fals
         return
     yield from _layers(linked)
     yield from _ports(linked)
-    if is_only_layer(linked) and not complete:
+    if is_only_a_layer(linked) and not complete:
         yield from document_faults(linked, linked.parameters)
         return
-    values, found = program.effective(linked)
-    yield from found
-    if values is not None and not has_errors(found) and not is_plain(linked, values):
+    values, diagnostics = program.effective(linked)
+    yield from diagnostics
+    if values is not None and not has_errors(diagnostics) and not has_only_harmless_parameters(linked, values):
         yield from properties(linked, values)[1]
 
 
 def _texts_of_ice(linked: LinkedValues) -> Iterator[Diagnostic]:
-    """Endpoints and proxies that Ice would refuse."""
+    """Reports endpoints and proxies that Ice would reject."""
     root = linked.document.root
     manager = root.get("topics")
     texts: list[tuple[str, Node | None, Callable[[str], object]]]
     texts = [("endpoint", node, parse_endpoints) for node in _own(root.get("endpoints"))]
     texts += [("proxy", node, parse_proxy) for node in _own(root.get("proxies"))]
     texts += [("proxy", manager.get("manager"), parse_proxy)] if isinstance(manager, Mapping) else []
-    for what, given, parse in texts:
-        node = given.get("proxy") if isinstance(given, Mapping) else given
+    for what, value, parse in texts:
+        node = value.get("proxy") if isinstance(value, Mapping) else value
         if not isinstance(node, Scalar) or node.data is None:
             continue
         text = unquoted(node.lexeme)
         try:
             parse(text)
-        except Refused as refused:
-            told = BAD_ICE_TEXT.at(
+        except InvalidIceText as refused:
+            fault = BAD_ICE_TEXT.at(
                 node.span.inside(text, refused.start, refused.end),
                 what=what,
                 text=text,
@@ -74,40 +74,40 @@ def _texts_of_ice(linked: LinkedValues) -> Iterator[Diagnostic]:
                     text[refused.start : refused.end], refused.meant, otherwise=f"such as {_SUCH_AS[what]}"
                 ),
             )
-            yield told.as_severity(WARNING) if "legacy" in root.entries else told
+            yield fault.as_severity(WARNING) if "legacy" in root.entries else fault
 
 
 def _own(section: Node | None) -> Iterator[Node]:
-    """The values of a section, but for those under `x-…`."""
+    """The values of a section, without those under `x-…`."""
     for name, node in section.items() if isinstance(section, Mapping) else ():
         if not name.lexeme.startswith("x-"):
             yield node
 
 
-def is_only_layer(linked: LinkedValues) -> bool:
-    """Whether a document may be incomplete, since another one builds on it."""
+def is_only_a_layer(linked: LinkedValues) -> bool:
+    """Whether a document may be incomplete, because other documents extend it."""
     return linked.is_extended and os.path.basename(linked.document.path) != "config.yaml"
 
 
-def is_plain(linked: LinkedValues, values: Effective) -> bool:
-    """Whether nothing stands there but parameters, none of which can be trouble."""
-    given = {key for layer in linked.layers() for key in layer.document.root.entries}
-    return given <= {"component", "doc", "extends", "parameters"} and is_harmless(values.parameters, values.data)
+def has_only_harmless_parameters(linked: LinkedValues, values: Effective) -> bool:
+    """Whether the layers contain only parameters, whose values are all harmless as properties."""
+    keys = {key for layer in linked.layers() for key in layer.document.root.entries}
+    return keys <= {"component", "doc", "extends", "parameters"} and is_surely_writable(values.parameters, values.data)
 
 
 def _layers(linked: LinkedValues) -> Iterator[Diagnostic]:
-    """Documents that this one extends, and that belong to another component."""
+    """Reports layers that belong to another component."""
     for base in linked.extends:
         if base.parameters is not None and base.parameters is not linked.parameters:
             real = os.path.realpath(base.document.path)
-            layer = next(each for each in linked.document.extends if leads_to(each, linked.document, real))
+            layer = next(each for each in linked.document.extends if refers_to(each, linked.document, real))
             yield codes.OTHER_COMPONENT.at(
                 layer.span, name=layer.value, other=_owner(base.parameters), own=_owner(linked.parameters)
             )
 
 
 def _owner(parameters: LinkedParameters | None) -> str:
-    """The component, or the document of parameters that no component was found for."""
+    """The name of the component, or of the parameter document if it has no component."""
     assert parameters is not None
     if parameters.component is not None:
         return parameters.component.component.name
@@ -131,11 +131,11 @@ def _ports(linked: LinkedValues) -> Iterator[Diagnostic]:
         parent = linked.document.section(*section[:-1])
         for name, _ in entries(parent, section[-1]):
             if name.lexeme not in names and name.lexeme.removesuffix("Comp") not in names:
-                given = {other.lexeme for other, _ in entries(parent, section[-1])}
+                others = {other.lexeme for other, _ in entries(parent, section[-1])}
                 yield codes.UNKNOWN_PORT.at(
                     name.span,
                     component=component.component.name,
                     what=what,
                     name=name.lexeme,
-                    hint=did_you_mean(name.lexeme, names, given),
+                    hint=did_you_mean(name.lexeme, names, others),
                 )

@@ -1,1 +1,1 @@
-"""The engine of several machines: IceGrid starts, watches and ends the processes; what it lacks is added here."""
+"""The engine for several machines: IceGrid starts, watches and ends processes, and this package adds what it lacks."""

@@ -1,7 +1,8 @@
-"""IceGrid's daemons: the registry and the nodes of this machine are started here, others by a script.
+"""IceGrid's daemons: the registry and the nodes of a deployment.
 
-The script of a host holds all that its node needs, the deployment's key too, and is given to bash on that host: over
-SSH, or by hand with the command that is shown. It starts nothing that runs already.
+A node is started by a script, which bash runs on the node's host: for another host over SSH, or by hand with a command
+that the user is shown. The script contains all that the node needs, including the deployment's key, and does nothing if
+the node already runs.
 """
 
 from __future__ import annotations
@@ -18,9 +19,9 @@ import msgspec
 from robocomp_yaml import resources
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy.icegrid import settings
-from robocomp_yaml.deploy.icegrid.places import Places, Registry
+from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry
 from robocomp_yaml.deploy.local.procfs import MARK
-from robocomp_yaml.network.network import LOOPBACK, Host
+from robocomp_yaml.network.network import LOOPBACK, NetworkHost
 from robocomp_yaml.source.properties import entry_line
 
 
@@ -28,35 +29,35 @@ def as_text(properties: Mapping[str, str]) -> str:
     return "".join(entry_line(key, value) + "\n" for key, value in properties.items())
 
 
-def start_registry(places: Places, registry: Registry) -> None:
-    """Starts the registry, and what starts it again after a crash. Raises OSError."""
-    own = places.registry_folder
+def start_registry(files: GridFiles, registry: Registry) -> None:
+    """Starts the registry under its guard, which restarts it after a crash. Raises OSError."""
+    own = files.registry_folder
     for path in (own, f"{own}/data"):
         os.makedirs(path, mode=0o700, exist_ok=True)
-    text = as_text(settings.of_registry(places, registry))
-    own_folder.write(places.folder, "state/icegrid/registry/settings", text)
-    own_folder.write(places.folder, "state/icegrid/registry/guard", resources.text("templates/icegrid/guard"))
+    text = as_text(settings.of_registry(files, registry))
+    own_folder.write(files.folder, "state/icegrid/registry/settings", text)
+    own_folder.write(files.folder, "state/icegrid/registry/guard", resources.text("templates/icegrid/guard"))
     command = ["bash", f"{own}/guard", own, "icegridregistry", f"--Ice.Config={own}/settings"]
     started = subprocess.Popen(
-        command, env={**os.environ, MARK: f"{places.folder}:"}, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+        command, env={**os.environ, MARK: f"{files.folder}:"}, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL, start_new_session=True, cwd="/",
     )  # fmt: skip
-    started.returncode = 0  # it stays when this process ends, and nobody waits for it
+    started.returncode = 0  # it goes on when this process ends, which does not wait for it
 
 
 def end(folder: str) -> None:
-    """Asks the daemon of this folder to end, with what would start it again."""
+    """Sends SIGTERM to the guard of the daemon of this folder, which ends the daemon."""
     _signal(folder, "pid", f"{folder}/guard", signal.SIGTERM)
 
 
 def kill(folder: str) -> None:
-    """Kills the daemon of this folder, which does not end when it is asked, and what would start it again."""
+    """Kills the daemon of this folder and its guard."""
     _signal(folder, "pid", f"{folder}/guard", signal.SIGKILL)
     _signal(folder, "program", f"--Ice.Config={folder}/settings", signal.SIGKILL)
 
 
 def _signal(folder: str, file_name: str, word: str, number: int) -> None:
-    """To the process whose number the file holds, if it still is the one with this word in its command."""
+    """Sends a signal to the process whose pid is in the file, if this word is in its command: a pid can be reused."""
     try:
         with open(f"{folder}/{file_name}", encoding="ascii") as file:
             pid = int(file.read())
@@ -68,7 +69,7 @@ def _signal(folder: str, file_name: str, word: str, number: int) -> None:
 
 
 def last_words(folder: str) -> str:
-    """The last line of a daemon's log."""
+    """The last line of a daemon's log, or ''."""
     try:
         with open(f"{folder}/log", encoding="utf-8", errors="replace") as file:
             return next((line.strip() for line in reversed(file.readlines()) if line.strip()), "")
@@ -76,48 +77,48 @@ def last_words(folder: str) -> str:
         return ""
 
 
-def write_script(places: Places, host: Host, registry: Registry) -> str:
+def write_script(files: GridFiles, host: NetworkHost, registry: Registry) -> str:
     """The path of the script that starts the host's node."""
     address = "127.0.0.1" if host.address == LOOPBACK else host.address
     facts = {
-        "folder": places.folder,
+        "folder": files.folder,
         "host": host.name,
-        "certificate": _text(places.certificate),
-        "key": _text(places.key),
-        "settings": as_text(settings.of_node(places, host.name, address, registry)),
+        "certificate": _text(files.certificate),
+        "key": _text(files.key),
+        "settings": as_text(settings.of_node(files, host.name, address, registry)),
         "run": resources.text("templates/icegrid/run"),
         "guard": resources.text("templates/icegrid/guard"),
     }
     head = "".join(f"{name}={shlex.quote(text.rstrip())}\n" for name, text in facts.items())
     path = f"state/icegrid/hosts/{host.name}.sh"
-    own_folder.write(places.folder, path, head + resources.text("templates/icegrid/node"))
-    return f"{places.folder}/{path}"
+    own_folder.write(files.folder, path, head + resources.text("templates/icegrid/node"))
+    return f"{files.folder}/{path}"
 
 
-class Start(msgspec.Struct, frozen=True):
-    """What became of starting a node: `reason` why it failed, else ''; and whether it ran already."""
+class NodeStart(msgspec.Struct, frozen=True):
+    """The result of starting a node. `reason` is why that failed, or ''. `was_running` is True if it already ran."""
 
     reason: str = ""
-    was_there: bool = False
+    was_running: bool = False
 
 
-def outcome(code: int | None, output: str, errors: str) -> Start:
-    """What a node's script has said."""
+def outcome(code: int | None, output: str, errors: str) -> NodeStart:
+    """The result of a node's script, from its exit code and its output."""
     reason = (errors.strip() or "the script that starts it failed") if code else ""
-    return Start(reason, output.rstrip().endswith("already"))
+    return NodeStart(reason, output.rstrip().endswith("already"))
 
 
-def start_node_here(script: str) -> Start:
+def start_local_node(script: str) -> NodeStart:
     """Starts a node on this machine."""
     with open(script, "rb") as file:
         done = subprocess.run(["bash", "-s"], stdin=file, capture_output=True, text=True, check=False, cwd="/")
     return outcome(done.returncode, done.stdout, done.stderr)
 
 
-def by_hand(script: str, host: Host) -> str:
+def by_hand(script: str, host: NetworkHost) -> str:
     """The command that starts a node on another host."""
-    where = f"{host.user}@{host.address}" if host.user else host.address
-    return f"ssh {where} bash -s < {shlex.quote(script)}"
+    login = f"{host.user}@{host.address}" if host.user else host.address
+    return f"ssh {login} bash -s < {shlex.quote(script)}"
 
 
 def _text(path: str) -> str:
@@ -126,7 +127,7 @@ def _text(path: str) -> str:
 
 
 def is_alive(folder: str) -> bool:
-    """Whether the daemon of this folder, or what starts it again, runs on this machine."""
+    """Whether the daemon of this folder, or its guard, runs on this machine."""
     try:
         lock = os.open(f"{folder}/lock", os.O_RDONLY | os.O_CLOEXEC)
     except OSError:

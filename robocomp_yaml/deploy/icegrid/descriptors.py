@@ -1,11 +1,11 @@
 """A network's processes as IceGrid's descriptors.
 
-Each process is a server on the node named after its host, started through the `run` script that the node brought, and
-by nobody but us: IceGrid knows no start order. No server opens Ice.Admin: programs that are not Ice could not, and one
-that does not would stay "activating".
+Each process is a server on the node with the name of its host. The node's `run` script starts it, and only rcyaml
+activates it, because IceGrid has no start order. No server enables Ice.Admin: a program that does not use Ice could
+not, and a server that is expected to and does not would stay "activating".
 
-IceGrid replaces `${…}` in every string, expands `$NAME` in variables of the environment, and drops empty arguments:
-words get a letter before them, and the configuration's text is encoded.
+IceGrid replaces `${…}` in every string, expands `$NAME` in environment variables, and drops empty arguments: therefore
+each argument of `run` begins with a letter, and texts are encoded.
 """
 
 from __future__ import annotations
@@ -19,19 +19,19 @@ from typing import Any
 import IceGrid
 
 from robocomp_yaml.deploy.engine import STOP_WITHIN
-from robocomp_yaml.deploy.icegrid.places import KEEPER, Places
+from robocomp_yaml.deploy.icegrid.grid_files import KEEPER, GridFiles
 from robocomp_yaml.deploy.local.procfs import MARK
-from robocomp_yaml.deploy.spec import Spec
+from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.network.network import ICESTORM, Process
 from robocomp_yaml.source import properties
 
 LONGEST_CONFIG = 100_000
-"""Bytes of a configuration that can be sent to another host: Linux limits a variable to 128 KiB."""
+"""The maximum size in bytes of a configuration for another host: Linux limits a variable to 128 KiB."""
 
 _KEEPER_MODULE = "robocomp_yaml.deploy.icegrid.keeper"
-# The processes that are being started go first: while a command changes the deployment, it waits for a while.
+# While a command changes the deployment, the keeper waits for a moment, so that starting processes are faster.
 _KEEPER_SCRIPT = 'flock -s -w 3 -- "$1/state" true; shift; exec nice "$@"'
-# Of the children of the node, whose child this is too, those that run such a process of the deployment in a folder.
+# Ends those children of the node that are `run` scripts of these processes. The node is also the parent of this script.
 _ENDER_SCRIPT = """\
 folder=$1; shift
 for process in /proc/[0-9]*; do
@@ -46,32 +46,33 @@ _SERVICE = "IceBox.Service."
 _AFTER_KILL = 10  # seconds that IceGrid itself waits, after what `run` waits
 
 
-def server(places: Places, spec: Spec, user: str, number: int, *, is_here: bool) -> Any:
-    """The descriptor of a process; its configuration travels in it to another host. `number` is that of its rule."""
+def server(files: GridFiles, spec: ProcessSpec, user: str, number: int, *, is_local: bool) -> Any:
+    """The descriptor of a process. For another host it contains the configuration. `number` is the number of its
+    restart rule."""
     process = spec.process
     is_storm = process.kind == ICESTORM and process.config is not None
-    words = [process.name, places.folder, *(f"f{path}" for path in process.folders)]
+    words = [process.name, files.folder, *(f"f{path}" for path in process.folders)]
     environment = [f"RCYAML_STOP_WITHIN={STOP_WITHIN:g}", f"RCYAML_RESTART={restart_rule(process, number)}"]
     for place, variable in enumerate(process.env):
         if variable.source:
             words.append(f"s{variable.name}={variable.source}")
         elif variable.file:
             words.append(f"r{variable.name}={variable.file}")
-        else:  # in the environment from the beginning: everybody can see the words of a command
+        else:  # in the environment, because the words of a command are visible to everybody
             words.append(f"e{place}")
             environment.append(f"RCYAML_ENTRY_{place}={encoded(f'{variable.name}={variable.value}')}")
     command = spec.command
     if is_storm:
         words.append("k")  # IceGrid writes the configuration of an IceBox and its services itself
         command = command[:1]
-    elif process.config and not is_here:
+    elif process.config and not is_local:
         words.append(f"c{spec.config_path}")
         environment.append(f"RCYAML_CONFIG={encoded(process.config.text)}")
     words += [f"={part}" for part in command]
     facts = _facts(
         process.name, "setpriv", ["--pdeathsig", "KILL", "--", "${node.data}/../run", *map(_literal, words)],
         pwd=_literal(process.cwd), envs=environment, user=user, activation="manual",
-        logs=[_literal(places.log(process.name)), _literal(places.status(process.name))],
+        logs=[_literal(files.log(process.name)), _literal(files.status(process.name))],
         deactivationTimeout=f"{STOP_WITHIN + _AFTER_KILL:g}",
         propertySet=_property_set(_QUIET),
     )  # fmt: skip
@@ -81,22 +82,23 @@ def server(places: Places, spec: Spec, user: str, number: int, *, is_here: bool)
     return IceGrid.ServerDescriptor(**facts)
 
 
-def keeper(places: Places, user: str) -> Any:
-    """The server that brings processes back when their node has come back; IceGrid itself restarts it."""
-    words = (places.folder, sys.executable, "-m", _KEEPER_MODULE, places.folder)
+def keeper(files: GridFiles, user: str) -> Any:
+    """The keeper: a server that restarts processes when their node has come back. IceGrid itself restarts the
+    keeper."""
+    words = (files.folder, sys.executable, "-m", _KEEPER_MODULE, files.folder)
     facts = _facts(
         KEEPER, "setpriv",
         ["--pdeathsig", "KILL", "--", "bash", "-c", _KEEPER_SCRIPT, "bash", *map(_literal, words)],
         pwd="/", user=user, activation="always", deactivationTimeout="5", propertySet=_property_set(_QUIET),
-        envs=[f"PYTHONPATH={package_path()}", f"{MARK}={places.folder}:"], logs=[],
+        envs=[f"PYTHONPATH={package_path()}", f"{MARK}={files.folder}:"], logs=[],
     )  # fmt: skip
     return IceGrid.ServerDescriptor(**facts)
 
 
-def ender(places: Places, names: Iterable[str], user: str) -> Any:
-    """A server that ends these processes on its host, which IceGrid no longer knows."""
+def ender(files: GridFiles, names: Iterable[str], user: str) -> Any:
+    """A server that ends these processes on its host, which IceGrid has forgotten."""
     facts = _facts(
-        f"{KEEPER}.ender", "bash", ["-c", *map(_literal, (_ENDER_SCRIPT, "bash", places.folder, *names))],
+        f"{KEEPER}.ender", "bash", ["-c", *map(_literal, (_ENDER_SCRIPT, "bash", files.folder, *names))],
         pwd="/", user=user, activation="manual", deactivationTimeout="5", propertySet=_property_set(_QUIET), envs=[],
         logs=[],
     )  # fmt: skip
@@ -104,12 +106,12 @@ def ender(places: Places, names: Iterable[str], user: str) -> Any:
 
 
 def package_path() -> str:
-    """Where Python finds this package and what it has found so far."""
+    """A PYTHONPATH with which Python imports this package and its dependencies."""
     return os.pathsep.join(path for path in sys.path if path)
 
 
 def application(name: str, servers: Iterable[tuple[str, Any]]) -> Any:
-    """`servers` are pairs of a node and a descriptor."""
+    """The descriptor of an application. `servers` are pairs of a node's name and a descriptor."""
     nodes: dict[str, Any] = {}
     for host, one in servers:
         if host not in nodes:
@@ -124,28 +126,29 @@ def application(name: str, servers: Iterable[tuple[str, Any]]) -> Any:
 
 
 def restart_rule(process: Process, number: int) -> str:
-    """What `run` reads: a number that grows with each new rule, the policy, and times in milliseconds."""
+    """The restart rule in the format of `run`: its number, which grows with each new rule, the policy, the maximum
+    number of restarts, and times in milliseconds."""
     rule = process.restart
     times = f"{rule.delay * 1000:.0f} {rule.longest * 1000:.0f} {rule.tries} {rule.window * 1000:.0f}"
     return f"{number} {rule.policy} {times}"
 
 
 def encoded(text: str) -> str:
-    """For `printf %b`: without the dollars that IceGrid would replace."""
+    """A text for `printf %b`, without the dollars that IceGrid would replace."""
     return text.replace("\\", "\\\\").replace("$", "\\0044")
 
 
-# A proxy with an `ssl` endpoint stands in every configuration that IceGrid writes: it must be understood.
+# IceGrid writes a proxy with an `ssl` endpoint into every configuration, which needs the plug-in.
 _QUIET = {"Ice.Admin.Enabled": "0", "Ice.Plugin.IceSSL": "IceSSL:createIceSSL"}
 
 
 def _literal(text: str) -> str:
-    """With what IceGrid would take for a variable escaped."""
+    """A text in which IceGrid replaces no variable."""
     return re.sub(r"(\$+)\{", lambda found: found[1] * 2 + "{", text)
 
 
 def _services(text: str) -> Iterable[Any]:
-    """The services of an IceBox whose configuration is given."""
+    """The services in the configuration of an IceBox."""
     values = properties.read(text).values
     own = {key: value for key, value in values.items() if not key.startswith("IceBox.")}
     for key, entry in values.items():
@@ -160,7 +163,7 @@ def _services(text: str) -> Iterable[Any]:
 
 
 def _facts(name: str, exe: str, options: list[str], **facts: Any) -> dict[str, Any]:
-    """Every member that IceGrid's Python mapping wants to be set."""
+    """The members of a server's descriptor: IceGrid's Python mapping requires all."""
     return {
         "adapters": [], "dbEnvs": [], "description": "", "id": name, "exe": exe, "iceVersion": "", "options": options,
         "activationTimeout": "", "applicationDistrib": False, "distrib": _nothing_to_distribute(),

@@ -1,49 +1,52 @@
-"""An administrator's session with a deployment's registry, in calls that wait for their answers."""
+"""An administrator's session with a deployment's registry, in blocking calls."""
 
 from __future__ import annotations
 
 import atexit
 import contextlib
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 import Ice
 import IceGrid
 
+from robocomp_yaml.deploy.engine import Line
 from robocomp_yaml.deploy.icegrid import settings
-from robocomp_yaml.deploy.icegrid.places import Places, Registry
+from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry
+from robocomp_yaml.deploy.local.log_reader import line_of
+from robocomp_yaml.deploy.time_limit import until
 
 _RETRY = 0.01
-_LOOK_WITHIN = 4000  # milliseconds
+_READ_WITHIN = 4000  # milliseconds
 
 
 class GridFailed(Exception):
-    """IceGrid refused, or does not answer; says why in words."""
+    """A call of IceGrid failed; the text is the reason."""
 
 
 class Unreachable(GridFailed):
-    """The registry, or the node that is asked for, does not answer."""
+    """The registry or a node does not answer."""
 
 
-class Grid:
-    """A session. Its methods may be called from several threads; they raise GridFailed."""
+class GridSession:
+    """A session. Its methods are thread-safe, and raise GridFailed."""
 
-    def __init__(self, places: Places, registry: Registry) -> None:
+    def __init__(self, files: GridFiles, registry: Registry) -> None:
+        self.files = files
         data = Ice.InitializationData()
         data.properties = Ice.createProperties()
-        for key, value in settings.of_client(places).items():
+        for key, value in settings.of_client(files).items():
             data.properties.setProperty(key, value)
-        data.logger = _Silent()
         self.communicator = Ice.initialize(data)
-        atexit.register(self.communicator.destroy)  # also where a command fails before it closes this
+        atexit.register(self.communicator.destroy)  # also if a command fails before it closes the session
         try:
             proxy = self.communicator.stringToProxy(settings.registry_proxy(registry))
             self.session = IceGrid.RegistryPrx.uncheckedCast(proxy).createAdminSession("rcyaml", "")
             self.admin = self.session.getAdmin()
-            # What only looks is soon over, or its host does not answer.
-            self._looks = IceGrid.AdminPrx.uncheckedCast(self.admin.ice_invocationTimeout(_LOOK_WITHIN))
-            self._reads = IceGrid.AdminSessionPrx.uncheckedCast(self.session.ice_invocationTimeout(_LOOK_WITHIN))
+            # Calls that only read are fast, unless a host does not answer.
+            self._reads = IceGrid.AdminPrx.uncheckedCast(self.admin.ice_invocationTimeout(_READ_WITHIN))
+            self._read_session = IceGrid.AdminSessionPrx.uncheckedCast(self.session.ice_invocationTimeout(_READ_WITHIN))
         except Ice.Exception as error:
             self._destroy()
             raise Unreachable(in_words(error)) from error
@@ -58,62 +61,55 @@ class Grid:
         self.communicator.destroy()
 
     def has_node(self, host: str) -> bool:
-        try:
-            answer: bool = self._looks.pingNode(host)
-        except (IceGrid.NodeNotExistException, Ice.InvocationTimeoutException):
-            return False
-        except Ice.Exception as error:
-            raise Unreachable(in_words(error)) from error
-        return answer
+        with _failures(), contextlib.suppress(IceGrid.NodeNotExistException, Ice.InvocationTimeoutException):
+            answer: bool = self._reads.pingNode(host)
+            return answer
+        return False
 
     def user_of(self, host: str) -> str:
-        """The user as whom a node runs: its data folder is named after them."""
+        """The user of a node, whose name is the name of the node's data folder."""
         info = self._call(self.admin.getNodeInfo, host)
         name: str = info.dataDir.rstrip("/").rpartition("/")[2]
         return name
 
     def descriptor(self, application: str) -> Any:
-        """What is deployed; None where nothing is."""
-        try:
+        """The deployed application, None if there is none."""
+        with _failures(), contextlib.suppress(IceGrid.ApplicationNotExistException):
             return self.admin.getApplicationInfo(application).descriptor
-        except IceGrid.ApplicationNotExistException:
-            return None
-        except Ice.Exception as error:
-            raise GridFailed(in_words(error)) from error
+        return None
 
     def deploy(self, descriptor: Any, *, is_new: bool) -> None:
-        """Restarts those of the servers that run whose descriptors differ from before, and leaves all others alone."""
+        """Deploys an application. Running servers whose descriptors changed restart; all others go on."""
         if is_new:
             self._call(self.admin.addApplication, descriptor)
         else:
             self._call(self.admin.syncApplication, descriptor)
 
     def remove(self, application: str) -> None:
-        with contextlib.suppress(IceGrid.ApplicationNotExistException):
-            self._call(self.admin.removeApplication, application)
+        with _failures(), contextlib.suppress(IceGrid.ApplicationNotExistException):
+            self.admin.removeApplication(application)
 
     def states(self, names: Iterable[str]) -> dict[str, tuple[str, int]]:
-        """State and pid of each server; '' for one whose node does not answer, and one that there is not."""
-        asked = [(name, self._looks.getServerPidAsync(name)) for name in names]
-        pids = {name: self._answer(pid, -1) for name, pid in asked}
-        # What has a pid is active, or on its way there or back.
-        rest = {name: self._looks.getServerStateAsync(name) for name, pid in pids.items() if pid == 0}
+        """The state and the pid of each server. The state is '' if its node does not answer, or the server is
+        unknown."""
+        calls = [(name, self._reads.getServerPidAsync(name)) for name in names]
+        pids = {name: self._answer(pid, -1) for name, pid in calls}
+        # A server with a pid is active, activating or deactivating.
+        rest = {name: self._reads.getServerStateAsync(name) for name, pid in pids.items() if pid == 0}
         states = {name: str(self._answer(state, "")) for name, state in rest.items()}
         return {name: (states.get(name, "Active" if pid > 0 else ""), max(pid, 0)) for name, pid in pids.items()}
 
     def _answer(self, future: Any, missing: Any) -> Any:
-        try:
+        absent = IceGrid.NodeUnreachableException, IceGrid.ServerNotExistException, Ice.InvocationTimeoutException
+        with _failures(), contextlib.suppress(*absent):
             return future.result()
-        except (IceGrid.NodeUnreachableException, IceGrid.ServerNotExistException, Ice.InvocationTimeoutException):
-            return missing
-        except Ice.Exception as error:
-            raise Unreachable(in_words(error)) from error
+        return missing
 
     def start(self, name: str) -> None:
         try:
             self._call(self.admin.startServer, name)
         except GridFailed:
-            # The keeper may have been faster.
+            # The keeper may have started it.
             if self.states([name])[name][0] not in ("Active", "Activating"):
                 raise
 
@@ -124,50 +120,54 @@ class Grid:
             if self.states([name])[name][0] != "Inactive":
                 raise
 
+    def run(self, name: str, within: float) -> bool:
+        """Starts a server and waits until it has ended. Returns whether it has, within so many seconds."""
+        self.start(name)
+        return until(lambda: self.states([name])[name][0] in ("Inactive", ""), within)
+
     def read(self, name: str, path: str) -> list[str]:
-        """The lines of one of a process's files, on its host; none where it is not there."""
-        try:
-            iterator = self._reads.openServerLog(name, path, -1)
-        except IceGrid.FileNotAvailableException:
-            return []
-        except Ice.Exception as error:
-            raise Unreachable(in_words(error)) from error
-        try:
-            lines: list[str] = []
-            while True:
-                is_end, more = iterator.read(1 << 16)
-                lines += more
-                if is_end:
-                    return lines
-        except Ice.Exception as error:
-            raise Unreachable(in_words(error)) from error
-        finally:
-            with contextlib.suppress(Ice.Exception):
-                iterator.destroy()
+        """The lines of a file of a process, on its host; none if the file is missing."""
+        lines: list[str] = []
+        with _failures(), contextlib.suppress(IceGrid.FileNotAvailableException):
+            iterator = self._read_session.openServerLog(name, path, -1)
+            try:
+                is_end = False
+                while not is_end:
+                    is_end, more = iterator.read(1 << 16)
+                    lines += more
+            finally:
+                with contextlib.suppress(Ice.Exception):
+                    iterator.destroy()
+        return lines
 
     def shut_down_node(self, host: str) -> None:
         with contextlib.suppress(GridFailed):
             self._call(self.admin.shutdownNode, host)
 
     def _call(self, operation: Callable[..., Any], *arguments: Any) -> Any:
-        try:
+        with _failures():
             return operation(*arguments)
-        except IceGrid.NodeUnreachableException as error:
-            raise Unreachable(f"the IceGrid node of '{error.name}' does not answer") from error
-        except IceGrid.ApplicationNotExistException:
-            raise
-        except Ice.UserException as error:
-            raise GridFailed(in_words(error)) from error
-        except Ice.Exception as error:
-            raise Unreachable(in_words(error)) from error
 
 
-def reach(places: Places, registry: Registry, within: float) -> Grid:
-    """A session, tried for so many seconds. Raises Unreachable."""
+@contextlib.contextmanager
+def _failures() -> Iterator[None]:
+    """Raises GridFailed for errors of IceGrid, and Unreachable if the registry or a node does not answer."""
+    try:
+        yield
+    except IceGrid.NodeUnreachableException as error:
+        raise Unreachable(f"the IceGrid node of '{error.name}' does not answer") from error
+    except Ice.UserException as error:
+        raise GridFailed(in_words(error)) from error
+    except Ice.Exception as error:
+        raise Unreachable(in_words(error)) from error
+
+
+def reach(files: GridFiles, registry: Registry, within: float) -> GridSession:
+    """A new session, tried for so many seconds. Raises Unreachable."""
     until = time.monotonic() + within
     while True:
         try:
-            return Grid(places, registry)
+            return GridSession(files, registry)
         except Unreachable:
             if time.monotonic() > until:
                 raise
@@ -175,28 +175,30 @@ def reach(places: Places, registry: Registry, within: float) -> Grid:
 
 
 def in_words(error: Exception) -> str:
-    """What IceGrid says is wrong, else what kind of exception it is."""
+    """The reason that IceGrid reports, else the name of the exception's class."""
     reason = getattr(error, "reason", "") or str(error)
     return " ".join(reason.split()).rstrip(".") or type(error).__name__
 
 
-class _Silent(Ice.Logger):  # type: ignore[misc]
-    """Connections that fail are told as diagnostics."""
+class GridReader:
+    """Reads a log on another host. Lines that are written while the node does not answer are read later."""
 
-    def print(self, message: str) -> None:
-        return
+    def __init__(self, grid: GridSession, name: str) -> None:
+        self._grid, self._name = grid, name
+        self._seen = self._lines()
 
-    def trace(self, category: str, message: str) -> None:
-        return
+    def last(self, count: int) -> list[Line]:
+        return [line_of(self._name, text) for text in self._seen[-count:]] if count > 0 else []
 
-    def warning(self, message: str) -> None:
-        return
+    def new(self) -> list[Line]:
+        lines = self._lines()
+        is_same_file = lines[:1] == self._seen[:1] and len(lines) >= len(self._seen)
+        fresh = lines[len(self._seen) :] if is_same_file else lines
+        self._seen = lines or self._seen
+        return [line_of(self._name, text) for text in fresh]
 
-    def error(self, message: str) -> None:
-        return
-
-    def getPrefix(self) -> str:
-        return ""
-
-    def cloneWithPrefix(self, prefix: str) -> _Silent:
-        return self
+    def _lines(self) -> list[str]:
+        try:
+            return [line for line in self._grid.read(self._name, self._grid.files.log(self._name)) if line]
+        except GridFailed:
+            return []

@@ -1,9 +1,9 @@
 """The keeper of one deployment, a server of its own: `python -m robocomp_yaml.deploy.icegrid.keeper FOLDER`.
 
-A process that ends is started again on its own host, by `run`, with or without a registry. What only somebody outside
-can mend is the keeper's: the node or the `run` script of a process was killed. It starts what is wanted and neither
-runs nor ended for good, with a delay that doubles while that fails. And it ends what is left on a host that did not
-answer when it was moved away from there.
+A process that ends is restarted on its own host, by `run`, without the registry. The keeper does what `run` cannot do,
+because the node or `run` itself was killed: it starts each desired process that neither runs nor has ended for good,
+with a delay that doubles while this fails. It also ends processes that were moved away from a host which did not answer
+at that time.
 """
 
 from __future__ import annotations
@@ -18,19 +18,19 @@ import Ice
 import IceGrid
 
 from robocomp_yaml.deploy.icegrid import leftovers
-from robocomp_yaml.deploy.icegrid.grid import Grid, GridFailed, Unreachable
-from robocomp_yaml.deploy.icegrid.places import Places
+from robocomp_yaml.deploy.icegrid.grid import GridFailed, GridSession, Unreachable
+from robocomp_yaml.deploy.icegrid.grid_files import GridFiles
 from robocomp_yaml.deploy.icegrid.status import is_over
-from robocomp_yaml.deploy.local.obstacles import is_here
+from robocomp_yaml.deploy.local.obstacles import is_local
 from robocomp_yaml.deploy.plan import in_order
 from robocomp_yaml.diag import terminal
 
-_PERIOD = 2.0  # seconds between two looks without an event
+_PERIOD = 2.0  # seconds between two checks without an event
 _SHORTEST, _LONGEST = 0.1, 10.0  # seconds between two tries to start a process
 
 
-class Nodes(IceGrid.NodeObserver):  # type: ignore[misc]
-    """Notes that something changed."""
+class NodeWatcher(IceGrid.NodeObserver):  # type: ignore[misc]
+    """Sets an event when a node or a server changes."""
 
     def __init__(self, changed: threading.Event) -> None:
         self._changed = changed
@@ -53,21 +53,21 @@ class Nodes(IceGrid.NodeObserver):  # type: ignore[misc]
 
 
 class Keeper:
-    """`over` is set when the keeper is to end."""
+    """The keeper's loop. `over` ends it."""
 
     def __init__(self, folder: str) -> None:
-        self.places = Places(folder)
+        self.files = GridFiles(folder)
         self.over = threading.Event()
         self._changed = threading.Event()
         self._tries: dict[str, tuple[float, float]] = {}
 
     def run(self) -> None:
         while not self.over.is_set():
-            registry = self.places.registry()
+            registry = self.files.registry()
             if registry is None:
                 return
             try:
-                grid = Grid(self.places, registry)
+                grid = GridSession(self.files, registry)
             except Unreachable:
                 self.over.wait(0.2)
                 continue
@@ -83,10 +83,10 @@ class Keeper:
         self.over.set()
         self._changed.set()
 
-    def _watch(self, grid: Grid) -> None:
-        """Until the keeper is to end. Raises GridFailed or Ice.Exception when the registry is gone."""
+    def _watch(self, grid: GridSession) -> None:
+        """Watches until the keeper ends. Raises GridFailed or Ice.Exception if the registry does not answer."""
         adapter = grid.communicator.createObjectAdapter("")
-        observer = adapter.addWithUUID(Nodes(self._changed)).ice_getIdentity()
+        observer = adapter.addWithUUID(NodeWatcher(self._changed)).ice_getIdentity()
         adapter.activate()
         connection = grid.session.ice_getCachedConnection()
         connection.setAdapter(adapter)
@@ -97,16 +97,16 @@ class Keeper:
             self._changed.wait(self._pause())
             self._changed.clear()
             if not self.over.is_set():
-                self._bring_back(grid)
-                leftovers.end_all(grid, self.places)
+                self._restart(grid)
+                leftovers.end_all(grid)
 
     def _pause(self) -> float:
         now = time.monotonic()
         return max(0.0, min([_PERIOD, *(at - now for at, _ in self._tries.values())]))
 
-    def _bring_back(self, grid: Grid) -> None:
-        wanted = self.places.wanted()
-        specs = {name: spec for name, spec in self.places.specs().items() if spec and name in wanted}
+    def _restart(self, grid: GridSession) -> None:
+        desired = self.files.desired()
+        specs = {name: spec for name, spec in self.files.specs().items() if spec and name in desired}
         states = grid.states(specs)
         now = time.monotonic()
         for name in in_order({name: spec.process.after for name, spec in specs.items()}):
@@ -114,14 +114,14 @@ class Keeper:
                 self._tries.pop(name, None)
                 continue
             at, delay = self._tries.get(name, (now, _SHORTEST / 2))
-            if at > now or is_over(grid, self.places, name, here=is_here(specs[name].address)):
+            if at > now or is_over(grid, name, is_local=is_local(specs[name].address)):
                 continue
             self._tries[name] = (now + min(2 * delay, _LONGEST), min(2 * delay, _LONGEST))
-            if name not in self.places.wanted():
-                continue  # it was stopped meanwhile
+            if name not in self.files.desired():
+                continue  # it was stopped in the meantime
             try:
                 grid.start(name)
-                terminal.say(f"{name}: started again", err=True)
+                terminal.say(f"{name}: restarted", err=True)
             except Unreachable:
                 raise
             except GridFailed as error:
@@ -134,7 +134,7 @@ def main(folder: str) -> None:
     keeper = Keeper(folder)
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: keeper.end())
-    # Signals are seen by the main thread, which must not be deep in a call then.
+    # The main thread handles signals, and therefore must not block in a call.
     worker = threading.Thread(target=keeper.run, daemon=True)
     worker.start()
     while worker.is_alive():

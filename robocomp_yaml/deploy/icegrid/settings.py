@@ -1,7 +1,7 @@
-"""The properties of IceGrid's daemons, and the key by which those of one deployment know each other.
+"""The properties of IceGrid's daemons, and the key of a deployment.
 
-Registry, nodes, keeper and commands of a deployment talk over TLS only, and each must show the deployment's own
-certificate: nobody else can add a node, start a program or look at a configuration, also where the registry listens on
+Registry, nodes, keeper and commands of a deployment communicate over TLS only, and each needs the deployment's own
+certificate. So nobody else can add a node, start a program or read a configuration, although the registry listens on
 the network.
 """
 
@@ -11,10 +11,10 @@ import os
 import subprocess
 import tempfile
 
-from robocomp_yaml.deploy.icegrid.places import Places, Registry
+from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry
 
 INSTANCE = "rcyaml"
-# Always: hosts have clocks that are wrong, or set while all runs. Only `openssl ca` can be told since when.
+# Valid at any time, because clocks of hosts can be wrong. Only `openssl ca` lets one set the first day.
 _AUTHORITY = """\
 [ca]
 default_ca = own
@@ -33,29 +33,29 @@ commonName = supplied
 basicConstraints = critical, CA:true
 subjectKeyIdentifier = hash
 """
-_SESSION_TIMEOUT = "10"  # seconds after which a host that says nothing counts as lost
+_SESSION_TIMEOUT = "10"  # seconds after which a silent host counts as lost
 
 
-# A host that is cut off says nothing: calls to it fail after some seconds, and not after TCP's quarter of an hour. One
-# that works on a call sends heartbeats all the while.
+# Calls to a host without a connection fail after some seconds, not after TCP's fifteen minutes. During a call, a host
+# sends heartbeats.
 _PATIENCE = {"Ice.ACM.Timeout": "4", "Ice.Override.ConnectTimeout": "3000"}
 
 
-def make_key(places: Places) -> None:
-    """The deployment's key and certificate, made once. Raises OSError where openssl is not there or fails."""
-    if os.path.exists(places.key) and os.path.exists(places.certificate):
+def make_key(files: GridFiles) -> None:
+    """Creates the deployment's key and certificate, once. Raises OSError if openssl is missing or fails."""
+    if os.path.exists(files.key) and os.path.exists(files.certificate):
         return
-    os.makedirs(places.root, mode=0o700, exist_ok=True)
+    os.makedirs(files.root, mode=0o700, exist_ok=True)
     mask = os.umask(0o077)
     try:
-        with tempfile.TemporaryDirectory(dir=places.root) as folder:
+        with tempfile.TemporaryDirectory(dir=files.root) as folder:
             for name, text in (("settings", _AUTHORITY), ("database", "")):
                 with open(f"{folder}/{name}", "w", encoding="utf-8") as file:
                     file.write(text)
             _openssl(folder, "req", "-new", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes",
-                     "-subj", "/CN=rcyaml", "-keyout", places.key, "-out", "request")  # fmt: skip
-            _openssl(folder, "ca", "-batch", "-selfsign", "-notext", "-config", "settings", "-keyfile", places.key,
-                     "-in", "request", "-out", places.certificate)  # fmt: skip
+                     "-subj", "/CN=rcyaml", "-keyout", files.key, "-out", "request")  # fmt: skip
+            _openssl(folder, "ca", "-batch", "-selfsign", "-notext", "-config", "settings", "-keyfile", files.key,
+                     "-in", "request", "-out", files.certificate)  # fmt: skip
     finally:
         os.umask(mask)
 
@@ -65,11 +65,11 @@ def _openssl(folder: str, *words: str) -> None:
         ["openssl", *words], cwd=folder, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL
     )
     if done.returncode:
-        raise OSError(0, f"openssl makes no key: {done.stderr.strip()[-300:]}")
+        raise OSError(0, f"openssl cannot create a key: {done.stderr.strip()[-300:]}")
 
 
 def secured(key: str, certificate: str) -> dict[str, str]:
-    """What makes a program of Ice speak TLS as one of the deployment, and with nobody else."""
+    """The Ice properties for TLS with the deployment's certificate only."""
     return {
         "Ice.Plugin.IceSSL": "IceSSL:createIceSSL",
         "IceSSL.CertFile": certificate,
@@ -79,49 +79,50 @@ def secured(key: str, certificate: str) -> dict[str, str]:
     }
 
 
-def of_registry(places: Places, registry: Registry) -> dict[str, str]:
+def of_registry(files: GridFiles, registry: Registry) -> dict[str, str]:
     own = f"ssl -h {registry.address}"
     return {
-        **secured(places.key, places.certificate),
+        **secured(files.key, files.certificate),
         **_PATIENCE,
         "IceGrid.Registry.Client.ThreadPool.SizeMax": "64",
         "IceGrid.InstanceName": INSTANCE,
         "IceGrid.Registry.Client.Endpoints": f"{own} -p {registry.port}",
-        # No server registers: all proxies of a deployment are direct.
+        # No server registers, because all proxies of a deployment are direct.
         "IceGrid.Registry.Server.Endpoints": "ssl -h 127.0.0.1",
         "IceGrid.Registry.Internal.Endpoints": own,
-        # The certificate is what gives access.
+        # The certificate is the permission.
         "IceGrid.Registry.AdminPermissionsVerifier": f"{INSTANCE}/NullPermissionsVerifier",
         "IceGrid.Registry.NodeSessionTimeout": _SESSION_TIMEOUT,
-        "IceGrid.Registry.LMDB.Path": f"{places.registry_folder}/data",
+        "IceGrid.Registry.LMDB.Path": f"{files.registry_folder}/data",
         "IceGrid.Registry.LMDB.MapSize": "100",
     }
 
 
-def of_node(places: Places, host: str, address: str, registry: Registry) -> dict[str, str]:
-    own = f"{places.root}/nodes/{host}"
+def of_node(files: GridFiles, host: str, address: str, registry: Registry) -> dict[str, str]:
+    own = f"{files.root}/nodes/{host}"
     return {
         **secured(f"{own}/key.pem", f"{own}/certificate.pem"),
         **_PATIENCE,
         "Ice.Default.Locator": f"{INSTANCE}/Locator:{_endpoint(registry)}",
         "IceGrid.Node.Name": host,
         "IceGrid.Node.Endpoints": f"ssl -h {address}",
-        # A server is tied to the thread that started it: threads must not end.
+        # The kernel kills a server when the thread that started it ends: threads must not end.
         "Ice.ThreadPool.Client.ThreadIdleTime": "0",
         "Ice.ThreadPool.Server.ThreadIdleTime": "0",
         "IceGrid.Node.ThreadPool.ThreadIdleTime": "0",
     }
 
 
-def of_client(places: Places) -> dict[str, str]:
+def of_client(files: GridFiles) -> dict[str, str]:
     return {
-        **secured(places.key, places.certificate),
+        **secured(files.key, files.certificate),
         **_PATIENCE,
         "Ice.Default.InvocationTimeout": "30000",
         "Ice.RetryIntervals": "-1",
-        "Ice.ACM.Close": "2",  # only where an answer is awaited
+        "Ice.ACM.Close": "2",  # only while an answer is pending
         "Ice.ACM.Heartbeat": "3",  # always: the session lives as long as its connection
         "Ice.Warn.Connections": "0",
+        "Ice.LogFile": os.devnull,  # failures are reported as diagnostics
     }
 
 

@@ -1,4 +1,4 @@
-"""How a process is: IceGrid's state of its server, and what the `run` script tells of it on its host."""
+"""The status of processes, from IceGrid's states of servers and the status files of `run` scripts."""
 
 from __future__ import annotations
 
@@ -16,19 +16,19 @@ from robocomp_yaml.deploy.engine import (
     WAITING,
     Running,
 )
-from robocomp_yaml.deploy.icegrid.grid import Grid
-from robocomp_yaml.deploy.icegrid.places import Places
+from robocomp_yaml.deploy.icegrid.grid import GridSession
+from robocomp_yaml.deploy.icegrid.grid_files import GridFiles
 from robocomp_yaml.deploy.local import procfs
-from robocomp_yaml.deploy.local.obstacles import is_here
-from robocomp_yaml.deploy.spec import Spec
+from robocomp_yaml.deploy.local.obstacles import is_local
+from robocomp_yaml.deploy.spec import ProcessSpec
 
 _ALIVE = ("Active", "Activating", "Deactivating")
 _FINAL = (GIVEN_UP, ENDED)
 
 
-class Told(msgspec.Struct, frozen=True):
-    """What `run` tells: `runner` is its own pid, `since` milliseconds since its host started, `at` the microseconds of
-    its clock."""
+class RunStatus(msgspec.Struct, frozen=True):
+    """The status file of a `run` script. `runner` is the pid of the script, `pid` that of its process. The time of the
+    last change is `since`, in milliseconds since the host booted, and `at`, in microseconds of the host's clock."""
 
     state: str
     runner: int
@@ -39,18 +39,19 @@ class Told(msgspec.Struct, frozen=True):
     last_exit: str
 
 
-def of_text(text: str) -> Told | None:
+def of_text(text: str) -> RunStatus | None:
+    """The status in a text, None if the text is not valid."""
     parts = text.strip().split("|", 6)
     try:
-        return Told(parts[0], *map(int, parts[1:6]), parts[6])  # type: ignore[call-arg, arg-type]
+        return RunStatus(parts[0], *map(int, parts[1:6]), parts[6])  # type: ignore[call-arg, arg-type]
     except (IndexError, ValueError):
         return None
 
 
-def told(grid: Grid, places: Places, name: str, *, here: bool) -> Told | None:
-    """None where `run` has not said anything yet."""
-    path = places.status(name)
-    if not here:
+def run_status(grid: GridSession, name: str, *, is_local: bool) -> RunStatus | None:
+    """The status of a process by its `run`, None if there is none yet."""
+    path = grid.files.status(name)
+    if not is_local:
         return of_text("\n".join(grid.read(name, path)))
     try:
         with open(path, encoding="utf-8") as file:
@@ -59,22 +60,20 @@ def told(grid: Grid, places: Places, name: str, *, here: bool) -> Told | None:
         return None
 
 
-def is_over(grid: Grid, places: Places, name: str, *, here: bool) -> bool:
-    """Whether a process whose server is gone ended for good, by its policy."""
-    last = told(grid, places, name, here=here)
+def is_over(grid: GridSession, name: str, *, is_local: bool) -> bool:
+    """Whether a process has ended for good, by its policy."""
+    last = run_status(grid, name, is_local=is_local)
     return last is not None and last.state in _FINAL
 
 
-def observe(
-    grid: Grid, places: Places, specs: Mapping[str, Spec | None], hosts: Mapping[str, str]
-) -> dict[str, Running]:  # fmt: skip
-    """All processes as they are now; `hosts` are the names of those whose spec cannot be read. Of those whose `run` is
-    alive on this machine, IceGrid need not be asked."""
-    wanted = places.wanted()
-    here = {spec.address: is_here(spec.address) for spec in specs.values() if spec}
-    near = {name: told(grid, places, name, here=True) for name, spec in specs.items() if spec and here[spec.address]}
+def observe(grid: GridSession, specs: Mapping[str, ProcessSpec | None], hosts: Mapping[str, str]) -> dict[str, Running]:
+    """The actual state of all processes. `hosts` has the host of a process without a valid spec. If the `run` of a
+    process runs on this machine, its state does not need IceGrid."""
+    desired = grid.files.desired()
+    local = {spec.address: is_local(spec.address) for spec in specs.values() if spec}
+    near = {name: run_status(grid, name, is_local=True) for name, spec in specs.items() if spec and local[spec.address]}
     alive = procfs.table() if near else {}
-    runners = {name: last.runner for name, last in near.items() if last and _runs(places, name, last, alive)}
+    runners = {name: last.runner for name, last in near.items() if last and _is_alive(grid.files, name, last, alive)}
     states = {name: ("Active", runner) for name, runner in runners.items()}
     states |= grid.states(name for name in specs if name not in runners)
     found: dict[str, Running] = {}
@@ -82,32 +81,32 @@ def observe(
         state, runner = states[name]
         host = spec.process.host if spec else hosts.get(name, "")
         if not state:
-            found[name] = Running(name, spec, host, LOST if name in wanted else STOPPED)
+            found[name] = Running(name, spec, host, LOST if name in desired else STOPPED)
             continue
-        # What was asked for after it told something may have told more meanwhile.
-        last = near[name] if name in runners else told(grid, places, name, here=name in near)
-        found[name] = _seen(name, spec, host, state, runner, last, name in wanted, alive if name in near else None)
+        # IceGrid was asked after the status file was read, which may have changed.
+        last = near[name] if name in runners else run_status(grid, name, is_local=name in near)
+        found[name] = _running(name, spec, host, state, runner, last, name in desired, alive if name in near else None)
     return found
 
 
-def _runs(places: Places, name: str, last: Told, alive: Mapping[int, procfs.Entry]) -> bool:
-    """Whether the `run` that tells so has a process now; another program may have its number since."""
-    is_told = last.state in (RUNNING, WAITING) and last.runner in alive
-    return is_told and procfs.command(last.runner)[2:4] == [name, places.folder]
+def _is_alive(files: GridFiles, name: str, last: RunStatus, alive: Mapping[int, procfs.ProcessEntry]) -> bool:
+    """Whether the `run` of a status runs now: its pid can be reused."""
+    is_alive = last.state in (RUNNING, WAITING) and last.runner in alive
+    return is_alive and procfs.command(last.runner)[2:4] == [name, files.folder]
 
 
-def _seen(
-    name: str, spec: Spec | None, host: str, state: str, runner: int, last: Told | None, is_wanted: bool,
-    alive: dict[int, procfs.Entry] | None,
+def _running(
+    name: str, spec: ProcessSpec | None, host: str, state: str, runner: int, last: RunStatus | None, is_desired: bool,
+    alive: dict[int, procfs.ProcessEntry] | None,
 ) -> Running:  # fmt: skip
     if state in _ALIVE and (last is None or last.runner != runner or last.state not in (RUNNING, WAITING)):
         return Running(name, spec, host, RUNNING, runner)  # it has just been started
     if last is None:
-        return Running(name, spec, host, WAITING if is_wanted else STOPPED)
-    if state in _ALIVE or (last.state in _FINAL and is_wanted):
+        return Running(name, spec, host, WAITING if is_desired else STOPPED)
+    if state in _ALIVE or (last.state in _FINAL and is_desired):
         now = last.state
-    else:  # its runner or its node was killed, and the keeper will start it
-        now = WAITING if is_wanted else STOPPED
+    else:  # its `run` or its node was killed, and the keeper will restart it
+        now = WAITING if is_desired else STOPPED
     members = procfs.descendants({last.pid}, alive) & set(alive) if alive is not None and now == RUNNING else set()
     return Running(
         name, spec, host, now, last.pid if now == RUNNING else 0, _seconds_since(last, alive is not None),
@@ -115,8 +114,8 @@ def _seen(
     )  # fmt: skip
 
 
-def _seconds_since(last: Told, is_near: bool) -> float:
-    """By a clock that nobody sets, where it is that of this machine."""
+def _seconds_since(last: RunStatus, is_near: bool) -> float:
+    """Seconds since the last change: for this machine by a monotonic clock, else by the host's clock."""
     if is_near:
         return max(0.0, time.clock_gettime(time.CLOCK_BOOTTIME) - last.since / 1000)
     return max(0.0, time.time() - last.at / 1e6)

@@ -1,1 +1,1 @@
-"""The engine of one machine: a small supervisor for each deployment, and its client."""
+"""The engine for one machine: a small supervisor for each deployment, and its client."""

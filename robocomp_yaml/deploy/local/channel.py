@@ -1,7 +1,7 @@
-"""The control socket of a deployment's supervisor: where it is, and who may use it.
+"""The control socket of a deployment's supervisor.
 
-Only its owner may: it lies in a folder of mode 0700, and the kernel says who calls. The folder's path may be longer
-than an address of a socket can be (108 bytes), so that it is always named through the folder's descriptor.
+Only its owner can use it: its folder has mode 0700, and the kernel returns the user of each client. The folder's path
+can be longer than the address of a socket (108 bytes), so that the address always uses the folder's descriptor.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ def _short_path(folder: str) -> Iterator[str]:
 
 
 def listen(folder: str) -> socket.socket:
-    """A listening socket in the folder; one that a dead supervisor left there is replaced."""
+    """A listening socket in the folder, which replaces the socket of a dead supervisor. Raises OSError."""
     server = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
     with _short_path(folder) as path:
         if os.path.lexists(path):
@@ -41,7 +41,7 @@ def listen(folder: str) -> socket.socket:
 
 
 def connect(folder: str) -> socket.socket | None:
-    """A connection to the supervisor of this folder; None where there is none."""
+    """A connection to the supervisor of this folder, None if none runs."""
     client = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
     try:
         with _short_path(folder) as path:
@@ -53,7 +53,7 @@ def connect(folder: str) -> socket.socket | None:
     return client
 
 
-def is_ours(connection: socket.socket) -> bool:
-    """Whether the one at the other end is the same user, or root."""
+def is_of_owner(connection: socket.socket) -> bool:
+    """Whether the client is of the same user, or root."""
     data = connection.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, struct.calcsize("3i"))
     return struct.unpack("3i", data)[1] in (0, os.getuid())

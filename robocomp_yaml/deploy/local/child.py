@@ -1,4 +1,4 @@
-"""One process under the supervisor: started, watched, started again when it ends by itself, and ended for good."""
+"""One process of the supervisor, which starts, restarts and stops it."""
 
 from __future__ import annotations
 
@@ -15,22 +15,21 @@ from typing import Any
 from robocomp_yaml.deploy.local import procfs, program
 from robocomp_yaml.deploy.local.kernel import OpenFiles, die_with, tie
 from robocomp_yaml.deploy.local.log_file import LogFile
-from robocomp_yaml.deploy.local.variables import from_files
 
 RUNNING, WAITING, GIVEN_UP, ENDED, STOPPED = "running", "waiting", "given up", "ended", "stopped"
 _NEVER, _ALWAYS = "no", "always"
 
-_AFTER_KILL = 5.0  # seconds in which the kernel removes what was killed, unless it hangs in the kernel itself
+_AFTER_KILL = 5.0  # seconds in which the kernel removes a killed process, unless that hangs in the kernel
 _CHUNK = 1 << 16
 
-Spec = dict[str, Any]  # a `deploy.spec.Spec` as data: the supervisor imports as little as it can
+SpecData = dict[str, Any]  # a `deploy.spec.ProcessSpec` as data, because the supervisor imports as little as possible
 
 
-class Child:
-    """`spec` is what it was started with, or will be. `root` is the pid of its last run, as long as something of that
-    may be left. Times are the loop's, which no change of the clock moves."""
+class ChildProcess:
+    """`spec` is what it was started with, or will be. `root` is the pid of its last run, as long as descendants of that
+    can be running. Times are those of the event loop, a monotonic clock."""
 
-    def __init__(self, spec: Spec, mark: str, log: LogFile, families: procfs.Families, files: OpenFiles) -> None:
+    def __init__(self, spec: SpecData, mark: str, log: LogFile, families: procfs.Families, files: OpenFiles) -> None:
         self.spec, self.mark, self.log, self._families, self._files = spec, mark, log, families, files
         self.state, self.pid, self.restarts, self.last_exit = STOPPED, 0, 0, ""
         self.root = 0
@@ -45,7 +44,7 @@ class Child:
         self._is_stopping = False
 
     def start(self, environment: dict[str, str]) -> None:
-        """Raises OSError where it cannot be started."""
+        """Starts the process, if it does not run. Raises OSError."""
         if self.pid:
             return
         self._cancel_timer()
@@ -55,20 +54,20 @@ class Child:
         self._spawn()
 
     async def stop(self, within: float) -> None:
-        """Asks it and its group to end; kills what of its family is left after so many seconds. Raises TimeoutError
-        where even that does not end them."""
+        """Sends SIGTERM to the process and its family, and SIGKILL to those that run after `within` seconds. Raises
+        TimeoutError if even that does not end them."""
         self._cancel_timer()
         if not self.pid:
-            self._turn(STOPPED)
+            self._set_state(STOPPED)
             return
         self._is_stopping = True
         try:
-            self._ask_to_end()
+            self._terminate()
             deadline = self._loop.time() + within
             try:
                 await asyncio.wait_for(self._exited.wait(), within)
             except TimeoutError:
-                self.log.say(f"did not end within {within:g} s: killed")
+                self.log.note(f"did not end within {within:g} s: killed")
             while members := self._families.recent(self.root):
                 if self._loop.time() > deadline + _AFTER_KILL:
                     raise TimeoutError
@@ -79,10 +78,11 @@ class Child:
         finally:
             self._is_stopping = False
         self.root = 0
-        self._turn(STOPPED)
+        self._set_state(STOPPED)
 
-    def _ask_to_end(self) -> None:
-        """Its group, and what has left that; one that was halted goes on, so that it can end."""
+    def _terminate(self) -> None:
+        """Sends SIGTERM to the process group, and to members of the family outside it. SIGCONT lets a halted one
+        end."""
         members = self._families.recent(self.root)
         alive = self._families.alive
         for number in (signal.SIGTERM, signal.SIGCONT):
@@ -91,29 +91,29 @@ class Child:
             _signal([pid for pid in members if alive[pid].group != self.root], number)
 
     def on_exit(self, status: int) -> None:
-        """The process ended. What else it had started ends with it, so that nothing of it stands in the way."""
+        """Called when the process has ended. Its descendants are killed, so that they do not keep ports or files."""
         self._read_all()
         self.pid = 0
         code = os.waitstatus_to_exitcode(status)
         self.last_exit = _in_words(code)
         self._exited.set()
         if self._is_stopping:
-            self.log.say(f"stopped: {self.last_exit}")
+            self.log.note(f"stopped: {self.last_exit}")
             return
         _signal(self._families.now().get(self.root, set()), signal.SIGKILL)
         self.root = 0
         self._after_end(is_failure=code != 0)
 
     def _after_end(self, *, is_failure: bool) -> None:
-        """What the policy says of a process that ended by itself."""
+        """Applies the restart policy to a process that ended by itself."""
         rule = self.spec["process"]["restart"]
         if rule["policy"] != _ALWAYS and not is_failure:
-            self.log.say(f"ended by itself: {self.last_exit}")
-            self._turn(ENDED)
+            self.log.note(f"ended by itself: {self.last_exit}")
+            self._set_state(ENDED)
             return
         if rule["policy"] == _NEVER:
-            self.log.say(f"ended by itself: {self.last_exit}; it is not to be started again")
-            self._turn(GIVEN_UP)
+            self.log.note(f"ended by itself: {self.last_exit}; not restarted")
+            self._set_state(GIVEN_UP)
             return
         now = self._loop.time()
         self._failures.append(now)
@@ -121,14 +121,14 @@ class Child:
             self._failures.popleft()
         count = len(self._failures)
         if count > rule["tries"]:
-            self.log.say(
+            self.log.note(
                 f"given up: it ended {count} times within {rule['window']:g} s, the last time with {self.last_exit}"
             )
-            self._turn(GIVEN_UP)
+            self._set_state(GIVEN_UP)
             return
         delay = min(rule["delay"] * 2 ** (count - 1), rule["longest"])
-        self.log.say(f"ended by itself: {self.last_exit}; starting again in {delay:g} s")
-        self._turn(WAITING)
+        self.log.note(f"ended by itself: {self.last_exit}; restarting in {delay:g} s")
+        self._set_state(WAITING)
         self._timer = self._loop.call_later(delay, self._restart)
 
     def _restart(self) -> None:
@@ -143,38 +143,38 @@ class Child:
     def _spawn(self) -> None:
         command, folder = self.spec["command"], self.spec["process"]["cwd"]
         files = [(one["name"], one["file"]) for one in self.spec["process"]["env"] if one["file"]]
-        environment = {**self._environment, **from_files(files), procfs.MARK: self.mark}
+        environment = {**self._environment, **program.variables(files), procfs.MARK: self.mark}
         found = program.find(command[0], folder, environment)
-        ours, theirs = os.pipe2(os.O_CLOEXEC | os.O_NONBLOCK)
-        os.set_blocking(theirs, True)
+        output, written = os.pipe2(os.O_CLOEXEC | os.O_NONBLOCK)
+        os.set_blocking(written, True)
         try:
             started = subprocess.Popen(
                 [*tie(), found, *command[1:]], cwd=folder or "/", env=environment, stdin=subprocess.DEVNULL,
-                stdout=theirs, stderr=theirs, start_new_session=True,
+                stdout=written, stderr=written, start_new_session=True,
                 preexec_fn=None if tie() else functools.partial(die_with, os.getpid()),
             )  # fmt: skip
         except BaseException:
-            os.close(ours)
+            os.close(output)
             raise
         finally:
-            os.close(theirs)
+            os.close(written)
         self._files.restore(started.pid)
-        started.returncode = 0  # it is the supervisor that waits for all children, not this object
+        started.returncode = 0  # the supervisor waits for all children, not this object
         self.pid = self.root = started.pid
-        self._output = ours
+        self._output = output
         self._exited.clear()
-        self._turn(RUNNING)
-        self.log.say(f"started, pid {self.pid}")
-        self._loop.add_reader(ours, self._read)
+        self._set_state(RUNNING)
+        self.log.note(f"started, pid {self.pid}")
+        self._loop.add_reader(output, self._read)
 
     def _read(self) -> bool:
-        """Takes some of what it wrote; whether there may be more at once."""
+        """Reads a part of the output into the log. Returns whether there can be more."""
         try:
             data = os.read(self._output, _CHUNK)
         except BlockingIOError:
             return False
         if data:
-            self.log.take(data)
+            self.log.write(data)
             return True
         self._close_output()
         return False
@@ -182,7 +182,7 @@ class Child:
     def _read_all(self) -> None:
         while self._output >= 0 and self._read():
             pass
-        if self._output >= 0:  # something that it started still holds the other end
+        if self._output >= 0:  # a descendant still has the other end
             self._close_output()
 
     def _close_output(self) -> None:
@@ -195,7 +195,7 @@ class Child:
             self._timer.cancel()
             self._timer = None
 
-    def _turn(self, state: str) -> None:
+    def _set_state(self, state: str) -> None:
         self.state, self.since = state, self._loop.time()
 
 

@@ -1,26 +1,33 @@
-"""The client of a supervisor: requests and answers over its control socket."""
+"""The client of a supervisor: it connects to one or starts one, and sends requests over the control socket."""
 
 from __future__ import annotations
 
 import asyncio
 import itertools
 import json
+import os
 import socket
+import subprocess
+import sys
 from typing import Any
 
+from robocomp_yaml.deploy.local import channel, procfs, record
 from robocomp_yaml.deploy.local.service import LONGEST
+
+_LINES = 10
+_PATIENCE = 20.0  # seconds: far more than is needed, also on a busy machine
 
 
 class SupervisorGone(Exception):
-    """The supervisor ended, or was killed, while something was asked of it."""
+    """The supervisor ended, or was killed, during a request."""
 
 
 class RequestFailed(Exception):
-    """The supervisor could not do what was asked; the text says why, in the operating system's words."""
+    """A request failed; the text is the reason, in the operating system's words."""
 
 
 class Client:
-    """A connection; many requests may be under way at once."""
+    """A connection. Many requests can be pending at a time."""
 
     def __init__(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         self._reader, self._writer = reader, writer
@@ -33,7 +40,7 @@ class Client:
         return cls(*await asyncio.open_unix_connection(sock=connection, limit=LONGEST))
 
     async def ask(self, do: str, **facts: object) -> dict[str, Any]:
-        """The answer. Raises RequestFailed or SupervisorGone."""
+        """The answer to a request. Raises RequestFailed or SupervisorGone."""
         number = next(self._numbers)
         answer = self._waiting[number] = asyncio.get_running_loop().create_future()
         try:
@@ -65,10 +72,58 @@ class Client:
                     answer.set_exception(SupervisorGone())
 
     async def wait_closed(self) -> None:
-        """Until the supervisor is gone."""
+        """Waits until the supervisor has ended."""
         await asyncio.wait([self._listener])
 
     async def close(self) -> None:
         self._listener.cancel()
         await asyncio.wait([self._listener])
         self._writer.close()
+
+
+def reach(folder: str) -> socket.socket | None:
+    """A connection to the supervisor, None if none runs. Raises OSError if the folder cannot be opened."""
+    return channel.connect(f"{folder}/state") if os.path.isdir(f"{folder}/state") else None
+
+
+def last_words(folder: str) -> list[str]:
+    """The last lines of the supervisor's own log, which is empty without errors."""
+    try:
+        with open(f"{folder}/state/supervisor.log", encoding="utf-8", errors="replace") as file:
+            return file.read().splitlines()[-_LINES:]
+    except OSError:
+        return []
+
+
+async def start(folder: str) -> socket.socket:
+    """A connection to a new supervisor. Raises OSError with the last lines of its log if it does not start."""
+    package = os.path.abspath(f"{__file__}/../../../..")
+    environment = {**os.environ, procfs.MARK: f"{folder}:"}
+    environment["PYTHONPATH"] = os.pathsep.join([package, *filter(None, [environment.get("PYTHONPATH")])])
+    log = os.open(f"{folder}/state/supervisor.log", os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC, 0o600)
+    try:
+        # It goes on when this process ends, which therefore does not wait for it.
+        keeper = subprocess.Popen(
+            [sys.executable, "-m", "robocomp_yaml.deploy.local.supervisor", folder],
+            cwd="/", env=environment, stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True,
+        )  # fmt: skip
+        for _ in range(int(_PATIENCE / 0.02)):
+            if connection := reach(folder):
+                keeper.returncode = 0
+                return connection
+            if keeper.poll() is not None:
+                break
+            await asyncio.sleep(0.02)
+        keeper.kill()
+        keeper.wait()
+        raise OSError(0, f"the supervisor does not start: {' '.join(last_words(folder))}")
+    finally:
+        os.close(log)
+
+
+async def wait_gone(folder: str) -> None:
+    """Waits until the supervisor has removed its record."""
+    for _ in range(int(_PATIENCE / 0.02)):
+        if not record.is_there(folder):
+            return
+        await asyncio.sleep(0.02)

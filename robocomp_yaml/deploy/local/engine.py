@@ -1,4 +1,4 @@
-"""The engine of one machine: what `deploy` asks of a network's supervisor."""
+"""The engine for one machine: a client of the deployment's supervisor."""
 
 from __future__ import annotations
 
@@ -12,22 +12,23 @@ from typing import Any
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
-from robocomp_yaml.deploy.local import launch, record
+from robocomp_yaml.deploy.local import client, record
 from robocomp_yaml.deploy.local.client import Client, RequestFailed, SupervisorGone
 from robocomp_yaml.deploy.local.kernel import die_with
 from robocomp_yaml.deploy.local.log_reader import LogReader, merged
 from robocomp_yaml.deploy.local.obstacles import (
-    Cleared,
+    CheckedSpecs,
+    elsewhere,
     environment_of,
-    not_here,
     obstacles,
     whole_environment_of,
 )
-from robocomp_yaml.deploy.spec import Spec
+from robocomp_yaml.deploy.local.service import PROTOCOL
+from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.network.network import Network
+from robocomp_yaml.network.network import FOLDER, Network, NetworkHost
 
 
 class LocalEngine:
@@ -39,29 +40,29 @@ class LocalEngine:
         self.notes: list[Diagnostic] = []
         self._client: Client | None = None
         self._network = Network("", "", "")
-        self._specs: dict[str, Spec] = {}
-        self._cleared = Cleared()
+        self._specs: dict[str, ProcessSpec] = {}
+        self._cleared = CheckedSpecs()
 
     async def open(self, network: Network, *, create: bool) -> bool:
         self._network = network
-        if found := not_here(network):
-            raise DeployFailed(found)
+        if diagnostic := elsewhere(network):
+            raise DeployFailed(diagnostic)
         try:
-            connection = launch.reach(network.folder)
+            connection = client.reach(network.folder)
             was_killed = connection is None and record.was_killed(network.folder)
             if was_killed or (connection is None and create):
-                left = [*record.clear_up(network.folder), *(launch.last_words(network.folder) if was_killed else ())]
+                left = [*record.clear_up(network.folder), *(client.last_words(network.folder) if was_killed else ())]
                 if was_killed or left:
                     self.notes.append(deploying.SUPERVISOR_KILLED.at(Span(network.path), more="\n".join(left)))
             if connection is None and create:
                 own_folder.make(network.folder)
-                connection = await launch.start(network.folder)
+                connection = await client.start(network.folder)
         except OSError as error:
             raise self._folder_failed(network.folder, error.strerror or str(error)) from error
         if connection is None:
             return False
         self._client = await Client.over(connection)
-        if (await self._ask("", "hello"))["protocol"] != launch.PROTOCOL:
+        if (await self._ask("", "hello"))["protocol"] != PROTOCOL:
             raise self._folder_failed(network.folder, "another version of rcyaml started what runs there")
         return True
 
@@ -70,7 +71,7 @@ class LocalEngine:
         found = [_running(entry) for entry in answer["processes"]]
         return {running.name: running for running in found}
 
-    async def obstacles(self, specs: Sequence[Spec], leaving: Collection[str]) -> list[Diagnostic]:
+    async def obstacles(self, specs: Sequence[ProcessSpec], leaving: Collection[str]) -> list[Diagnostic]:
         own: set[int] = set()
         if self._client:
             for entry in (await self._ask("", "observe"))["processes"]:
@@ -80,7 +81,7 @@ class LocalEngine:
             self._cleared.note(specs)
         return found
 
-    async def prepare(self, specs: Sequence[Spec]) -> None:
+    async def prepare(self, specs: Sequence[ProcessSpec]) -> None:
         for spec in specs:
             config = spec.process.config
             try:
@@ -95,8 +96,7 @@ class LocalEngine:
 
     async def start(self, name: str) -> None:
         spec = self._specs[name]
-        if not self._cleared.take(spec) and (found := obstacles([spec], ())):
-            raise DeployFailed(found[0])
+        self._cleared.require(spec)
         await self._ask(name, "start", name=name, environment=environment_of(spec.process))
 
     async def stop(self, name: str, within: float = STOP_WITHIN) -> None:
@@ -133,23 +133,22 @@ class LocalEngine:
                 await started.wait()
 
     async def close(self, *, end: bool = False) -> None:
-        if client := self._client:
+        if self._client:
             if end:
                 await self._ask("", "end")
-                await client.wait_closed()
-                await launch.wait_gone(self._network.folder)
+                await self._client.wait_closed()
+                await client.wait_gone(self._network.folder)
+            await self._client.close()
             self._client = None
-            await client.close()
 
     async def _ask(self, about: str, do: str, **facts: object) -> dict[str, Any]:
-        """An answer of the supervisor, about the process of that name where there is one."""
+        """An answer of the supervisor. An error is reported for the process of the name `about`, if there is one."""
         assert self._client, "open it first"
         try:
             return await self._client.ask(do, **facts)
         except RequestFailed as error:
-            process = self._network.processes.get(about)
-            where = process.span if process and process.span.file else Span(self._network.path)
-            raise DeployFailed(deploying.REFUSED.at(where, name=about, what=_DONE.get(do, do), reason=error)) from error
+            where = self._network.span_of(about)
+            raise DeployFailed(deploying.CANNOT.at(where, name=about, what=_DONE.get(do, do), reason=error)) from error
         except SupervisorGone as error:
             killed = deploying.SUPERVISOR_KILLED.at(Span(self._network.path))
             raise DeployFailed(killed.as_severity(ERROR)) from error
@@ -162,10 +161,30 @@ _DONE = {"start": "started", "stop": "stopped"}
 
 
 def _running(entry: dict[str, Any]) -> Running:
-    try:
-        spec = Spec.of_data(entry["spec"])
-    except ValueError:
-        spec = None
     process = entry["spec"]["process"]
     kept = ("state", "pid", "uptime", "restarts", "last_exit", "memory", "cpu")
-    return Running(process["name"], spec, process["host"], **{key: entry[key] for key in kept})
+    return Running(
+        process["name"], ProcessSpec.of_data(entry["spec"]), process["host"], **{key: entry[key] for key in kept}
+    )
+
+
+def stand_in(path: str) -> Network | None:
+    """The network of the processes that run on this machine, as they were started, for a document that cannot be read.
+    None if no process runs, or the document does not even contain the name of its deployment."""
+    document, name = os.path.abspath(path), own_folder.deployment_in(path)
+    folder = os.path.join(os.path.dirname(document), FOLDER, name)
+    if not name or not record.is_there(folder) or record.was_killed(folder):
+        return None
+    network = Network(name, document, folder)
+
+    async def fill() -> None:
+        engine = LocalEngine()
+        if await engine.open(network, create=False):
+            for name, running in (await engine.observe()).items():
+                if running.spec:
+                    network.processes[name] = running.spec.process
+                    network.hosts[running.spec.process.host] = NetworkHost(running.spec.process.host)
+        await engine.close()
+
+    asyncio.run(fill())
+    return network

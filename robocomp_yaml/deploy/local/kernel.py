@@ -1,4 +1,4 @@
-"""What ties processes to the one that started them: two services of Linux that Python's `os` does not offer."""
+"""Processes are tied to the process that started them, by system calls of Linux that Python's `os` lacks."""
 
 from __future__ import annotations
 
@@ -15,28 +15,29 @@ _libc = ctypes.CDLL(None, use_errno=True)
 
 
 def adopt_orphans() -> None:
-    """From now on, a descendant of this process that loses its parent becomes its child, and not that of init."""
+    """From now on, a descendant of this process that loses its parent becomes a child of this process, not of init.
+    Raises OSError."""
     if _libc.prctl(_SET_CHILD_SUBREAPER, 1, 0, 0, 0):
         raise OSError(ctypes.get_errno(), "cannot become the parent of orphans")
 
 
 def die_with(parent: int) -> None:
-    """For a new process, before it becomes its program: it is killed when `parent` ends, however that happens."""
+    """For a new process before `exec`: the kernel kills it when `parent` ends, for whatever reason."""
     _libc.prctl(_SET_DEATH_SIGNAL, signal.SIGKILL, 0, 0, 0)
-    if os.getppid() != parent:  # that had ended already
+    if os.getppid() != parent:  # the parent has already ended
         os._exit(1)
 
 
 @functools.cache
 def tie() -> tuple[str, ...]:
-    """What stands before a command, so that its process is killed when its parent ends; () where the system does not
-    have it. To do the same in the new process itself (`die_with`) takes a copy of this one, which costs far more."""
+    """The words before a command that make the kernel kill its process when the parent ends; () if the system lacks the
+    program. The alternative, `die_with`, takes a fork of this process, which is far slower."""
     found = shutil.which("setpriv", path=os.defpath)
     return (found, "--pdeathsig", "KILL", "--") if found else ()
 
 
 class OpenFiles:
-    """The limit of open files: as high as may be for one that watches many processes, as it was for these."""
+    """The limit of open files: the supervisor raises its own, and its children get the original one."""
 
     def __init__(self) -> None:
         self._soft, self._hard = resource.getrlimit(resource.RLIMIT_NOFILE)

@@ -1,4 +1,4 @@
-"""The log of one process: every line with its time, in files of limited size; a full disk loses lines, and no more."""
+"""The log of one process: lines with their times, in files of limited size. A full disk loses lines, nothing else."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ import os
 import time
 
 LIMIT = 10 << 20
-"""Bytes of a log, of which the older part is kept once, as `NAME.log.1`."""
+"""The maximum size of a log in bytes. One older log is kept as `NAME.log.1`."""
 
 LONGEST = 1 << 16
-"""Bytes of a line: a longer one is broken."""
+"""The maximum length of a line in bytes. A longer line is split."""
 
 
 class LogFile:
-    """Takes what a process writes, as it comes, and lines of our own."""
+    """The output of a process, in any chunks, and notes of rcyaml."""
 
     def __init__(self, path: str, limit: int = LIMIT) -> None:
         self.path, self.limit = path, limit
@@ -23,8 +23,8 @@ class LogFile:
         self._file = -1
         self._size = 0
 
-    def take(self, data: bytes) -> None:
-        """What the process wrote; a line is written once it is whole."""
+    def write(self, data: bytes) -> None:
+        """Adds output of the process. A line is written when it is complete."""
         *whole, self._rest = (self._rest + data).split(b"\n")
         while len(self._rest) > LONGEST:
             whole.append(self._rest[:LONGEST])
@@ -32,8 +32,8 @@ class LogFile:
         if whole:
             self._write(whole)
 
-    def say(self, text: str) -> None:
-        """A line of rcyaml's own; what the process left unfinished becomes a line before it."""
+    def note(self, text: str) -> None:
+        """Writes a line of rcyaml. An incomplete line of the process is written before it."""
         rest, self._rest = self._rest, b""
         self._write([*([rest] if rest else []), f"rcyaml: {text}".encode(errors="surrogateescape")])
 
@@ -43,7 +43,7 @@ class LogFile:
             self._file = -1
 
     def _write(self, lines: list[bytes]) -> None:
-        # The time is for people; nothing is reckoned by it.
+        # The time is only shown, never used.
         now = time.time()
         stamp = time.strftime(f"%Y-%m-%dT%H:%M:%S.{int(now % 1 * 1000):03}Z ", time.gmtime(now)).encode()
         if self._lost:
@@ -60,7 +60,7 @@ class LogFile:
             texts = texts[count:]
 
     def _fitting(self, texts: list[bytes]) -> int:
-        """How many of these go into one file, which is one at least."""
+        """How many of these lines go into one file: at least one."""
         room, count = self.limit - self._size if self._file >= 0 else self.limit, 0
         if room < len(texts[0]):
             room = self.limit
@@ -69,16 +69,16 @@ class LogFile:
         return max(count, 1)
 
     def _append(self, text: bytes) -> None:
-        """Raises OSError, with nothing of it written."""
+        """Appends to the file. Raises OSError, with nothing written."""
         self._open(len(text))
         written = os.write(self._file, text)
-        if written < len(text):  # the disk is full: no half lines
+        if written < len(text):  # the disk is full: no partial lines
             os.ftruncate(self._file, os.fstat(self._file).st_size - written)
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
         self._size += written
 
     def _open(self, more: int) -> None:
-        """Opens the file, or a new one where this text would make it too large."""
+        """Opens the file, or a new one if `more` bytes would make it too large."""
         if self._file >= 0 and self._size + more > self.limit:
             self.close()
             os.replace(self.path, f"{self.path}.1")

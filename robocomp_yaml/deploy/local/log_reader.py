@@ -1,24 +1,35 @@
-"""Logs read back: the last lines of several processes in the order of their times, and those that come."""
+"""Reading logs: the last lines of several processes, ordered by time, and all further lines."""
 
 from __future__ import annotations
 
 import asyncio
 import heapq
 import os
-from collections.abc import AsyncGenerator, Iterator, Sequence
+from collections.abc import AsyncGenerator, Iterable, Iterator, Sequence
 from contextlib import suppress
-from typing import BinaryIO
+from typing import BinaryIO, Protocol
 
 from robocomp_yaml.deploy.engine import Line
 
-_PERIOD = 0.1  # seconds between two looks at logs that are followed
+_PERIOD = 0.1  # seconds between two reads of logs that are followed
 _BLOCK = 1 << 16
 _STAMP = len("2026-11-21T10:02:03.123Z")
 
 
+class LineReader(Protocol):
+    """Reads the log of one process. New lines are those after the creation of the reader."""
+
+    def last(self, count: int) -> list[Line]: ...
+
+    def new(self) -> Iterable[Line]: ...
+
+
+def line_of(name: str, text: str) -> Line:
+    return Line(name, text[_STAMP + 1 :], text[:_STAMP])
+
+
 class LogReader:
-    """One process's log, read from where it ends when this is made, across rotations. No file stays open between two
-    reads."""
+    """Reads a log on this machine, across rotations. No file is open between two reads."""
 
     def __init__(self, folder: str, name: str) -> None:
         self.name, self.path = name, f"{folder}/logs/{name}.log"
@@ -29,7 +40,7 @@ class LogReader:
             self._inode, self._offset = status.st_ino, status.st_size
 
     def last(self, count: int) -> list[Line]:
-        """The last lines before the place from which it is read on."""
+        """The last lines before the new ones."""
         lines: list[bytes] = []
         for path, end in ((self.path, self._offset), (f"{self.path}.1", -1)):
             if len(lines) < count and self._inode:
@@ -38,7 +49,7 @@ class LogReader:
         return [self._line(line) for line in lines]
 
     def new(self) -> Iterator[Line]:
-        """The lines that came since the last call."""
+        """The lines since the last call."""
         with suppress(OSError), open(self.path, "rb") as file:
             inode = os.fstat(file.fileno()).st_ino
             if inode != self._inode:
@@ -51,7 +62,7 @@ class LogReader:
             yield from map(self._line, lines)
 
     def _end_of_older(self) -> bytes:
-        """What was written to the log that was read until now, before it was put aside."""
+        """The rest of the log that was read before the rotation."""
         with suppress(OSError), open(f"{self.path}.1", "rb") as file:
             if os.fstat(file.fileno()).st_ino == self._inode:
                 file.seek(self._offset)
@@ -59,26 +70,30 @@ class LogReader:
         return b""
 
     def _line(self, line: bytes) -> Line:
-        text = line.decode("utf-8", "replace")
-        return Line(self.name, text[_STAMP + 1 :], text[:_STAMP])
+        return line_of(self.name, line.decode("utf-8", "replace"))
 
 
-async def merged(readers: Sequence[LogReader], last: int, follow: bool) -> AsyncGenerator[Line, None]:
-    """The lines of all, by time; those of one process always in their own order, whatever the clock did."""
-    for line in _by_time([reader.last(last) for reader in readers]):
-        yield line
-    while follow:
-        for line in _by_time([list(reader.new()) for reader in readers]):
+async def merged(
+    readers: Sequence[LineReader], last: int, follow: bool, *, is_far: bool = False
+) -> AsyncGenerator[Line, None]:
+    """The lines of all logs, ordered by time. Lines of one process keep their order, also if the clock was set. With
+    `is_far`, logs are read in a thread, because that waits for other hosts."""
+
+    def new() -> list[list[Line]]:
+        return [list(reader.new()) for reader in readers]
+
+    parts = [reader.last(last) for reader in readers]
+    while True:
+        for line in heapq.merge(*parts, key=lambda line: line.time):
             yield line
-        await asyncio.sleep(_PERIOD)
-
-
-def _by_time(parts: Sequence[Sequence[Line]]) -> Iterator[Line]:
-    return heapq.merge(*parts, key=lambda line: line.time)
+        if not follow:
+            return
+        await asyncio.sleep(2 * _PERIOD if is_far else _PERIOD)
+        parts = await asyncio.to_thread(new) if is_far else new()
 
 
 def _last_lines(file: BinaryIO, end: int, count: int) -> list[bytes]:
-    """The last whole lines before `end`, which is -1 for that of the file."""
+    """The last complete lines before `end`; -1 is the end of the file."""
     if end < 0:
         end = file.seek(0, os.SEEK_END)
     position, text = end, b""

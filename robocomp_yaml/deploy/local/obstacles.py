@@ -1,4 +1,4 @@
-"""What would keep a process from starting on this machine, seen before it is tried; and the environment it gets."""
+"""Obstacles: what would prevent a process from starting on this machine. Also the environment of a process."""
 
 from __future__ import annotations
 
@@ -8,21 +8,21 @@ import time
 from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from robocomp_yaml.deploy.differences import shown_path
+from robocomp_yaml.deploy.engine import DeployFailed
 from robocomp_yaml.deploy.folder import document_in
 from robocomp_yaml.deploy.local import procfs, program
-from robocomp_yaml.deploy.local.variables import from_files
-from robocomp_yaml.deploy.spec import Spec
+from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.network.network import FOLDER, LOOPBACK, Network, Process
 
-_JUST = 2.0  # seconds
+_VALID = 2.0  # seconds for which a check without obstacles is valid
 
 
 def environment_of(process: Process) -> dict[str, str]:
-    """The caller's environment with the process's own variables, but for those that files hold. What Python programs
-    print is seen at once."""
+    """The operator's environment with the variables of the process, except those from files. Python programs get
+    PYTHONUNBUFFERED, so that their output is seen immediately."""
     own = {
         variable.name: os.environ.get(variable.source, "") if variable.source else variable.value
         for variable in process.env
@@ -32,12 +32,12 @@ def environment_of(process: Process) -> dict[str, str]:
 
 
 def whole_environment_of(process: Process) -> dict[str, str]:
-    """That of the process as it would start now. Raises OSError where a file cannot be read."""
-    return environment_of(process) | from_files((one.name, one.file) for one in process.env if one.file)
+    """The environment of the process as it would start now. Raises OSError if a file of a variable cannot be read."""
+    return environment_of(process) | program.variables((one.name, one.file) for one in process.env if one.file)
 
 
-def obstacles(specs: Sequence[Spec], own: Collection[int]) -> list[Diagnostic]:
-    """`own` are running processes that count as gone."""
+def obstacles(specs: Sequence[ProcessSpec], own: Collection[int]) -> list[Diagnostic]:
+    """The obstacles of all these processes. `own` are pids that are ignored, because they will have ended before."""
     ports = {e.port for spec in specs for e in spec.process.endpoints if e.protocol != "udp"}
     taken = {
         port: [pid for pid in pids if pid not in own]
@@ -47,69 +47,71 @@ def obstacles(specs: Sequence[Spec], own: Collection[int]) -> list[Diagnostic]:
     return [found for spec in specs for found in (*_of_program(spec), *_of_ports(spec, taken))]
 
 
-class Cleared:
-    """What has just been found to have no obstacles: who starts it at once need not look again."""
+class CheckedSpecs:
+    """Specs that have just been checked: if they start immediately, they need not be checked again."""
 
     def __init__(self) -> None:
-        self._specs: dict[str, Spec] = {}
+        self._specs: dict[str, ProcessSpec] = {}
         self._until = 0.0
 
-    def note(self, specs: Iterable[Spec]) -> None:
-        # What waits for others is looked at again: a port that was free may be theirs by then.
+    def note(self, specs: Iterable[ProcessSpec]) -> None:
+        # A process that waits for others is checked again: they may use its port by then.
         self._specs = {spec.name: spec for spec in specs if not (spec.process.after and spec.process.endpoints)}
-        self._until = time.monotonic() + _JUST
+        self._until = time.monotonic() + _VALID
 
-    def take(self, spec: Spec) -> bool:
-        """Whether it is one of these; once only."""
-        return self._specs.pop(spec.name, None) is spec and time.monotonic() < self._until
+    def require(self, spec: ProcessSpec) -> None:
+        """Raises DeployFailed if a spec has an obstacle. A spec in the list is not checked, once."""
+        is_checked = self._specs.pop(spec.name, None) is spec and time.monotonic() < self._until
+        if not is_checked and (found := obstacles([spec], ())):
+            raise DeployFailed(found[0])
 
 
-def not_here(network: Network) -> Diagnostic | None:
-    """The first process that belongs on another machine."""
+def elsewhere(network: Network) -> Diagnostic | None:
+    """A diagnostic for the first process that runs on another machine; None if all run on this one."""
     for process in network.enabled():
         host = network.hosts[process.host]
-        if not is_here(host.address):
+        if not is_local(host.address):
             where = host.span if host.span.file else process.span
-            return deploying.NOT_HERE.at(where, name=process.name, host=host.name, address=host.address)
+            return deploying.OTHER_MACHINE.at(where, name=process.name, host=host.name, address=host.address)
     return None
 
 
-def is_here(address: str) -> bool:
-    """Whether an address is one of this machine's: only those can be bound. One that cannot be resolved is not."""
+def is_local(address: str) -> bool:
+    """Whether an address is one of this machine: only those can be bound. False if it cannot be resolved."""
     if address == LOOPBACK:
         return True
     try:
-        family, kind, protocol, _, place = socket.getaddrinfo(address, 0, type=socket.SOCK_STREAM)[0]
+        family, kind, protocol, _, target = socket.getaddrinfo(address, 0, type=socket.SOCK_STREAM)[0]
         with socket.socket(family, kind, protocol) as probe:
-            probe.bind(place)
+            probe.bind(target)
     except OSError:
         return False
     return True
 
 
-def _of_ports(spec: Spec, taken: dict[int, list[int]]) -> Iterator[Diagnostic]:
-    """One for each program that is in the way, at the first port that it has."""
-    told: set[int] = set()
+def _of_ports(spec: ProcessSpec, taken: dict[int, list[int]]) -> Iterator[Diagnostic]:
+    """One diagnostic for each program that uses a port of the process, at its first such port."""
+    reported: set[int] = set()
     for endpoint in spec.process.endpoints:
         if endpoint.port in taken and endpoint.protocol != "udp":
             pid = next(iter(taken[endpoint.port]), 0)
-            if pid in told:
+            if pid in reported:
                 continue
-            told.add(pid)
+            reported.add(pid)
             who, how = _owner(pid)
             yield deploying.PORT_TAKEN.at(
                 endpoint.span if endpoint.span.file else spec.process.span,
-                hint=f"{how}, or give '{spec.name}' another port" if how else "",
+                hint=f"{how}, or choose another port for '{spec.name}'" if how else "",
                 name=spec.name, port=endpoint.port, program=who,
             )  # fmt: skip
 
 
 def _owner(pid: int) -> tuple[str, str]:
-    """Who has a port, and how to end it: what a deployment started would be started again."""
+    """The process that uses a port, and how to end it: a process of a deployment would be restarted."""
     if not pid:
-        return "one of another user", ""
-    place, _, name = procfs.mark_of(pid).rpartition(":")
-    folder, _, deployment = place.rpartition(f"/{FOLDER}/")
+        return "a program of another user", ""
+    owner, _, name = procfs.mark_of(pid).rpartition(":")
+    folder, _, deployment = owner.rpartition(f"/{FOLDER}/")
     if not folder:
         return f"{procfs.command_line(pid)} (pid {pid})", f"end it (`kill {pid}`)"
     who = f"'{name}' of the deployment {deployment} in {shown_path(folder)} (pid {pid})"
@@ -117,7 +119,7 @@ def _owner(pid: int) -> tuple[str, str]:
     return who, f"take that deployment down (`{down}`)"
 
 
-def _of_program(spec: Spec) -> Iterator[Diagnostic]:
+def _of_program(spec: ProcessSpec) -> Iterator[Diagnostic]:
     process = spec.process
     for variable in process.env:
         if variable.source and variable.source not in os.environ:
@@ -126,10 +128,10 @@ def _of_program(spec: Spec) -> Iterator[Diagnostic]:
             )
     if reason := _why_not(spec):
         hint = "" if os.path.lexists(spec.command[0]) else process.build
-        yield deploying.REFUSED.at(process.span, hint=hint, name=spec.name, what="started", reason=reason)
+        yield deploying.CANNOT.at(process.span, hint=hint, name=spec.name, what="started", reason=reason)
 
 
-def _why_not(spec: Spec) -> str:
+def _why_not(spec: ProcessSpec) -> str:
     folder = spec.process.cwd or "/"
     if not os.path.isdir(folder):
         return f"its folder '{folder}' does not exist"

@@ -1,6 +1,6 @@
-"""What /proc says: which processes belong together, what they use, and who listens on a port.
+"""Processes as in /proc: which belong together, what they use, and which listen on a TCP port.
 
-Processes come and go while it is read: what is gone is passed over.
+Processes start and end while /proc is read. A process that has ended is skipped.
 """
 
 from __future__ import annotations
@@ -11,9 +11,10 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import NamedTuple
 
 from robocomp_yaml import secrets
+from robocomp_yaml.digraph import reachable
 
 MARK = "RCYAML_PROCESS"
-"""The variable by which everything that a process of a deployment started is known: `FOLDER:NAME`."""
+"""The variable in the environment of each process of a deployment, and of its descendants: `FOLDER:NAME`."""
 
 _TICKS = os.sysconf("SC_CLK_TCK")
 _PAGE = os.sysconf("SC_PAGE_SIZE")
@@ -21,8 +22,8 @@ _LISTEN = "0A"
 _MOMENT = 0.02  # seconds
 
 
-class Entry(NamedTuple):
-    """A process: `start` is in clock ticks since boot, so that (pid, start) is never used twice."""
+class ProcessEntry(NamedTuple):
+    """A process. `start` is in clock ticks since boot, so that (pid, start) is unique. `cpu` is in seconds."""
 
     pid: int
     parent: int
@@ -37,26 +38,27 @@ def pids() -> Iterator[int]:
     return (int(name) for name in os.listdir("/proc") if name.isdigit())
 
 
-def entry(pid: int) -> Entry | None:
+def entry(pid: int) -> ProcessEntry | None:
+    """The process of this pid, None if there is none."""
     text = _read(f"/proc/{pid}/stat")
     if not text:
         return None
-    # The name, in parentheses, may hold anything.
+    # The name, in parentheses, can contain any character.
     fields = text[text.rindex(b")") + 2 :].split()
-    return Entry(
+    return ProcessEntry(
         pid, int(fields[1]), int(fields[2]), int(fields[3]), int(fields[19]),
         (int(fields[11]) + int(fields[12])) / _TICKS, fields[0] in (b"Z", b"X"),
     )  # fmt: skip
 
 
-def table() -> dict[int, Entry]:
-    """All processes that are alive."""
+def table() -> dict[int, ProcessEntry]:
+    """All running processes by pid."""
     found = (entry(pid) for pid in pids())
     return {one.pid: one for one in found if one and not one.is_dead}
 
 
 def mark_of(pid: int) -> str:
-    """The MARK in the environment that a process began with; '' for others, and those of other users."""
+    """The MARK in the initial environment of a process; '' without one, and for processes of other users."""
     prefix = f"{MARK}=".encode()
     for part in _read(f"/proc/{pid}/environ").split(b"\0"):
         if part.startswith(prefix):
@@ -65,13 +67,13 @@ def mark_of(pid: int) -> str:
 
 
 def marked(folder: str) -> list[int]:
-    """The processes that a deployment in this folder started, found by nothing but their mark."""
+    """The pids of all processes with the mark of the deployment in this folder."""
     return [pid for pid in pids() if mark_of(pid).rpartition(":")[0] == folder]
 
 
-def families(roots: Mapping[int, str], adopter: int, alive: Mapping[int, Entry]) -> dict[int, set[int]]:
-    """Of each root, those alive that came from it: itself, its session, what lost its parent, so that it is now a child
-    of `adopter`, but carries the root's mark; and all that came from these. `roots` gives the mark of each."""
+def families(roots: Mapping[int, str], adopter: int, alive: Mapping[int, ProcessEntry]) -> dict[int, set[int]]:
+    """The family of each root among the running processes: the root, its session, orphans with its mark (which are now
+    children of `adopter`), and the descendants of all these. `roots` has the mark of each root."""
     by_mark = {mark: root for root, mark in roots.items()}
     found: dict[int, set[int]] = {root: set() for root in roots}
     owners: dict[int, int] = {}
@@ -91,8 +93,8 @@ def families(roots: Mapping[int, str], adopter: int, alive: Mapping[int, Entry])
     return found
 
 
-def _root_of(one: Entry, roots: Collection[int], by_mark: Mapping[str, int], adopter: int) -> int:
-    """The root that a process shows by itself; 0 where only its parent can."""
+def _root_of(one: ProcessEntry, roots: Collection[int], by_mark: Mapping[str, int], adopter: int) -> int:
+    """The root to which a process belongs by its own facts; 0 if only its parent can tell."""
     if one.pid in roots:
         return one.pid
     if one.session in roots:
@@ -101,52 +103,46 @@ def _root_of(one: Entry, roots: Collection[int], by_mark: Mapping[str, int], ado
 
 
 class Families:
-    """The families of a supervisor's children. `roots` gives their roots and marks, also of those that have ended but
-    may have left something."""
+    """The families of a supervisor's children. `roots` returns the roots with their marks, including roots that have
+    ended, whose descendants may be running."""
 
     def __init__(self, roots: Callable[[], Mapping[int, str]]) -> None:
         self._roots = roots
         self._taken = -_MOMENT
         self._found: dict[int, set[int]] = {}
-        self.alive: dict[int, Entry] = {}
+        self.alive: dict[int, ProcessEntry] = {}
 
     def now(self) -> dict[int, set[int]]:
+        """The current family of each root."""
         self.alive = table()
         self._found = families(self._roots(), os.getpid(), self.alive)
         self._taken = time.monotonic()
         return self._found
 
     def recent(self, root: int) -> set[int]:
-        """One, as it was a moment ago: enough for many who wait for families to be gone, since from a family of which
-        nothing was alive, nothing comes."""
+        """A family, at most some milliseconds old. That is enough to wait for its end, because a family without a
+        running process cannot get one."""
         if root not in self._found or time.monotonic() > self._taken + _MOMENT:
             self.now()
         return self._found.get(root, set())
 
 
-def descendants(of: Collection[int], alive: dict[int, Entry]) -> set[int]:
-    """These processes and all that came from them."""
+def descendants(of: Collection[int], alive: dict[int, ProcessEntry]) -> set[int]:
+    """These processes and all their descendants."""
     children: dict[int, list[int]] = {}
     for one in alive.values():
         children.setdefault(one.parent, []).append(one.pid)
-    found, rest = set(of), list(of)
-    while rest:
-        for child in children.get(rest.pop(), ()):
-            if child not in found:
-                found.add(child)
-                rest.append(child)
-    return found
+    return set(reachable(of, lambda pid: children.get(pid, ())))
 
 
 def memory(members: Collection[int]) -> int:
-    """The bytes of real memory that they hold."""
+    """The resident memory of these processes, in bytes."""
     sizes = (_read(f"/proc/{pid}/statm").split() for pid in members)
     return sum(int(size[1]) for size in sizes if size) * _PAGE
 
 
 def listeners(ports: Collection[int]) -> dict[int, list[int]]:
-    """Of these TCP ports, those on which something listens, each with the processes that do, as far as one may see
-    them."""
+    """Those of these TCP ports on which a process listens, with the pids as far as this user can see them."""
     inodes: dict[str, int] = {}
     for file in ("/proc/net/tcp", "/proc/net/tcp6") if ports else ():
         for line in _read(file).decode().splitlines()[1:]:
@@ -162,12 +158,12 @@ def listeners(ports: Collection[int]) -> dict[int, list[int]]:
 
 
 def command(pid: int) -> list[str]:
-    """The words of a process's command; [''] for one that is gone."""
+    """The words of a process's command; [''] if it has ended."""
     return os.fsdecode(_read(f"/proc/{pid}/cmdline").rstrip(b"\0")).split("\0")
 
 
 def command_line(pid: int) -> str:
-    """A process's command as one would type it, without secrets; '' for one that is gone."""
+    """A process's command, quoted for a shell, without secrets; '' if it has ended."""
     return secrets.command(command(pid))
 
 

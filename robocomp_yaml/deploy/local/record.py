@@ -1,6 +1,6 @@
-"""What tells a supervisor that took leave from one that was killed: a file that is there while it lives.
+"""The record of a running supervisor: a file that exists while the supervisor runs. After a kill, it remains.
 
-It holds the keeper's pid and start, so that a process that has got the same number later is not taken for it.
+It contains the pid and the start time of the supervisor's keeper, because a pid can be reused.
 """
 
 from __future__ import annotations
@@ -13,13 +13,14 @@ import time
 from robocomp_yaml.deploy.local import procfs
 
 _FILE = "state/supervisor"
-_PATIENCE = 5.0  # seconds for what was killed to be gone
+_PATIENCE = 5.0  # seconds in which killed processes end
 
 
 def write(folder: str, keeper: int) -> None:
-    found = procfs.entry(keeper)
-    with open(f"{folder}/{_FILE}", "w", encoding="ascii", opener=_for_the_owner) as file:
-        file.write(f"{keeper} {found.start if found else 0}\n")
+    process = procfs.entry(keeper)
+    descriptor = os.open(f"{folder}/{_FILE}", os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC, 0o600)
+    with open(descriptor, "w", encoding="ascii") as file:
+        file.write(f"{keeper} {process.start if process else 0}\n")
 
 
 def remove(folder: str) -> None:
@@ -28,7 +29,7 @@ def remove(folder: str) -> None:
 
 
 def was_killed(folder: str) -> bool:
-    """Whether the last supervisor and its keeper ended without taking leave."""
+    """Whether the last supervisor and its keeper ended without removing the record."""
     try:
         with open(f"{folder}/{_FILE}", encoding="ascii", errors="replace") as file:
             words = file.read().split()
@@ -43,10 +44,10 @@ def is_there(folder: str) -> bool:
 
 
 def clear_up(folder: str) -> list[str]:
-    """Kills what a killed supervisor left, if its keeper was killed too; the commands that were left."""
+    """Kills the processes that a killed supervisor left when its keeper was killed, too. Returns their commands."""
     left = {pid: procfs.command_line(pid) for pid in procfs.marked(folder) if pid != os.getpid()}
     until = time.monotonic() + _PATIENCE
-    while (rest := [pid for pid in left if _lives(pid)]) and time.monotonic() < until:
+    while (rest := [pid for pid in left if _runs(pid)]) and time.monotonic() < until:
         for pid in rest:
             with contextlib.suppress(OSError):
                 os.kill(pid, signal.SIGKILL)
@@ -55,10 +56,6 @@ def clear_up(folder: str) -> list[str]:
     return list(left.values())
 
 
-def _lives(pid: int) -> bool:
-    found = procfs.entry(pid)
-    return found is not None and not found.is_dead
-
-
-def _for_the_owner(path: str, flags: int) -> int:
-    return os.open(path, flags, 0o600)
+def _runs(pid: int) -> bool:
+    process = procfs.entry(pid)
+    return process is not None and not process.is_dead

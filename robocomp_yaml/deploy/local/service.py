@@ -1,7 +1,7 @@
-"""The supervisor proper: its children, and what clients may ask on the control socket.
+"""The supervisor's service: its children, and the requests of clients on the control socket.
 
-A request is a line `{"id", "do", …}`, and its answer a line `{"id", …}` with what was asked for, or with `error`: an
-`errno`'s text, in words. Requests run at once; those for one child wait for each other.
+A request is a line `{"id", "do", …}`. Its answer is a line `{"id", …}` with the result, or with `error`, the text of an
+`errno`. Requests run in parallel, except those for the same child.
 """
 
 from __future__ import annotations
@@ -10,32 +10,32 @@ import asyncio
 import json
 import os
 import signal
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable
 from typing import Any
 
 from robocomp_yaml.deploy.local import channel, procfs, record
-from robocomp_yaml.deploy.local.child import Child
+from robocomp_yaml.deploy.local.child import ChildProcess
 from robocomp_yaml.deploy.local.kernel import OpenFiles
 from robocomp_yaml.deploy.local.log_file import LIMIT, LogFile
 
 PROTOCOL = 2
-"""Raised with each change of what is said on the socket: clients of another version are told."""
+"""The version of the protocol. A client of another version reports the difference."""
 
-LONGEST = 1 << 28  # bytes of a request: configurations may be long
+LONGEST = 1 << 28  # bytes of a request, which contains configurations
 END_WITHIN = 5.0
 
 Request = dict[str, Any]
 
 
 def serve(folder: str) -> None:
-    """Runs until it is asked to end, by a client or by a signal."""
+    """Runs until a client or a signal ends it."""
     asyncio.run(_Service(folder).run())
 
 
 class _Service:
     def __init__(self, folder: str) -> None:
         self.folder = folder
-        self.children: dict[str, Child] = {}
+        self.children: dict[str, ChildProcess] = {}
         self._files = OpenFiles()
         self._limit = int(os.environ.get("RCYAML_LOG_LIMIT") or LIMIT)
         self._over = asyncio.Event()
@@ -49,7 +49,9 @@ class _Service:
         loop.add_signal_handler(signal.SIGCHLD, self._reap)
         for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
             loop.add_signal_handler(number, self._over.set)
-        server = await asyncio.start_unix_server(self._talk, sock=channel.listen(f"{self.folder}/state"), limit=LONGEST)
+        server = await asyncio.start_unix_server(
+            self._serve_client, sock=channel.listen(f"{self.folder}/state"), limit=LONGEST
+        )
         keeper = os.getppid()
         record.write(self.folder, keeper)
         await self._over.wait()
@@ -58,11 +60,11 @@ class _Service:
         await asyncio.gather(*stops, return_exceptions=True)  # the keeper kills what does not end
         for child in self.children.values():
             child.log.close()
-        if os.getppid() != keeper:  # it was killed, and cannot take leave for both
+        if os.getppid() != keeper:  # the keeper was killed, and cannot remove the record
             record.remove(self.folder)
 
     def _reap(self) -> None:
-        """Takes the exit codes of all that ended: children, and what they left to us."""
+        """Collects the exit codes of ended processes: children, and adopted orphans of them."""
         by_pid = {child.pid: child for child in self.children.values() if child.pid}
         while True:
             try:
@@ -74,20 +76,21 @@ class _Service:
             if child := by_pid.get(pid):
                 child.on_exit(status)
 
-    async def _talk(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+    async def _serve_client(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         tasks: set[asyncio.Task[None]] = set()
         try:
-            if not channel.is_ours(writer.get_extra_info("socket")):
+            if not channel.is_of_owner(writer.get_extra_info("socket")):
                 return
             while line := await reader.readline():
                 request = json.loads(line)
-                task = asyncio.create_task(self._answer(request["id"], _REQUESTS[request["do"]](self, request), writer))
+                work = getattr(self, f"do_{request['do']}")(request)
+                task = asyncio.create_task(self._answer(request["id"], work, writer))
                 tasks.add(task)
                 task.add_done_callback(tasks.discard)
-        except (ValueError, LookupError, TypeError, ConnectionError):
-            pass  # what talks like this is no client of ours
+        except (ValueError, LookupError, TypeError, AttributeError, ConnectionError):
+            pass  # not a client of rcyaml
         finally:
-            # What a client began is brought to its end, even where the client is gone.
+            # Requests are completed, even if the client has disconnected.
             await asyncio.gather(*tasks)
             writer.close()
 
@@ -95,78 +98,58 @@ class _Service:
         try:
             answer = await work
         except OSError as error:
-            answer = {"error": (error.strerror or "it does not end, even though it was killed").lower()}
+            answer = {"error": (error.strerror or "it does not end, although it was killed").lower()}
         try:
             writer.write(json.dumps({"id": number, **answer}).encode() + b"\n")
             await writer.drain()
         except ConnectionError:
             pass
 
-    async def _hello(self, request: Request) -> Request:
+    async def do_hello(self, request: Request) -> Request:
         return {"protocol": PROTOCOL, "pid": os.getpid()}
 
-    async def _observe(self, request: Request) -> Request:
+    async def do_observe(self, request: Request) -> Request:
         now, families = asyncio.get_running_loop().time(), self._families.now()
         found = []
         for child in self.children.values():
             members = families.get(child.pid, set())
-            found.append(
-                {
-                    "spec": child.spec,
-                    "state": child.state,
-                    "pid": child.pid,
-                    "uptime": now - child.since,
-                    "restarts": child.restarts,
-                    "last_exit": child.last_exit,
-                    "memory": procfs.memory(members),
-                    "cpu": sum(self._families.alive[pid].cpu for pid in members),
-                    "members": sorted(members),
-                }
-            )
+            facts = {name: getattr(child, name) for name in ("spec", "state", "pid", "restarts", "last_exit")}
+            cpu = sum(self._families.alive[pid].cpu for pid in members)
+            used = {"memory": procfs.memory(members), "cpu": cpu, "members": sorted(members)}
+            found.append({**facts, "uptime": now - child.since, **used})
         return {"processes": found}
 
-    async def _prepare(self, request: Request) -> Request:
+    async def do_prepare(self, request: Request) -> Request:
         for spec in request["specs"]:
             name = spec["process"]["name"]
             if name in self.children:
                 self.children[name].spec = spec
             else:
                 log = LogFile(f"{self.folder}/logs/{name}.log", self._limit)
-                self.children[name] = Child(spec, f"{self.folder}:{name}", log, self._families, self._files)
+                self.children[name] = ChildProcess(spec, f"{self.folder}:{name}", log, self._families, self._files)
         return {}
 
-    async def _start(self, request: Request) -> Request:
+    async def do_start(self, request: Request) -> Request:
         child = self.children[request["name"]]
         async with child.lock:
             child.start(request["environment"])
         return {}
 
-    async def _stop_one(self, request: Request) -> Request:
+    async def do_stop(self, request: Request) -> Request:
         if child := self.children.get(request["name"]):
             await self._stop(child, request["within"])
         return {}
 
-    async def _stop(self, child: Child, within: float) -> None:
+    async def _stop(self, child: ChildProcess, within: float) -> None:
         async with child.lock:
             await child.stop(within)
 
-    async def _forget(self, request: Request) -> Request:
+    async def do_forget(self, request: Request) -> Request:
         for name in request["names"]:
             if child := self.children.pop(name, None):
                 child.log.close()
         return {}
 
-    async def _end(self, request: Request) -> Request:
+    async def do_end(self, request: Request) -> Request:
         self._over.set()
         return {}
-
-
-_REQUESTS: dict[str, Callable[[_Service, Request], Awaitable[Request]]] = {
-    "hello": _Service._hello,
-    "observe": _Service._observe,
-    "prepare": _Service._prepare,
-    "start": _Service._start,
-    "stop": _Service._stop_one,
-    "forget": _Service._forget,
-    "end": _Service._end,
-}

@@ -1,9 +1,9 @@
 """The supervisor of one deployment on this machine: `python -m robocomp_yaml.deploy.local.supervisor FOLDER`.
 
-It is two processes. The supervisor proper starts and watches the children, and answers on the control socket, in lines
-of JSON. Its parent, the keeper, does nothing until the supervisor is gone: everything that this left behind, and that
-Linux has made a child of the keeper's, is then killed. Only the standard library is used, and the keeper forks before
-most of it is imported: both stay small.
+It consists of two processes. The supervisor itself starts and restarts the children, and answers on the control socket,
+in lines of JSON. Its parent, the keeper, waits until the supervisor has ended, and then kills all descendants that the
+supervisor left, which Linux has made children of the keeper. Both use only the standard library, and the keeper forks
+before most of it is imported, so that both stay small.
 """
 
 from __future__ import annotations
@@ -27,16 +27,16 @@ def main() -> None:
         serve(folder)
         sys.exit(0)
     for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
-        signal.signal(number, lambda number, frame: _pass_on(supervisor, number))
+        signal.signal(number, lambda number, frame: _kill(supervisor, number))
     status = _wait_for(supervisor)
     _end_all()
     if status == 0:
         record.remove(folder)
 
 
-def _pass_on(supervisor: int, number: int) -> None:
-    with suppress(ProcessLookupError):
-        os.kill(supervisor, number)
+def _kill(pid: int, number: int) -> None:
+    with suppress(OSError):
+        os.kill(pid, number)
 
 
 def _wait_for(supervisor: int) -> int:
@@ -47,13 +47,10 @@ def _wait_for(supervisor: int) -> int:
 
 
 def _end_all() -> None:
-    """Kills all that came from this process, until nothing is left: what is killed leaves its children to us."""
+    """Kills all descendants of this process, until none is left: children of a killed process become its own."""
     while True:
         for pid in procfs.descendants([os.getpid()], procfs.table()) - {os.getpid()}:
-            try:
-                os.kill(pid, signal.SIGKILL)
-            except OSError:
-                continue
+            _kill(pid, signal.SIGKILL)
         try:
             os.wait()
         except ChildProcessError:

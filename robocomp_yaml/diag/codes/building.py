@@ -1,4 +1,4 @@
-"""RC8xxx: building. What compilers say of a component, and what keeps it from being built."""
+"""RC8xxx: building. The diagnostics of compilers, and the reasons why a component cannot be built."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""RC2xxx: components."""
+"""RC20xx and RC21xx: components · RC23xx: `uses:` and `options:` · RC25xx: forms, the windows of components."""
 
 from __future__ import annotations
 
@@ -18,3 +18,17 @@ TOPIC_IMPLEMENTED = _PAGE.code("RC2008")
 COMMON_BEHAVIOR = _PAGE.code("RC2009")
 SAME_FOLDER = _PAGE.code("RC2010")
 SAME_NAME = _PAGE.code("RC2011")
+NOT_AVAILABLE = _PAGE.code("RC2060")
+IMPOSSIBLE_NAME = _PAGE.code("RC2061")
+NOT_MERGED = _PAGE.code("RC2062")
+LIBRARY_OF_TWO_KINDS = _PAGE.code("RC2301")
+LIBRARY_VERSION = _PAGE.code("RC2302")
+OTHER_LANGUAGE = _PAGE.code("RC2303")
+NOT_INSTALLED = _PAGE.code("RC2304")
+NO_SOURCE = _PAGE.code("RC2305")
+UNKNOWN_OPTION = _PAGE.code("RC2351")
+OPTION_LEFT = _PAGE.code("RC2352")
+NOT_A_FORM = _PAGE.code("RC2501")
+FORM_WITH_ENTITIES = _PAGE.code("RC2502")
+NO_DIALOG = _PAGE.code("RC2503")
+OTHER_BASE = _PAGE.code("RC2504")

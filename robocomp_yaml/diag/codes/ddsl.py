@@ -1,4 +1,4 @@
-"""RC4xxx: deployments, their documents and what these name."""
+"""RC4xxx: deployment documents, and what they refer to."""
 
 from __future__ import annotations
 

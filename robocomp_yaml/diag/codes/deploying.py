@@ -1,6 +1,6 @@
-"""RC7xxx: deploying. What keeps a network from starting, and what a user should know about one that runs.
+"""RC7xxx: deploying. Why a network does not start, and what to know about a running one.
 
-Up to RC7019 what holds for every engine and for the local one.
+The codes up to RC7019 are for all engines and for the local one.
 """
 
 from __future__ import annotations
@@ -10,15 +10,17 @@ from robocomp_yaml.diag.code import Family
 _PAGE = Family("deploying")
 
 PORT_TAKEN = _PAGE.code("RC7001")
-REFUSED = _PAGE.code("RC7002")
+CANNOT = _PAGE.code("RC7002")
 NOT_READY = _PAGE.code("RC7003")
 ENDED_EARLY = _PAGE.code("RC7004")
 FOLDER = _PAGE.code("RC7005")
 UNSET_VARIABLE = _PAGE.code("RC7006")
 SUPERVISOR_KILLED = _PAGE.code("RC7007")
-NOT_HERE = _PAGE.code("RC7008")
+OTHER_MACHINE = _PAGE.code("RC7008")
 GIVEN_UP = _PAGE.code("RC7009")
-LATE = _PAGE.code("RC7011")
+EXPIRED = _PAGE.code("RC7011")
 OUTDATED = _PAGE.code("RC7012")
 STALE = _PAGE.code("RC7016")
 NO_ANSWER = _PAGE.code("RC7010")
+NO_REGISTRY = _PAGE.code("RC7020")
+NO_NODE = _PAGE.code("RC7021")

@@ -1,4 +1,4 @@
-"""RC6xxx: emitting. What keeps a file from being written, and what a user should know about one that was."""
+"""RC60xx: errors and warnings about written files."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ from robocomp_yaml.diag.code import Family
 
 _PAGE = Family("emitting")
 
-APART = "give each component a folder of its own, and each interface document a name of its own"
-USERS_PLACES = "what is yours belongs in src/ and etc/"
+APART = "put each component in its own folder, and give each interface document a unique name"
+USERS_FOLDERS = "write your code in src/, and your settings in etc/"
 
-NOT_OURS = _PAGE.code("RC6001")
+NOT_GENERATED = _PAGE.code("RC6001")
 OUTSIDE = _PAGE.code("RC6002")
 CONTESTED = _PAGE.code("RC6003")
 EDITED = _PAGE.code("RC6004")
@@ -17,4 +17,5 @@ CANNOT_WRITE = _PAGE.code("RC6005")
 BAD_MANIFEST = _PAGE.code("RC6006")
 INTERRUPTED = _PAGE.code("RC6007")
 PORT_CLASH = _PAGE.code("RC6008")
-CHANGED = _PAGE.code("RC6010")
+CHANGED_CONFIG = _PAGE.code("RC6010")
+UNRESOLVED = _PAGE.code("RC6101")

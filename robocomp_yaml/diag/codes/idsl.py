@@ -1,4 +1,4 @@
-"""RC1xxx, interfaces: what a schema cannot say about an IDSL document."""
+"""RC1xxx: interfaces. Rules for IDSL documents that a schema cannot express."""
 
 from __future__ import annotations
 

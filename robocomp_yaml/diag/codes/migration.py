@@ -1,4 +1,4 @@
-"""RC5xxx: what `rcyaml migrate` says about a legacy file and about what it wrote."""
+"""RC5xxx: what `rcyaml migrate` reports about legacy files and the documents that it wrote."""
 
 from __future__ import annotations
 
@@ -39,3 +39,9 @@ NO_PDSL = _PAGE.code("RC5030")
 NOT_ACCEPTED = _PAGE.code("RC5039")
 UPGRADED = _PAGE.code("RC5031")
 BOTH_KEYS = _PAGE.code("RC5032")
+DANGLING = _PAGE.code("RC5033")
+NOT_STARTED = _PAGE.code("RC5034")
+ODD_ENDPOINT = _PAGE.code("RC5035")
+NEEDS_SHELL = _PAGE.code("RC5036")
+SAME_PROCESS = _PAGE.code("RC5037")
+NO_PROGRAM = _PAGE.code("RC5038")

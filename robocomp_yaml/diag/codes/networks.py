@@ -1,4 +1,4 @@
-"""RC42xx to RC44xx: the network that a deployment comes to."""
+"""RC42xx to RC44xx: the network that is derived from a deployment."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ NO_TARGET = _PAGE.code("RC4205")
 CLOSED_GROUP = _PAGE.code("RC4206")
 NOT_ENABLED = _PAGE.code("RC4207")
 NO_STORM = _PAGE.code("RC4208")
-TWO_STORMS = _PAGE.code("RC4209")
-NOBODY_PUBLISHES = _PAGE.code("RC4210")
+SEVERAL_STORMS = _PAGE.code("RC4209")
+NOT_PUBLISHED = _PAGE.code("RC4210")
 TOPIC_MISMATCH = _PAGE.code("RC4211")
 BAD_ENDPOINT = _PAGE.code("RC4301")
 BAD_PROXY = _PAGE.code("RC4015")
-PASSED_OVER = _PAGE.code("RC4016")
-NOT_IN_THIS_FORM = _PAGE.code("RC4018")
+IGNORED_ENDPOINT = _PAGE.code("RC4016")
+CHANGED_BY_EXPORT = _PAGE.code("RC4018")
 NAME_TOO_LONG = _PAGE.code("RC4109")
 PATH_TOO_LONG = _PAGE.code("RC4110")
 PORT_TOO_HIGH = _PAGE.code("RC4302")

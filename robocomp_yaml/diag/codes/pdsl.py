@@ -1,4 +1,4 @@
-"""RC31xx, RC32xx: parameters, and how documents of parameters, components and values belong together."""
+"""RC31xx, RC32xx: parameters, and references between documents of parameters, components and values."""
 
 from __future__ import annotations
 

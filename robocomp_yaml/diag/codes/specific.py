@@ -1,4 +1,4 @@
-"""RC62xx: the user's own files of a component, which a compile leaves alone, and a merge brings up to date."""
+"""RC62xx: the user's files of a component, which a compile never overwrites, and a merge updates."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from robocomp_yaml.diag.code import Family
 
 _PAGE = Family("specific")
 
-LACKING = _PAGE.code("RC6201")
+MISSING_METHODS = _PAGE.code("RC6201")
 OUTDATED = _PAGE.code("RC6202")
-GONE = _PAGE.code("RC6203")
+OBSOLETE = _PAGE.code("RC6203")
 CONFLICT = _PAGE.code("RC6204")
 NO_CLASS = _PAGE.code("RC6205")
-CONFIG_LACKS = _PAGE.code("RC6206")
+MISSING_PROPERTIES = _PAGE.code("RC6206")

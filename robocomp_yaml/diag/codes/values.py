@@ -1,4 +1,4 @@
-"""RC33xx: values of parameters, their layers, and what Ice's properties can hold."""
+"""RC33xx: values of parameters, their layers, and what Ice properties can express."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How diagnostics are shown, one module a format: `render(diagnostics, documents, ...)`."""
+"""Renders diagnostics, with a module for each format: `render(diagnostics, documents, ...)`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ FORMATS = ("text", "json", "sarif")
 def tell(
     format_: str, diagnostics: Sequence[Diagnostic], documents: int, color: bool = False, *, err: bool = False
 ) -> None:  # fmt: skip
-    """Prints the diagnostics of a run that looked at so many documents; as text, on standard error if `err`."""
+    """Prints the diagnostics of a run that read that number of documents, on standard error if `err`."""
     module = importlib.import_module(f"{__name__}.{format_}")
     if format_ == "text":
         terminal.say(*module.render(diagnostics, documents, color), err=err)

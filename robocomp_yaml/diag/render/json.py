@@ -11,7 +11,7 @@ from robocomp_yaml.diag.span import Span
 
 
 def as_data(diagnostic: Diagnostic) -> dict[str, object]:
-    """One diagnostic as JSON's types; `more` only where there is one."""
+    """One diagnostic as JSON's types; `more` is omitted if it is empty."""
     data: dict[str, object] = {
         "code": diagnostic.code,
         "severity": diagnostic.severity,
@@ -50,5 +50,5 @@ def run_as_data(diagnostics: Sequence[Diagnostic], documents: int) -> dict[str, 
 
 
 def dumps(data: object, indent: int | None = 2) -> str:
-    """JSON that is UTF-8 whatever the names of files are: bytes in them that are no text are escaped."""
+    """JSON as UTF-8; bytes in file names that are not UTF-8 are escaped."""
     return json.dumps(data, indent=indent, ensure_ascii=False).encode("utf-8", "backslashreplace").decode() + "\n"

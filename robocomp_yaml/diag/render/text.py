@@ -1,4 +1,4 @@
-"""Diagnostics for people: what is wrong, the line, and how to mend it.
+"""Diagnostics for people: the message, the line, and the hint.
 
 error[RC2003]: component SpeechComp requires interface 'Mouht', which no imported module defines
   ┌─ components/speech/speech.cdsl.yaml:7:12
@@ -17,8 +17,8 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import Shown, columns, line, paint, shown
 from robocomp_yaml.secrets import Part, parts_of_lines
 
-WIDEST = 160  # a longer line is cut around its fault
-MOST_READ = 1 << 25  # bytes of a file in which lines to show are looked for
+WIDEST = 160  # characters; a longer line is shortened around the fault
+MOST_READ = 1 << 25  # bytes of a file that are read to show a line of it
 _CODE = (
     ".py", ".cpp", ".cc", ".h", ".hpp", ".ice", ".cmake", ".scxml", ".ui", "idsl.yaml", "cdsl.yaml", "pdsl.yaml",
     ".idsl", ".cdsl", ".smdsl", ".jcdsl",
@@ -27,13 +27,13 @@ _COLORS = {ERROR: "31", WARNING: "33", NOTE: "36"}
 
 
 def render(diagnostics: Sequence[Diagnostic], documents: int, color: bool) -> list[Shown]:
-    """The lines of each diagnostic, and a last one that counts them."""
-    told = [one for lines in each(diagnostics, color) for one in (*lines, Shown())]
-    return [*told, _summary(diagnostics, documents, color)]
+    """The lines of each diagnostic, and a last line with their numbers."""
+    rendered = [one for lines in each(diagnostics, color) for one in (*lines, Shown())]
+    return [*rendered, _summary(diagnostics, documents, color)]
 
 
 def each(diagnostics: Sequence[Diagnostic], color: bool) -> list[list[Shown]]:
-    """The lines of each diagnostic, with the line of the document that it is about."""
+    """The lines of each diagnostic, with the line of the document at its location."""
     lines = _Lines()
     return [_one(diagnostic, lines, color) for diagnostic in diagnostics]
 
@@ -44,8 +44,8 @@ def _summary(diagnostics: Sequence[Diagnostic], documents: int, color: bool) -> 
         for severity in _COLORS
         if (n := sum(d.severity == severity for d in diagnostics))
     ]
-    looked_at = f"{documents} document{'' if documents == 1 else 's'}: "
-    return line(looked_at, Shown(", ".join(counts)) if counts else "nothing wrong")
+    head = f"{documents} document{'' if documents == 1 else 's'}: "
+    return line(head, Shown(", ".join(counts)) if counts else "nothing wrong")
 
 
 def _one(diagnostic: Diagnostic, lines: _Lines, color: bool) -> list[Shown]:
@@ -68,12 +68,15 @@ def _snippet(
     pad = " " * width
     rail, corner = paint("│", "34", color), paint("┌─", "34", color)
     text = lines.get(span.file, span.line)
-    if text is None:  # a folder, or a file that cannot be read: there is no line to show
+    if text is None:  # a folder, or an unreadable file
         out = [line(pad, " ", corner, " ", span.file)]
         return [*out, line(pad, " ", paint("=", "34", color), " ", label)] if label else out
     start = span.column - 1
     end = span.end_column - 1 if span.end_line == span.line else len(text.rstrip())
-    secret = lines.secrets(span) if hidden is None else parts(span.line, len(text), _of_file(hidden, span.file))
+    if hidden is None:
+        secret = lines.secrets(span)
+    else:
+        secret = parts(span.line, len(text), (place for place in hidden if place.file == span.file))
     text, start, end = hide(text, secret, start, max(start + 1, min(end, len(text))))
     text, start, end = _cut(text, start, end)
     marks = paint("^" * max(1, columns(_visible(text[start:end]))), f"1;{tint}", color)
@@ -85,7 +88,7 @@ def _snippet(
 
 
 def _cut(text: str, start: int, end: int) -> tuple[str, int, int]:
-    """A long line around its fault, with the fault's place in it."""
+    """The part of a long line around the fault, and the start and end of the fault in it."""
     if len(text) <= WIDEST:
         return text, start, end
     first = max(0, min(start - WIDEST // 4, len(text) - WIDEST))
@@ -97,16 +100,12 @@ def _cut(text: str, start: int, end: int) -> tuple[str, int, int]:
 
 
 def _visible(text: str) -> Shown:
-    """A piece of a document's line: tabs as blanks, of which the marks below know how wide they are."""
+    """A part of a document's line, with tabs as blanks, so that the marks below have the same width."""
     return shown(text.replace("\t", "    "))
 
 
-def _of_file(places: tuple[Span, ...], file: str) -> list[Span]:
-    return [place for place in places if place.file == file]
-
-
 class _Lines:
-    """The lines of the files that diagnostics point at, each file read once."""
+    """The lines of the files in which diagnostics are located; each file is read once."""
 
     def __init__(self) -> None:
         self._files: dict[str, list[str] | None] = {}
@@ -119,7 +118,7 @@ class _Lines:
         return lines[line - 1] if lines and line <= len(lines) else None
 
     def secrets(self, span: Span) -> list[Part]:
-        """What is hidden of a line by the names in it; in code and in types, names stand for other things."""
+        """The parts of a line that are secret by their names. In code and in types, names do not indicate secrets."""
         if span.file.endswith(_CODE):
             return []
         if span.file not in self._secrets:
@@ -128,7 +127,7 @@ class _Lines:
 
 
 def _read(file: str) -> list[str] | None:
-    """The lines of a file, or of its beginning; None where it cannot be read, as a pipe, which may never end."""
+    """The lines of a file, or of its beginning; None if it cannot be read, or is not a regular file, such as a pipe."""
     if not os.path.isfile(file):
         return None
     try:

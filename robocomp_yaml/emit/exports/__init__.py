@@ -1,6 +1,6 @@
-"""A network in the words of other tools: one module a form, each with `export(network) -> {relative path: text}`.
+"""Exports of networks for other tools: a module for each form, with `export(network) -> {relative path: text}`.
 
-Texts that hold a configuration may hold what nobody else should read, as `Network` says of it.
+A text that contains a configuration may contain secrets.
 """
 
 from __future__ import annotations
@@ -23,32 +23,34 @@ OWN = Modules(__name__, "form")
 
 
 def built_in() -> Collection[str]:
+    """The names of the forms that are part of rcyaml."""
     return OWN.table().keys()
 
 
 def forms(plugins: Plugins = NONE) -> list[str]:
-    """What `export` can make."""
+    """The names of all forms, those of plug-ins last."""
     return [*built_in(), *sorted(plugins.of(EXPORTS))]
 
 
 def export(network: Network, form: str, plugins: Plugins = NONE) -> dict[str, str]:
-    """The files that another tool runs the network from, by their relative paths; `form` is one of `forms()`. Raises
-    Unwritable where the form cannot say what the network has; what is only written otherwise is `noted`."""
+    """The files with which another tool runs the network, by relative path. `form` is one of `forms()`: ValueError is
+    raised for another one. Raises Unwritable if the form cannot express the network; what is only written in another
+    way is collected by `noted`."""
     if form in plugins.of(EXPORTS):
         with _unwritable.of(network):
             return _of_plugin(network, form, *plugins.of(EXPORTS)[form])
-    made = OWN.load(form)
+    module = OWN.load(form)
     with _unwritable.of(network):
-        files: dict[str, str] = made.export(network)
+        files: dict[str, str] = module.export(network)
     return files
 
 
 def _of_plugin(network: Network, form: str, plugin: Plugin, module: ModuleType) -> dict[str, str]:
-    with plugin.answering(f"export '{form}'", Unwritable):
+    with plugin.guarded(f"export '{form}'", Unwritable):
         files = module.export(network)
         if not isinstance(files, dict) or not all(isinstance(each, str) for item in files.items() for each in item):
-            raise TypeError("it gives no texts by their paths")
+            raise TypeError("it returns no dict of paths and texts")
         for path in files:
             if os.path.isabs(path) or os.path.normpath(path).split(os.sep)[0] in (os.pardir, os.curdir):
-                raise ValueError(f"'{path}' is no path of a file below a folder")
+                raise ValueError(f"'{path}' is not a relative path of a file")
     return files

@@ -1,4 +1,4 @@
-"""What every form needs of a process: its words, and its name as a file's."""
+"""What all forms need of a process: its command, and its name for files."""
 
 from __future__ import annotations
 
@@ -10,35 +10,35 @@ from robocomp_yaml.network.network import Network, Process
 
 
 def without_config(process: Process) -> tuple[str, ...]:
-    """The program and its arguments but for that which names its configuration."""
+    """The program and its arguments, without the one that names its configuration."""
     program, *arguments = process.command
     return program, *(word for word in arguments if CONFIG not in word)
 
 
-# No line break stands in it, which not every form could say. What is in a file never becomes a part of it.
+# It has no line break, because not every form can write one. The content of a file never becomes a part of it.
 _READ_FILES = (
     'n=$(printf "\\n."); n=${n%.}; r=$(printf "\\r"); '
     'while [ "$1" != -- ]; do f=$2; case $f in "~/"*) f=${HOME:?}/${f#"~/"};; esac; '
     'v=$([ -f "$f" ] && cat -- "$f" && echo .) && [ "$(tr -d "\\000" <"$f" | wc -c)" -eq "$(wc -c <"$f")" ] || '
-    '{ echo "the variable $1 is the text of $f, which cannot be read, or holds a NUL" >&2; exit 1; }; '
+    '{ echo "the variable $1 is the text of $f, which cannot be read, or contains a NUL" >&2; exit 1; }; '
     'v=${v%.}; case $v in *"$r$n") v=${v%"$r$n"};; *"$n") v=${v%"$n"};; esac; '
     'export "$1=$v"; shift 2; done; shift; exec "$@"'
 )
 
 
 def with_files(process: Process, command: Iterable[str]) -> list[str]:
-    """A command of a process that runs with the variables that files hold: a shell reads them where it starts."""
+    """A command of a process with its variables from files, which a shell reads when the process starts."""
     files = [word for one in process.env if one.file for word in (one.name, one.file)]
     return ["/bin/sh", "-c", _READ_FILES, process.name, *files, "--", *command] if files else list(command)
 
 
 def file_name(name: str) -> str:
-    """A name for files, units and the like: members of a group have dots in theirs."""
+    """A name for files: characters other than letters, digits, `_`, `.` and `-` are replaced by `_`."""
     return re.sub(r"[^A-Za-z0-9_.-]", "_", name)
 
 
 def by_host(network: Network) -> Iterator[tuple[str, list[Process]]]:
-    """The processes of each host, with the folder that its files stand in: '' where there is one host only."""
+    """The processes of each host, with the folder for its files: '' if there is only one host."""
     used = dict.fromkeys(process.host for process in network.processes.values())
     for host in used:
         folder = f"{file_name(host)}/" if len(used) > 1 else ""
@@ -46,5 +46,5 @@ def by_host(network: Network) -> Iterator[tuple[str, list[Process]]]:
 
 
 def configs(folder: str, processes: list[Process]) -> dict[str, str]:
-    """The configurations of processes, below a folder."""
+    """The configurations of processes, by their paths below a folder."""
     return {f"{folder}{process.config.path}": process.config.text for process in processes if process.config}

@@ -1,7 +1,7 @@
-"""What an export's form cannot say: told at the entry that it belongs to.
+"""What the form of an export cannot express, reported at the entry that has it.
 
-What could become something else than a text of its own is refused (Unwritable is raised). A sign that a form merely
-has no spelling for is replaced, which is noted.
+A text that could change the structure of the output is rejected: Unwritable is raised. A character that a form cannot
+write is replaced, which is noted.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from robocomp_yaml.network.network import Network, Process
 
 
 class Unwritable(ValueError):
-    """The text says why; `name` is whose it is, and `span` where that stands: those of the process that is being
-    written, where they are not given."""
+    """The text is the reason. `name` and `span` are those of the process or network that has the text; if they are not
+    set, those of the process that is being written."""
 
     def __init__(self, why: str, name: str = "", span: Span = Span("")) -> None:
         super().__init__(why)
@@ -27,13 +27,13 @@ _NOTES: ContextVar[list[Unwritable]] = ContextVar("notes")
 
 
 def note(why: str) -> None:
-    """Something is written otherwise than it is."""
+    """Notes that something is written in another way."""
     _NOTES.get([]).append(Unwritable(why))
 
 
 @contextmanager
 def noted() -> Iterator[list[Unwritable]]:
-    """What is noted inside."""
+    """The notes of the block."""
     notes: list[Unwritable] = []
     token = _NOTES.set(notes)
     try:
@@ -44,18 +44,18 @@ def noted() -> Iterator[list[Unwritable]]:
 
 @contextmanager
 def of(owner: Process | Network) -> Iterator[None]:
-    """Whatever is refused or noted inside belongs to this process or, if to none, to the network."""
+    """What is rejected or noted in the block, and has no owner yet, belongs to this process or network."""
     try:
         yield
-    except Unwritable as refused:
-        _belongs(refused, owner)
+    except Unwritable as error:
+        _set_owner(error, owner)
         raise
     finally:
-        for found in _NOTES.get([]):
-            _belongs(found, owner)
+        for each in _NOTES.get([]):
+            _set_owner(each, owner)
 
 
-def _belongs(found: Unwritable, owner: Process | Network) -> None:
-    if not found.name:
-        found.name = owner.name
-        found.span = owner.span if isinstance(owner, Process) else Span(owner.path)
+def _set_owner(problem: Unwritable, owner: Process | Network) -> None:
+    if not problem.name:
+        problem.name = owner.name
+        problem.span = owner.span if isinstance(owner, Process) else Span(owner.path)

@@ -1,7 +1,7 @@
-"""Services for docker compose, in the network of their host. Several hosts have a folder each.
+"""Services for docker compose, in the network of their host. If there are several hosts, each has a folder.
 
-The programs are those of the host: the image (`RCYAML_IMAGE`) has what they need to run, and their folders are mounted
-where they are. A service is healthy once it is ready, and those behind it wait for that.
+The programs are those of the host: the image (`RCYAML_IMAGE`) has the libraries that they need, and their folders are
+mounted at the same paths. A service is healthy when its process is ready; services that depend on it wait for that.
 """
 
 from __future__ import annotations
@@ -20,23 +20,23 @@ from robocomp_yaml.source.yaml_text import quoted
 _IMAGE = "${RCYAML_IMAGE:-debian:bookworm}"
 _INSIDE = "/run/rcyaml"
 _SYSTEM = re.compile(r"/(?:(?:usr|bin|s?bin|lib\w*|etc|proc|sys|dev|run|tmp)(?:/(?!local/\w)|$)|$)")
-"""Folders that the image has itself."""
+"""Folders of the image, which are not mounted."""
 
 
 def export(network: Network) -> dict[str, str]:
     files: dict[str, str] = {}
     for folder, processes in by_host(network):
-        here = {process.name: process for process in processes}
+        by_name = {process.name: process for process in processes}
         lines = [f"name: {quoted(_project(network.name))}", "services:"]
         for process in processes:
             with _unwritable.of(process):
-                lines += [f"  {line}" for line in _service(process, here)]
+                lines += [f"  {line}" for line in _service(process, by_name)]
         files[f"{folder}compose.yaml"] = "\n".join(lines) + "\n"
         files |= configs(folder, processes)
     return files
 
 
-def _service(process: Process, here: dict[str, Process]) -> list[str]:
+def _service(process: Process, by_name: dict[str, Process]) -> list[str]:
     inside = f"{_INSIDE}/{os.path.basename(process.config.path)}" if process.config else ""
     program, *arguments = with_files(process, process.words(inside))
     lines = [
@@ -47,10 +47,10 @@ def _service(process: Process, here: dict[str, Process]) -> list[str]:
         lines.append(f"  working_dir: {_text(process.cwd)}")
     if not process.enabled:
         lines.append('  profiles: ["disabled"]')
-    given = [item for item in process.env if not item.file]
-    if given:
+    variables = [item for item in process.env if not item.file]
+    if variables:
         lines.append("  environment:")
-        for item in given:
+        for item in variables:
             value = quoted(f"${{{item.source}}}") if item.source else _text(item.value)
             lines.append(f"    {quoted(item.name)}: {value}")
     lines += _volumes(process, inside)
@@ -59,7 +59,7 @@ def _service(process: Process, here: dict[str, Process]) -> list[str]:
         tries = max(int(process.ready.within), 1)
         more = ["    interval: 1s", "    timeout: 1s", f"    retries: {tries}"]
         lines += ["  healthcheck:", *(f"  {line}" for line in _list("test", ["CMD", *check])), *more]
-    needed = [here[name] for name in process.after if name in here and here[name].enabled]
+    needed = [by_name[name] for name in process.after if name in by_name and by_name[name].enabled]
     if needed:
         lines.append("  depends_on:")
         for other in needed:
@@ -69,7 +69,7 @@ def _service(process: Process, here: dict[str, Process]) -> list[str]:
 
 
 def _volumes(process: Process, inside: str) -> list[str]:
-    """The folders of the program, its configuration, and the files that hold variables."""
+    """The mounts: the folders of the program, its configuration, and files with variables."""
     home = os.path.dirname(process.command[0]) if os.path.isabs(process.command[0]) else ""
     if process.kind == COMPONENT and os.path.basename(home) == "bin":
         home = os.path.dirname(home)
@@ -84,15 +84,15 @@ def _volumes(process: Process, inside: str) -> list[str]:
 
 
 def _shared(home: str) -> list[str]:
-    """What a component reads when it starts that it shares with others of its workspace: a program that was built has
-    all of it."""
+    """The folders that a component in Python reads when it starts, and shares with other components of its workspace. A
+    program that was built contains what it needs."""
     if not os.path.isfile(os.path.join(home, GENERATED, "component.py")):
         return []
     root = workspace.root_above(home)
     if root is None or os.path.isdir(os.path.join(home, GENERATED, "runtime")):
         return []
-    found, _ = workspace.read(root)
-    folders = (os.path.abspath(folder) for folder in (found.runtime_folder, found.slice_folder))
+    shared, _ = workspace.read(root)
+    folders = (os.path.abspath(folder) for folder in (shared.runtime_folder, shared.slice_folder))
     return [folder for folder in folders if os.path.isdir(folder)]
 
 
@@ -105,20 +105,20 @@ def _mount(source: str, target: str, rights: str) -> str:
 
 
 def _files(process: Process) -> list[str]:
-    """Raises Unwritable: whose home an image has is not known."""
+    """The files with variables. Raises Unwritable for one below `~`, because a container has no known home."""
     for one in process.env:
         if one.file.startswith("~/"):
-            raise _unwritable.Unwritable(f"a container has no home to find {one.file} in: give {one.name} another path")
+            raise _unwritable.Unwritable(f"a container has no home for {one.file}: set another path for {one.name}")
     return list(dict.fromkeys(one.file for one in process.env if one.file))
 
 
 def _folder(process: Process) -> str:
-    """Where it runs; IceStorm does not care."""
+    """The working folder of a process; IceStorm needs none."""
     return "" if process.kind == ICESTORM else process.cwd
 
 
 def _health(process: Process) -> list[str]:
-    """What tells that it is ready: its own command, or that something listens at its port."""
+    """The command that checks whether a process is ready: its own, or a connection to its port; empty for none."""
     if process.ready.command:
         return with_files(process, process.ready.command)
     listening = [endpoint.port for endpoint in process.endpoints if endpoint.port and endpoint.protocol == "tcp"]
@@ -133,15 +133,14 @@ def _restart(process: Process) -> str:
 
 
 def _list(key: str, items: Iterable[str]) -> list[str]:
-    found = [_text(item) for item in items]
-    return [f"  {key}: [{', '.join(found)}]"]
+    return [f"  {key}: [{', '.join(map(_text, items))}]"]
 
 
 def _text(text: str) -> str:
-    """A text in which compose finds no variable."""
+    """A text in quotes, in which compose detects no variable."""
     return quoted(text.replace("$", "$$"))
 
 
 def _project(name: str) -> str:
-    """Compose's names of projects have small letters, and begin with one or a digit."""
+    """The name of a project: lower-case letters, digits, `_` and `-`, and no `_` or `-` at the beginning."""
     return file_name(name).lower().replace(".", "_").lstrip("_-") or "deployment"

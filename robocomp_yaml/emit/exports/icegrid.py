@@ -1,7 +1,7 @@
 """An application for IceGrid: `icegridadmin -e 'application add NAME.xml'`.
 
-The nodes are the hosts, by their names. Configurations are part of the descriptor, so no file has to be carried
-anywhere. IceGrid knows no order of starting and no readiness: all servers start at once, and find each other.
+The nodes are the hosts, by name. Configurations are part of the descriptor, so that no file has to be copied. IceGrid
+has no order of starting and no readiness: all servers start at the same time.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from robocomp_yaml.source import properties
 
 _DROP_LAST = 'n=$#; for word do shift; n=$((n-1)); [ "$n" -gt 0 ] && set -- "$@" "${word#=}"; done; exec "$@"'
 _TAKE_ALL = 'for word do shift; set -- "$@" "${word#=}"; done; exec "$@"'
-"""A node appends `--Ice.Config=…` to every command, which only Ice's programs understand. It leaves empty words out, so
-they are given to the shell behind a sign of ours."""
+"""A node appends `--Ice.Config=…` to every command, which only Ice programs understand: the first script drops it. A
+node also omits empty words, so that words are passed to the shell behind `=`."""
 
 _MAKE_FILE = 'f=$(umask 077; mktemp) && printf %s "${1#=}" >"$f" && exec 9<"$f" && rm -f -- "$f" || exit 1; shift'
 _FILE_AND_DROP_LAST = (
@@ -24,7 +24,7 @@ _FILE_AND_DROP_LAST = (
     'word=${word%%"{config}"*}/dev/fd/9${word#*"{config}"};; esac; '
     '[ "$n" -gt 0 ] && set -- "$@" "$word"; done; exec "$@"'
 )
-"""For a program that reads a configuration of its own, a gate too: a file without a name, which nobody else reads."""
+"""For a program with its own configuration: a file without a name, which no other process can read."""
 
 _OPTION = f"--Ice.Config={CONFIG}"
 
@@ -50,7 +50,7 @@ def _server(process: Process) -> list[str]:
     is_ice = process.is_ice and not needs_file
     program, *arguments = process.command if needs_file else without_config(process)
     bare = [f"{one.name}={one.value}" for one in process.env if "$" in one.value]
-    if bare:  # a node puts variables of its own into values, and knows no way to say `$`
+    if bare:  # a node replaces variables in values, and cannot escape `$`
         program, arguments = "/usr/bin/env", [*bare, program, *arguments]
     if not is_ice or "" in arguments:
         words = [f"={word}" if word[:1] in ("", "=") else word for word in (program, *arguments)]
@@ -71,13 +71,13 @@ def _server(process: Process) -> list[str]:
             inside += element("env", {}, text=f"{variable.name}={value}")
     values = properties.read(process.config.text).values if process.config and is_ice else {}
     if not is_ice:
-        values["Ice.Admin.Enabled"] = "0"  # a node would wait for its administrative object for ever
-    given = [
+        values["Ice.Admin.Enabled"] = "0"  # else the node waits for its administrative object for ever
+    settings = [
         line
         for key, value in values.items()
         for line in element("property", {"name": _literal(key), "value": _literal(value)})
     ]
-    return element("server", attributes, [*inside, *(element("properties", {}, given) if given else [])])
+    return element("server", attributes, [*inside, *(element("properties", {}, settings) if settings else [])])
 
 
 def _activation(process: Process) -> str:
@@ -85,5 +85,5 @@ def _activation(process: Process) -> str:
 
 
 def _literal(text: str) -> str:
-    """A text in which IceGrid finds no variable of its own."""
+    """A text in which IceGrid detects no variable."""
     return text.replace("${", "$${")

@@ -1,6 +1,6 @@
-"""RCManager's XML: its nodes with their dependences, commands, and places in its graph.
+"""RCManager's XML: nodes with their dependences, commands, and positions in its graph.
 
-What a migrated document keeps under `x-rcmanager:` is written as it was, as far as it still says what the network does.
+What a migrated document keeps under `x-rcmanager:` is written unchanged, as far as it still matches the network.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _ATTRIBUTES = {
     "workingDir": "path", "upCommand": "command", "downCommand": "command", "configFile": "path",
     "xpos": "value", "ypos": "value", "radius": "value", "color": "value",
 }  # fmt: skip
-"""The elements of a node that say one thing, by the attribute that says it; in RCManager's order."""
+"""The elements of a node with one value, and the attribute of the value; in RCManager's order."""
 
 _OWN = ("alias", "endpoint", "dependence", "aliases")
 _GENERAL = {
@@ -57,7 +57,7 @@ class _Exporter:
         self.by_alias = {alias: name for name, alias in self.aliases.items()}
 
     def of(self, name: str) -> Kept:
-        """What is kept of a node."""
+        """What the document keeps of a node."""
         process = self.network.processes.get(self.owners.get(name, ""))
         if process is None or name in self.nodes:
             return _mapping(self.nodes.get(name))
@@ -68,14 +68,14 @@ class _Exporter:
         return {key: value for key, value in self.kept.items() if isinstance(value, str)}
 
     def children(self) -> Iterator[str]:
-        given = {key: value for key, value in self.kept.items() if not isinstance(value, str)}
-        for key, value in (given or {"generalInformation": _GENERAL}).items():
+        elements = {key: value for key, value in self.kept.items() if not isinstance(value, str)}
+        for key, value in (elements or {"generalInformation": _GENERAL}).items():
             yield from _generic(key, value)
         for process in self.network.processes.values():
             with _unwritable.of(process):
                 if process.env:
                     names = ", ".join(one.name for one in process.env)
-                    _unwritable.note(f"RCManager gives its commands no variables: {names}")
+                    _unwritable.note(f"RCManager sets no variables for its commands: {names}")
                 for number, name in enumerate((process.name, *process.aliases)):
                     yield from self.node(process, name, number)
         for name in self.nodes:
@@ -84,58 +84,58 @@ class _Exporter:
                 yield from _node(_text(kept.get("alias"), name), _text(kept.get("endpoint")), _texts(kept), kept)
 
     def node(self, process: Process, name: str, number: int) -> Iterator[str]:
-        """`number` counts the names of a process from 0."""
+        """The node of a name of a process; `number` counts the names of a process from 0."""
         kept = self.of(name)
         made: dict[str, object] = {"workingDir": process.cwd, "upCommand": self.command(process, name)}
         if not kept:
             config = self.network.config_path(process)
             made |= {"downCommand": f"pkill -f {shlex.quote(self.pattern(process, config))}", "configFile": config}
-            made |= {**self.place(process, number), "radius": "10.0", "color": "#AAAAAA"}
-        given = {key: value for key, value in kept.items() if key not in _OWN}
-        if "upCommand" in given and not self.still_means(process, _text(given["upCommand"])):
-            del given["upCommand"]
+            made |= {**self.position(process, number), "radius": "10.0", "color": "#AAAAAA"}
+        unchanged = {key: value for key, value in kept.items() if key not in _OWN}
+        if "upCommand" in unchanged and not self.still_starts(process, _text(unchanged["upCommand"])):
+            del unchanged["upCommand"]
         yield from _node(self.aliases[name], self.endpoint(process, kept, number),
-                         self.dependences(process, name, kept), {**made, **given})  # fmt: skip
+                         self.dependences(process, name, kept), {**made, **unchanged})  # fmt: skip
 
     def endpoint(self, process: Process, kept: Kept, number: int) -> str:
-        given = _text(kept.get("endpoint"))
-        said = proxy_at(given)
+        text = _text(kept.get("endpoint"))
+        proxy = proxy_at(text)
         ports = {endpoint.port for endpoint in process.endpoints}
-        if "endpoint" in kept and (said is None or not {one.port for one in said.endpoints} - ports):
-            return given
-        found = [endpoint for endpoint in process.endpoints if endpoint.identity][number : number + 1]
+        if "endpoint" in kept and (proxy is None or not {one.port for one in proxy.endpoints} - ports):
+            return text
+        selected = [endpoint for endpoint in process.endpoints if endpoint.identity][number : number + 1]
         address = self.network.address(process)
-        return "".join(f"{one.identity}:{one.protocol} -h {spelled_host(address)} -p {one.port}" for one in found)
+        return "".join(f"{one.identity}:{one.protocol} -h {spelled_host(address)} -p {one.port}" for one in selected)
 
     def dependences(self, process: Process, name: str, kept: Kept) -> list[str]:
-        """Those that the file had, names and all, where they are kept; and whatever else the process waits for."""
-        given = _texts(kept)
+        """The dependences that the document keeps, and the others of the process."""
+        texts = _texts(kept)
         if name != process.name:
-            return given
+            return texts
         listed = [alias for other in (name, *process.aliases) for alias in _texts(self.of(other))]
         meant = {self.owners[self.by_alias[alias]] for alias in listed if alias in self.by_alias}
-        return [*given, *(self.aliases[other] for other in process.after if other not in meant)]
+        return [*texts, *(self.aliases[other] for other in process.after if other not in meant)]
 
     def command(self, process: Process, name: str) -> str:
-        told = shlex.join(process.words(self.network.config_path(process)))
-        return f"rcremote {self.network.address(process)} {file_name(name)} {shlex.quote(process.cwd)} {told}"
+        words = shlex.join(process.words(self.network.config_path(process)))
+        return f"rcremote {self.network.address(process)} {file_name(name)} {shlex.quote(process.cwd)} {words}"
 
     def pattern(self, process: Process, config: str) -> str:
-        """A regular expression for the command lines of a process and no other: its configuration is its own; without
-        one, all its words are needed."""
+        """A regular expression that matches the command line of this process only: it contains the process's own
+        configuration, or all words if there is none."""
         text = config or " ".join(process.command)
         return _SPECIAL.sub(r"\\\g<0>", text) + ("( |$)" if config else "$")
 
-    def still_means(self, process: Process, command: str) -> bool:
-        """Whether a command of the file starts what the process is, on its host and in its folder."""
+    def still_starts(self, process: Process, command: str) -> bool:
+        """Whether a kept command starts the same program as the process, on the same host and in the same folder."""
         if process.kind == ICESTORM:
             return True
         try:
-            told = shlex.split(command)
+            words = shlex.split(command)
         except ValueError:
-            told = command.split()
-        if told[:1] == ["rcremote"]:
-            host, folder, told = told[1], told[3], told[4:]
+            words = command.split()
+        if words[:1] == ["rcremote"]:
+            host, folder, words = words[1], words[3], words[4:]
             local = (host in _LOCAL) == (self.network.address(process) in _LOCAL)
             if not local or (host not in _LOCAL and host != self.network.address(process)):
                 return False
@@ -143,16 +143,16 @@ class _Exporter:
                 return False
         if process.command[:2] == ("sh", "-c"):
             return command.rstrip().endswith(process.command[2])
-        return len(told) == len(process.command) and all(
+        return len(words) == len(process.command) and all(
             CONFIG in word or text == word or self.path(process.cwd, text) == word
-            for text, word in zip(told, process.command, strict=True)
+            for text, word in zip(words, process.command, strict=True)
         )
 
     def path(self, folder: str, text: str) -> str:
         return os.path.abspath(os.path.join(folder, os.path.expanduser(text)))
 
-    def place(self, process: Process, number: int) -> dict[str, object]:
-        """A row for each wave of processes that start together, the first one below."""
+    def position(self, process: Process, number: int) -> dict[str, object]:
+        """The position of a node: a row for each wave of processes that start together, the first one at the bottom."""
         for row, wave in enumerate(self.network.order):
             if process.name in wave:
                 column = wave.index(process.name) - (len(wave) - 1) / 2
@@ -160,11 +160,11 @@ class _Exporter:
         return {"xpos": f"{number * _SPACE / 4:.1f}", "ypos": f"{_SPACE:.1f}"}
 
 
-def _node(alias: str, endpoint: str, dependences: Sequence[str], given: Kept) -> Iterator[str]:
+def _node(alias: str, endpoint: str, dependences: Sequence[str], kept: Kept) -> Iterator[str]:
     inside = [line for other in dependences for line in element("dependence", {"alias": other})]
-    rest = {key: value for key, value in given.items() if key not in (*_ATTRIBUTES, *_OWN)}
+    rest = {key: value for key, value in kept.items() if key not in (*_ATTRIBUTES, *_OWN)}
     for name, attribute in _ATTRIBUTES.items():
-        value = given.get(name)
+        value = kept.get(name)
         if isinstance(value, str):
             inside += element(name, {attribute: value})
         elif value is not None:
@@ -179,7 +179,7 @@ def _node(alias: str, endpoint: str, dependences: Sequence[str], given: Kept) ->
 
 
 def _generic(name: str, value: object) -> list[str]:
-    """An element whose texts are its attributes; a list stands for several elements of one name."""
+    """An element whose texts are its attributes. A list is several elements with the same name."""
     if isinstance(value, list):
         return [line for item in value for line in _generic(name, item)]
     body = _mapping(value)

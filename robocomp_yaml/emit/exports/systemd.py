@@ -1,6 +1,7 @@
-"""Units for systemd: one service a process, and a target that starts them all. Several hosts have a folder each.
+"""Units for systemd: a service for each process, and a target that starts all of them. If there are several hosts, each
+has a folder.
 
-Configurations are looked for below %E/NAME: /etc/NAME, or ~/.config/NAME of a user's own systemd.
+Configurations are read below %E/NAME: /etc/NAME, or ~/.config/NAME for the systemd of a user.
 """
 
 from __future__ import annotations
@@ -9,33 +10,35 @@ import re
 
 from robocomp_yaml.emit.exports import _unwritable
 from robocomp_yaml.emit.exports._commands import by_host, configs, file_name, with_files
-from robocomp_yaml.emit.exports._units import Unit, folder, plain, quoted
+from robocomp_yaml.emit.exports._unwritable import Unwritable
 from robocomp_yaml.network.network import ICESTORM, Network, Process
+from robocomp_yaml.source.text import OF_NO_LINE
 
 _SPECIAL = "-@:+!|"
 _UNIT_NAME = re.compile(r"[^A-Za-z0-9:_.-]")
+_ESCAPES = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\r": "\\r", "\t": "\\t"}
 
 
 def export(network: Network) -> dict[str, str]:
     files: dict[str, str] = {}
     for below, processes in by_host(network):
-        here = {process.name for process in processes}
+        names = {process.name for process in processes}
         for process in processes:
             with _unwritable.of(process):
-                files[f"{below}{_service(network, process.name)}"] = _unit(network, process, here)
+                files[f"{below}{_service(network, process.name)}"] = _unit(network, process, names)
         files[f"{below}{_target(network)}"] = _all(network, processes)
         files |= configs(below, processes)
     return files
 
 
-def _unit(network: Network, process: Process, here: set[str]) -> str:
-    restart, unit = process.restart, Unit()
+def _unit(network: Network, process: Process, names: set[str]) -> str:
+    restart, unit = process.restart, UnitFile()
     unit.section("Unit")
     unit.put("Description", plain(f"{process.name} of {network.name}"))
     unit.put("PartOf", _target(network))
     unit.put("After", "network-online.target")
     unit.put("Wants", "network-online.target")
-    for name in (_service(network, name) for name in process.after if name in here):
+    for name in (_service(network, name) for name in process.after if name in names):
         unit.put("After", name)
         unit.put("Wants", name)
     unit.put("StartLimitIntervalSec", f"{restart.window:g}")
@@ -47,8 +50,8 @@ def _unit(network: Network, process: Process, here: set[str]) -> str:
     _environment(unit, network, process)
     config = f"{_home(network)}/{process.config.path}" if process.config else ""
     if process.folders:
-        made = " ".join(quoted(path, doubled="$") for path in process.folders)
-        unit.put("ExecStartPre", f"mkdir -p -- {made}")
+        folders = " ".join(quoted(path, doubled="$") for path in process.folders)
+        unit.put("ExecStartPre", f"mkdir -p -- {folders}")
     unit.put("ExecStart", _command(process, config))
     unit.put("Restart", restart.policy)
     unit.put("RestartSec", f"{restart.delay:g}")
@@ -58,20 +61,20 @@ def _unit(network: Network, process: Process, here: set[str]) -> str:
     return unit.text
 
 
-def _environment(unit: Unit, network: Network, process: Process) -> None:
+def _environment(unit: UnitFile, network: Network, process: Process) -> None:
     for item in process.env:
         if not item.source and not item.file:
             unit.put("Environment", quoted(f"{item.name}={item.value}"))
-    given = [item for item in process.env if item.source]
-    if given:
-        unit.comment("Variables that are given where this runs, one NAME=VALUE a line: " + ", ".join(
-            f"{item.name} (here called {item.source})" if item.source != item.name else item.name for item in given
+    inherited = [item for item in process.env if item.source]
+    if inherited:
+        unit.comment("Variables of the machine that runs this, one NAME=VALUE per line: " + ", ".join(
+            f"{item.name} (here called {item.source})" if item.source != item.name else item.name for item in inherited
         ))  # fmt: skip
         unit.put("EnvironmentFile", f"-{_home(network)}/{file_name(process.name)}.env")
 
 
 def _all(network: Network, processes: list[Process]) -> str:
-    unit = Unit()
+    unit = UnitFile()
     if any(process.config for process in processes):
         unit.comment(f"The folder config/ beside this file belongs to {_home(network)} (%E is /etc, or ~/.config).")
     unit.section("Unit")
@@ -85,13 +88,12 @@ def _all(network: Network, processes: list[Process]) -> str:
 
 
 def _command(process: Process, config: str) -> str:
-    """The words, none of which means anything to systemd. The path of the configuration is the only one with a
-    specifier in it."""
-    mark = "\ue000"  # a sign of nobody's
+    """The command, escaped for systemd. Only the path of the configuration contains a specifier."""
+    mark = "\ue000"  # a private character, which stands for this path
     program, *arguments = with_files(process, process.words(mark))
-    if program[0] in _SPECIAL:  # what would say something of the command, not which it is
+    if program[0] in _SPECIAL:  # a prefix with a meaning for systemd
         program, arguments = "/bin/sh", ["-c", 'exec "$@"', "sh", program, *arguments]
-    # `$` stands for itself when it stands twice, but in the program's path only where nothing is replaced at all
+    # `$$` is a `$`; in the path of the program `$` cannot be escaped, so that replacement is switched off (`:`)
     doubled, prefix = ("", ":") if "$" in program else ("$", "")
     words = [prefix + quoted(program, doubled=doubled)]
     words += [r"\;" if word == ";" else quoted(word, doubled=doubled) for word in arguments]
@@ -108,3 +110,64 @@ def _target(network: Network) -> str:
 
 def _home(network: Network) -> str:
     return f"%E/{file_name(network.name)}"
+
+
+class UnitFile:
+    """The text of a unit: comments, sections and settings. It checks every line, so that no value can become a second
+    line. A value is text of one line: words in quotes (`quoted`), a folder (`folder`), or names that need neither."""
+
+    def __init__(self) -> None:
+        self._lines: list[str] = []
+
+    @property
+    def text(self) -> str:
+        return "".join(f"{line}\n" for line in self._lines)
+
+    def section(self, name: str) -> None:
+        self._lines += ["", f"[{name}]"] if any(line.startswith("[") for line in self._lines) else [f"[{name}]"]
+
+    def put(self, key: str, value: str) -> None:
+        self._add(f"{key}={value}")
+
+    def comment(self, text: str) -> None:
+        self._add(f"# {text}")
+
+    def _add(self, line: str) -> None:
+        """Raises Unwritable if the line has a control character, or ends with a backslash, which continues it."""
+        match = OF_NO_LINE.search(line)
+        if match:
+            raise Unwritable(f"a line of a unit cannot contain U+{ord(match[0]):04X}")
+        if line.endswith("\\"):
+            raise Unwritable("a line of a unit cannot end with a backslash")
+        self._lines.append(line)
+
+
+def quoted(word: str, *, doubled: str = "") -> str:
+    """A word in quotes, in which systemd detects no specifier. The characters `doubled` are escaped by doubling. Raises
+    Unwritable for a NUL."""
+    escaped = OF_NO_LINE.sub(_escape, "".join(_ESCAPES.get(char, char) for char in word)).replace("%", "%%")
+    for char in doubled:
+        escaped = escaped.replace(char, char * 2)
+    return f'"{escaped}"'
+
+
+def _escape(match: re.Match[str]) -> str:
+    number = ord(match[0])
+    if not number:
+        raise Unwritable("an argument or variable cannot contain a NUL")
+    return f"\\x{number:02x}" if number < 0x80 else f"\\u{number:04x}"
+
+
+def folder(path: str) -> str:
+    """A path, which systemd reads without quotes. `/.` is added if its last character would get lost."""
+    return percent(f"{path}/." if path.endswith((" ", "\\")) else path)
+
+
+def percent(text: str) -> str:
+    """A text in which systemd detects no specifier."""
+    return text.replace("%", "%%")
+
+
+def plain(text: str) -> str:
+    """A text for people."""
+    return percent(" ".join(text.split())).rstrip("\\")

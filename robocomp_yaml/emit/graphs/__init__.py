@@ -1,1 +1,1 @@
-"""Pictures of networks: what is in one (`picture`), where it comes from, and the forms that it is drawn in."""
+"""Pictures of networks: their content (`picture`), how it is derived, and the forms in which it is drawn."""

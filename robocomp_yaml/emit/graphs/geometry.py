@@ -1,6 +1,6 @@
-"""Where everything of a picture stands, in pixels: nodes, hosts, and the ways of lines.
+"""The geometry of a picture, in pixels: nodes, hosts, and the paths of lines.
 
-Nothing overlaps by construction: each row and column, and each channel and gap between, is as large as what it holds.
+Nothing overlaps, by construction: rows, columns, channels and gaps are as large as their contents.
 """
 
 from __future__ import annotations
@@ -9,19 +9,19 @@ from itertools import accumulate
 
 import msgspec
 
-from robocomp_yaml.emit.graphs.grid import Area, Grid, grid_of
+from robocomp_yaml.emit.graphs.grid import Area, NodeGrid, grid_of
 from robocomp_yaml.emit.graphs.measure import shortened, width
-from robocomp_yaml.emit.graphs.picture import Node, Picture
-from robocomp_yaml.emit.graphs.routes import Branch, Net, Routes, outgoing, routes_of
+from robocomp_yaml.emit.graphs.picture import Picture, PictureNode
+from robocomp_yaml.emit.graphs.routes import Net, NetBranch, Routes, outgoing, routes_of
 
 TITLE, SMALL, LABEL = 13.0, 11.0, 10.0
-"""Sizes of text."""
+"""Font sizes."""
 WIDEST = 230.0
-"""As wide may a text in a node be; longer ones are shortened."""
+"""The largest width of a text in a node; longer texts are shortened."""
 MOST_SERVED = 6
 LINE_HEIGHT = 15.0
 STEP = 8.0
-"""From one track to the next."""
+"""The distance of two tracks."""
 
 _PAD = 12.0
 _LABEL_BAND, _HOST_TITLE, _HEAD = 18.0, 26.0, 44.0
@@ -29,8 +29,8 @@ _LABEL_BAND, _HOST_TITLE, _HEAD = 18.0, 26.0, 44.0
 Point = tuple[float, float]
 
 
-class Block(msgspec.Struct):
-    """A rectangle, and the lines of text in it."""
+class Rectangle(msgspec.Struct):
+    """A rectangle with lines of text."""
 
     x: float
     y: float
@@ -40,36 +40,38 @@ class Block(msgspec.Struct):
 
     @property
     def middle(self) -> float:
+        """The x coordinate of the centre."""
         return self.x + self.width / 2
 
 
-class Way(msgspec.Struct):
-    """A net's way from one source: its corners from the source to the target."""
+class EdgePath(msgspec.Struct):
+    """The path of a branch of a net: its corners, from the source to the target."""
 
     net: Net
-    branch: Branch
+    branch: NetBranch
     points: list[Point]
 
 
 class Geometry(msgspec.Struct):
-    """`labels` are the nets' ports, above their targets."""
+    """`labels` are the points above the targets at which nets end."""
 
     width: float = 0.0
     height: float = 0.0
-    nodes: dict[str, Block] = {}
-    hosts: dict[str, Block] = {}
-    ways: list[Way] = []
+    nodes: dict[str, Rectangle] = {}
+    hosts: dict[str, Rectangle] = {}
+    paths: list[EdgePath] = []
     labels: list[tuple[Net, Point]] = []
 
 
 def geometry_of(picture: Picture) -> Geometry:
+    """The geometry of a picture."""
     grid = grid_of(picture)
     routes = routes_of(picture, grid)
     return _Placer(picture, grid, routes).place()
 
 
-def texts_of(node: Node) -> list[str]:
-    """The lines of a node: its name, what it is, and what it serves."""
+def texts_of(node: PictureNode) -> list[str]:
+    """The lines of text of a node: its title, what it is, and what it serves."""
     served = node.served()
     if len(served) > MOST_SERVED:
         served = [*served[: MOST_SERVED - 1], f"and {len(served) - MOST_SERVED + 1} more"]
@@ -78,7 +80,7 @@ def texts_of(node: Node) -> list[str]:
 
 
 class _Placer:
-    def __init__(self, picture: Picture, grid: Grid, routes: Routes) -> None:
+    def __init__(self, picture: Picture, grid: NodeGrid, routes: Routes) -> None:
         self.picture, self.grid, self.routes = picture, grid, routes
         self.made = Geometry()
         self.incoming: dict[str, list[Net]] = {}
@@ -93,7 +95,7 @@ class _Placer:
     def place(self) -> Geometry:
         for name, node in self.picture.nodes.items():
             self.made.nodes[name] = self.block(node)
-        self.rule()
+        self.measure()
         for name, block in self.made.nodes.items():
             row, column = self.grid.cells[name]
             block.x = _even(self.columns[column] + (self.column_width[column] - block.width) / 2)
@@ -104,17 +106,17 @@ class _Placer:
         self.lines()
         return self.made
 
-    def block(self, node: Node) -> Block:
+    def block(self, node: PictureNode) -> Rectangle:
         texts = texts_of(node)
         widest = max([width(texts[0], TITLE, bold=True), *(width(text, SMALL) for text in texts[1:])])
         coming = self.incoming.get(node.name, [])
-        ports = sum(map(_slot, coming)) * (2 if len(coming) == 1 else 1)  # a single one comes in the middle
+        ports = sum(map(_slot, coming)) * (2 if len(coming) == 1 else 1)  # a single net ends in the middle
         exits = STEP * (len(self.leaving.get(node.name, ())) + 1)
         size = max(widest + 2 * _PAD, ports + _PAD, exits, 90.0)
-        return Block(0, 0, _even(size + STEP), LINE_HEIGHT * len(texts) + 14, texts)
+        return Rectangle(0, 0, _even(size + STEP), LINE_HEIGHT * len(texts) + 14, texts)
 
-    def rule(self) -> None:
-        """Where rows and columns begin, behind channels and gaps that are as wide as their tracks need."""
+    def measure(self) -> None:
+        """Computes where rows and columns begin, behind channels and gaps that have room for their tracks."""
         grid, cells = self.grid, self.grid.cells
         self.column_width = [0.0] * grid.columns
         row_height = [0.0] * grid.rows
@@ -142,13 +144,13 @@ class _Placer:
         above = _PAD if row in self.tops and row else 0.0
         return above + tracks + (_HOST_TITLE + _PAD if row in self.tops else 0.0) + _LABEL_BAND
 
-    def host(self, area: Area) -> Block:
+    def host(self, area: Area) -> Rectangle:
         left = self.columns[area.left] - _PAD
         right = self.columns[area.right] + self.column_width[area.right] + _PAD
         top = self.rows[area.top] - _LABEL_BAND - _HOST_TITLE
         bottom = self.rows[area.bottom + 1] - self.channels[area.bottom + 1] + _PAD
         title = next(box.title for box in self.picture.boxes if box.name == area.name)
-        return Block(left, top, right - left, bottom - top, [shortened(title, SMALL, right - left - 2 * _PAD)])
+        return Rectangle(left, top, right - left, bottom - top, [shortened(title, SMALL, right - left - 2 * _PAD)])
 
     def lines(self) -> None:
         ports = self.ports()
@@ -165,37 +167,37 @@ class _Placer:
                     x = self.track_x(branch.gap, net)
                     points += [(x, points[-1][1]), (x, self.track_y(row, net))]
                 points += [(port[0], points[-1][1]), port]
-                self.made.ways.append(Way(net, branch, points))
+                self.made.paths.append(EdgePath(net, branch, points))
 
     def ports(self) -> dict[Net, Point]:
-        """Where each net reaches its target: side by side on its upper edge, from where they come."""
-        found: dict[Net, Point] = {}
+        """The point at which each net ends: side by side on the upper edge of its target, in the order of sources."""
+        points: dict[Net, Point] = {}
         for name, nets in self.incoming.items():
             block = self.made.nodes[name]
             x = block.x + (block.width - sum(map(_slot, nets))) / 2 if len(nets) > 1 else block.middle - STEP
             for net in sorted(nets, key=self.origin):
-                found[net] = (_even(x + STEP), block.y)
+                points[net] = (_even(x + STEP), block.y)
                 x += _slot(net)
-        return found
+        return points
 
     def origin(self, net: Net) -> float:
         columns = [self.grid.cells[branch.source][1] for branch in net.branches]
         return sum(columns) / len(columns)
 
-    def exits(self, ports: dict[Net, Point]) -> dict[Branch, Point]:
-        """Where each net leaves a source: side by side on its lower edge, half a step beside the ports of others, but
-        for one that goes straight down."""
-        found: dict[Branch, Point] = {}
+    def exits(self, ports: dict[Net, Point]) -> dict[NetBranch, Point]:
+        """The point at which each branch begins: side by side on the lower edge of the source, half a step beside the
+        ports. A branch that goes straight down begins above its port."""
+        points: dict[NetBranch, Point] = {}
         for name, nets in self.leaving.items():
             block = self.made.nodes[name]
             x = _even(block.middle - STEP * (len(nets) - 1) / 2) + STEP / 2
             for net in sorted(nets, key=lambda net: ports[net][0]):
-                branch = next(branch for branch in net.branches if branch.source == name and branch not in found)
+                branch = next(branch for branch in net.branches if branch.source == name and branch not in points)
                 port = ports[net][0]
                 is_below = branch.gap is None and block.x + STEP < port < block.x + block.width - STEP
-                found[branch] = (port if is_below else x, block.y + block.height)
+                points[branch] = (port if is_below else x, block.y + block.height)
                 x += STEP
-        return found
+        return points
 
     def track_y(self, row: int, net: Net) -> float:
         top = self.rows[row] - self.channels[row]
@@ -209,9 +211,10 @@ class _Placer:
 
 
 def _slot(net: Net) -> float:
-    """The room of a net on the edge of its target, with its label."""
+    """The width of a net on the edge of its target, with its label."""
     return STEP * 2 + (width(net.label, LABEL) if net.label else 0.0)
 
 
 def _even(x: float) -> float:
+    """The multiple of STEP closest to x."""
     return STEP * round(x / STEP)

@@ -1,7 +1,7 @@
-"""Which cell of a grid each node stands in: a strip of columns for each host, rows by layers.
+"""Assigns each node to a cell of a grid. A host is a strip of columns; a layer is a row, or several.
 
-Hosts stand side by side as long as there is room, then in another band below. In a band all strips share their rows, so
-that lines go downwards; a layer with more nodes than its strip has columns takes several rows.
+Hosts are side by side as long as there is room, then in another band below. All strips of a band share their rows, so
+that lines go down. A layer with more nodes than its strip has columns needs several rows.
 """
 
 from __future__ import annotations
@@ -11,15 +11,15 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import msgspec
 
-from robocomp_yaml.digraph import inner_first
-from robocomp_yaml.emit.graphs.picture import Line, Picture
+from robocomp_yaml.digraph import postorder
+from robocomp_yaml.emit.graphs.picture import Picture
 
 MOST_COLUMNS = 12
 _SWEEPS = 4
 
 
 class Area(msgspec.Struct, frozen=True):
-    """The cells of a host, its first and last row and column; `name` is '' for what is outside."""
+    """The cells of a host, by their first and last row and column; `name` is '' for the nodes outside."""
 
     name: str
     top: int
@@ -28,8 +28,8 @@ class Area(msgspec.Struct, frozen=True):
     right: int
 
 
-class Grid(msgspec.Struct):
-    """`cells` are (row, column) by node."""
+class NodeGrid(msgspec.Struct):
+    """`cells` maps the name of a node to (row, column)."""
 
     cells: dict[str, tuple[int, int]] = {}
     areas: list[Area] = []
@@ -37,7 +37,8 @@ class Grid(msgspec.Struct):
     columns: int = 0
 
 
-def grid_of(picture: Picture) -> Grid:
+def grid_of(picture: Picture) -> NodeGrid:
+    """The cells of all nodes and hosts of a picture."""
     needs: dict[str, list[str]] = {}
     for line in picture.lines:
         if line.source != line.target and line.target not in needs.setdefault(line.source, []):
@@ -45,15 +46,15 @@ def grid_of(picture: Picture) -> Grid:
     level = layers(picture.nodes, needs)
     strips = [name for name in [*(box.name for box in picture.boxes), ""] if picture.inside(name)]
     columns = _columns(picture, strips)
-    grid = Grid()
+    grid = NodeGrid()
     for band in _bands(strips, columns):
-        _place(picture, band, columns, level, grid)
+        _add_band(picture, band, columns, level, grid)
     _order(picture, grid)
     return grid
 
 
 def _columns(picture: Picture, strips: Sequence[str]) -> dict[str, int]:
-    """How many columns each strip has: by its share of the nodes."""
+    """The number of columns of each strip, in proportion to its nodes."""
     count = len(picture.nodes)
     room = max(1, min(MOST_COLUMNS, math.ceil(math.sqrt(1.6 * count))))
     shares = {name: len(picture.inside(name)) * room / max(count, 1) for name in strips}
@@ -66,14 +67,14 @@ def _bands(strips: Sequence[str], columns: Mapping[str, int]) -> list[list[str]]
     for name in strips:
         if not bands or columns[name] > room:
             bands.append([])
-            room = MOST_COLUMNS + 1  # what is outside may stand beside
+            room = MOST_COLUMNS + 1  # the nodes outside may be beside the hosts
         bands[-1].append(name)
         room -= columns[name]
     return bands
 
 
-def _place(
-    picture: Picture, band: Sequence[str], columns: Mapping[str, int], level: Mapping[str, int], grid: Grid
+def _add_band(
+    picture: Picture, band: Sequence[str], columns: Mapping[str, int], level: Mapping[str, int], grid: NodeGrid
 ) -> None:
     top, left = grid.rows, 0
     lefts: dict[str, int] = {}
@@ -94,36 +95,32 @@ def _place(
     grid.areas += [Area(name, top, row - 1, lefts[name], lefts[name] + columns[name] - 1) for name in band]
 
 
-def _order(picture: Picture, grid: Grid) -> None:
-    """Moves nodes within their rows, each below (and above) what it is connected to."""
+def _order(picture: Picture, grid: NodeGrid) -> None:
+    """Moves nodes within their rows, so that they are close to the nodes that they are connected to."""
     near: dict[str, list[str]] = {}
     for line in picture.lines:
-        _connect(near, line)
+        near.setdefault(line.source, []).append(line.target)
+        near.setdefault(line.target, []).append(line.source)
     rows: dict[tuple[int, str], list[str]] = {}
     for name, (row, _) in grid.cells.items():
         rows.setdefault((row, picture.nodes[name].box), []).append(name)
     ordered = [rows[key] for key in sorted(rows)]
     for sweep in range(_SWEEPS):
         for members in ordered if sweep % 2 == 0 else reversed(ordered):
-            places = sorted(grid.cells[name][1] for name in members)
+            columns = sorted(grid.cells[name][1] for name in members)
             middle = {name: _middle(grid, near.get(name, ()), grid.cells[name][1]) for name in members}
             row = grid.cells[members[0]][0]
-            for name, place in zip(sorted(members, key=lambda name: (middle[name], name)), places, strict=True):
-                grid.cells[name] = (row, place)
+            for name, column in zip(sorted(members, key=lambda name: (middle[name], name)), columns, strict=True):
+                grid.cells[name] = (row, column)
 
 
-def _connect(near: dict[str, list[str]], line: Line) -> None:
-    near.setdefault(line.source, []).append(line.target)
-    near.setdefault(line.target, []).append(line.source)
-
-
-def _middle(grid: Grid, others: Sequence[str], own: int) -> float:
+def _middle(grid: NodeGrid, others: Sequence[str], own: int) -> float:
     return sum(grid.cells[name][1] for name in others) / len(others) if others else own
 
 
 def layers(nodes: Iterable[str], needs: Mapping[str, Sequence[str]]) -> dict[str, int]:
-    """The layer of each node, 0 the topmost. A line that closes a circle counts for nothing. What needs nothing stands
-    just below the lowest that needs it, and what is alone stands at the bottom."""
+    """The layer of each node, from 0 at the top. A line that closes a cycle is ignored. A node that needs nothing is
+    just below the lowest node that needs it; a node without lines is at the bottom."""
     names = list(nodes)
     depth = _depths(names, needs)
     height = max(depth.values(), default=0)
@@ -131,17 +128,17 @@ def layers(nodes: Iterable[str], needs: Mapping[str, Sequence[str]]) -> dict[str
     for name in names:
         for other in needs.get(name, ()):
             users.setdefault(other, []).append(name)
-    found = {name: height - depth[name] for name in names}
-    for name in sorted(names, key=lambda name: found[name]):
-        below = [found[user] for user in users.get(name, ()) if found[user] < found[name]]
+    layer = {name: height - depth[name] for name in names}
+    for name in sorted(names, key=lambda name: layer[name]):
+        below = [layer[user] for user in users.get(name, ()) if layer[user] < layer[name]]
         if below and not needs.get(name):
-            found[name] = max(below) + 1
-    return found
+            layer[name] = max(below) + 1
+    return layer
 
 
 def _depths(names: Sequence[str], needs: Mapping[str, Sequence[str]]) -> dict[str, int]:
-    """How many others stand below each node, one below the other; found without recursion, for chains may be long."""
+    """The length of the longest path from each node downwards, without recursion, because paths may be long."""
     depth: dict[str, int] = {}
-    for name in inner_first(names, lambda name: needs.get(name, ())):
+    for name in postorder(names, lambda name: needs.get(name, ())):
         depth[name] = 1 + max((depth[other] for other in needs.get(name, ()) if other in depth), default=-1)
     return depth

@@ -1,10 +1,10 @@
-"""How wide a text is: by the widths of Helvetica, which Arial and Liberation Sans share, and with room for others."""
+"""The width of text, with the widths of Helvetica, which Arial and Liberation Sans share, and room for other fonts."""
 
 from __future__ import annotations
 
 from functools import lru_cache
 
-# Thousandths of the size, of the characters from the blank to '~'.
+# The widths of the characters from the blank to '~', in thousandths of the font size.
 _WIDTHS = (
     278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278, 556, 556, 556, 556, 556, 556, 556,
     556, 556, 556, 278, 278, 584, 584, 584, 556, 1015, 667, 667, 722, 722, 667, 611, 778, 722, 278, 500, 667, 556, 833,
@@ -15,17 +15,18 @@ _WIDTHS = (
 _OTHER = 1000
 _BOLD = 1.08
 _ROOM = 1.12
-"""Where none of these fonts is there, another one may be wider."""
+"""A factor for other fonts, which may be wider."""
 
 
 @lru_cache(maxsize=4096)
 def width(text: str, size: float, bold: bool = False) -> float:
+    """The width of a text in pixels, for a font size in pixels."""
     units = sum(_WIDTHS[ord(char) - 32] if " " <= char <= "~" else _OTHER for char in text)
     return units * size * _ROOM * (_BOLD if bold else 1) / 1000
 
 
 def shortened(text: str, size: float, limit: float, bold: bool = False) -> str:
-    """The text, cut in its middle where it is wider than the limit: names that are alike differ at their ends."""
+    """The text; if it is wider than `limit` pixels, without its middle, because similar names differ at their ends."""
     if width(text, size, bold) <= limit:
         return text
     keep = len(text) - 1

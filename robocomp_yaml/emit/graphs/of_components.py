@@ -1,25 +1,25 @@
-"""The picture of a workspace without a deployment: its components, and which of them implement what others require."""
+"""The picture of a workspace without a deployment: its components, and those that implement what others require."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 
 from robocomp_yaml.emit.graphs import picture as parts
-from robocomp_yaml.emit.graphs.picture import Line, Node, Picture
+from robocomp_yaml.emit.graphs.picture import Picture, PictureLine, PictureNode
 from robocomp_yaml.link.program import LinkedComponent, Port
 
 
 def picture_of(name: str, components: Iterable[LinkedComponent]) -> Picture:
-    """What nothing implements stands outside, and so do topics."""
+    """The picture of these components. Topics are outside, and so are interfaces that no component implements."""
     made = Picture(name)
     listed = list(components)
     serving: dict[str, list[str]] = {}
     names: dict[LinkedComponent, str] = {}
     for component in listed:
-        wanted = component.component.name
-        names[component] = wanted if wanted not in made.nodes else component.component.path
-        node = Node(
-            names[component], wanted, parts.COMPONENT, about=(component.component.language.name,),
+        title = component.component.name
+        names[component] = title if title not in made.nodes else component.component.path
+        node = PictureNode(
+            names[component], title, parts.COMPONENT, about=(component.component.language.name,),
             serves=tuple((port.interface.name, 0) for port in component.implements),
         )  # fmt: skip
         made.nodes[node.name] = node
@@ -31,18 +31,20 @@ def picture_of(name: str, components: Iterable[LinkedComponent]) -> Picture:
             label = port.interface.name if port.name == port.interface.name else f"{port.name}: {port.interface.name}"
             targets = serving.get(_key(port), [])
             if not targets:
-                about = "nothing here implements it"
-                made.nodes.setdefault(_key(port), Node(_key(port), port.interface.name, parts.OUTSIDE, about=(about,)))
+                about = "no component here implements it"
+                made.nodes.setdefault(
+                    _key(port), PictureNode(_key(port), port.interface.name, parts.OUTSIDE, about=(about,))
+                )
                 targets = [_key(port)]
-            made.lines += [Line(source, target, label) for target in targets if target != source]
+            made.lines += [PictureLine(source, target, label) for target in targets if target != source]
         for ports, kind in ((component.publishes, parts.PUBLISHES), (component.subscribes, parts.SUBSCRIBES)):
             for port in ports:
                 topic = f"topic {_key(port)}"
-                made.nodes.setdefault(topic, Node(topic, port.interface.name, parts.TOPIC, about=("topic",)))
-                made.lines.append(Line(source, topic, kind=kind))
+                made.nodes.setdefault(topic, PictureNode(topic, port.interface.name, parts.TOPIC, about=("topic",)))
+                made.lines.append(PictureLine(source, topic, kind=kind))
     return made
 
 
 def _key(port: Port) -> str:
-    """An interface by its full name."""
+    """The full name of an interface."""
     return f"{port.scope.module.name}.{port.interface.name}"

@@ -1,4 +1,4 @@
-"""The picture of a network, with its problems where they are."""
+"""The picture of a network, with diagnostics at their nodes and lines."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from collections.abc import Iterable, Sequence
 from robocomp_yaml.diag.diagnostic import ERROR, WARNING, Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.graphs import picture as parts
-from robocomp_yaml.emit.graphs.picture import Box, Fault, Line, Node, Picture
+from robocomp_yaml.emit.graphs.picture import Box, Picture, PictureFault, PictureLine, PictureNode
 from robocomp_yaml.network.network import LOOPBACK, PROXY, Connection, Network, Process
 
 
 def picture_of(network: Network, diagnostics: Sequence[Diagnostic] = ()) -> Picture:
-    """Hosts as boxes, each process with what it serves, and the connections: those of topics by way of the topic."""
+    """The picture of a network: hosts are boxes, processes and topics are nodes, connections are lines."""
     faults = _Faults(network, diagnostics)
     made = Picture(network.name)
     used = {process.host for process in network.processes.values()}
@@ -33,7 +33,7 @@ def picture_of(network: Network, diagnostics: Sequence[Diagnostic] = ()) -> Pict
     return made
 
 
-def _node(process: Process, faults: Sequence[Fault]) -> Node:
+def _node(process: Process, faults: Sequence[PictureFault]) -> PictureNode:
     about = [f"also {alias}" for alias in process.aliases]
     if process.kind == parts.COMPONENT and process.component:
         about.insert(0, process.component)
@@ -42,56 +42,56 @@ def _node(process: Process, faults: Sequence[Fault]) -> Node:
     elif process.kind == parts.ICESTORM:
         about.insert(0, "IceStorm")
     serves = [(endpoint.interface, endpoint.port) for endpoint in process.endpoints]
-    return Node(
+    return PictureNode(
         process.name, process.name, process.kind, process.host, tuple(about), tuple(serves), process.groups,
         process.enabled, tuple(faults),
     )  # fmt: skip
 
 
 def _script(words: Sequence[str]) -> list[str]:
-    """What an interpreter runs is more telling than the interpreter."""
+    """The names of scripts among these words: they say more than the name of the interpreter."""
     return [os.path.basename(word) for word in words if word.endswith((".py", ".sh"))]
 
 
-def _connect(made: Picture, network: Network, connection: Connection, faults: Sequence[Fault]) -> None:
+def _connect(made: Picture, network: Network, connection: Connection, faults: Sequence[PictureFault]) -> None:
     if connection.kind == PROXY:
         target = network.find(connection.target)
         name = target.name if target is not None else connection.proxy or connection.target
         if target is None and name not in made.nodes:
             title = name.partition(":")[0] if connection.proxy else name
             address = name.partition(":")[2]
-            made.nodes[name] = Node(name, title, parts.OUTSIDE, about=(address,) if address else ())
+            made.nodes[name] = PictureNode(name, title, parts.OUTSIDE, about=(address,) if address else ())
         label = connection.interface
         if connection.port not in (label, ""):
             label = f"{connection.port}: {label}"
-        made.lines.append(Line(connection.source, name, label, parts.USES, tuple(faults)))
+        made.lines.append(PictureLine(connection.source, name, label, parts.USES, tuple(faults)))
         return
     topic = f"{connection.target}/{connection.topic}"
     storm = network.processes.get(connection.target)
     about = f"topic of {connection.target}" if connection.target else "topic"
     host = storm.host if storm is not None else ""
-    made.nodes.setdefault(topic, Node(topic, connection.topic, parts.TOPIC, host, (about,)))
+    made.nodes.setdefault(topic, PictureNode(topic, connection.topic, parts.TOPIC, host, (about,)))
     kind = parts.PUBLISHES if connection.is_out else parts.SUBSCRIBES
     label = "" if connection.interface in connection.topic else connection.interface
-    made.lines.append(Line(connection.source, topic, label, kind, tuple(faults)))
+    made.lines.append(PictureLine(connection.source, topic, label, kind, tuple(faults)))
 
 
-def _order(network: Network) -> Iterable[Line]:
-    """What waits for something without being connected to it."""
+def _order(network: Network) -> Iterable[PictureLine]:
+    """The lines of dependences without a connection."""
     connected = {(connection.source, connection.target) for connection in network.connections}
     for process in network.processes.values():
         for other in process.after:
             if (process.name, other) not in connected:
-                yield Line(process.name, other, kind=parts.AFTER)
+                yield PictureLine(process.name, other, kind=parts.AFTER)
 
 
 class _Faults:
-    """Which problem belongs to which process or connection: by the lines of the document."""
+    """Assigns diagnostics to processes and connections, by their locations in the document."""
 
     def __init__(self, network: Network, diagnostics: Sequence[Diagnostic]) -> None:
-        self.of_process: dict[str, list[Fault]] = {}
-        self.of_connection: dict[int, list[Fault]] = {}
-        self.rest: list[Fault] = []
+        self.of_process: dict[str, list[PictureFault]] = {}
+        self.of_connection: dict[int, list[PictureFault]] = {}
+        self.rest: list[PictureFault] = []
         self._starts: dict[str, list[tuple[int, str]]] = {}
         for process in network.processes.values():
             self._starts.setdefault(process.span.file, []).append((process.span.line, process.name))
@@ -103,7 +103,7 @@ class _Faults:
                 self._put(diagnostic, lines)
 
     def _put(self, diagnostic: Diagnostic, lines: dict[tuple[str, int, int], int]) -> None:
-        fault = Fault(diagnostic.code, diagnostic.severity == ERROR, diagnostic.message)
+        fault = PictureFault(diagnostic.code, diagnostic.severity == ERROR, diagnostic.message)
         span = diagnostic.span
         number = lines.get((span.file, span.line, span.column))
         names = dict.fromkeys(map(self._owner, (span, *(related.span for related in diagnostic.related))))
@@ -116,7 +116,7 @@ class _Faults:
             self.rest.append(fault)
 
     def _owner(self, span: Span) -> str:
-        """The process whose entry a place is in."""
+        """The name of the process whose entry contains a location, '' for none."""
         starts = self._starts.get(span.file, [])
         at = bisect_right(starts, (span.line, chr(0x10FFFF)))
         return starts[at - 1][1] if at else ""

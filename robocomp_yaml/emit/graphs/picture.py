@@ -1,4 +1,4 @@
-"""What a picture of a network shows, whatever it is drawn with: boxes of hosts, nodes in them, and lines."""
+"""The content of a picture of a network, for all forms: boxes of hosts, nodes in them, and lines."""
 
 from __future__ import annotations
 
@@ -7,28 +7,32 @@ from collections.abc import Iterator
 import msgspec
 
 COMPONENT, PROGRAM, ICESTORM, TOPIC, OUTSIDE = "component", "program", "icestorm", "topic", "outside"
-_EVERYBODYS = "CommonBehavior"
+_EVERY_COMPONENT = "CommonBehavior"
 USES, PUBLISHES, SUBSCRIBES, AFTER = "uses", "publishes", "subscribes", "after"
 
 
-class Fault(msgspec.Struct, frozen=True):
-    """A problem, as the diagnostics say it."""
+class PictureFault(msgspec.Struct, frozen=True):
+    """A diagnostic that a picture shows."""
 
     code: str
     is_error: bool
     message: str
 
+    @property
+    def text(self) -> str:
+        return f"{self.code}: {self.message}"
+
 
 class Box(msgspec.Struct, frozen=True):
-    """A host. `title` is what stands on it."""
+    """A host. `title` is its text in the picture."""
 
     name: str
     title: str
 
 
-class Node(msgspec.Struct, frozen=True):
-    """`box` is the name of a box, '' for what is outside. `about` are short lines below the name. `serves` are
-    interfaces with their ports, 0 where none is known."""
+class PictureNode(msgspec.Struct, frozen=True):
+    """`box` is the name of a box, '' if the node is outside. `about` are short lines below the title. `serves` are
+    interfaces with their TCP ports, 0 if a port is unknown."""
 
     name: str
     title: str
@@ -38,40 +42,45 @@ class Node(msgspec.Struct, frozen=True):
     serves: tuple[tuple[str, int], ...] = ()
     groups: tuple[str, ...] = ()
     enabled: bool = True
-    faults: tuple[Fault, ...] = ()
+    faults: tuple[PictureFault, ...] = ()
 
     def served(self) -> list[str]:
-        """What it serves in words, but for what every component serves besides."""
-        own = [(name, port) for name, port in self.serves if name != _EVERYBODYS] or self.serves
+        """The interfaces that the node serves, with their ports, without those of every component."""
+        own = [(name, port) for name, port in self.serves if name != _EVERY_COMPONENT] or self.serves
         return [f"{name} {port}" if port else name for name, port in own]
 
+    def texts(self) -> list[str]:
+        """The lines of text of the node, the title first."""
+        return [self.title, *self.about, *self.served()]
 
-class Line(msgspec.Struct, frozen=True):
-    """From `source`, which needs something, to `target`, which has it: `label` says what. Of a topic both who publishes
-    and who subscribes are sources; what flows, flows to the topic (PUBLISHES) or from it (SUBSCRIBES)."""
+
+class PictureLine(msgspec.Struct, frozen=True):
+    """A line from `source`, which needs what `label` names, to `target`, which serves it. A target may be a topic: its
+    publishers and subscribers are sources. Events flow to the topic (PUBLISHES) or from it (SUBSCRIBES)."""
 
     source: str
     target: str
     label: str = ""
     kind: str = USES
-    faults: tuple[Fault, ...] = ()
+    faults: tuple[PictureFault, ...] = ()
 
 
 class Picture(msgspec.Struct):
-    """`faults` are those that belong to nothing in the picture."""
+    """`faults` are those that belong to no node and no line."""
 
     name: str
     boxes: list[Box] = []
-    nodes: dict[str, Node] = {}
-    lines: list[Line] = []
-    faults: tuple[Fault, ...] = ()
+    nodes: dict[str, PictureNode] = {}
+    lines: list[PictureLine] = []
+    faults: tuple[PictureFault, ...] = ()
 
-    def inside(self, box: str) -> list[Node]:
+    def inside(self, box: str) -> list[PictureNode]:
+        """The nodes in a box; those outside for ''."""
         return [node for node in self.nodes.values() if node.box == box]
 
-    def all_faults(self) -> Iterator[tuple[str, Fault]]:
-        """Each problem once, with the name of what has it."""
-        seen: set[Fault] = set()
+    def all_faults(self) -> Iterator[tuple[str, PictureFault]]:
+        """Each diagnostic once, with the title of its node, the source of its line, or the name of the picture."""
+        seen: set[PictureFault] = set()
         owners = [(node.title, node.faults) for node in self.nodes.values()]
         owners += [(line.source, line.faults) for line in self.lines]
         for name, faults in [*owners, (self.name, self.faults)]:

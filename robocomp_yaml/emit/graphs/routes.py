@@ -1,8 +1,8 @@
-"""How lines run between the cells of a grid: in the channels between rows and the gaps between columns, so that they
-never cross a node; each on a track of its own there.
+"""Routes lines between the cells of a grid: in the channels between rows and the gaps between columns, so that no line
+crosses a node. In a channel or gap each line has its own track.
 
-All lines that want the same thing of a node are one net, with one arrow. A net leaves each source downwards, runs in
-the channel below it to a gap, in the gap to the channel above its target, and in that to the target.
+All lines to the same interface of a node are one net, with one arrow. A net leaves each source downwards, runs in the
+channel below to a gap, in the gap to the channel above its target, and in this channel to the target.
 """
 
 from __future__ import annotations
@@ -11,15 +11,15 @@ from collections.abc import Iterable
 
 import msgspec
 
-from robocomp_yaml.emit.graphs.grid import Grid
-from robocomp_yaml.emit.graphs.picture import Fault, Picture
+from robocomp_yaml.emit.graphs.grid import NodeGrid
+from robocomp_yaml.emit.graphs.picture import Picture, PictureFault
 
 
-class Branch(msgspec.Struct, eq=False):
-    """A net's way from one source. `gap` is the gap before that column, None where no gap is needed."""
+class NetBranch(msgspec.Struct, eq=False):
+    """The part of a net from one source. `gap` is the column behind the gap that the branch uses, None for no gap."""
 
     source: str
-    faults: tuple[Fault, ...] = ()
+    faults: tuple[PictureFault, ...] = ()
     gap: int | None = None
 
 
@@ -27,20 +27,16 @@ class Net(msgspec.Struct, eq=False):
     target: str
     label: str
     kind: str
-    branches: list[Branch] = []
-
-    @property
-    def faults(self) -> tuple[Fault, ...]:
-        return tuple(fault for branch in self.branches for fault in branch.faults)
+    branches: list[NetBranch] = []
 
 
 Run = tuple[int, Net]
-"""A net in a channel (by the row below it), or in a gap (by the column behind it)."""
+"""A net in a channel (the number of the row below it), or in a gap (the number of the column behind it)."""
 
 
 class Routes(msgspec.Struct):
-    """`channels` and `gaps` are the tracks of each run, counted from 0; `channel_tracks` and `gap_tracks` how many
-    there are in each."""
+    """`channels` and `gaps` map runs to their tracks, counted from 0; `channel_tracks` and `gap_tracks` are the numbers
+    of tracks in each channel and gap."""
 
     nets: list[Net] = []
     channels: dict[Run, int] = {}
@@ -49,26 +45,27 @@ class Routes(msgspec.Struct):
     gap_tracks: dict[int, int] = {}
 
 
-def routes_of(picture: Picture, grid: Grid) -> Routes:
+def routes_of(picture: Picture, grid: NodeGrid) -> Routes:
+    """The nets of a picture, with their tracks."""
     made = Routes()
     nets: dict[tuple[str, str, str], Net] = {}
     for line in picture.lines:
-        label = line.label.rpartition(": ")[2]  # a proxy's own name is its owner's business
+        label = line.label.rpartition(": ")[2]  # without the name of the port, which only its component uses
         key = (line.target, label, line.kind)
         net = nets.setdefault(key, Net(line.target, label, line.kind))
-        net.branches.append(Branch(line.source, line.faults))
+        net.branches.append(NetBranch(line.source, line.faults))
     made.nets = list(nets.values())
     across: dict[int, dict[Net, list[float]]] = {}
     along: dict[int, dict[Net, list[float]]] = {}
     for net in made.nets:
         row, column = grid.cells[net.target]
         for branch in net.branches:
-            start, place = grid.cells[branch.source]
+            start, source_column = grid.cells[branch.source]
             if start + 1 == row:
-                _reach(across, row, net, place, column)
+                _reach(across, row, net, source_column, column)
                 continue
-            branch.gap = _gap(grid, place, column)
-            _reach(across, start + 1, net, place, branch.gap - 0.5)
+            branch.gap = _gap(grid, source_column, column)
+            _reach(across, start + 1, net, source_column, branch.gap - 0.5)
             _reach(along, branch.gap, net, start + 1, row)
             _reach(across, row, net, branch.gap - 0.5, column)
     made.channels, made.channel_tracks = _tracks(across)
@@ -76,8 +73,8 @@ def routes_of(picture: Picture, grid: Grid) -> Routes:
     return made
 
 
-def _gap(grid: Grid, source: int, target: int) -> int:
-    """The gap beside the target, on the side that the line comes from."""
+def _gap(grid: NodeGrid, source: int, target: int) -> int:
+    """The gap beside the target, on the side of the source."""
     if source == target:
         return target if target >= grid.columns / 2 else target + 1
     return target + 1 if source > target else target
@@ -88,7 +85,7 @@ def _reach(runs: dict[int, dict[Net, list[float]]], at: int, net: Net, *points: 
 
 
 def _tracks(runs: dict[int, dict[Net, list[float]]]) -> tuple[dict[Run, int], dict[int, int]]:
-    """A track for each run, such that no two on one track touch."""
+    """A track for each run, so that runs on one track never touch, and the number of tracks."""
     tracks: dict[Run, int] = {}
     counts: dict[int, int] = {}
     for at, by_net in runs.items():
@@ -104,8 +101,8 @@ def _tracks(runs: dict[int, dict[Net, list[float]]]) -> tuple[dict[Run, int], di
 
 def outgoing(nets: Iterable[Net]) -> dict[str, list[Net]]:
     """The nets that leave each node."""
-    found: dict[str, list[Net]] = {}
+    by_source: dict[str, list[Net]] = {}
     for net in nets:
         for branch in net.branches:
-            found.setdefault(branch.source, []).append(net)
-    return found
+            by_source.setdefault(branch.source, []).append(net)
+    return by_source

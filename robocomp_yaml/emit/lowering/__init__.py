@@ -1,5 +1,5 @@
-"""What a component comes to in code, whatever the language: frozen views with names that do not clash.
+"""Lowers a component for all languages: to frozen views with names that do not clash.
 
-A language says how it spells things (`ports.Spelling`, `parameters.Types`, `kinds.Builders`), and its templates show
-what comes back.
+A language sets how it spells things (`ports.PortSpelling`, `parameters.Types`, `kinds.Builders`), and its templates
+render the views.
 """

@@ -1,4 +1,4 @@
-"""The component as such: what every generated file says of it, and which Slice it needs."""
+"""Lowers the component itself: what all generated files need of it, and its Slice files."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ BEHAVIOR = "RoboCompCommonBehavior"
 COMMON = "CommonBehavior.ice"
 
 
-class Lowered(msgspec.Struct, frozen=True):
-    """`source` is the document's file, `doc` the name with what the document says of it. `files` are the Slice files of
-    all `modules`, `imported` those that the component's document imports; `is_common` says that CommonBehavior's file
-    is ours, and not among the user's."""
+class LoweredComponent(msgspec.Struct, frozen=True):
+    """`source` is the file name of the document, `doc` the name with the documentation, `period` in milliseconds.
+    `files` are the Slice files of all `modules`, `imported` those that the document imports. `is_common`: the Slice
+    file of CommonBehavior is that of rcyaml, not one of the user's."""
 
     source: str
     name: str
@@ -27,12 +27,13 @@ class Lowered(msgspec.Struct, frozen=True):
     is_common: bool
 
 
-def lower(linked: LinkedComponent) -> Lowered:
+def lower(linked: LinkedComponent) -> LoweredComponent:
+    """The views of a component."""
     component = linked.component
     scopes = linked.modules()
     is_common = all(scope.module.name != BEHAVIOR for scope in scopes)
     common = [COMMON] if is_common else []
-    return Lowered(
+    return LoweredComponent(
         source=component.path.rpartition("/")[2],
         name=component.name,
         doc=f"{component.name}: {component.doc}" if component.doc else component.name,

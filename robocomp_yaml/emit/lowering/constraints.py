@@ -1,4 +1,4 @@
-"""Constraints as calls of the run time's functions, over values by name. The meaning is that of `values.evaluate`."""
+"""Lowers constraints to calls of functions of the run time."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from robocomp_yaml.parameters.specification.expression import (
     Each,
     Expression,
     Index,
-    Listing,
-    Literal,
+    ListExpression,
+    LiteralExpression,
     Logic,
-    Name,
+    NameExpression,
     Unary,
 )
 from robocomp_yaml.parameters.types import ListType, MapType, RecordType
@@ -27,10 +27,10 @@ _FUNCTIONS = {"len": "size", "abs": "absolute", "min": "least", "max": "most"}
 
 
 class Calls(msgspec.Struct, frozen=True):
-    """How a language spells them: `prefix` stands before each function, `value` makes a literal, `text` and `sign` one
-    of a text and of an operator; `listing` is a list of values, `pairs` the rest of a comparison, `later` what is
-    worked out when it is asked for, `parts` several of these; `function` is one of a variable; `member` picks one from
-    an owner; `variable` is a name in code, of the variable that so many others stand around."""
+    """How a language spells the calls. `prefix` is the prefix of all functions. `value`, `text` and `sign` make
+    literals of a value, of a text and of an operator. `listing` is a list of values, `pairs` the rest of a comparison,
+    `later` an expression with lazy evaluation, and `parts` a list of these. `function` is a function of one variable,
+    `member` the access to a member. `variable` is the name of a variable, and the number of variables around it."""
 
     prefix: str
     value: Callable[[object], str]
@@ -45,11 +45,11 @@ class Calls(msgspec.Struct, frozen=True):
     variable: Callable[[str, int], str]
 
     def of(self, expression: Expression, root: RecordType) -> str:
-        """What the expression comes to, of the parameters' values, called `p` there."""
-        return _Writer(Scope(root), self).code(expression)
+        """The expression in code, in which `p` are the values of all parameters."""
+        return _ConstraintWriter(Scope(root), self).code(expression)
 
 
-class _Writer(msgspec.Struct, frozen=True):
+class _ConstraintWriter(msgspec.Struct, frozen=True):
     scope: Scope
     calls: Calls
 
@@ -57,11 +57,11 @@ class _Writer(msgspec.Struct, frozen=True):
         calls = self.calls
         of = calls.prefix
         match expression:
-            case Literal(value=data):
+            case LiteralExpression(value=data):
                 return calls.value(data)
-            case Listing(items=items):
+            case ListExpression(items=items):
                 return self.listing(items)
-            case Name(name=name):
+            case NameExpression(name=name):
                 return self.name(name)
             case Attribute(of=owner, name=name):
                 record = type_of(owner, self.scope)
@@ -104,8 +104,8 @@ class _Writer(msgspec.Struct, frozen=True):
 
     def each(self, each: Each) -> str:
         type_ = type_of(each.source, self.scope)
-        assert isinstance(type_, ListType | MapType)
-        inner = _Writer(self.scope.with_variable(each.variable, type_.element), self.calls)
+        assert isinstance(type_, (ListType, MapType))
+        inner = _ConstraintWriter(self.scope.with_variable(each.variable, type_.element), self.calls)
         variable = self.calls.variable(each.variable, len(self.scope.variables))
         functions = [self.calls.function(variable, inner.code(each.element))]
         if each.condition is not None:
@@ -114,5 +114,5 @@ class _Writer(msgspec.Struct, frozen=True):
 
 
 def _key(record: RecordType, name: str) -> str:
-    """The name in data of the member that expressions call so."""
+    """The name in documents of the member with this name in expressions."""
     return next(member.name for member in record.members if member.code_name == name)

@@ -1,4 +1,4 @@
-"""Types of parameters as expressions that build the run time's, one limit after the other:
+"""Lowers types of parameters to expressions that build the types of the run time:
 `decimal("float").atLeast(0).below(1).in("rad")`."""
 
 from __future__ import annotations
@@ -7,15 +7,24 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import msgspec
 
-from robocomp_yaml.parameters.specification.document import Spelling
-from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, Member, RecordType, Size, Type
+from robocomp_yaml.parameters.specification.document import LegacySpelling
+from robocomp_yaml.parameters.types import (
+    BasicType,
+    EnumType,
+    ListType,
+    MapType,
+    RecordType,
+    ResolvedMember,
+    Size,
+    Type,
+)
 
 _LIMITS = {"at_least": "atLeast", "above": "above", "at_most": "atMost", "below": "below"}
 
 
 class Builders(msgspec.Struct, frozen=True):
-    """How a language calls them: `prefix` stands before each function, `text` makes a literal, `value` one of any plain
-    data, `listed` a list of expressions. `pattern` makes what matches."""
+    """How a language spells the calls. `prefix` is the prefix of all functions. `text` makes a literal of a text,
+    `value` one of any plain data, `listed` a list of expressions, and `pattern` a matcher for a pattern."""
 
     prefix: str
     text: Callable[[str], str]
@@ -24,7 +33,8 @@ class Builders(msgspec.Struct, frozen=True):
     pattern: Callable[[str], str]
 
     def kind(self, type_: Type, functions: Mapping[str, str], group: str | None = None) -> str:
-        """`functions` make the types of records; `group` is the path of a group."""
+        """The expression for a type. `functions` maps records to the functions that build their types; `group` is the
+        path of a group."""
         match type_:
             case BasicType():
                 return self._plain(type_)
@@ -39,8 +49,8 @@ class Builders(msgspec.Struct, frozen=True):
             case _:
                 return f"{functions[type_.name or group or '']}()"
 
-    def member(self, start: str, member: Member, functions: Mapping[str, str], group: str | None) -> str:
-        """The same of a member; `start` is the call up to its name."""
+    def member(self, start: str, member: ResolvedMember, functions: Mapping[str, str], group: str | None) -> str:
+        """The expression for a member; `start` is the call up to the name of the member."""
         made = f"{start}, {self.kind(member.type, functions, group)})"
         made += f".byDefault({self.value(member.default.data)})" if member.default is not None else ""
         return made + "".join(f".{word}()" for word in ("optional", "editable") if getattr(member, word))
@@ -64,8 +74,8 @@ class Builders(msgspec.Struct, frozen=True):
         if type_.unit:
             yield f"in({self.text(type_.unit)})"
 
-    def spelling(self, spelling: Spelling) -> str:
-        """All members of a spelling of properties, in their order."""
+    def spelling(self, spelling: LegacySpelling) -> str:
+        """The arguments that build a spelling of properties."""
         fields = self.listed([self.listed([self.text(name), self.text(key)]) for name, key in spelling.fields])
         words = [
             self.text(spelling.key), fields, str(spelling.first), self.texts(spelling.columns),
@@ -75,6 +85,7 @@ class Builders(msgspec.Struct, frozen=True):
         return ", ".join(words)
 
     def texts(self, words: Sequence[str]) -> str:
+        """A list of literals."""
         return self.listed([self.text(word) for word in words])
 
 
@@ -85,7 +96,7 @@ def _size(size: Size) -> str:
 
 
 def pattern_count(type_: Type) -> int:
-    """How many patterns a type has."""
+    """The number of patterns in a type."""
     match type_:
         case BasicType(pattern=pattern):
             return int(pattern is not None)

@@ -1,4 +1,4 @@
-"""Parameters in code: the classes of their enums and records, and what is said of them."""
+"""Lowers parameters: the classes of their enums and records, with documentation."""
 
 from __future__ import annotations
 
@@ -6,18 +6,28 @@ from collections.abc import Iterator, Mapping
 
 import msgspec
 
-from robocomp_yaml.emit.lowering.names import Names
+from robocomp_yaml.emit.lowering.names import NameAllocator
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, Member, Parameters, RecordType, Type
+from robocomp_yaml.parameters.types import (
+    BasicType,
+    EnumType,
+    ListType,
+    MapType,
+    Parameters,
+    RecordType,
+    ResolvedMember,
+    Type,
+)
 from robocomp_yaml.parameters.words import for_code
 
 ROOT = "."
-"""The path of the record that holds all parameters."""
+"""The path of the record of all parameters."""
 
 
-class Spelling(msgspec.Struct, frozen=True):
-    """How a language names types: `basic` by our names, `listing` and `mapping` with {} for the element's, `own` for
-    the classes that are made. `boxed` are the basic ones as elements, where they are others there."""
+class TypeSpelling(msgspec.Struct, frozen=True):
+    """How a language spells types. `basic` maps the names of basic types; `listing` and `mapping` have {} for the type
+    of the elements, `own` for the name of a generated class. `boxed` are basic types as elements, if they differ.
+    `path` is a path of a parameter in documentation."""
 
     basic: Mapping[str, str]
     listing: str
@@ -28,7 +38,7 @@ class Spelling(msgspec.Struct, frozen=True):
 
 
 class ConstraintView(msgspec.Struct, frozen=True):
-    """A rule that parameters keep: as it is written, what is said where it is broken, and what judges it, in code."""
+    """A constraint: its text in the document, the message if it does not hold, and the code that checks it."""
 
     text: str
     otherwise: str
@@ -36,19 +46,19 @@ class ConstraintView(msgspec.Struct, frozen=True):
 
 
 class Types:
-    """The classes of all enums and records that parameters use: `of` by name, that of a group by its path."""
+    """The classes of all enums and records of parameters: `of` maps the name, or the path of a group, to the class."""
 
-    def __init__(self, root: RecordType, names: Names, spelling: Spelling) -> None:
+    def __init__(self, root: RecordType, names: NameAllocator, spelling: TypeSpelling) -> None:
         self.records, self.enums = records(root)
         self.spelling = spelling
-        self.of = {enum.name: names.take(enum.name) for enum in self.enums}
-        self.of |= {path: names.take(path) for path, record in self.records if not record.is_group}
+        self.of = {enum.name: names.allocate(enum.name) for enum in self.enums}
+        self.of |= {path: names.allocate(path) for path, record in self.records if not record.is_group}
         for path, record in self.records:
             if record.is_group:
-                self.of[path] = "Values" if path == ROOT else names.take(f"{capitals(path[1:])}Group")
+                self.of[path] = "Values" if path == ROOT else names.allocate(f"{capitals(path[1:])}Group")
 
     def spelled(self, type_: Type, group: str | None = None, *, boxed: bool = False) -> str:
-        """The type in code; `group` is the path of a group, `boxed` what is an element of something."""
+        """The type in code; `group` is the path of a group, `boxed` is set for the type of elements."""
         spelling = self.spelling
         match type_:
             case BasicType(name=name):
@@ -63,17 +73,18 @@ class Types:
                 return spelling.own.format(self.of[type_.name or group or ""])
 
     def setters(
-        self, member: Member, taken: Names, around: str = ROOT, before: str = ""
-    ) -> Iterator[tuple[str, Member, str]]:
-        """Name, member and path of each setter: of the member, or of what the group holds."""
-        in_code, path = inside(around, member.code_name), f"{before}{member.name}"
+        self, member: ResolvedMember, names: NameAllocator, group: str = ROOT, prefix: str = ""
+    ) -> Iterator[tuple[str, ResolvedMember, str]]:
+        """Name, member and path of each setter: of the member, or of the members of its group."""
+        in_code, path = inside(group, member.code_name), f"{prefix}{member.name}"
         if member.is_group and isinstance(member.type, RecordType):
             for inner in member.type.members:
-                yield from self.setters(inner, taken, in_code, f"{path}.")
+                yield from self.setters(inner, names, in_code, f"{path}.")
         elif member.editable:
-            yield taken.take(f"set{capitals(in_code[1:])}"), member, path
+            yield names.allocate(f"set{capitals(in_code[1:])}"), member, path
 
     def about_record(self, path: str, record: RecordType) -> str:
+        """The documentation of a record."""
         if path == ROOT:
             return "All parameters, as they were at one moment."
         if record.doc:
@@ -82,31 +93,35 @@ class Types:
 
 
 def declared(linked: LinkedComponent) -> tuple[Parameters, str, str]:
-    """The parameters of a component, its name, and the path of the document that they stand in."""
-    found, component = linked.parameters, linked.component
-    return found.parameters, component.name, found.document.path if found.document is not None else component.path
+    """The parameters of a component, its name, and the path of the document with the parameters."""
+    linked_parameters, component = linked.parameters, linked.component
+    document = linked_parameters.document or component
+    return linked_parameters.parameters, component.name, document.path
 
 
-def titled(said: str, doc: str) -> str:
-    return f"{said}\n\n{doc}" if doc else said
+def titled(title: str, doc: str) -> str:
+    """A title with documentation below."""
+    return f"{title}\n\n{doc}" if doc else title
 
 
 def about_enum(enum: EnumType) -> list[str]:
-    """What is said of an enum, and of each of its names: that on one line."""
+    """The documentation of an enum, and of each of its names, one line each."""
     words = [enum.doc or f"One of {len(enum.enumerators)} names."]
     return words + [f"{name}: {' '.join(doc.split())}" for name, doc in enum.enumerators if doc]
 
 
-def about_member(member: Member, between: str) -> str:
+def about_member(member: ResolvedMember, between: str) -> str:
+    """The documentation of a member, and its type and limits in words, with `between` in the middle."""
     return between.join(part for part in (member.doc.strip(), for_code(member)) if part) or f"{member.name}."
 
 
-def path_of(member: Member, group: str | None) -> str | None:
-    """The path of a member that stands in a group; None in a struct."""
+def path_of(member: ResolvedMember, group: str | None) -> str | None:
+    """The path of a member of a group; None in a struct."""
     return None if group is None else inside(group, member.code_name)
 
 
 def group_of(path: str, record: RecordType) -> str | None:
+    """The path of a record that is a group; None for a struct."""
     return path if record.is_group else None
 
 
@@ -116,9 +131,9 @@ def capitals(path: str) -> str:
 
 
 def records(root: RecordType) -> tuple[list[tuple[str, RecordType]], list[EnumType]]:
-    """The records that parameters use, those inside first, by name (a group by its path in code behind a dot, the root
-    by a dot); and the enums."""
-    found: dict[str, RecordType] = {}
+    """The records of parameters, inner ones first, by name (a group by a dot and its path in code, the root by a dot),
+    and the enums."""
+    by_name: dict[str, RecordType] = {}
     enums: dict[str, EnumType] = {}
 
     def visit(type_: Type, path: str) -> None:
@@ -128,16 +143,16 @@ def records(root: RecordType) -> tuple[list[tuple[str, RecordType]], list[EnumTy
             case ListType(element=element) | MapType(element=element):
                 visit(element, "")
             case RecordType(name=name, members=members):
-                if (name or path) in found:
+                if (name or path) in by_name:
                     return
                 for member in members:
                     visit(member.type, "" if name else inside(path, member.code_name))
-                found[name or path] = type_
+                by_name[name or path] = type_
 
     visit(root, ".")
-    return list(found.items()), list(enums.values())
+    return list(by_name.items()), list(enums.values())
 
 
 def inside(group: str, name: str) -> str:
-    """The path of a group in a group."""
+    """The path of a member of a group."""
     return f".{name}" if group == "." else f"{group}.{name}"

@@ -1,4 +1,4 @@
-"""A component's ports: proxies that the worker has, and the methods that others call there."""
+"""Lowers ports: the proxies of the worker, and its methods that other components call."""
 
 from __future__ import annotations
 
@@ -6,16 +6,16 @@ from collections.abc import Callable, Sequence
 
 import msgspec
 
-from robocomp_yaml.emit.lowering.names import Names
+from robocomp_yaml.emit.lowering.names import NameAllocator
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.component import WAIT
 from robocomp_yaml.model.interface import Method
 
 
-class Spelling(msgspec.Struct, frozen=True):
-    """How a language names them: `taken` are names that every worker has, `published` the candidates for the proxy of a
-    topic, with {name} for the port's in lower case; `called` is an operation as its caller spells it, and `property`
-    how a text sets off the name of one."""
+class PortSpelling(msgspec.Struct, frozen=True):
+    """How a language spells names. `taken` are the names of every worker. `published` are the candidates for the proxy
+    of a topic, with {name} for the port's name in lower case. `called` makes the name of an operation for callers, and
+    `property` is the name of a property in documentation."""
 
     taken: frozenset[str]
     published: tuple[str, ...]
@@ -24,9 +24,9 @@ class Spelling(msgspec.Struct, frozen=True):
 
 
 class Accessor(msgspec.Struct, frozen=True):
-    """A proxy that the worker has as `name`. `about` is one sentence, `summary` less; `doc` what the document says.
-    `events` are what it publishes; `absent` is '' where the run time's default holds, `milliseconds` None where Ice's
-    does."""
+    """The proxy `name` of the worker. `about` is one sentence, `summary` a few words, and `doc` the documentation in
+    the document. `events` are those that it publishes. `absent` is '' for the default of the run time. `milliseconds`
+    is the time limit of calls, None for the default of Ice."""
 
     port: Port
     name: str
@@ -38,8 +38,8 @@ class Accessor(msgspec.Struct, frozen=True):
     milliseconds: int | None = None
 
 
-class Called(msgspec.Struct, frozen=True):
-    """A method of the worker, `name`, which an operation of a port calls."""
+class CalledMethod(msgspec.Struct, frozen=True):
+    """The method `name` of the worker, which an operation of a port calls."""
 
     port: Port
     method: Method
@@ -47,28 +47,28 @@ class Called(msgspec.Struct, frozen=True):
 
 
 class Service(msgspec.Struct, frozen=True):
-    """An implemented or subscribed port. `new` are those of its methods that no earlier port has brought."""
+    """An implemented or subscribed port. `new` are its methods that no earlier port has."""
 
     port: Port
     title: str
     identity: str
-    methods: tuple[Called, ...]
-    new: tuple[Called, ...]
+    methods: tuple[CalledMethod, ...]
+    new: tuple[CalledMethod, ...]
 
 
-class Ports(msgspec.Struct, frozen=True):
+class LoweredPorts(msgspec.Struct, frozen=True):
     requires: tuple[Accessor, ...]
     publishes: tuple[Accessor, ...]
     implements: tuple[Service, ...]
     subscribes: tuple[Service, ...]
 
 
-def lower(component: LinkedComponent, spelling: Spelling) -> Ports:
+def lower(component: LinkedComponent, spelling: PortSpelling) -> LoweredPorts:
     """All ports of a component, with names that do not clash."""
-    names = Names(spelling.taken)
+    names = NameAllocator(spelling.taken)
     requires = tuple(_required(port, names, spelling) for port in component.requires)
     publishes = tuple(_published(port, names, spelling) for port in component.publishes)
-    known: dict[tuple[LinkedModule, str, str], Called] = {}
+    known: dict[tuple[LinkedModule, str, str], CalledMethod] = {}
     implements = tuple(
         _service(port, "other components call these.", port.interface.methods, names, known)
         for port in component.implements
@@ -77,20 +77,20 @@ def lower(component: LinkedComponent, spelling: Spelling) -> Ports:
         _service(port, "events that others publish.", can_be_published(port), names, known)
         for port in component.subscribes
     )
-    return Ports(requires, publishes, implements, subscribes)
+    return LoweredPorts(requires, publishes, implements, subscribes)
 
 
 def can_be_published(port: Port) -> list[Method]:
-    """What of an interface a topic carries."""
+    """The methods of an interface that a topic can carry."""
     return [method for method in port.interface.methods if method.can_be_published]
 
 
-def _required(port: Port, names: Names, spelling: Spelling) -> Accessor:
+def _required(port: Port, names: NameAllocator, spelling: PortSpelling) -> Accessor:
     property_ = spelling.property.format(name=f"{port.name}Proxy")
     timeout = port.use.timeout
     return Accessor(
         port=port,
-        name=names.take(f"{port.name.lower()}_proxy"),
+        name=names.allocate(f"{port.name.lower()}_proxy"),
         about=f"{port.name}, at the address that the property {property_} gives.",
         summary=f"calls {port.name}",
         doc=port.use.doc or port.interface.doc,
@@ -99,12 +99,12 @@ def _required(port: Port, names: Names, spelling: Spelling) -> Accessor:
     )
 
 
-def _published(port: Port, names: Names, spelling: Spelling) -> Accessor:
+def _published(port: Port, names: NameAllocator, spelling: PortSpelling) -> Accessor:
     methods = can_be_published(port)
     events = ", ".join(f"{spelling.called(m.name)}({', '.join(one.name for one in m.inputs)})" for m in methods)
     return Accessor(
         port=port,
-        name=names.take(*(candidate.format(name=port.name.lower()) for candidate in spelling.published)),
+        name=names.allocate(*(candidate.format(name=port.name.lower()) for candidate in spelling.published)),
         about=f"Publishes {port.name}: {events}.",
         summary=f"publishes {port.name}",
         doc=port.use.doc or port.interface.doc,
@@ -113,13 +113,17 @@ def _published(port: Port, names: Names, spelling: Spelling) -> Accessor:
 
 
 def _service(
-    port: Port, about: str, methods: Sequence[Method], names: Names, known: dict[tuple[LinkedModule, str, str], Called]
+    port: Port,
+    about: str,
+    methods: Sequence[Method],
+    names: NameAllocator,
+    known: dict[tuple[LinkedModule, str, str], CalledMethod],
 ) -> Service:
     every, new = [], []
     for method in methods:
         key = (port.scope, port.interface.name, method.name)
         if key not in known:
-            known[key] = Called(port, method, names.take(f"{port.interface.name}_{method.name}"))
+            known[key] = CalledMethod(port, method, names.allocate(f"{port.interface.name}_{method.name}"))
             new.append(known[key])
         every.append(known[key])
     return Service(port, f"{port.name}: {about}", port.interface.name.lower(), tuple(every), tuple(new))

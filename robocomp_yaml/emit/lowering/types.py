@@ -1,4 +1,4 @@
-"""Types of interfaces as they were linked."""
+"""Resolves types of interfaces."""
 
 from __future__ import annotations
 
@@ -6,21 +6,22 @@ from robocomp_yaml.link.program import Definition, LinkedModule
 from robocomp_yaml.model.interface import Method, TypeRef
 
 
-def found(ref: TypeRef, scope: LinkedModule) -> tuple[LinkedModule, Definition]:
-    """Raises LookupError where a reference is not linked: a component like that is not compiled."""
-    place = scope.find(ref)
-    if place is None:
+def resolve(ref: TypeRef, scope: LinkedModule) -> tuple[LinkedModule, Definition]:
+    """The definition of a type, and its module. Raises LookupError if the type is unknown, which no component has that
+    is compiled."""
+    definition = scope.find(ref)
+    if definition is None:
         raise LookupError(f"{ref.text} is not linked: {scope.module.path}")
-    return place
+    return definition
 
 
 def scoped(ref: TypeRef, scope: LinkedModule) -> tuple[str, str]:
-    """The names of its module, and its own."""
-    home, definition = found(ref, scope)
+    """The names of a type's module and of the type."""
+    home, definition = resolve(ref, scope)
     return home.module.name, definition.name
 
 
 def results(method: Method) -> list[TypeRef]:
-    """What a method gives back, in Ice's order."""
+    """The types of a method's results, in Ice's order."""
     returned = [] if method.returns is None else [method.returns]
     return [*returned, *(member.type for member in method.outputs)]

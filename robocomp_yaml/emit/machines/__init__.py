@@ -1,1 +1,1 @@
-"""State machines on their way into a component: tables, and the tables as text of a language."""
+"""Lowers state machines: to tables, and to views for templates."""

@@ -1,13 +1,15 @@
-"""From the model of a state machine to its tables. The machine has been checked."""
+"""Lowers the model of a state machine, which has no errors, to tables."""
 
 from __future__ import annotations
 
 from robocomp_yaml.model import conditions
 from robocomp_yaml.model import statemachine as model
+from robocomp_yaml.model.located import Text
 from robocomp_yaml.semantics import tables
 
 
 def lower(machine: model.StateMachine) -> tables.Machine:
+    """The tables of a state machine."""
     return _Lowering(machine).run()
 
 
@@ -15,7 +17,7 @@ class _Lowering:
     def __init__(self, machine: model.StateMachine) -> None:
         self.machine = machine
         self.is_python = machine.datamodel == model.PYTHON
-        self.flat: list[tuple[model.State, int]] = []  # each with its parent's number
+        self.flat: list[tuple[model.State, int]] = []  # with the number of the parent
         self.children: list[list[int]] = []
         self._flatten(machine.root, tables.NOWHERE)
         self.numbers = {state.id: number for number, (state, _) in enumerate(self.flat) if state.id}
@@ -76,20 +78,21 @@ class _Lowering:
         )
         return len(self.transitions) - 1
 
-    def _condition(self, text: model.Text | None) -> tables.Condition:
+    def _condition(self, text: Text | None) -> tables.Condition:
         if text is None:
             return tables.Condition()
         if self.is_python:
             return tables.Condition("expr", text.text)
         return self._lowered(conditions.condition(text.text))
 
-    def _lowered(self, found: conditions.Condition) -> tables.Condition:
-        if found.kind == conditions.IN:
-            return tables.Condition("in", found.name, self.numbers.get(found.name, tables.NOWHERE))
-        return tables.Condition(found.kind, found.name, parts=tuple(self._lowered(part) for part in found.parts))
+    def _lowered(self, condition: conditions.Condition) -> tables.Condition:
+        if condition.kind == conditions.IN:
+            return tables.Condition("in", condition.name, self.numbers.get(condition.name, tables.NOWHERE))
+        parts = tuple(self._lowered(part) for part in condition.parts)
+        return tables.Condition(condition.kind, condition.name, parts=parts)
 
     def _value(self, value: model.Value | None, attribute: bool = False) -> tables.Value:
-        """`attribute`: what stands there is meant as it stands."""
+        """`attribute`: a literal is a text, not an expression."""
         if value is None:
             return tables.Value()
         if value.expr is not None:
@@ -153,5 +156,5 @@ class _Lowering:
                 return [tables.Action("foreach", item.text, over, _name(index), branches=(body,))]
 
 
-def _name(text: model.Text | None) -> str:
+def _name(text: Text | None) -> str:
     return text.text if text else ""

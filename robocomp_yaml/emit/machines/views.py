@@ -1,4 +1,4 @@
-"""What templates show of a component's state machine: what the worker has of it, and its events."""
+"""Views of a component's state machine for templates: the worker's part of it, and its events."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ class StateView(msgspec.Struct, frozen=True):
 
 
 class MachineView(msgspec.Struct, frozen=True):
-    """States, and names of guards and actions; `called` are all actions, also those that every worker has. `fires` is
-    an example of how to fire an event. `member` and `signals` are for code for RoboComp's own tool."""
+    """The states, and the names of guards and actions. `called` are all actions, with those of every worker. `fires` is
+    an example of code that fires an event. `member` and `signals` are for code for RoboComp's own tool."""
 
     states: list[StateView]
     guards: list[str]
@@ -36,19 +36,20 @@ class MachineView(msgspec.Struct, frozen=True):
 def view(
     machine: StateMachine, in_code: Callable[[str], str], comment: Callable[[str], str], events_of: str
 ) -> MachineView:
-    """`in_code` gives names as the language has them, `events_of` is what stands before the name of an event."""
+    """The view of a machine. `in_code` makes names in the language; `events_of` is the prefix of an event's name."""
     called = [action.name for action in names.actions(machine)]
-    states = names.with_handler(machine)
+    states = names.states_with_handlers(machine)
     return MachineView(
         [StateView(one.id, comment(f"The state '{one.id}' has been entered.\n\n{one.doc}")) for one in states],
         [guard.name for guard in names.guards(machine)],
         [name for name in called if name not in names.CALLABLE],
         called,
         next((f"{events_of}{event.method}()" for event in events(machine, in_code)), "there are none"),
-        in_code(names.robocomps_machine(machine)),
-        names.robocomps_signals(machine),
+        in_code(names.robocomp_machine(machine)),
+        names.robocomp_signals(machine),
     )
 
 
 def events(machine: StateMachine, in_code: Callable[[str], str]) -> list[EventView]:
+    """The events of a machine, with the names of their methods."""
     return [EventView(event.text.text, in_code(event.name)) for event in names.events(machine)]

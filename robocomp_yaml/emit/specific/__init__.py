@@ -1,1 +1,1 @@
-"""The user's specific class and the skeleton that it came from: what it lacks, and how the two are merged."""
+"""The user's specific class and its skeleton: what the class lacks, and how the two are merged."""

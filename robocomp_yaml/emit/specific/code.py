@@ -1,4 +1,4 @@
-"""Source code as far as a merge looks into it: the methods of the specific class, imports, and faults of syntax."""
+"""Source code as a merge sees it: methods of the specific class, imports, and syntax errors."""
 
 from __future__ import annotations
 
@@ -7,23 +7,17 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
+from robocomp_yaml.diag.span import Span
+
 if TYPE_CHECKING:
     from tree_sitter import Node
 
 CLASS = "SpecificWorker"
 
 
-class Place(msgspec.Struct, frozen=True):
-    """A word of the text; counted as in a span."""
-
-    line: int
-    column: int
-    end_column: int
-
-
 class Signature(msgspec.Struct, frozen=True):
-    """`parameters` and `returns` with blanks made alike; `names` are those of the parameters. A call with `least` to
-    `most` arguments fits; `most` is None where there is no limit."""
+    """`parameters` and `returns` have normalized blanks; `names` are those of the parameters. A call has at least
+    `least` and at most `most` arguments; `most` is None if there is no limit."""
 
     parameters: tuple[str, ...]
     names: tuple[str, ...]
@@ -32,15 +26,15 @@ class Signature(msgspec.Struct, frozen=True):
     most: int | None
 
 
-class Method(msgspec.Struct, frozen=True):
-    """A method of the class: declared in its body, or (C++) defined outside of it.
+class SourceMethod(msgspec.Struct, frozen=True):
+    """A method of the class: declared in its body, or (C++) defined outside.
 
-    `first` and `end` are the lines from its first to behind its last, from 0, decorators with it. `signature` is None
-    where the class only gives something else this name. `nested` when it stands under a condition.
+    `first` is its first line, with decorators, and `end` the line after its last; both count from 0. `signature` is
+    None if the name is only assigned. `nested`: the method is inside a condition.
     """
 
     name: str
-    place: Place
+    location: Span
     first: int
     end: int
     signature: Signature | None
@@ -48,67 +42,73 @@ class Method(msgspec.Struct, frozen=True):
     nested: bool = False
 
 
-class Import(msgspec.Struct, frozen=True):
-    """What a line brings in, and the line that would bring just this."""
+class ImportLine(msgspec.Struct, frozen=True):
+    """One imported name, and the line that imports only this name."""
 
     key: str
     line: str
 
 
-class Code(msgspec.Struct, frozen=True):
-    """A file. `members` stand in the class, `definitions` outside. `place` is that of the class's name, None where the
-    file does not have the class; `body_end` the line before which its body ends, and `unit` one step of indentation.
-    `bases` are the classes that it inherits from. `import_end` is the line behind the last import, or where one may
-    be put."""
+class SourceCode(msgspec.Struct, frozen=True):
+    """A file. `faults` is the number of syntax errors. `members` are in the class, `definitions` outside. `location` is
+    the location of the class's name, None if the file does not contain the class. `body_end` is the line before which
+    the class's body ends, and `unit` one step of indentation. `bases` are the base classes. `import_end` is the line
+    after the last import, or the line before which an import can be inserted."""
 
     path: str
     lines: list[str]
     faults: int
-    members: tuple[Method, ...] = ()
-    definitions: tuple[Method, ...] = ()
-    imports: tuple[Import, ...] = ()
+    members: tuple[SourceMethod, ...] = ()
+    definitions: tuple[SourceMethod, ...] = ()
+    imports: tuple[ImportLine, ...] = ()
     import_end: int = 0
-    place: Place | None = None
+    location: Span | None = None
     body_end: int = 0
     unit: str = "    "
     bases: tuple[str, ...] = ()
 
-    def text_of(self, method: Method) -> str:
+    @property
+    def methods(self) -> tuple[SourceMethod, ...]:
+        """The declarations and definitions of methods."""
+        return (*self.members, *self.definitions)
+
+    def text_of(self, method: SourceMethod) -> str:
+        """The lines of a method."""
         return "".join(self.lines[method.first : method.end])
 
 
 def lines_of(text: str) -> list[str]:
-    """The lines with their ends; only a line feed ends one, as for compilers."""
+    """The lines with their ends. Only a line feed ends a line, as for compilers."""
     lines = [f"{line}\n" for line in text.split("\n")]
     last = lines.pop()[:-1]
     return [*lines, last] if last else lines
 
 
-def place(node: Node, lines: list[str]) -> Place:
-    """Where a node of one line stands."""
+def location(node: Node, lines: list[str]) -> Span:
+    """The location of a node of one line, without the path."""
     row, start = node.start_point
-    line = lines[row].encode()
-    column = len(line[:start].decode(errors="replace")) + 1
-    return Place(row + 1, column, column + len(text(node)))
+    column = len(lines[row].encode()[:start].decode(errors="replace")) + 1
+    return Span("", row + 1, column, row + 1, column + len(text(node)))
 
 
 def text(node: Node) -> str:
+    """The text of a node."""
     return (node.text or b"").decode(errors="replace")
 
 
 def plain(node: Node | None) -> str:
-    """A node's text without comments and needless blanks."""
+    """The text of a node without comments, with single blanks; '' for None."""
     return " ".join(words(node)) if node else ""
 
 
 def field(node: Node, name: str) -> Node:
-    """A part of a node by its name; the node itself where it has none."""
-    found = node.child_by_field_name(name)
-    return found if found is not None else node
+    """The field of a node with this name; the node itself if it has no such field."""
+    child = node.child_by_field_name(name)
+    return child if child is not None else node
 
 
 def words(node: Node, without: Collection[Node | None] = ()) -> Iterator[str]:
-    """The tokens below a node."""
+    """The tokens below a node, except those of the nodes in `without`."""
     todo = [node]
     while todo:
         current = todo.pop()
@@ -120,7 +120,8 @@ def words(node: Node, without: Collection[Node | None] = ()) -> Iterator[str]:
 
 
 def below(root: Node, enters: Callable[[Node], bool]) -> Iterator[tuple[Node, bool]]:
-    """The nodes below one, in order; of those to be entered, what is in them instead, which is nested then."""
+    """The nodes below a node, in order, each with whether it is nested. A node that `enters` accepts is replaced by its
+    children, which are nested."""
     todo = [(child, False) for child in reversed(root.children)]
     while todo:
         node, nested = todo.pop()
@@ -131,7 +132,7 @@ def below(root: Node, enters: Callable[[Node], bool]) -> Iterator[tuple[Node, bo
 
 
 def faults(root: Node) -> int:
-    """How many places of a tree are no proper syntax."""
+    """The number of syntax errors in a tree."""
     count, todo = 0, [root] if root.has_error else []
     while todo:
         node = todo.pop()

@@ -1,4 +1,4 @@
-"""What the user's class lacks of a new skeleton, what of it is outdated, and what nobody calls any more."""
+"""Compares the user's class with a new skeleton: missing, outdated and obsolete methods."""
 
 from __future__ import annotations
 
@@ -8,85 +8,85 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 import msgspec
 
 from robocomp_yaml.diag.suggest import suggest
-from robocomp_yaml.emit.specific.code import Code, Method, Signature
+from robocomp_yaml.emit.specific.code import Signature, SourceCode, SourceMethod
 
 
-class Lacking(msgspec.Struct, frozen=True):
-    """A method of a skeleton's file that the user's files do not have."""
+class MissingMethod(msgspec.Struct, frozen=True):
+    """A method of a skeleton that the user's files lack."""
 
-    skeleton: Code
-    method: Method
-
-
-class Outdated(msgspec.Struct, frozen=True):
-    """A method of the user that no longer fits; `wanted` is the skeleton's."""
-
-    code: Code
-    method: Method
-    skeleton: Code
-    wanted: Method
+    skeleton: SourceCode
+    method: SourceMethod
 
 
-class Gone(msgspec.Struct, frozen=True):
-    """A method that no skeleton has any more, at its places; `renamed` is what it may be called now."""
+class OutdatedMethod(msgspec.Struct, frozen=True):
+    """A method of the user that does not match its interface any more; `expected` is that of the skeleton."""
+
+    code: SourceCode
+    method: SourceMethod
+    skeleton: SourceCode
+    expected: SourceMethod
+
+
+class ObsoleteMethod(msgspec.Struct, frozen=True):
+    """A method that no skeleton has any more, with its occurrences; `renamed` is its probable new name."""
 
     name: str
-    places: tuple[tuple[Code, Method], ...]
+    occurrences: tuple[tuple[SourceCode, SourceMethod], ...]
     renamed: str = ""
 
 
 class Comparison(msgspec.Struct):
-    lacking: list[Lacking] = []
-    outdated: list[Outdated] = []
-    gone: list[Gone] = []
+    missing: list[MissingMethod] = []
+    outdated: list[OutdatedMethod] = []
+    obsolete: list[ObsoleteMethod] = []
 
 
 def compare(
-    new: Sequence[Code], base: Mapping[str, Code], yours: Sequence[Code], bases: Collection[str] = ()
+    new: Sequence[SourceCode], base: Mapping[str, SourceCode], yours: Sequence[SourceCode], bases: Collection[str] = ()
 ) -> Comparison:
-    """`new` is the skeleton of today and `base` that which the user's files came from, file by file, as far as it is
-    known; `yours` are the user's files. `bases` are the classes that a skeleton's class inherits from, beside those in
-    `new`."""
+    """Compares the user's files, `yours`, with the new skeleton. `base` are the skeletons that the user's files were
+    written from, as far as they are known, by path. `bases` are the base classes of the skeleton's class, in addition
+    to those in `new`."""
     result = Comparison()
     members, definitions = _by_name(yours, "members"), _by_name(yours, "definitions")
-    bodies = {name: [pair for pair in found if pair[1].has_body] for name, found in members.items()}
+    bodies = {name: [pair for pair in pairs if pair[1].has_body] for name, pairs in members.items()}
     elsewhere = _inherited(new, yours, bases)
     for skeleton in new:
         older = base.get(skeleton.path)
         for part, known in (("members", members), ("definitions", definitions)):
             before = {method.name: method for method in getattr(older, part, ())}
             for method in getattr(skeleton, part):
-                found = known.get(method.name, [])
-                defined = found or (bodies.get(method.name) if part == "definitions" else None)
+                mine = known.get(method.name, [])
+                defined = mine or (bodies.get(method.name) if part == "definitions" else None)
                 if not defined and method.name not in elsewhere:
-                    result.lacking.append(Lacking(skeleton, method))
-                if found and not any(_fits(mine, method, before.get(method.name)) for _, mine in found):
-                    result.outdated.append(Outdated(*found[0], skeleton, method))
-    result.gone = list(_gone(new, base, members, definitions, result.lacking))
+                    result.missing.append(MissingMethod(skeleton, method))
+                if mine and not any(_fits(one, method, before.get(method.name)) for _, one in mine):
+                    result.outdated.append(OutdatedMethod(*mine[0], skeleton, method))
+    result.obsolete = list(_obsolete(new, base, members, definitions, result.missing))
     return result
 
 
-def _by_name(codes: Iterable[Code], part: str) -> dict[str, list[tuple[Code, Method]]]:
-    found: dict[str, list[tuple[Code, Method]]] = {}
+def _by_name(codes: Iterable[SourceCode], part: str) -> dict[str, list[tuple[SourceCode, SourceMethod]]]:
+    by_name: dict[str, list[tuple[SourceCode, SourceMethod]]] = {}
     for code in codes:
         for method in getattr(code, part):
-            found.setdefault(method.name, []).append((code, method))
-    return found
+            by_name.setdefault(method.name, []).append((code, method))
+    return by_name
 
 
-def _inherited(new: Sequence[Code], yours: Sequence[Code], bases: Collection[str]) -> set[str]:
-    """Methods that the class may have from a class of the user's own that it inherits from: those named anywhere."""
+def _inherited(new: Sequence[SourceCode], yours: Sequence[SourceCode], bases: Collection[str]) -> set[str]:
+    """The methods that the class may inherit from a class of the user: those whose names occur anywhere."""
     expected = {*bases, *(base for code in new for base in code.bases)}
     if all(base in expected for code in yours for base in code.bases):
         return set()
     words = {word for code in yours for line in code.lines for word in re.findall(r"\w+", line)}
-    return {method.name for code in new for method in (*code.members, *code.definitions)} & words
+    return {method.name for code in new for method in code.methods} & words
 
 
-def _fits(mine: Method, wanted: Method, before: Method | None) -> bool:
-    """Whether a method does for what the skeleton has now. What the user wrote otherwise than `before` is trusted, but
-    for the number of parameters."""
-    is_, needs = mine.signature, wanted.signature
+def _fits(mine: SourceMethod, expected: SourceMethod, before: SourceMethod | None) -> bool:
+    """Whether a method matches that of the new skeleton. Parameters that the user changed since the skeleton `before`
+    are accepted, but their number must match."""
+    is_, needs = mine.signature, expected.signature
     if is_ is None or needs is None or _types(is_) == _types(needs):
         return True
     count = len(needs.parameters)
@@ -101,7 +101,7 @@ def _fits(mine: Method, wanted: Method, before: Method | None) -> bool:
 
 
 def _differ(old: str, now: str) -> bool:
-    """Whether a parameter or result changed; that it got a type, or lost it, is no change."""
+    """Whether a parameter or result changed. An added or removed type is no change."""
     if not old or not now or (" : " in old) != (" : " in now):
         return old.partition(" ")[0] != now.partition(" ")[0] and bool(old and now)
     return old != now
@@ -111,23 +111,23 @@ def _types(signature: Signature) -> tuple[object, ...]:
     return signature.parameters, signature.returns
 
 
-def _gone(
-    new: Sequence[Code],
-    base: Mapping[str, Code],
-    members: Mapping[str, list[tuple[Code, Method]]],
-    definitions: Mapping[str, list[tuple[Code, Method]]],
-    lacking: Sequence[Lacking],
-) -> Iterable[Gone]:
-    today = {method.name for code in new for method in (*code.members, *code.definitions)}
+def _obsolete(
+    new: Sequence[SourceCode],
+    base: Mapping[str, SourceCode],
+    members: Mapping[str, list[tuple[SourceCode, SourceMethod]]],
+    definitions: Mapping[str, list[tuple[SourceCode, SourceMethod]]],
+    lacking: Sequence[MissingMethod],
+) -> Iterable[ObsoleteMethod]:
+    today = {method.name for code in new for method in code.methods}
     before = {m.name: m for code in base.values() for m in (*code.definitions, *code.members)}
     fresh = {one.method.name: one.method for one in lacking if one.method.name not in before}
     for name, method in before.items():
-        places = (*members.get(name, ()), *definitions.get(name, ()))
-        if name in today or not places:
+        occurrences = (*members.get(name, ()), *definitions.get(name, ()))
+        if name in today or not occurrences:
             continue
         alike = [other for other, its in fresh.items() if _same(method.signature, its.signature)]
         alike = [other for other in alike if other.partition("_")[0] == name.partition("_")[0]]
-        yield Gone(name, places, alike[0] if len(alike) == 1 else suggest(name, alike) or "")
+        yield ObsoleteMethod(name, occurrences, alike[0] if len(alike) == 1 else suggest(name, alike) or "")
 
 
 def _same(one: Signature | None, other: Signature | None) -> bool:

@@ -1,118 +1,107 @@
-"""What becomes of the user's own files where a component changes: the diagnostics about them, and their merges."""
+"""Reviews the user's files after a component changed: diagnostics about them, and merges."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Set
+from collections.abc import Iterable, Iterator
 
 import msgspec
 from msgspec.structs import replace
 
-from robocomp_yaml.diag.codes import languages as codes
+from robocomp_yaml.diag.codes import cdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.layout import SOURCES
-from robocomp_yaml.emit.specific import entries, reading, sources
-from robocomp_yaml.emit.specific.own import Own
-from robocomp_yaml.emit.specific.reading import is_code
+from robocomp_yaml.emit.specific import config_merge, reading
+from robocomp_yaml.emit.specific.user_file import UserFile
 from robocomp_yaml.transactions.manifest import BASE
-from robocomp_yaml.transactions.places import Root
+from robocomp_yaml.transactions.output_root import Root
 from robocomp_yaml.transactions.plan import ONCE, Merge, Merges, RootPlan
 
 
-class Review(msgspec.Struct, frozen=True):
-    """`contents` and `absent` are what it read and looked for in vain, `names` what it saw in folders."""
+class Review(msgspec.Struct):
+    """`contents` are the files that were read, `absent` the paths that do not exist, `names` those in folders."""
 
-    diagnostics: tuple[Diagnostic, ...] = ()
-    merges: Merges = Merges()
-    contents: Mapping[str, bytes] = {}
-    absent: Set[str] = frozenset()
-    names: Mapping[str, list[str]] = {}
-
-
-def review(plans: Iterable[RootPlan], *, merge: bool = False) -> Review:
-    """Looks at the files that are there; only where one of them is not as it would be written is it understood."""
     diagnostics: list[Diagnostic] = []
-    merges: dict[tuple[str, str], Merge] = {}
-    refused: set[str] = set()
-    seen = _Seen()
-    for plan in plans:
-        root = Root(plan.root)
-        files = list(_own(plan, root, merge, seen))
-        if merge:
-            alone = [file for file in files if reading.unmerged(file.plan.path)]
-            files = [file for file in files if file not in alone]
-            diagnostics += _not_merged(alone, root)
-        if all(file.is_settled for file in files):
-            continue
-        from robocomp_yaml.emit.specific import merging, telling  # with the parsers of the languages
-
-        if merge:
-            merged, refusals = merging.merge_files(root, files)
-            if refusals:
-                refused.add(root.real)
-                diagnostics += refusals
-                continue
-            merges.update({(root.real, path): one for path, one in merged.items()})
-            files = [_after(file, merged.get(file.plan.path)) for file in files]
-        _remember_code(seen, root, files)
-        diagnostics += telling.tell(root, files, root.shown(plan.owner))
-    return Review(tuple(diagnostics), Merges(merges, refused), seen.contents, seen.absent, seen.names)
-
-
-class _Seen(msgspec.Struct):
+    merges: Merges = msgspec.field(default_factory=Merges)
     contents: dict[str, bytes] = {}
     absent: set[str] = set()
     names: dict[str, list[str]] = {}
 
 
-def _remember_code(seen: _Seen, root: Root, files: Iterable[Own]) -> None:
-    """Parts of the class that it is about may stand in any file beside it."""
-    for folder in {file.plan.path.rpartition("/")[0] for file in files if is_code(file.plan.path)}:
-        seen.names[root.shown(folder)] = sources.names(root, folder)
-        seen.contents.update((root.shown(path), data) for path, data in sources.code_in(root, folder))
+def review(plans: Iterable[RootPlan], *, merge: bool = False) -> Review:
+    """Reviews the user's files of all plans. Only components with a file that is not up to date are parsed."""
+    result = Review()
+    for plan in plans:
+        root = Root(plan.root)
+        files = list(_user_files(plan, root, merge, result))
+        if merge:
+            unmerged = [file for file in files if reading.unmerged(file.path)]
+            files = [file for file in files if file not in unmerged]
+            result.diagnostics += _not_merged(unmerged, root)
+        if all(file.is_up_to_date for file in files):
+            continue
+        from robocomp_yaml.emit.specific import reporting  # most runs need neither of them
+        from robocomp_yaml.emit.specific.merge import merge_files
+
+        if merge:
+            merged, refusals = merge_files(root, files)
+            if refusals:
+                result.merges.refused.add(root.real)
+                result.diagnostics += refusals
+                continue
+            result.merges.files.update({(root.real, path): one for path, one in merged.items()})
+            files = [_after(file, merged.get(file.path)) for file in files]
+        # Any file beside it may contain parts of the class.
+        for folder in {file.path.rpartition("/")[0] for file in files if reading.is_code(file.path)}:
+            result.names[root.shown(folder)] = reading.names(root, folder)
+            result.contents.update((root.shown(path), data) for path, data in reading.code_in(root, folder))
+        result.diagnostics += reporting.report(root, files, root.shown(plan.owner))
+    return result
 
 
-def _not_merged(files: Iterable[Own], root: Root) -> Iterator[Diagnostic]:
-    """What would be merged, in languages that are not."""
+def _not_merged(files: Iterable[UserFile], root: Root) -> Iterator[Diagnostic]:
+    """Warnings about files in languages without merging."""
     for file in files:
-        language = reading.unmerged(file.plan.path)
-        if language and not file.is_settled and file.base != file.plan.text:
-            path = root.shown(file.plan.path)
-            yield codes.NOT_MERGED.at(
-                Span(path),
-                path=path,
-                language=language.title,
-                hint="put in by hand what its build names; an empty folder to compile into (-o) shows a new skeleton",
+        language = reading.unmerged(file.path)
+        if language and not file.is_up_to_date and file.base != file.new:
+            path = root.shown(file.path)
+            hint = (
+                "edit it by hand, as the errors of its build require; "
+                "a compile into an empty folder (-o) shows the new skeleton"
             )
+            yield codes.NOT_MERGED.at(Span(path), path=path, language=language.title, hint=hint)
 
 
-def _own(plan: RootPlan, root: Root, every: bool, seen: _Seen) -> Iterator[Own]:
-    """The user's files that there are skeletons for; unless `every`, only those that are looked into."""
+def _user_files(plan: RootPlan, root: Root, every: bool, seen: Review) -> Iterator[UserFile]:
+    """The user's files with skeletons; unless `every`, only code and `etc/config`."""
     for file in plan.files:
-        is_read = file.path.startswith(f"{SOURCES}/") or entries.is_entries(file.path)
+        is_read = file.path.startswith(f"{SOURCES}/") or config_merge.is_config(file.path)
         if file.policy != ONCE or not (is_read or every):
             continue
-        found, path = root.look(file.path), root.shown(file.path)
-        seen.contents[path] = found.data if found.data is not None else file.text.encode()
-        if found.problem or found.data is None:
+        status, path = root.status(file.path), root.shown(file.path)
+        seen.contents[path] = status.data if status.data is not None else file.text.encode()
+        if status.problem or status.data is None:
             continue
-        own = Own(file, found.data, _text(found.data), is_link=not found.mode)
-        if not own.is_settled:
-            base, where = root.look(f"{BASE}/{file.path}"), root.shown(f"{BASE}/{file.path}")
+        yours = _text(status.data)
+        user_file = UserFile(
+            file.path, file.text, status.data, yours or "", is_text=yours is not None, is_link=not status.mode
+        )  # fmt: skip
+        if not user_file.is_up_to_date:
+            base, where = root.status(f"{BASE}/{file.path}"), root.shown(f"{BASE}/{file.path}")
             if base.data is None:
                 seen.absent.add(where)
             else:
                 seen.contents[where] = base.data
-                own = replace(own, base=_text(base.data))
-        yield own
+                user_file = replace(user_file, base=_text(base.data))
+        yield user_file
 
 
-def _after(file: Own, merge: Merge | None) -> Own:
-    return file if merge is None else Own(file.plan, merge.text, _text(merge.text), _text(merge.base))
+def _after(file: UserFile, merge: Merge | None) -> UserFile:
+    return replace(file, data=merge.text, yours=merge.text.decode(), base=merge.base.decode()) if merge else file
 
 
-def _text(data: bytes | None) -> str | None:
+def _text(data: bytes) -> str | None:
     try:
-        return None if data is None else data.decode()
+        return data.decode()
     except UnicodeDecodeError:
         return None

@@ -1,4 +1,4 @@
-"""The three-way merge of texts: git's where there is git, else merge3's."""
+"""The three-way merge of texts: with git if it is installed, else with merge3."""
 
 from __future__ import annotations
 
@@ -14,11 +14,12 @@ from msgspec.structs import replace
 YOURS, BASE, NEW = "yours", "as generated before", "as generated now"
 _OPEN, _OLD, _MIDDLE, _CLOSE = (mark * 7 for mark in "<|=>")
 LF = "\n"
-_SECONDS = 30  # more than git takes for any file that someone wrote
+_SECONDS = 30  # longer than git needs for any file that somebody wrote
 
 
 class Conflict(msgspec.Struct, frozen=True):
-    """Lines that both sides changed: where they stand in the user's text (from 0, the line behind them), and how."""
+    """Lines that both sides changed: from line `first` to before line `end` of the user's text, from 0. `text` are both
+    versions, with conflict markers."""
 
     first: int
     end: int
@@ -26,14 +27,14 @@ class Conflict(msgspec.Struct, frozen=True):
 
 
 class Merged(msgspec.Struct, frozen=True):
-    """`text` is the merge, with the user's side of each conflict."""
+    """`text` is the merge, with the user's version of each conflict."""
 
     text: str
     conflicts: tuple[Conflict, ...] = ()
 
 
 def merge(base: str, yours: str, new: str) -> Merged:
-    """What became of `base` in both. A line that only one side changed is as that side has it."""
+    """Combines the changes from `base` to `yours` with those from `base` to `new`."""
     if new == base or yours == new:
         return Merged(yours)
     if yours == base:
@@ -50,7 +51,7 @@ def _git() -> str | None:
 
 
 def _by_git(base: str, yours: str, new: str) -> str | None:
-    """The merge with marks around conflicts; None where git does not do it."""
+    """The merge, with markers around conflicts; None if git fails."""
     with tempfile.TemporaryDirectory(prefix="rcyaml-") as folder:
         texts = {"yours": yours, "base": base, "new": new}
         for name, text in texts.items():
@@ -58,7 +59,7 @@ def _by_git(base: str, yours: str, new: str) -> str | None:
                 file.write(text.encode())
         labels = [word for label in (YOURS, BASE, NEW) for word in ("-L", label)]
         command = [_git() or "git", "merge-file", "-p", "-q", "--diff3", *labels, *texts]
-        # What the user configured for other merges does not count here.
+        # The user's configuration of git must not change the result.
         settings = {"GIT_CONFIG_GLOBAL": os.devnull, "GIT_CONFIG_NOSYSTEM": "1", "GIT_DIR": f"{folder}/none"}
         try:
             done = subprocess.run(
@@ -81,30 +82,30 @@ def _by_library(base: str, yours: str, new: str) -> str:
 
 
 def _read(marked: str, yours: str) -> Merged:
-    """A text with marks: the user's side of it, and each conflict."""
+    """The merge in a text with conflict markers."""
     mine = yours.splitlines(keepends=True)
     kept: list[str] = []
     conflicts: list[Conflict] = []
     block: list[str] = []
-    ours: list[str] = []
+    kept_side: list[str] = []
     side, at = "", 0
     for line in marked.splitlines(keepends=True):
         word = line.rstrip("\r\n")
         if not side and word == f"{_OPEN} {YOURS}":
-            block, side, ours = [], _OPEN, []
+            block, side, kept_side = [], _OPEN, []
         elif side and word == f"{_OLD} {BASE}":
             side = _OLD
         elif side and word == _MIDDLE:
             side = _MIDDLE
         elif side and word == f"{_CLOSE} {NEW}":
-            first = _find(mine, ours, at)
-            at = first + len(ours)
+            first = _find(mine, kept_side, at)
+            at = first + len(kept_side)
             conflicts.append(Conflict(first, at, "".join([*block, line])))
-            kept += ours
+            kept += kept_side
             side = ""
             continue
         elif side == _OPEN:
-            ours.append(line)
+            kept_side.append(line)
         elif not side:
             kept.append(line)
             at = _find(mine, [line], at, at) + 1 if line in mine[at:] else at
@@ -113,9 +114,9 @@ def _read(marked: str, yours: str) -> Merged:
     return Merged("".join(kept), tuple(conflicts))
 
 
-def _find(lines: list[str], wanted: list[str], start: int, default: int | None = None) -> int:
-    """Where these lines stand next."""
-    for at in range(start, len(lines) - len(wanted) + 1):
-        if lines[at : at + len(wanted)] == wanted:
+def _find(lines: list[str], searched: list[str], start: int, default: int | None = None) -> int:
+    """The position at which these lines occur next, from `start`."""
+    for at in range(start, len(lines) - len(searched) + 1):
+        if lines[at : at + len(searched)] == searched:
             return at
     return start if default is None else default

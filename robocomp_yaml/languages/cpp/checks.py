@@ -1,21 +1,22 @@
-"""Names that C++ cannot have where Ice's mapping puts them. Slice and Python take them, so they are errors only where a
-component in C++ needs the module, and not in documents that were migrated: there the names are others' too."""
+"""Names that are illegal in C++ after Ice's mapping. Slice and Python accept them, so they are errors only if a
+component in C++ needs the module. In migrated documents they are warnings: the names are in use elsewhere too."""
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Iterable, Iterator
 
 import msgspec
 
 from robocomp_yaml.check.idsl.names import fault_of
 from robocomp_yaml.diag.codes import idsl as codes
-from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, Related
+from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
+from robocomp_yaml.emit.lowering.types import results
+from robocomp_yaml.languages._shared.checks import needed_by, result_structs, users
 from robocomp_yaml.languages.cpp import LANGUAGE
 from robocomp_yaml.languages.cpp.globals import GLOBALS
 from robocomp_yaml.languages.cpp.macros import EVER, FAMILIES, is_macro
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
-from robocomp_yaml.link.references import Name, exceptions_of, groups, kind_of, types_of
+from robocomp_yaml.link.references import Identifier, exceptions_of, groups, kind_of, types_of
 from robocomp_yaml.model.interface import Enum, ExceptionType, Interface, Member, Method, Module, Struct, TypeRef
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.migrated import is_migrated
@@ -24,22 +25,18 @@ _GENERATED = frozenset(("GenericWorker", "Parameters", "SpecificWorker", "Worker
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    users: dict[LinkedModule, list[LinkedComponent]] = defaultdict(list)
-    for component in program.components.values():
-        if component.component.language.target is LANGUAGE:
-            for scope in component.modules():
-                users[scope].append(component)
+    by_module = users(program, LANGUAGE)
     for linked in program.modules.values():
-        yield from _Module(linked, users[linked], program.disk).check()
+        yield from _Module(linked, by_module[linked], program.disk).check()
 
 
 def has_taken(module: Module) -> bool:
-    """Whether some component in C++ could not be built with the names of a module."""
+    """Whether the names of a module prevent some component in C++ from being built."""
     return any(_Module(LinkedModule(module), [], Disk(), for_any=True).check())
 
 
 class _Module(msgspec.Struct):
-    """`for_any`: what some component in C++ might meet is said, too, be there one or not."""
+    """With `for_any`, a name is also reported if only some component in C++ could fail to build with it."""
 
     linked: LinkedModule
     users: list[LinkedComponent]
@@ -48,92 +45,94 @@ class _Module(msgspec.Struct):
 
     def check(self) -> Iterator[Diagnostic]:
         module = self.linked.module
-        yield from self.macro(Name("module", module.name, module.span))
-        yield from self.beside()
+        yield from self.macro(Identifier("module", module.name, module.span))
+        yield from self.module_name()
         for definition in module.definitions:
-            yield from self.macro(Name(kind_of(definition), definition.name, definition.span))
+            yield from self.macro(Identifier(kind_of(definition), definition.name, definition.span))
             inside = list(groups(definition))
             for group in inside:
                 for name in group:
                     yield from self.macro(name)
             match definition:
                 case Struct():
-                    # Ice's C++11 mapping, which components use, gives it no constructor; the older one does.
+                    # Ice's C++11 mapping, which components use, has no other name for it; the older mapping has.
                     for name in (name for group in inside for name in group if name.text == definition.name):
                         yield _clash(name)
                 case ExceptionType(members=members):
-                    yield from self.told_apart([name for group in inside for name in group], {definition.name})
+                    yield from self.same_names([name for group in inside for name in group], {definition.name})
                     yield from self.hidden(members, "member")
                     yield from self.named_as_enum(members)
                 case Interface(methods=methods):
                     used = {ref.text for ref in (*types_of(definition), *exceptions_of(definition))}
-                    yield from self.told_apart(inside[0] if methods else [], used)
+                    yield from self.same_names(inside[0] if methods else [], used)
                     for method in methods:
                         yield from self.hidden((*method.inputs, *method.outputs), "parameter")
                         yield from self.in_result(method)
                     yield from self.results(definition)
 
-    def macro(self, name: Name) -> Iterator[Diagnostic]:
+    def macro(self, name: Identifier) -> Iterator[Diagnostic]:
         if name.text not in EVER and not name.text.startswith(FAMILIES):
-            return  # as nearly all: no user needs to be asked
+            return  # the usual case: users need not be examined
         hit = [user for user in self.users if _is_macro_for(name.text, user)]
         if hit or name.text in EVER or self.for_any:
-            yield self.said(codes.CPP_MACRO.at(name.span, kind=name.kind, name=name.text, hint=_other(name.text)), hit)
+            yield self.reported(
+                codes.CPP_MACRO.at(name.span, kind=name.kind, name=name.text, hint=_other(name.text)), hit
+            )
 
-    def beside(self) -> Iterator[Diagnostic]:
-        """A namespace stands where the C library has its functions, and a component its classes."""
+    def module_name(self) -> Iterator[Diagnostic]:
+        """A module becomes a namespace beside the functions of the C library and the classes of a component."""
         name, span = self.linked.module.name, self.linked.module.span
         if name in EVER:
             return
         if name in GLOBALS or name in _GENERATED:
             owner = "something of each component" if name in _GENERATED else "something in the system's headers"
             hint = f"call it 'RoboComp{name[0].upper()}{name[1:]}'"
-            yield self.said(codes.CPP_GLOBAL.at(span, name=name, owner=owner, hint=hint), self.users)
+            yield self.reported(codes.CPP_GLOBAL.at(span, name=name, owner=owner, hint=hint), self.users)
 
-    def told_apart(self, names: Iterable[Name], taken: set[str]) -> Iterator[Diagnostic]:
-        """Ice's C++ has no second name for a member called as its exception, nor for a method as a type it uses."""
+    def same_names(self, names: Iterable[Identifier], taken: set[str]) -> Iterator[Diagnostic]:
+        """In Ice's C++, a member cannot have the name of its exception, nor a method that of a type which it uses."""
         for name in names:
             if name.text in taken:
                 yield self.clash(name)
 
     def hidden(self, members: tuple[Member, ...], kind: str) -> Iterator[Diagnostic]:
-        """In a list of parameters, a name hides the type of the same name from those behind it."""
+        """In a list of parameters, a name hides the type of the same name from the parameters after it."""
         for number, member in enumerate(members):
             if any(self.is_own(other.type, member.name) for other in members[number + 1 :]):
-                yield self.clash(Name(kind, member.name, member.span))
+                yield self.clash(Identifier(kind, member.name, member.span))
 
     def named_as_enum(self, members: tuple[Member, ...]) -> Iterator[Diagnostic]:
-        """The constructor of an exception takes enums by value; then a member cannot mean something else."""
+        """The constructor of an exception takes enums by value, where a member of the same name hides the type."""
         for number, member in enumerate(members):
             behind = members[number + 1 :]
             if any(self.is_own(other.type, member.name) for other in behind):
-                continue  # told as hidden
+                continue  # reported as hidden
             if any(self.is_own(other.type, member.name) and self.is_enum(other.type) for other in members):
-                yield self.clash(Name("member", member.name, member.span))
+                yield self.clash(Identifier("member", member.name, member.span))
 
     def in_result(self, method: Method) -> Iterator[Diagnostic]:
-        """What a method gives back, if it is more than one thing, becomes a struct: its members are named so."""
-        if not _has_result(method):
+        """A method with several results returns a struct, whose members have the names of the outputs."""
+        types = results(method)
+        if len(types) < 2:
             return
-        types = [*((method.returns,) if method.returns else ()), *(output.type for output in method.outputs)]
         for number, output in enumerate(method.outputs):
             hides = any(self.is_own(other.type, output.name) for other in method.outputs[number + 1 :])
             if not hides and any(self.is_own(ref, output.name) for ref in types):
-                yield self.clash(Name("parameter", output.name, output.span))
+                yield self.clash(Identifier("parameter", output.name, output.span))
 
     def results(self, interface: Interface) -> Iterator[Diagnostic]:
-        """That struct's name."""
-        made = {f"{m.name[:1].upper()}{m.name[1:]}Result": m for m in interface.methods if _has_result(m)}
+        """The name of that struct."""
+        made = result_structs(interface)
         for method in interface.methods:
             if method.name in made:
-                yield self.clash(Name("method", method.name, method.span))
+                yield self.clash(Identifier("method", method.name, method.span))
         for ref in types_of(interface):
             if ref.name in made and self.is_own(ref, ref.name):
                 method = made[ref.name]
-                yield self.clash(Name("method", method.name, method.span), ref.name)
+                yield self.clash(Identifier("method", method.name, method.span), ref.name)
 
     def is_own(self, ref: TypeRef, name: str) -> bool:
-        """Whether a type is this one of the module; those of others are written with their module's name."""
+        """Whether a type is the one of this module that has the name; types of others are written with their module."""
         if ref.name != name or ref.is_basic:
             return False
         found = self.linked.find(ref)
@@ -143,21 +142,21 @@ class _Module(msgspec.Struct):
         found = self.linked.find(ref)
         return found is not None and isinstance(found[1], Enum)
 
-    def clash(self, name: Name, other: str = "") -> Diagnostic:
-        return self.said(_clash(name, other), self.users)
+    def clash(self, name: Identifier, other: str = "") -> Diagnostic:
+        return self.reported(_clash(name, other), self.users)
 
-    def said(self, told: Diagnostic, users: list[LinkedComponent]) -> Diagnostic:
-        if not users or is_migrated(told.span.file, self.disk):
-            return told
-        component = users[0].component
-        related = Related(f"component {component.name} is in C++, and needs it", component.language.span)
-        return msgspec.structs.replace(told, severity=ERROR, related=(*told.related, related))
+    def reported(self, diagnostic: Diagnostic, users: list[LinkedComponent]) -> Diagnostic:
+        """An error if a component needs the module and the document was not migrated, else what it is by default."""
+        if not users or is_migrated(diagnostic.span.file, self.disk):
+            return diagnostic
+        related = (*diagnostic.related, needed_by(users[0]))
+        return msgspec.structs.replace(diagnostic, severity=ERROR, related=related)
 
 
-def _clash(name: Name, other: str = "") -> Diagnostic:
+def _clash(name: Identifier, other: str = "") -> Diagnostic:
     first = name.text[0].lower() + name.text[1:]
     better = first if first != name.text else f"the{name.text[0].upper()}{name.text[1:]}"
-    hint = f"call it '{better}'" if not other else f"call the method otherwise: its results become a '{other}'"
+    hint = f"call it '{better}'" if not other else f"rename the method: its results become a '{other}'"
     return codes.CPP_NAME.at(name.span, kind=name.kind, name=name.text, hint=hint)
 
 
@@ -167,12 +166,8 @@ def _is_macro_for(name: str, user: LinkedComponent) -> bool:
     return is_macro(name, component.language.standard or LANGUAGE.standards[0], has_qt)
 
 
-def _has_result(method: Method) -> bool:
-    return len(method.outputs) + (method.returns is not None) > 1
-
-
 def _other(name: str) -> str:
-    """A name in its stead that C++ and Slice take."""
+    """The hint with a name that C++ and Slice accept."""
     better = name.lower()
     if better == name or better in EVER or better.startswith(FAMILIES) or fault_of(better) is not None:
         better = f"{name.lower()}Value"

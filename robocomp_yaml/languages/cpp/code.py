@@ -1,4 +1,4 @@
-"""The specific class as C++ has it: a header with its declarations, and definitions anywhere."""
+"""Parses the specific class in C++: a header with declarations, and definitions in any file."""
 
 from __future__ import annotations
 
@@ -12,22 +12,22 @@ from tree_sitter import Language, Node, Parser
 
 from robocomp_yaml.emit.specific.code import (
     CLASS,
-    Code,
-    Import,
-    Method,
+    ImportLine,
     Signature,
+    SourceCode,
+    SourceMethod,
     below,
     faults,
     field,
     lines_of,
-    place,
+    location,
     plain,
     text,
     words,
 )
 
 _PARAMETERS = ("parameter_declaration", "optional_parameter_declaration")
-# Qt's additions to C++, which the grammar does not know: blanks of the same length take their place.
+# Qt's additions to C++, which the grammar does not have, are replaced by blanks of the same length.
 _QT = re.compile(rb"\bQ_OBJECT\b|\bQ_SLOTS\b|(?<=[a-z])(\s+)slots\b(?=\s*:)|\bsignals\b(?=\s*:)|\bQ_SIGNALS\b(?=\s*:)")
 
 
@@ -36,35 +36,35 @@ def _parser() -> Parser:
     return Parser(Language(tree_sitter_cpp.language()))
 
 
-def read(path: str, source: str) -> Code:
-    root = _parser().parse(_QT.sub(_instead, source.encode())).root_node
+def read(path: str, source: str) -> SourceCode:
+    root = _parser().parse(_QT.sub(_replacement, source.encode())).root_node
     lines = lines_of(source)
     imports, import_end = [], 0
     for node in root.children:
         if node.type == "preproc_include":
             line = " ".join(text(node).split())
-            imports.append(Import(line.partition("include")[2].strip(), f"{line}\n"))
+            imports.append(ImportLine(line.partition("include")[2].strip(), f"{line}\n"))
             import_end = node.start_point[0] + 1
     definitions = tuple(_definitions(root, lines))
     class_ = next(_classes(root), None)
     if class_ is None:
-        return Code(path, lines, faults(root), (), definitions, tuple(imports), import_end)
+        return SourceCode(path, lines, faults(root), (), definitions, tuple(imports), import_end)
     body = class_.child_by_field_name("body")
     assert body is not None
     clause = next((node for node in class_.children if node.type == "base_class_clause"), None)
     bases = [text(node) for node in clause.named_children if node.type != "access_specifier"] if clause else []
-    return Code(
+    return SourceCode(
         path, lines, faults(root), tuple(_members(body, lines)), definitions, tuple(imports), import_end,
-        place(field(class_, "name"), lines), body.end_point[0], bases=tuple(bases),
+        location(field(class_, "name"), lines), body.end_point[0], bases=tuple(bases),
     )  # fmt: skip
 
 
-def compiles(code: Code) -> bool:
-    """Its syntax tree alone tells."""
+def compiles(code: SourceCode) -> bool:
+    """Always true: the syntax tree already has all faults."""
     return True
 
 
-def _instead(found: re.Match[bytes]) -> bytes:
+def _replacement(found: re.Match[bytes]) -> bytes:
     word = b"public" if found[0].endswith(b"ignals") or found[0] == b"Q_SIGNALS" else b""
     return word.ljust(len(found[0])) if b"\n" not in found[0] else found[0]
 
@@ -84,22 +84,22 @@ def _classes(root: Node) -> Iterator[Node]:
                 yield node
 
 
-def _members(body: Node, lines: list[str]) -> Iterator[Method]:
+def _members(body: Node, lines: list[str]) -> Iterator[SourceMethod]:
     for node, nested in below(body, _is_condition):
         if node.type in ("field_declaration", "function_definition", "declaration"):
             if found := _method(node, lines, nested, has_body=node.type == "function_definition"):
                 yield found
 
 
-def _definitions(root: Node, lines: list[str]) -> Iterator[Method]:
+def _definitions(root: Node, lines: list[str]) -> Iterator[SourceMethod]:
     for node, nested in below(root, _is_scope):
         found = _method(node, lines, nested) if node.type == "function_definition" else None
         if found and found.name.startswith(f"{CLASS}::"):
             yield replace(found, name=found.name.removeprefix(f"{CLASS}::"))
 
 
-def _method(node: Node, lines: list[str], nested: bool, *, has_body: bool = True) -> Method | None:
-    """The function that a declaration is about; None where it is about none."""
+def _method(node: Node, lines: list[str], nested: bool, *, has_body: bool = True) -> SourceMethod | None:
+    """The function that a declaration declares; None if it declares something else."""
     declarator, around = node.child_by_field_name("declarator"), ""
     while declarator is not None and declarator.type in ("reference_declarator", "pointer_declarator"):
         around += declarator.children[0].type
@@ -128,7 +128,7 @@ def _method(node: Node, lines: list[str], nested: bool, *, has_body: bool = True
         len(typed),
     )
     whole = "".join(text(name).split())
-    return Method(whole, place(last, lines), first, node.end_point[0] + 1, signature, has_body, nested)
+    return SourceMethod(whole, location(last, lines), first, node.end_point[0] + 1, signature, has_body, nested)
 
 
 def _type(parameter: Node) -> str:

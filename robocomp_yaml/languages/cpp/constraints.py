@@ -6,8 +6,7 @@ import re
 
 from robocomp_yaml.emit.lowering.constraints import Calls
 from robocomp_yaml.languages.cpp import LANGUAGE
-from robocomp_yaml.languages.cpp.literals import value
-from robocomp_yaml.languages.cpp.text import quoted
+from robocomp_yaml.languages.cpp.text import literal, value
 from robocomp_yaml.parameters.specification.expression import Expression
 from robocomp_yaml.parameters.types import RecordType
 
@@ -16,7 +15,7 @@ _TAKEN = frozenset(("p", "of", "runtime", "std"))
 
 
 def lambda_of(expression: Expression, root: RecordType) -> str:
-    """A function of the parameters' values, called `p` in there."""
+    """A lambda with the parameters' values as its argument `p`."""
     return _function("p", _CALLS.of(expression, root), capture="")
 
 
@@ -32,7 +31,7 @@ def _variable(name: str, depth: int) -> str:
 _CALLS = Calls(
     prefix="of::",
     value=value,
-    text=quoted,
+    text=literal,
     sign=lambda sign: f"'{sign}'",
     listing=lambda items: f"runtime::Value(runtime::Value::List{{{', '.join(items)}}})",
     pairs=lambda pairs: f"{{{', '.join(f'{{{sign}, {part}}}' for sign, part in pairs)}}}",

@@ -1,4 +1,4 @@
-"""Names that the headers which generated C++ includes define as macros: nothing else can have them in C++.
+"""Names of the macros that the headers of generated C++ define: nothing else in C++ can have them.
 
 Made by `make macros`, which adds what the compiler at hand knows. Do not edit: change tests/ice/cpp_macros.py.
 """

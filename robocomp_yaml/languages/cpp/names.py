@@ -1,16 +1,16 @@
-"""Names in C++: what Ice's C++11 mapping makes of a Slice name, and how clashes are settled."""
+"""Names in C++: how Ice's C++11 mapping changes a Slice name, and how clashes are resolved."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 
-from robocomp_yaml.emit.lowering.names import Names
-from robocomp_yaml.emit.lowering.ports import Spelling
+from robocomp_yaml.emit.lowering.names import NameAllocator
+from robocomp_yaml.emit.lowering.ports import PortSpelling
 from robocomp_yaml.languages.cpp import KEYWORDS
 from robocomp_yaml.languages.cpp.macros import EVER
 from robocomp_yaml.link.program import LinkedModule
 
-# What Ice 3.7's mapping puts `_cpp_` before.
+# Ice 3.7's mapping puts `_cpp_` before these.
 ICE_ESCAPES = frozenset(
     "alignas alignof and and_eq asm auto bitand bitor bool break case catch char char16_t char32_t class compl const "
     "const_cast constexpr continue decltype default delete do double dynamic_cast else enum explicit export extern "
@@ -19,7 +19,7 @@ ICE_ESCAPES = frozenset(
     "static_cast struct switch template this thread_local throw true try typedef typeid typename union unsigned using "
     "virtual void volatile wchar_t while xor xor_eq".split()
 )
-# Later keywords, which the mapping lets through: they count where a component asks for a later standard. And macros.
+# And later keywords, which the mapping does not escape: components may use a later standard. And macros.
 _KEYWORDS = ICE_ESCAPES | KEYWORDS | EVER
 
 
@@ -42,13 +42,13 @@ def parameter(name: str) -> str:
     return f"{name}_" if name in _KEYWORDS else name
 
 
-PORTS = Spelling(
+PORTS = PortSpelling(
     taken=frozenset(("parameters",)) | _KEYWORDS,
     published=("{name}_pubproxy",),
     called=ice_name,
 )
 
 
-def names(taken: Iterable[str] = ()) -> Names:
-    """Hands out names that are no words of C++ either."""
-    return Names((*taken, *_KEYWORDS))
+def names(taken: Iterable[str] = ()) -> NameAllocator:
+    """Names that are not keywords or macros of C++ either."""
+    return NameAllocator((*taken, *_KEYWORDS))

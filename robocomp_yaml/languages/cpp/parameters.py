@@ -9,8 +9,8 @@ import msgspec
 from robocomp_yaml.emit.lowering.kinds import Builders, pattern_count
 from robocomp_yaml.emit.lowering.parameters import (
     ConstraintView,
-    Spelling,
     Types,
+    TypeSpelling,
     about_enum,
     about_member,
     declared,
@@ -20,18 +20,18 @@ from robocomp_yaml.emit.lowering.parameters import (
     titled,
 )
 from robocomp_yaml.emit.render import render
+from robocomp_yaml.languages._shared.text import IN
+from robocomp_yaml.languages._shared.views import constraint_views
 from robocomp_yaml.languages.cpp import LANGUAGE
-from robocomp_yaml.languages.cpp.literals import number, string, value
-from robocomp_yaml.languages.cpp.literals import text as quoted
 from robocomp_yaml.languages.cpp.names import names
-from robocomp_yaml.languages.cpp.text import IN, comment, folded, one_line
+from robocomp_yaml.languages.cpp.text import comment, folded, literal, number, one_line, string, value
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,
-    Member,
     Parameters,
     RecordType,
+    ResolvedMember,
 )
 from robocomp_yaml.transactions.plan import FilePlan
 
@@ -71,7 +71,7 @@ class GetterView(msgspec.Struct, frozen=True):
     setter_definitions: list[str]
 
 
-class View(msgspec.Struct, frozen=True):
+class ParametersView(msgspec.Struct, frozen=True):
     source: str
     name: str
     comment: str
@@ -91,12 +91,7 @@ def plan(linked: LinkedComponent) -> list[FilePlan]:
 
 
 def texts(parameters: Parameters, component: str, source: str) -> dict[str, str]:
-    """Header and source of a component's parameters, made from the document `source`."""
-    view = _view(parameters, component, one_line(source.rpartition("/")[2]))
-    return {f"parameters.{suffix}": render(f"cpp/parameters.{suffix}.j2", view) for suffix in ("h", "cpp")}
-
-
-def _view(parameters: Parameters, name: str, source: str) -> View:
+    """Header and source file of a component's parameters; `source` is the path of their document."""
     types = _Types(parameters.root)
     views = [types.record(path, record) for path, record in types.records]
     headers = [
@@ -104,10 +99,10 @@ def _view(parameters: Parameters, name: str, source: str) -> View:
         *(["pattern.h"] if pattern_count(parameters.root) else []),
     ]  # fmt: skip
     enums = [types.enum(enum) for enum in types.enums]
-    return View(
-        source=source,
-        name=name,
-        comment=comment(titled(f"The parameters of {name} while it runs.", parameters.doc)),
+    view = ParametersView(
+        source=one_line(source.rpartition("/")[2]),
+        name=component,
+        comment=comment(titled(f"The parameters of {component} while it runs.", parameters.doc)),
         enums=enums,
         records=views,
         converted=[*(enum.name for enum in enums), *(view.name for view in views)],
@@ -115,25 +110,18 @@ def _view(parameters: Parameters, name: str, source: str) -> View:
         headers=headers,
         root=types.functions["."],
         spellings=[
-            folded(f"{{{quoted(each.path)}, runtime::Spelling{{{_BUILDERS.spelling(each)}}}}},", 3 * IN)
+            folded(f"{{{literal(each.path)}, runtime::Spelling{{{_BUILDERS.spelling(each)}}}}},", 3 * IN)
             for each in parameters.spellings
         ],
-        constraints=_constraints(parameters) if parameters.constraints else [],
+        constraints=[
+            msgspec.structs.replace(each, value=folded(f"{each.value},", 4 * IN))
+            for each in constraint_views(parameters, LANGUAGE, literal)
+        ],
     )
+    return {f"parameters.{suffix}": render(f"cpp/parameters.{suffix}.j2", view) for suffix in ("h", "cpp")}
 
 
-def _constraints(parameters: Parameters) -> list[ConstraintView]:
-    from robocomp_yaml.languages.cpp.constraints import lambda_of  # with all about expressions
-
-    return [
-        ConstraintView(
-            quoted(each.text), quoted(each.message), folded(f"{lambda_of(each.expression, parameters.root)},", 4 * IN)
-        )
-        for each in parameters.constraints
-    ]
-
-
-_SPELLING = Spelling(
+_SPELLING = TypeSpelling(
     basic={
         "bool": "bool", "int": "int", "long": "long long", "float": "float", "double": "double",
         "string": "std::string",
@@ -144,7 +132,7 @@ _SPELLING = Spelling(
 )  # fmt: skip
 _BUILDERS = Builders(
     prefix="runtime::",
-    text=quoted,
+    text=literal,
     value=value,
     listed=lambda items: f"{{{', '.join(items)}}}",
     pattern=lambda pattern: f"runtime::pattern({string(pattern)})",
@@ -158,9 +146,9 @@ class _Types(Types):
         taken = names(_TYPES_TAKEN)
         super().__init__(root, taken, _SPELLING)
         self.root = root
-        self.functions = {path: taken.take(f"kindOf{self.of[path]}") for path, _ in self.records}
+        self.functions = {path: taken.allocate(f"kindOf{self.of[path]}") for path, _ in self.records}
         self.enumerators = {enum.name: _enumerators(enum) for enum in self.enums}
-        self.tables = {enum.name: taken.take(f"namesOf{self.of[enum.name]}") for enum in self.enums}
+        self.tables = {enum.name: taken.allocate(f"namesOf{self.of[enum.name]}") for enum in self.enums}
 
     def enum(self, enum: EnumType) -> EnumView:
         return EnumView(
@@ -168,7 +156,7 @@ class _Types(Types):
             self.tables[enum.name],
             comment("\n".join(about_enum(enum))),
             [f"{name}," for name in self.enumerators[enum.name].values()],
-            [f"{quoted(name)}," for name in enum.names],
+            [f"{literal(name)}," for name in enum.names],
         )
 
     def record(self, path: str, record: RecordType) -> RecordView:
@@ -177,12 +165,12 @@ class _Types(Types):
             self.of[path],
             comment(self.about_record(path, record)),
             self.functions[path],
-            "runtime::group(" if record.is_group else f"runtime::record({quoted(record.name)}, ",
+            "runtime::group(" if record.is_group else f"runtime::record({literal(record.name)}, ",
             [self.member(member, group) for member in record.members],
         )
 
-    def member(self, member: Member, group: str | None) -> MemberView:
-        """`group` is the path of the group that it stands in, None in a struct."""
+    def member(self, member: ResolvedMember, group: str | None) -> MemberView:
+        """`group` is the path of the member's group, None in a struct."""
         inner = path_of(member, group)
         name, key = LANGUAGE.in_code(member.code_name), string(member.name)
         made = _BUILDERS.member(f"runtime::Member({key}", member, self.functions, inner)
@@ -195,12 +183,12 @@ class _Types(Types):
             write=f"runtime::putMember(made, {key}, value.{name});",
         )
 
-    def member_type(self, member: Member, group: str | None) -> str:
+    def member_type(self, member: ResolvedMember, group: str | None) -> str:
         made = self.spelled(member.type, group)
         return f"std::optional<{made}>" if member.optional else made
 
-    def initial(self, member: Member) -> str:
-        """What stands there before the config is read, and in a record that code makes."""
+    def initial(self, member: ResolvedMember) -> str:
+        """The initializer of the member: its value before the config is read, and in a record that code creates."""
         data = member.default.data if member.default is not None else None
         match member.type:
             case EnumType(name=name) if isinstance(data, str):
@@ -209,7 +197,7 @@ class _Types(Types):
                 return "true" if data else "false"
             case BasicType() if isinstance(data, str):
                 return string(data)
-            case BasicType(name=name) if isinstance(data, int | float):
+            case BasicType(name=name) if isinstance(data, (int, float)):
                 if name in ("int", "long"):
                     return number(int(data))
                 return f"{float(data)!r}{'f' if name == 'float' else ''}"
@@ -217,12 +205,12 @@ class _Types(Types):
 
     def getters(self) -> Iterator[GetterView]:
         taken = names(_METHODS_TAKEN)
-        getters = {member.name: taken.take(LANGUAGE.in_code(member.code_name)) for member in self.root.members}
+        getters = {member.name: taken.allocate(LANGUAGE.in_code(member.code_name)) for member in self.root.members}
         for member in self.root.members:
             group = inside(".", member.code_name)
             name, made = getters[member.name], self.member_type(member, group)
             field = LANGUAGE.in_code(member.code_name)
-            if member.optional or isinstance(member.type, BasicType | EnumType):
+            if member.optional or isinstance(member.type, (BasicType, EnumType)):
                 body = f"return live_.now().{field};"
             else:
                 made, body = f"runtime::Held<{made}>", f"return live_.held(&parameters::Values::{field});"
@@ -235,18 +223,18 @@ class _Types(Types):
                 [_setter(*setter) for setter in setters],
             )
 
-    def argument(self, member: Member) -> str:
+    def argument(self, member: ResolvedMember) -> str:
         made = self.member_type(member, None)
-        is_small = isinstance(member.type, BasicType | EnumType) and made != "std::string" and not member.optional
+        is_small = isinstance(member.type, (BasicType, EnumType)) and made != "std::string" and not member.optional
         return made if is_small else f"const {made}&"
 
 
 def _enumerators(enum: EnumType) -> dict[str, str]:
-    """The names in code of an enum's names."""
+    """The name in code of each name of an enum."""
     taken = names()
-    return {name: taken.take(LANGUAGE.in_code(name)) for name in enum.names}
+    return {name: taken.allocate(LANGUAGE.in_code(name)) for name in enum.names}
 
 
 def _setter(name: str, type_: str, path: str) -> str:
-    body = f"{IN}using runtime::toValue;\n{IN}live_.store().change({{{{{quoted(path)}, toValue(value)}}}});"
+    body = f"{IN}using runtime::toValue;\n{IN}live_.store().change({{{{{literal(path)}, toValue(value)}}}});"
     return f"void Parameters::{name}({type_} value)\n{{\n{body}\n}}"

@@ -1,13 +1,12 @@
-"""The C++ target: a component that is built with CMake and needs Ice 3.7 alone.
+"""Plans C++ components, which are built with CMake and need only Ice 3.7.
 
-Most of it is the same for every component: the run time, which is compiled once. What differs are a small generated
-part, the user's skeleton and the files for CMake.
+Most code is the run time, which is the same in all components and is compiled once. A small generated part, the user's
+skeleton and the files for CMake differ.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from types import ModuleType
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -18,36 +17,32 @@ from robocomp_yaml.emit.lowering.component import BEHAVIOR, COMMON, lower
 from robocomp_yaml.emit.lowering.kinds import pattern_count
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.emit.slice import file_name
+from robocomp_yaml.languages._shared.views import ignored_program
 from robocomp_yaml.languages.cpp import LANGUAGE, parameters, qt
-from robocomp_yaml.languages.cpp.ports import AccessorView, Ports, ServiceView
+from robocomp_yaml.languages.cpp.ports import Ports, port_views
 from robocomp_yaml.languages.cpp.qt import QtView, RobocompView
-from robocomp_yaml.languages.cpp.text import comment, one_line, quoted
+from robocomp_yaml.languages.cpp.text import comment, one_line
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule
 from robocomp_yaml.transactions.plan import ONCE, FilePlan
 
 if TYPE_CHECKING:
     from robocomp_yaml.emit.machines.views import MachineView
 
-# Targets that CMake makes by itself.
+# Targets that CMake defines itself.
 _CMAKE_TARGETS = frozenset(
     "all clean depend edit_cache help install package package_source preinstall rebuild_cache test".split()
 )
 
 
 class View(msgspec.Struct, frozen=True):
-    """What the templates show: each file is about the same few things."""
+    """What the templates show. All files of a component use the same view."""
 
     source: str
     name: str
     comment: str
     period: int
     headers: list[str]
-    services: list[ServiceView]
-    implements: list[ServiceView]
-    subscribes: list[ServiceView]
-    accessors: list[AccessorView]
-    requires: list[AccessorView]
-    publishes: list[AccessorView]
+    ports: Ports
     connect_parameters: str
     has_topics: bool
     target: str
@@ -66,8 +61,11 @@ class View(msgspec.Struct, frozen=True):
 
 
 def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
-    """The component's files but for `slice/`, `etc/` and the run time."""
-    parts = [*(_machine().files(component.machine) if component.machine else []), *windows.form_of(component)]
+    """The files of a component, except `slice/`, `etc/` and the run time."""
+    parts = [
+        *(LANGUAGE.part("statemachine").files(component.machine) if component.machine else []),
+        *windows.form_of(component),
+    ]
     view = _view(component, layout)
     if view.robocomp:
         return _robocomp(component, view, parts)
@@ -81,26 +79,20 @@ def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
         FilePlan("src/specificworker.h", render("cpp/specificworker.h.j2", view), ONCE),
         FilePlan("src/specificworker.cpp", render("cpp/specificworker.cpp.j2", view), ONCE),
         FilePlan("CMakeLists.txt", render("cpp/CMakeLists.txt.j2", view), ONCE),
-        _ignored(view),
+        ignored_program(view.name),
     ]
 
 
-def _machine() -> ModuleType:
-    from robocomp_yaml.languages.cpp import statemachine  # with all about machines, which few have
-
-    return statemachine
-
-
 def needs(component: LinkedComponent) -> Callable[[str], bool]:
-    """Which files of the run time a component needs that stands alone."""
+    """Whether a component outside of a workspace needs a file of the run time."""
     folders = {"cmake", "runtime", "slice", *windows.folders(component)}
     parts = set(_parts(component, has_topics=bool(component.publishes or component.subscribes)))
-    left_out = {f"runtime/{part}.cpp" for part in ("expressions", "pattern", "topics") if part not in parts}
-    return lambda path: path.partition("/")[0] in folders and path not in left_out
+    skipped = {f"runtime/{part}.cpp" for part in ("expressions", "pattern", "topics") if part not in parts}
+    return lambda path: path.partition("/")[0] in folders and path not in skipped
 
 
 def _robocomp(component: LinkedComponent, view: View, parts: list[FilePlan]) -> list[FilePlan]:
-    """As plan(), where the user's code is written for RoboComp's own tool."""
+    """As `plan`, for code that was written for RoboComp's own tool."""
     names = {
         "generated/interfaces.h": "interfaces.h",
         "generated/genericworker.h": "robocomp_genericworker.h",
@@ -120,26 +112,19 @@ def _robocomp(component: LinkedComponent, view: View, parts: list[FilePlan]) -> 
         *parts,
         *(FilePlan(path, render(f"cpp/{name}.j2", view)) for path, name in names.items()),
         *(FilePlan(path, render(f"cpp/{name}.j2", view), ONCE) for path, name in own.items()),
-        _ignored(view),
+        ignored_program(view.name),
     ]
-
-
-def _ignored(view: View) -> FilePlan:
-    """The program is made by a build, where components in Python have a launcher that belongs to the repository."""
-    head = "# This file is yours: rcyaml wrote it once. Below is what the build makes."
-    return FilePlan("bin/.gitignore", f"{head}\n/{view.name}\n", ONCE)
 
 
 def _view(linked: LinkedComponent, layout: Layout) -> View:
     component = linked.component
-    ports = Ports(linked)
+    ports = port_views(linked)
     has_topics = bool(ports.publishes or ports.subscribes)
-    has_services = bool(ports.implements or ports.subscribes)
     lowered = lower(linked)
     is_needed = linked.component.compatibility or not lowered.is_common
     files = [file for file in lowered.files if is_needed or file != COMMON]
     connections = "connections" if has_topics or ports.requires else "/*connections*/"
-    services = "services" if has_services else "/*services*/"
+    services = "services" if ports.services else "/*services*/"
     is_taken = component.name.lower() in _CMAKE_TARGETS
     return View(
         source=one_line(lowered.source),
@@ -147,12 +132,7 @@ def _view(linked: LinkedComponent, layout: Layout) -> View:
         comment=comment(lowered.doc),
         period=lowered.period,
         headers=[f"{file}.h" for file in files],
-        services=[*ports.implements, *ports.subscribes],
-        implements=ports.implements,
-        subscribes=ports.subscribes,
-        accessors=[*ports.requires, *ports.publishes],
-        requires=ports.requires,
-        publishes=ports.publishes,
+        ports=ports,
         connect_parameters=f"const runtime::Connections& {connections}, runtime::Services& {services}",
         has_topics=has_topics,
         target=f"{component.name}_component" if is_taken else component.name,
@@ -164,7 +144,7 @@ def _view(linked: LinkedComponent, layout: Layout) -> View:
         slices=_slices(linked),
         parts=" ".join(f"rcyaml::{part}" for part in _parts(linked, has_topics=has_topics)),
         sources=["genericworker.cpp", "parameters.cpp", *(["statemachine.cpp"] if linked.machine else [])],
-        machine=_machine().view(linked.machine) if linked.machine else None,
+        machine=LANGUAGE.part("statemachine").view(linked.machine) if linked.machine else None,
         base=_base(linked),
         qt=qt.qt_view(linked),
         robocomp=qt.robocomp_view(linked, ports),
@@ -172,21 +152,22 @@ def _view(linked: LinkedComponent, layout: Layout) -> View:
 
 
 def _slices(linked: LinkedComponent) -> list[str]:
-    """Each Slice file of the component's own modules, with those that it includes, as words of CMake; CommonBehavior
-    stands in the run time."""
+    """Each Slice file of the component's own modules, followed by the files that it includes, as words of CMake.
+    CommonBehavior is part of the run time."""
 
-    def stem(scope: LinkedModule) -> str:
-        return file_name(scope).removesuffix(".ice")
+    def word(scope: LinkedModule) -> str:
+        stem = file_name(scope).removesuffix(".ice")
+        return '"{}"'.format(stem.replace("\\", "\\\\").replace('"', '\\"'))
 
     return [
-        " ".join(quoted(stem(one)) for one in (scope, *(other for other in scope.closure() if other is not scope)))
+        " ".join(word(one) for one in (scope, *(other for other in scope.closure() if other is not scope)))
         for scope in linked.modules()
         if scope.module.name != BEHAVIOR or not runtime.has_common(linked)
     ]
 
 
 def _parts(linked: LinkedComponent, *, has_topics: bool) -> Iterator[str]:
-    """The libraries of the run time that it needs."""
+    """The libraries of the run time that the component links."""
     if linked.component.compatibility:
         yield "robocomp"
     if linked.component.gui:
@@ -205,6 +186,6 @@ def _parts(linked: LinkedComponent, *, has_topics: bool) -> Iterator[str]:
 
 
 def _base(linked: LinkedComponent) -> str:
-    """What GenericWorker is derived from."""
+    """The base class of GenericWorker."""
     base = "machine::Worker" if linked.machine else "runtime::Worker"
     return f"runtime::WindowWorker<{base}>" if linked.component.gui else base

@@ -1,6 +1,6 @@
-"""A component's ports as C++ spells them: accessors, and the servants with the worker's methods that they call.
+"""The ports of a component in C++: accessors, servants, and the worker's methods that servants call.
 
-All that is here goes to the templates as it is.
+Templates show these views unchanged.
 """
 
 from __future__ import annotations
@@ -8,17 +8,45 @@ from __future__ import annotations
 import msgspec
 
 from robocomp_yaml.emit.lowering import ports as lowering
-from robocomp_yaml.emit.lowering.names import Names
+from robocomp_yaml.emit.lowering.names import NameAllocator
 from robocomp_yaml.emit.lowering.types import scoped
-from robocomp_yaml.languages.cpp.methods import MethodView, OperationView, call, method_view, operation_view
-from robocomp_yaml.languages.cpp.names import PORTS, names, proxy, qualified
-from robocomp_yaml.languages.cpp.text import IN, comment, quoted
-from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.languages._shared.text import IN, declaration
+from robocomp_yaml.languages._shared.views import PortViews
+from robocomp_yaml.languages.cpp.names import PORTS, ice_name, names, parameter, proxy, qualified
+from robocomp_yaml.languages.cpp.text import comment, literal, one_line
+from robocomp_yaml.languages.cpp.types import input_type, type_name, zero
+from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
+from robocomp_yaml.model.interface import Member, Method
+
+_NOT_PUBLISHED = (
+    "throw Ice::OperationNotExistException(__FILE__, __LINE__, current.id, current.facet, current.operation);"
+)
+
+
+class MethodView(msgspec.Struct, frozen=True):
+    """A method of the worker, in GenericWorker and in the user's class. GenericWorker defines it too, so that a user's
+    class without it compiles. The user's class does not declare it `override`: a method that an interface no longer
+    has would be an error."""
+
+    name: str
+    comment: str
+    declaration: str
+    fallback: str
+    overriding: str
+    definition: str
+    stub: list[str]
+
+
+class OperationView(msgspec.Struct, frozen=True):
+    """An operation of a servant."""
+
+    declaration: str
+    body: str
 
 
 class ServiceView(msgspec.Struct, frozen=True):
-    """An implemented or subscribed port; `new_methods` are those that no earlier port has brought. `declared` are pairs
-    of an operation and an exception that it declares, in braces; `statement` serves a port that has none."""
+    """An implemented or subscribed port; `new_methods` are the methods that no earlier port has. `declared` are pairs
+    of an operation and an exception that it declares, in braces; `statement` serves a port without any."""
 
     name: str
     title: str
@@ -32,7 +60,7 @@ class ServiceView(msgspec.Struct, frozen=True):
 
 
 class AccessorView(msgspec.Struct, frozen=True):
-    """A proxy that the worker has, and the statement that makes it."""
+    """A proxy of the worker, and the statement that creates it."""
 
     name: str
     proxy: str
@@ -41,26 +69,28 @@ class AccessorView(msgspec.Struct, frozen=True):
     statement: str
 
 
-class Ports:
-    """All ports of a component, as C++ has them."""
+Ports = PortViews[AccessorView, ServiceView]
 
-    def __init__(self, component: LinkedComponent) -> None:
-        found, servants = lowering.lower(component, PORTS), names()
-        self.requires = [_required(accessor) for accessor in found.requires]
-        self.publishes = [_published(accessor) for accessor in found.publishes]
-        self.implements = [_implemented(service, servants) for service in found.implements]
-        self.subscribes = [_subscribed(service, servants) for service in found.subscribes]
+
+def port_views(component: LinkedComponent) -> Ports:
+    lowered, servants = lowering.lower(component, PORTS), names()
+    return Ports(
+        [_required(accessor) for accessor in lowered.requires],
+        [_published(accessor) for accessor in lowered.publishes],
+        [_implemented(service, servants) for service in lowered.implements],
+        [_subscribed(service, servants) for service in lowered.subscribes],
+    )
 
 
 def _required(accessor: lowering.Accessor) -> AccessorView:
-    words = [quoted(accessor.port.name), f"runtime::Absent::{accessor.port.use.absent}"]
+    words = [literal(accessor.port.name), f"runtime::Absent::{accessor.port.use.absent}"]
     if accessor.milliseconds is not None:
         words.append(f"std::chrono::milliseconds({accessor.milliseconds})")
     return _accessor(accessor, accessor.summary, "connections.require", [f"{{{', '.join(words)}}}"])
 
 
 def _published(accessor: lowering.Accessor) -> AccessorView:
-    words = [quoted(accessor.port.name), quoted(accessor.port.interface.name)]
+    words = [literal(accessor.port.name), literal(accessor.port.interface.name)]
     return _accessor(accessor, f"{accessor.summary}: {accessor.events}", "topics.publish", words)
 
 
@@ -71,26 +101,26 @@ def _accessor(accessor: lowering.Accessor, summary: str, function: str, argument
         proxy=class_,
         comment=comment(f"{accessor.about}\n{accessor.doc}", IN),
         summary=summary,
-        statement=call(f"{accessor.name} = {function}<{class_}>", arguments, IN),
+        statement=declaration(f"{accessor.name} = {function}<{class_}>", arguments, ";", IN),
     )
 
 
-def _implemented(service: lowering.Service, servants: Names) -> ServiceView:
+def _implemented(service: lowering.Service, servants: NameAllocator) -> ServiceView:
     words = (service.port.name, service.identity, service.port.interface.name)
-    arguments = ", ".join(map(quoted, words))
+    arguments = ", ".join(map(literal, words))
     return _served(service, servants, "Servant", arguments, ("services.implement", f"{{{arguments}}}"))
 
 
-def _subscribed(service: lowering.Service, servants: Names) -> ServiceView:
-    arguments = f"{quoted(service.port.name)}, {quoted(service.port.interface.name)}"
+def _subscribed(service: lowering.Service, servants: NameAllocator) -> ServiceView:
+    arguments = f"{literal(service.port.name)}, {literal(service.port.interface.name)}"
     return _served(service, servants, "Subscriber", arguments, ("topics.subscribe", f"services, {arguments}"))
 
 
 def _served(
-    service: lowering.Service, servants: Names, suffix: str, arguments: str, function: tuple[str, str]
+    service: lowering.Service, servants: NameAllocator, suffix: str, arguments: str, function: tuple[str, str]
 ) -> ServiceView:
     port, calls = service.port, {called.method.name: called.name for called in service.methods}
-    servant = servants.take(f"{port.name}{suffix}")
+    servant = servants.allocate(f"{port.name}{suffix}")
     if any(method.name == servant for method in port.interface.methods):
         servant += "_"
     return ServiceView(
@@ -100,10 +130,70 @@ def _served(
         base=qualified(port.scope, port.interface.name),
         arguments=arguments,
         declared=[
-            f"{{{quoted(called.method.name)}, {quoted('::' + '::'.join(scoped(ref, port.scope)))}}}"
+            f"{{{literal(called.method.name)}, {literal('::' + '::'.join(scoped(ref, port.scope)))}}}"
             for called in service.methods for ref in called.method.throws
         ],
-        statement=call(function[0], [function[1], f"std::make_shared<{servant}>(*this)"], IN),
+        statement=declaration(function[0], [function[1], f"std::make_shared<{servant}>(*this)"], ";", IN),
         operations=[operation_view(m, port.scope, calls.get(m.name, "")) for m in port.interface.methods],
         new_methods=[method_view(called.port, called.method, called.name) for called in service.new],
     )  # fmt: skip
+
+
+def method_view(port: Port, method: Method, name: str) -> MethodView:
+    """The worker's method `name`, which an operation of the port calls."""
+    scope = port.scope
+    returns = "void" if method.returns is None else type_name(method.returns, scope)
+    inputs = [(input_type(m.type, scope), parameter(m.name)) for m in method.inputs]
+    outputs = [(f"{type_name(m.type, scope)}&", parameter(m.name)) for m in method.outputs]
+    typed = [f"{type_} {word}" for type_, word in (*inputs, *outputs)]
+    unused = [f"{type_} /*{word}*/" for type_, word in inputs] + [f"{type_} {word}" for type_, word in outputs]
+    return MethodView(
+        name=name,
+        comment=comment(described, IN) if (described := _described(port, method)) else "",
+        declaration=declaration(f"virtual {returns} {name}", typed, ";", IN),
+        fallback=declaration(
+            f"{returns} GenericWorker::{name}", [f"{type_} /*{word}*/" for type_, word in (*inputs, *outputs)]
+        ),
+        overriding=declaration(f"{returns} {name}", typed, ";", IN),
+        definition=declaration(f"{returns} SpecificWorker::{name}", unused),
+        stub=_stub(method, name, scope),
+    )
+
+
+def operation_view(method: Method, scope: LinkedModule, calls: str) -> OperationView:
+    """The operation that calls the worker's method `calls`; '' for an operation that cannot be published."""
+    returns = "void" if method.returns is None else type_name(method.returns, scope)
+    types = [(type_name(m.type, scope), m.name) for m in method.inputs]
+    types += [(f"{type_name(m.type, scope)}&", m.name) for m in method.outputs]
+    typed = [f"{type_} {parameter(name)}" if calls else type_ for type_, name in types]
+    current = "const Ice::Current&" if calls else "const Ice::Current& current"
+    start = f"{'' if method.returns is None else 'return '}worker_.{calls}"
+    statement = declaration(start, [parameter(name) for _, name in types], ";", IN * 2)
+    return OperationView(
+        declaration=declaration(f"{returns} {ice_name(method.name)}", [*typed, current], " override", IN),
+        body=statement if calls else _NOT_PUBLISHED,
+    )
+
+
+def _stub(method: Method, name: str, scope: LinkedModule) -> list[str]:
+    """The statements of a method until the user writes it."""
+    hidden = "this->" if any(member.name == "log" for member in method.outputs) else ""
+    lines = [f'{hidden}log.info("{name}() is still to be written");']
+    lines += [f"{parameter(member.name)} = {zero(member.type, scope)};" for member in method.outputs]
+    return lines if method.returns is None else [*lines, f"return {zero(method.returns, scope)};"]
+
+
+def _described(port: Port, method: Method) -> str:
+    """What the signature does not show."""
+    lines = [method.doc.strip()] if method.doc.strip() else []
+    for member in (*method.inputs, *method.outputs):
+        if note := _note(member):
+            lines.append(f"{parameter(member.name)}: {note}")
+    if method.throws:
+        names = ("::".join(scoped(ref, port.scope)) for ref in method.throws)
+        lines.append(f"Throws {', '.join(names)}.")
+    return "\n".join(lines)
+
+
+def _note(member: Member) -> str:
+    return " ".join(part for part in (one_line(member.doc), f"[{member.unit}]" if member.unit else "") if part)

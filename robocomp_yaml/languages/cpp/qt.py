@@ -8,16 +8,16 @@ from collections.abc import Iterator
 import msgspec
 from msgspec.structs import replace
 
+from robocomp_yaml.languages._shared.text import IN, declaration
 from robocomp_yaml.languages.cpp.names import ice_name, parameter, qualified
 from robocomp_yaml.languages.cpp.ports import AccessorView, Ports, ServiceView
-from robocomp_yaml.languages.cpp.text import IN, declaration
 from robocomp_yaml.languages.cpp.types import input_type, type_name
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.interface import Enum, Method
 
 
 class QtView(msgspec.Struct, frozen=True):
-    """What a component needs of Qt: `modules` for find_package, `libraries` to link, `base` the class of its window."""
+    """Qt in a component: `modules` for find_package, `libraries` to link, `base` the class of the window."""
 
     modules: str
     libraries: str
@@ -25,15 +25,15 @@ class QtView(msgspec.Struct, frozen=True):
 
 
 class Enumerators(msgspec.Struct, frozen=True):
-    """The enumerators of a module, as they were called before they had scopes."""
+    """The enumerators of a module as constants beside their enum, as in Ice's older mapping."""
 
     module: str
     constants: list[str]
 
 
 class RobocompView(msgspec.Struct, frozen=True):
-    """What only code for RoboComp's own tool needs. `tie`, `tuple_types` and `map` list the accessors; `methods`
-    are declared for those who override them; `legacy_sources` are names that RoboComp's own files have in `src/`."""
+    """What code for RoboComp's own tool needs. `tie`, `tuple_types` and `map` list the accessors; `methods` are
+    declared for classes that override them; `legacy_sources` are the names of RoboComp's own files in `src/`."""
 
     base: str
     tuple_types: str
@@ -60,7 +60,7 @@ def robocomp_view(linked: LinkedComponent, ports: Ports) -> RobocompView | None:
     component = linked.component
     if not component.compatibility:
         return None
-    accessors = [*ports.requires, *ports.publishes]
+    accessors = ports.accessors
     served = sorted({port.interface.name.lower() for port in (*linked.implements, *linked.subscribes)})
     return RobocompView(
         base=f"{component.gui.base}, public Ui_guiDlg" if component.gui else "QObject",
@@ -72,18 +72,18 @@ def robocomp_view(linked: LinkedComponent, ports: Ports) -> RobocompView | None:
         namespaces=[ice_name(scope.module.name) for scope in linked.modules()],
         enumerators=[_enumerators(scope) for scope in linked.modules()],
         legacy_sources="|".join(["commonbehaviorI", *(f"{name}I" for name in served)]),
-        services=[_behind_pointer(service) for service in (*ports.implements, *ports.subscribes)],
+        services=[_behind_pointer(service) for service in ports.services],
     )
 
 
 def _casts(accessors: list[AccessorView]) -> list[str]:
-    """Each proxy out of the map, as arguments."""
+    """A cast for each proxy in the map, as arguments."""
     casts = [f'Ice::uncheckedCast<{accessor.proxy}>(mprx["{accessor.name}"]),' for accessor in accessors]
     return [*casts[:-1], casts[-1].removesuffix(",")] if casts else []
 
 
 def _behind_pointer(service: ServiceView) -> ServiceView:
-    """There the servants are made before the worker, and the worker has no log."""
+    """RoboComp creates servants before the worker, and the worker has no log."""
     return replace(
         service,
         operations=[replace(one, body=one.body.replace("worker_.", "worker_->", 1)) for one in service.operations],
@@ -92,7 +92,7 @@ def _behind_pointer(service: ServiceView) -> ServiceView:
 
 
 def _methods(linked: LinkedComponent) -> Iterator[str]:
-    """The worker's methods, with their inputs by reference and by value: RoboComp's tool has spelled them both ways."""
+    """The worker's methods, with inputs by reference and by value: versions of RoboComp's tool differ in that."""
     seen: set[str] = set()
     for port in (*linked.implements, *linked.subscribes):
         subscribed = port in linked.subscribes
@@ -119,7 +119,7 @@ def _variants(name: str, method: Method, port: Port) -> Iterator[str]:
 
 
 def _enumerators(scope: LinkedModule) -> Enumerators:
-    """Those that no other definition of the module hides."""
+    """The enumerators that no other definition of the module hides."""
     enums = [definition for definition in scope.module.definitions if isinstance(definition, Enum)]
     taken = Counter(definition.name for definition in scope.module.definitions)
     taken.update(enumerator.name for enum in enums for enumerator in enum.enumerators)

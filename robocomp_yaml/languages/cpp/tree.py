@@ -1,4 +1,4 @@
-"""A build tree of CMake: configured, and made by Ninja, or by make where there is no Ninja."""
+"""A build tree of CMake, built by Ninja, or by make if Ninja is not installed."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from contextlib import contextmanager, suppress
 
 import msgspec
 
-from robocomp_yaml.building.job import Job, Made, Step
-from robocomp_yaml.building.said import Said
+from robocomp_yaml.building.compiler_output import CompilerOutput
+from robocomp_yaml.building.job import BuildStep, ComponentBuild, Job
+from robocomp_yaml.building.processes import Processes
 from robocomp_yaml.building.unit import Unit
 from robocomp_yaml.diag.codes import building as codes
 from robocomp_yaml.diag.diagnostic import has_errors
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.languages.cpp import ninja_log
 from robocomp_yaml.source.regular import text as text_of
 
 NINJA, MAKE = "Ninja", "Unix Makefiles"
@@ -25,12 +25,13 @@ _STATUS = re.compile(r"\[ *(\d+)(?:/(\d+)|%)\] (.*)")
 _FAILED = re.compile(r"FAILED: (.*)")
 _ERROR = re.compile(r"CMake Error(?: at (?P<file>.*?):(?P<line>\d+) \(.*\)| in (?P<folder>.*?))?: ?(?P<text>.*)")
 _CALL = re.compile(r"  (?P<file>\S.*?):(?P<line>\d+) \(.*\)")
+_DEPS = "#deps"
 _UNDEFINED = re.compile(r"undefined reference to [`‘'](.*)['’]")
-_LAST = 10  # lines that are shown of what failed without a word that is understood
+_LAST = 10  # lines that are shown of a failed step whose output is not understood
 
 
 def source_of(unit: Unit) -> str:
-    """The folder of the CMakeLists.txt that builds it: its own, unless that is one of RoboComp's."""
+    """The folder of the CMakeLists.txt that builds the component: its own, or `generated` if its own is RoboComp's."""
     own = text_of(unit.path(LISTS))
     generated = unit.path("generated")
     if (own is None or "component.cmake" not in own) and os.path.isfile(os.path.join(generated, LISTS)):
@@ -39,56 +40,56 @@ def source_of(unit: Unit) -> str:
 
 
 class Failure(msgspec.Struct, frozen=True):
-    """What kept CMake from configuring a tree: what it says, and the places that led to it, the innermost first."""
+    """Why CMake cannot configure a tree: its message, and the locations that led there, the innermost first."""
 
     text: str
     more: tuple[str, ...]
-    places: tuple[tuple[str, int], ...]
+    locations: tuple[tuple[str, int], ...]
 
     def is_in(self, source: str) -> bool:
-        """Whether it is about the component with this CMakeLists.txt."""
+        """Whether the failure is in the component with this CMakeLists.txt."""
         folder = os.path.dirname(source) if os.path.basename(source) == "generated" else source
-        return any(_is_below(path, folder) for path, _ in self.places)
+        return any(_is_below(path, folder) for path, _ in self.locations)
 
     @property
     def is_of_all(self) -> bool:
-        """Whether each of them would fail so: there is no compiler, or no Ice."""
-        return bool(self.places) and os.path.basename(self.places[0][0]) == "rcyaml.cmake"
+        """Whether every component would fail alike: the compiler or Ice is missing."""
+        return bool(self.locations) and os.path.basename(self.locations[0][0]) == "rcyaml.cmake"
 
-    def tell(self, job: Job, unit: Unit) -> None:
-        """At the user's own line where it is one, else at the component's document."""
+    def report(self, job: Job, unit: Unit) -> None:
+        """Reports the failure at the user's own line if CMake names one, else at the component's document."""
         folder = os.path.abspath(unit.folder)
         if (
-            self.places
-            and _is_below(self.places[0][0], folder)
-            and not _is_below(self.places[0][0], f"{folder}/generated")
+            self.locations
+            and _is_below(self.locations[0][0], folder)
+            and not _is_below(self.locations[0][0], f"{folder}/generated")
         ):
-            path, line = self.places[0]
+            path, line = self.locations[0]
             text = (text_of(path) or "").splitlines()[line - 1 : line]
             end = len(text[0].rstrip()) + 1 if text else 2
             begin = len(text[0]) - len(text[0].lstrip()) + 1 if text else 1
             span = Span(_shown(path), line, begin, line, max(end, begin + 1))
-            job.tell([codes.ERROR_OF_COMPILER.at(span, tool="CMake", text=self.text, more="\n".join(self.more))])
+            job.add([codes.ERROR_OF_COMPILER.at(span, tool="CMake", text=self.text, more="\n".join(self.more))])
         else:
-            job.failed(unit, self.text, more=self.more)
+            job.add_failure(unit, self.text, more=self.more)
 
 
-class Tree(msgspec.Struct, frozen=True):
-    """`source` is the folder of its CMakeLists.txt, `folder` the tree itself, `root` what is built there at most: what
-    compilers read elsewhere is not the user's."""
+class BuildTree(msgspec.Struct, frozen=True):
+    """`source` is the folder of the CMakeLists.txt, `folder` the tree. Only files below `root` are the user's: changes
+    of other files that compilers read are ignored."""
 
     source: str
     folder: str
     root: str
 
     @classmethod
-    def own_of(cls, unit: Unit) -> Tree:
-        """Of a component in no workspace."""
+    def own_of(cls, unit: Unit) -> BuildTree:
+        """The tree of a component outside of a workspace."""
         return cls(source_of(unit), unit.path("build"), unit.folder)
 
     @property
     def cache(self) -> dict[str, str]:
-        """What CMake remembers."""
+        """The variables in CMake's cache."""
         lines = (text_of(os.path.join(self.folder, _CACHE)) or "").splitlines()
         pairs = (line.partition("=") for line in lines if line[:1].isalpha())
         return {name.partition(":")[0]: value for name, _, value in pairs}
@@ -98,11 +99,11 @@ class Tree(msgspec.Struct, frozen=True):
         return any(os.path.isfile(os.path.join(self.folder, name)) for name in ("build.ninja", "Makefile"))
 
     def configure(self, job: Job) -> Failure | None:
-        """Raises FileNotFoundError where there is no CMake."""
-        job.report(Step(0, 0, f"Configuring {_shown(self.folder)}"))
+        """Runs CMake; returns the failure, if any. Raises FileNotFoundError if CMake is not installed."""
+        job.report(BuildStep(0, 0, f"Configuring {_shown(self.folder)}"))
         cache, source = self.cache, os.path.abspath(self.source)
         if cache and os.path.realpath(cache.get("CMAKE_HOME_DIRECTORY", "")) != os.path.realpath(source):
-            with suppress(OSError):  # it was moved
+            with suppress(OSError):  # the tree or its sources were moved
                 os.unlink(os.path.join(self.folder, _CACHE))
                 shutil.rmtree(os.path.join(self.folder, "CMakeFiles"))
             cache = {}
@@ -114,22 +115,22 @@ class Tree(msgspec.Struct, frozen=True):
         )  # fmt: skip
         return _failure(lines, source) if ended.code else None
 
-    def make(self, job: Job, parts: Mapping[Unit, str]) -> dict[Unit, Made] | Failure:
-        """Makes components: `parts` are their folders in the tree, '' for all that is in it. A failure where CMake was
-        to run again for it, and could not."""
+    def make(self, job: Job, parts: Mapping[Unit, str]) -> dict[Unit, ComponentBuild] | Failure:
+        """Builds components; `parts` are their folders in the tree, '' for the whole tree. Returns a failure if CMake
+        had to configure the tree again and could not."""
         run = _Run(self, job, parts)
         is_ninja = self.cache.get("CMAKE_GENERATOR") != MAKE
         targets = [f"{part}/all" if part else "all" for part in parts.values()]
-        before = ninja_log.read(self.folder)
+        before = _log(self.folder)
         command = self._command(job, targets, is_ninja)
         with self._kept(parts):
             ended = job.processes.run(command, run.line, cwd=self.folder, env=_ENVIRONMENT)
         run.flush()
         if run.is_unconfigured:
             return _failure(run.lines, os.path.abspath(self.source))
-        shares = ninja_log.shares(before, ninja_log.read(self.folder), ended.cpu)
-        read = ninja_log.read_files(job.processes, self.folder, self.root) if is_ninja else {}
-        done: dict[Unit, Made] = {}
+        shares = _shares(before, _log(self.folder), ended.cpu)
+        read = _read_files(job.processes, self.folder, self.root) if is_ninja else {}
+        done: dict[Unit, ComponentBuild] = {}
         for unit, part in parts.items():
             is_made = not ended.code or (unit not in run.failed and self._is_made(job, unit, part, is_ninja))
             mine = (part and f"{part}/", os.path.realpath(unit.program))
@@ -138,14 +139,14 @@ class Tree(msgspec.Struct, frozen=True):
             if not is_made:
                 run.explain(unit)
             elif not os.path.exists(unit.program):
-                job.failed(unit, f"its build left no {unit.program}")
+                job.add_failure(unit, f"its build did not create {unit.program}")
                 is_made = False
-            done[unit] = Made(is_made, cpu, tuple(sorted(files)))
+            done[unit] = ComponentBuild(is_made, cpu, tuple(sorted(files)))
         return done
 
     @contextmanager
     def _kept(self, units: Iterable[Unit]) -> Iterator[None]:
-        """Puts programs back that a linker took away, and did not make again."""
+        """Restores programs that a linker deleted and did not create again."""
         kept = {unit.program: os.path.join(self.folder, f"{unit.name}.kept") for unit in units}
         for program, other in kept.items():
             with suppress(OSError):
@@ -169,7 +170,7 @@ class Tree(msgspec.Struct, frozen=True):
         return ["make", "-k", "-j", str(job.jobs), *makefile, *targets]
 
     def _is_made(self, job: Job, unit: Unit, part: str, is_ninja: bool) -> bool:
-        """Of a component of which nothing failed, beside some of which something did: what it shares may have."""
+        """Whether a component is built in a run in which another one failed: what they share may have failed too."""
         target = [f"{part}/all" if part else "all"]
         return job.processes.run(self._command(job, target, is_ninja), lambda line: None, cwd=self.folder).code == 0
 
@@ -178,16 +179,16 @@ _ENVIRONMENT = {"NINJA_STATUS": "[%f/%t] "}
 
 
 class _Run:
-    """What a run of Ninja or make says, piece by piece."""
+    """The output of a run of Ninja or make, step by step."""
 
-    def __init__(self, tree: Tree, job: Job, parts: Mapping[Unit, str]) -> None:
+    def __init__(self, tree: BuildTree, job: Job, parts: Mapping[Unit, str]) -> None:
         self.lines: list[str] = []
         self.failed: dict[Unit, list[str]] = {}
         self.is_unconfigured = False
         self._tree, self._job, self._parts = tree, job, parts
         self._piece: list[str] = []
-        self._said = Said(tree.folder, "the C++ compiler")
-        self._unheard: list[str] = []
+        self._reader = CompilerOutput(tree.folder, "the C++ compiler")
+        self._unassigned: list[str] = []
 
     def line(self, line: str) -> None:
         self.lines.append(line)
@@ -196,39 +197,39 @@ class _Run:
             self.flush()
         if status:
             done, total, what = int(status[1]), int(status[2] or 100), status[3]
-            self._job.report(Step(done, total, what))
+            self._job.report(BuildStep(done, total, what))
         elif line.startswith("ninja: error: rebuilding") or "cmake_check_build_system] Error" in line:
             self.is_unconfigured = True
         else:
             self._piece.append(line)
 
     def flush(self) -> None:
-        """A piece has come to its end: it is what one step says."""
+        """Handles the output of the step that has ended."""
         piece, self._piece = self._piece, []
         if not piece:
             return
-        found = list(self._said.diagnostics(piece))
-        self._job.tell(found)
+        found = list(self._reader.diagnostics(piece))
+        self._job.add(found)
         outputs = next((match[1] for line in piece if (match := _FAILED.match(line))), None)
         if outputs is None:
-            self._unheard += piece
+            self._unassigned += piece
             return
-        said = piece[2:]  # without the command
+        output = piece[2:]  # without the command
         owner = self._owner(outputs.split())
         if owner is not None:
             lines = self.failed.setdefault(owner, [])
-            lines += [] if has_errors(found) else said
+            lines += [] if has_errors(found) else output
         elif not has_errors(found):
-            self._unheard += said
+            self._unassigned += output
 
     def explain(self, unit: Unit) -> None:
-        """Why a component is not built, where no compiler has told it."""
-        lines = self.failed.get(unit, self._unheard)
-        if lines or not has_errors(self._job.told):
-            said = [line for line in lines if line.strip() and not line.startswith("collect2:")]
-            missing = next((match[1] for line in said if (match := _UNDEFINED.search(line))), "")
+        """Reports why a component is not built, unless the compiler's diagnostics say it."""
+        lines = self.failed.get(unit, self._unassigned)
+        if lines or not has_errors(self._job.diagnostics):
+            shown = [line for line in lines if line.strip() and not line.startswith("collect2:")]
+            missing = next((match[1] for line in shown if (match := _UNDEFINED.search(line))), "")
             reason = f"the linker finds no definition of {missing}" if missing else "a step of its build failed"
-            self._job.failed(unit, reason, more=said[-_LAST:])
+            self._job.add_failure(unit, reason, more=shown[-_LAST:])
 
     def _owner(self, outputs: list[str]) -> Unit | None:
         for unit, part in self._parts.items():
@@ -239,37 +240,37 @@ class _Run:
 
 
 def _is_of(path: str, part: str, program: str) -> bool:
-    """Whether an output of a tree is a component's; in a tree of its own, each is."""
+    """Whether an output of a tree belongs to a component; in a tree of its own, every output does."""
     if "rcyaml_slice_" in path and part:
-        return False  # it may stand in any folder
+        return False  # it may be in the folder of any component
     return not part or path.startswith(part) or path == program
 
 
 def _failure(lines: list[str], source: str) -> Failure:
-    """The first error that CMake tells."""
+    """The first error in CMake's output."""
     text: list[str] = []
-    places: list[tuple[str, int]] = []
+    locations: list[tuple[str, int]] = []
     for line in lines:
         if match := _ERROR.fullmatch(line):
-            if text or places:
+            if text or locations:
                 break
             if match["file"]:
-                places.append((os.path.join(source, match["file"]), int(match["line"])))
+                locations.append((os.path.join(source, match["file"]), int(match["line"])))
             elif match["folder"]:
-                places.append((os.path.join(source, match["folder"]), 1))
+                locations.append((os.path.join(source, match["folder"]), 1))
             text += [match["text"]] if match["text"] else []
-        elif (text or places) and (call := _CALL.fullmatch(line)):
-            places.append((os.path.join(source, call["file"]), int(call["line"])))
-        elif (text or places) and (line.startswith("  ") or not line) and not line.startswith("Call Stack"):
+        elif (text or locations) and (call := _CALL.fullmatch(line)):
+            locations.append((os.path.join(source, call["file"]), int(call["line"])))
+        elif (text or locations) and (line.startswith("  ") or not line) and not line.startswith("Call Stack"):
             text.append(line.strip() and line[2:])
-        elif (text or places) and not line.startswith("Call Stack"):
+        elif (text or locations) and not line.startswith("Call Stack"):
             break
-    head, more = _parted(text)
-    return Failure(head or "CMake fails", tuple(more or (() if head else lines[-_LAST:])), tuple(places))
+    head, more = _split(text)
+    return Failure(head or "CMake failed", tuple(more or (() if head else lines[-_LAST:])), tuple(locations))
 
 
-def _parted(text: list[str]) -> tuple[str, list[str]]:
-    """The first sentence, of which CMake has made lines, and what stands below."""
+def _split(text: list[str]) -> tuple[str, list[str]]:
+    """The first sentence, which CMake wraps, and the lines after it."""
     lines = list(_without_ends(text))
     end = next((at for at, line in enumerate(lines) if not line or line.startswith(" ")), len(lines))
     return " ".join(lines[:end]).rstrip(":"), [line for line in lines[end:] if line]
@@ -290,3 +291,52 @@ def _is_below(path: str, folder: str) -> bool:
 def _shown(path: str) -> str:
     relative = os.path.relpath(path)
     return path if relative.startswith(os.pardir) else relative
+
+
+def _log(folder: str) -> dict[str, tuple[str, ...]]:
+    """The entry of the last step of each output: begin and end in milliseconds, time of change, hash."""
+    found: dict[str, tuple[str, ...]] = {}
+    for line in (text_of(os.path.join(folder, ".ninja_log")) or "").splitlines()[1:]:
+        fields = line.split("\t")
+        if len(fields) == 5:
+            found[fields[3]] = (*fields[:3], fields[4])
+    return found
+
+
+def _shares(
+    before: Mapping[str, tuple[str, ...]], after: Mapping[str, tuple[str, ...]], cpu: float
+) -> dict[str, float]:
+    """The seconds of processor time of each step of a run, in proportion to its duration."""
+    taken = {path: int(entry[1]) - int(entry[0]) for path, entry in after.items() if before.get(path) != entry}
+    total = sum(taken.values())
+    return {path: cpu * time / total for path, time in taken.items()} if total else {}
+
+
+def _read_files(processes: Processes, folder: str, root: str) -> dict[str, set[str]]:
+    """The files below `root` that the compiler read for each object, without those of the tree itself."""
+    found: dict[str, set[str]] = {}
+    top, tree = (os.path.join(os.path.realpath(one), "") for one in (root, folder))
+    known: dict[str, str] = {}
+    current: set[str] = set()
+
+    def relative(named: str) -> str:
+        """The path relative to the root; '' if the file is not below it."""
+        path = os.path.realpath(os.path.join(folder, named))
+        return os.path.normpath(os.path.join(root, path[len(top) :])) if _is_in(path, top, tree) else ""
+
+    def line(line: str) -> None:
+        nonlocal current
+        if line.startswith("    "):
+            if line not in known:
+                known[line] = relative(line[4:])
+            if known[line]:
+                current.add(known[line])
+        elif _DEPS in line:
+            current = found.setdefault(line.partition(f": {_DEPS}")[0], set())
+
+    processes.run(["ninja", "-t", "deps"], line, cwd=folder)
+    return found
+
+
+def _is_in(path: str, top: str, tree: str) -> bool:
+    return path.startswith(top) and not path.startswith(tree)

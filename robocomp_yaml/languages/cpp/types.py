@@ -1,8 +1,8 @@
-"""Types of the documents as C++ sees them through Ice's mapping."""
+"""Types of documents in C++, after Ice's mapping."""
 
 from __future__ import annotations
 
-from robocomp_yaml.emit.lowering.types import found
+from robocomp_yaml.emit.lowering.types import resolve
 from robocomp_yaml.languages.cpp.names import ice_name, qualified
 from robocomp_yaml.link.program import LinkedModule
 from robocomp_yaml.model.interface import Enum, TypeRef
@@ -23,21 +23,21 @@ def type_name(ref: TypeRef, scope: LinkedModule) -> str:
     """The type of a value."""
     if ref.is_basic:
         return _BASIC[ref.text]
-    home, definition = found(ref, scope)
+    home, definition = resolve(ref, scope)
     return qualified(home, definition.name)
 
 
 def input_type(ref: TypeRef, scope: LinkedModule) -> str:
-    """The type of a parameter that is read: small values by value, others by reference."""
+    """The type of an input parameter: small values by value, others by reference."""
     name = type_name(ref, scope)
-    is_small = ref.text != "string" if ref.is_basic else isinstance(found(ref, scope)[1], Enum)
+    is_small = ref.text != "string" if ref.is_basic else isinstance(resolve(ref, scope)[1], Enum)
     return name if is_small else f"const {name}&"
 
 
 def zero(ref: TypeRef, scope: LinkedModule) -> str:
-    """The plainest value: zero, empty, the first enumerator, a struct of its defaults."""
+    """The default value: zero, empty, the first enumerator, a struct of its defaults."""
     if not ref.is_basic:
-        home, definition = found(ref, scope)
+        home, definition = resolve(ref, scope)
         if isinstance(definition, Enum):
             return f"{qualified(home, definition.name)}::{ice_name(definition.enumerators[0].name)}"
     return "{}"

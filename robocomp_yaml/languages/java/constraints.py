@@ -9,7 +9,7 @@ from robocomp_yaml.parameters.types import RecordType
 
 
 def lambda_of(expression: Expression, root: RecordType) -> str:
-    """A function of the parameters' values, called `p` in there."""
+    """A lambda with the parameters' values as its argument `p`."""
     return f"p -> {CALLS.of(expression, root)}"
 
 
@@ -24,5 +24,5 @@ CALLS = Calls(
     parts=", ".join,
     function=lambda variable, body: f"{variable} -> {body}",
     member=lambda owner, key: f"Expressions.member({owner}, {key})",
-    variable=lambda name, depth: f"{name}{depth}",  # a lambda's parameter cannot hide another one
+    variable=lambda name, depth: f"{name}{depth}",  # a lambda's parameter cannot hide another
 )

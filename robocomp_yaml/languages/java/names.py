@@ -1,24 +1,24 @@
-"""Names in Java: what Ice's mapping makes of a Slice name, and which ones the generated files have themselves."""
+"""Names in Java: how Ice's mapping changes a Slice name, and which names the generated files use."""
 
 from __future__ import annotations
 
-from robocomp_yaml.emit.lowering.ports import Spelling
+from robocomp_yaml.emit.lowering.ports import PortSpelling
 from robocomp_yaml.languages.java import KEYWORDS, OBJECT_METHODS
 from robocomp_yaml.link.program import LinkedModule
 
 PACKAGE = "slice"
-"""The Java package in which the build puts what Slice becomes, so that no module can be taken for something else."""
+"""The Java package of all Slice modules: a package of its own, so that a module cannot hide another package."""
 
-# What Ice 3.7's mapping puts an underscore before.
+# Ice 3.7's mapping puts an underscore before these.
 ICE_ESCAPES = (KEYWORDS - {"_"}) | OBJECT_METHODS | {"checkedCast", "uncheckedCast"}
 
-# Types that the generated class Parameters speaks of: a type in it that is called so would hide them.
+# Types that the generated class Parameters uses: a nested type of the same name would hide them.
 TYPES = KEYWORDS | frozenset(
     """Boolean Constraint Data Double Exception Expressions Float Integer Kind List Live Long Map Member Named Object
     Optional Override Parameters Spelling Store String Table Values com generated java permits record sealed slice var
     yield""".split()
 )
-# Methods that it has.
+# Methods of the generated class Parameters.
 METHODS = KEYWORDS | OBJECT_METHODS | frozenset(("change", "listen", "now", "set", "table"))
 
 _PACKAGES = frozenset(("com", "java", PACKAGE))
@@ -31,7 +31,7 @@ def ice_name(name: str) -> str:
 
 
 def parameter(name: str) -> str:
-    """A parameter of the worker's methods: it must not hide the packages that are named there."""
+    """A parameter of the worker's methods: it must not hide the packages that are named in them."""
     return f"{name}_" if name in _PACKAGES else ice_name(name)
 
 
@@ -45,4 +45,4 @@ def proxy(scope: LinkedModule, interface: str) -> str:
     return f"{PACKAGE}.{ice_name(scope.module.name)}.{interface}Prx"
 
 
-PORTS = Spelling(taken=_WORKER, published=("{name}_pubproxy",), called=ice_name)
+PORTS = PortSpelling(taken=_WORKER, published=("{name}_pubproxy",), called=ice_name)

@@ -6,12 +6,12 @@ from collections.abc import Iterator
 
 import msgspec
 
-from robocomp_yaml.emit.lowering import parameters as lowering
 from robocomp_yaml.emit.lowering.kinds import Builders
-from robocomp_yaml.emit.lowering.names import Names
+from robocomp_yaml.emit.lowering.names import NameAllocator
 from robocomp_yaml.emit.lowering.parameters import (
-    Spelling,
+    ConstraintView,
     Types,
+    TypeSpelling,
     about_enum,
     about_member,
     declared,
@@ -21,31 +21,37 @@ from robocomp_yaml.emit.lowering.parameters import (
     titled,
 )
 from robocomp_yaml.emit.render import render
+from robocomp_yaml.languages._shared.text import IN
+from robocomp_yaml.languages._shared.views import constraint_views
 from robocomp_yaml.languages.java import LANGUAGE
 from robocomp_yaml.languages.java.names import METHODS, TYPES
-from robocomp_yaml.languages.java.text import IN, comment, listed, literal, one_line, value
+from robocomp_yaml.languages.java.text import comment, listed, literal, one_line, value
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,
     ListType,
     MapType,
-    Member,
     Parameters,
     RecordType,
+    ResolvedMember,
     Type,
     is_secret,
 )
 from robocomp_yaml.transactions.plan import FilePlan
 
 
-class EnumView(msgspec.Struct, frozen=True):
-    """`constants` with what ends each, `cases` of the switch over them."""
+class ConstantView(msgspec.Struct, frozen=True):
+    """A constant of an enum; `text` is a literal of its name in documents."""
 
     name: str
+    text: str
+
+
+class EnumView(msgspec.Struct, frozen=True):
+    name: str
     comment: str
-    constants: list[str]
-    cases: list[str]
+    constants: list[ConstantView]
 
 
 class MemberView(msgspec.Struct, frozen=True):
@@ -56,7 +62,7 @@ class MemberView(msgspec.Struct, frozen=True):
 
 
 class RecordView(msgspec.Struct, frozen=True):
-    """`function` makes its type in the table; `secret` are the names of members that are not shown, as arguments."""
+    """`function` creates the record's type in the table; `secret` are the names of secret members, as arguments."""
 
     name: str
     comment: str
@@ -73,11 +79,7 @@ class GetterView(msgspec.Struct, frozen=True):
     setters: list[str]
 
 
-class ConstraintView(lowering.ConstraintView, frozen=True):
-    comma: str
-
-
-class View(msgspec.Struct, frozen=True):
+class ParametersView(msgspec.Struct, frozen=True):
     source: str
     comment: str
     enums: list[EnumView]
@@ -94,44 +96,25 @@ def plan(linked: LinkedComponent) -> FilePlan:
 
 
 def text(parameters: Parameters, component: str, source: str) -> str:
-    """The class with the parameters of a component, made from the document `source`."""
+    """The class with the parameters of a component; `source` is the path of their document."""
     types = _Types(parameters.root)
-    view = View(
+    view = ParametersView(
         source=one_line(source.rpartition("/")[2]),
         comment=comment(titled(f"The parameters of {component} while it runs.", parameters.doc)),
         enums=[types.enum(enum) for enum in types.enums],
         records=[types.record(path, record) for path, record in types.records],
         getters=list(types.getters()),
         root=types.functions["."],
-        spellings=_ended(
+        spellings=[
             f"java.util.Map.entry({literal(each.path)}, new Spelling({_BUILDERS.spelling(each)}))"
             for each in parameters.spellings
-        ),
-        constraints=_constraints(parameters) if parameters.constraints else [],
+        ],
+        constraints=constraint_views(parameters, LANGUAGE, literal),
     )
     return render("java/Parameters.java.j2", view)
 
 
-def _constraints(parameters: Parameters) -> list[ConstraintView]:
-    from robocomp_yaml.languages.java.constraints import lambda_of  # with all about expressions
-
-    last = len(parameters.constraints) - 1
-    return [
-        ConstraintView(
-            literal(each.text), literal(each.message), lambda_of(each.expression, parameters.root),
-            "" if number == last else ",",
-        )
-        for number, each in enumerate(parameters.constraints)
-    ]  # fmt: skip
-
-
-def _ended(items: Iterator[str], last: str = "") -> list[str]:
-    """With commas between them."""
-    every = list(items)
-    return [f"{item}{last if number == len(every) else ','}" for number, item in enumerate(every, 1)]
-
-
-_SPELLING = Spelling(
+_SPELLING = TypeSpelling(
     basic={
         "bool": "boolean", "int": "int", "long": "long", "float": "float", "double": "double", "string": "String",
     },
@@ -150,40 +133,30 @@ class _Types(Types):
     """The classes of all enums and records that the parameters use, with names that do not clash."""
 
     def __init__(self, root: RecordType) -> None:
-        super().__init__(root, Names(TYPES), _SPELLING)
+        super().__init__(root, NameAllocator(TYPES), _SPELLING)
         self.root = root
-        functions = Names(METHODS)
-        self.functions = {path: functions.take(f"kindOf{self.of[path]}") for path, _ in self.records}
-        self.constants = {enum.name: _constants(enum) for enum in self.enums}
+        functions = NameAllocator(METHODS)
+        self.functions = {path: functions.allocate(f"kindOf{self.of[path]}") for path, _ in self.records}
 
     def enum(self, enum: EnumType) -> EnumView:
-        constants = self.constants[enum.name]
-        return EnumView(
-            self.of[enum.name],
-            comment("\n".join(about_enum(enum)), IN),
-            _ended(iter(constants.values()), ";"),
-            [f"case {constant} -> {literal(name)};" for name, constant in constants.items()],
-        )
+        names = NameAllocator(TYPES)  # a constant hides a type of the same name in the enum
+        constants = [ConstantView(names.allocate(LANGUAGE.in_code(name)), literal(name)) for name in enum.names]
+        return EnumView(self.of[enum.name], comment("\n".join(about_enum(enum)), IN), constants)
 
     def record(self, path: str, record: RecordType) -> RecordView:
         group = group_of(path, record)
         secret = [literal(member.name) for member in record.members if is_secret(member.type)]
-        members = [self.member(member, group) for member in record.members]
-        last = len(members) - 1
         return RecordView(
             self.of[path],
             comment(self.about_record(path, record), IN),
             self.functions[path],
-            "Kind.group(" if record.is_group else f"Kind.record({literal(record.name)}{',' if members else ''}",
+            "Kind.group(" if record.is_group else f"Kind.record({literal(record.name)}{',' if record.members else ''}",
             "".join(f", {name}" for name in secret),
-            [
-                msgspec.structs.replace(member, kind=member.kind + ("" if number == last else ","))
-                for number, member in enumerate(members)
-            ],
+            [self.member(member, group) for member in record.members],
         )
 
-    def member(self, member: Member, group: str | None) -> MemberView:
-        """`group` is the path of the group that it stands in, None in a struct."""
+    def member(self, member: ResolvedMember, group: str | None) -> MemberView:
+        """`group` is the path of the member's group, None in a struct."""
         inner = path_of(member, group)
         name, key = LANGUAGE.in_code(member.code_name), literal(member.name)
         got = f"of.get({key})"
@@ -198,13 +171,13 @@ class _Types(Types):
             kind=_BUILDERS.member(f"new Member({key}", member, self.functions, inner),
         )
 
-    def member_type(self, member: Member, group: str | None) -> str:
+    def member_type(self, member: ResolvedMember, group: str | None) -> str:
         if member.optional:
             return f"java.util.Optional<{self.spelled(member.type, group, boxed=True)}>"
         return self.spelled(member.type, group)
 
     def read(self, type_: Type, data: str, group: str | None = None, depth: int = 0) -> str:
-        """An expression for the typed value of data."""
+        """An expression that converts data to the typed value."""
         match type_:
             case BasicType(name=name):
                 return _READ[name].format(data)
@@ -221,8 +194,8 @@ class _Types(Types):
         return f"v{depth} -> {self.read(type_, f'v{depth}', group, depth + 1)}"
 
     def getters(self) -> Iterator[GetterView]:
-        names = Names(METHODS)
-        getters = {member.name: names.take(LANGUAGE.in_code(member.code_name)) for member in self.root.members}
+        names = NameAllocator(METHODS)
+        getters = {member.name: names.allocate(LANGUAGE.in_code(member.code_name)) for member in self.root.members}
         for member in self.root.members:
             group = inside(".", member.code_name)
             yield GetterView(
@@ -235,9 +208,3 @@ class _Types(Types):
                     for name, inner, path in self.setters(member, names)
                 ],
             )
-
-
-def _constants(enum: EnumType) -> dict[str, str]:
-    """The names in code of an enum's names."""
-    names = Names(TYPES)  # it would hide the type in the enum itself
-    return {name: names.take(LANGUAGE.in_code(name)) for name in enum.names}

@@ -1,7 +1,7 @@
-"""The Java target: a component that `generated/build` builds, with the JDK, slice2java and Ice for Java alone.
+"""Plans Java components, which `generated/build` builds with the JDK, slice2java and Ice for Java.
 
-Most of it is the same for every component: the run time (`templates/runtime/`), which is compiled once. What differs
-are a small generated part, the user's skeleton and two scripts.
+Most code is the run time (`templates/runtime/`), which is the same in all components and is compiled once. A small
+generated part, the user's skeleton and two scripts differ.
 """
 
 from __future__ import annotations
@@ -15,16 +15,17 @@ from robocomp_yaml.emit import runtime
 from robocomp_yaml.emit.layout import Layout, stated
 from robocomp_yaml.emit.lowering.component import COMMON, lower
 from robocomp_yaml.emit.render import render
+from robocomp_yaml.languages._shared.views import ignored_program
 from robocomp_yaml.languages.java import parameters
-from robocomp_yaml.languages.java.ports import AccessorView, Ports, ServiceView
+from robocomp_yaml.languages.java.ports import Ports, port_views
 from robocomp_yaml.languages.java.text import comment, literal, one_line
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.transactions.plan import ONCE, FilePlan
 
 
 class View(msgspec.Struct, frozen=True):
-    """What the templates show. `ports` are literals of Java, with commas; `needs_storm` says that there are topics;
-    `runtime` and `slice` are folders, and `slices` the files there, as words of the shell."""
+    """What the templates show. `names` are the names of all ports, as literals with commas; `needs_storm` says that
+    there are topics; `runtime` and `slice` are folders, and `slices` the files in `slice`, as words of the shell."""
 
     source: str
     runtime: str
@@ -35,19 +36,18 @@ class View(msgspec.Struct, frozen=True):
     name: str
     comment: str
     period: int
-    services: list[ServiceView]
-    accessors: list[AccessorView]
-    ports: str
+    ports: Ports
+    names: str
     needs_storm: bool
 
 
 def needs(component: LinkedComponent) -> Callable[[str], bool]:
-    """Which files of the run time a component needs that stands alone: all."""
+    """Whether a component outside of a workspace needs a file of the run time: always."""
     return lambda path: True
 
 
 def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
-    """The component's files but for `slice/`, `etc/` and the run time."""
+    """The files of a component, except `slice/`, `etc/` and the run time."""
     view = _view(component, layout)
     return [
         parameters.plan(component),
@@ -58,18 +58,12 @@ def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
         FilePlan("generated/build", render("java/build.j2", view), executable=True),
         FilePlan("generated/start", render("java/start.j2", view), executable=True),
         FilePlan("src/SpecificWorker.java", render("java/SpecificWorker.java.j2", view), ONCE),
-        FilePlan("bin/.gitignore", f"{_HEAD}\n/{view.name}\n", ONCE),
+        ignored_program(view.name),
     ]
 
 
-_HEAD = "# This file is yours: rcyaml wrote it once. Below is what the build makes."
-
-
 def _view(linked: LinkedComponent, layout: Layout) -> View:
-    lowered, ports = lower(linked), Ports(linked)
-    services = [*ports.implements, *ports.subscribes]
-    if services:
-        services[-1] = msgspec.structs.replace(services[-1], comma="")
+    lowered, ports = lower(linked), port_views(linked)
     every = (*linked.implements, *linked.requires, *linked.publishes, *linked.subscribes)
     return View(
         source=one_line(lowered.source),
@@ -81,8 +75,7 @@ def _view(linked: LinkedComponent, layout: Layout) -> View:
         name=lowered.name,
         comment=comment(lowered.doc),
         period=lowered.period,
-        services=services,
-        accessors=[*ports.requires, *ports.publishes],
-        ports=", ".join(literal(name) for name in dict.fromkeys(port.name for port in every)),
+        ports=ports,
+        names=", ".join(literal(name) for name in dict.fromkeys(port.name for port in every)),
         needs_storm=bool(ports.publishes or ports.subscribes),
     )

@@ -1,20 +1,22 @@
-"""A component's ports as Java has them: accessors, and the servants with the worker's methods that they call."""
+"""The ports of a component in Java: accessors, servants, and the worker's methods that servants call."""
 
 from __future__ import annotations
 
 import msgspec
 
 from robocomp_yaml.emit.lowering import ports as lowering
-from robocomp_yaml.emit.lowering.names import Names
-from robocomp_yaml.emit.lowering.types import found, results
+from robocomp_yaml.emit.lowering.names import NameAllocator
+from robocomp_yaml.emit.lowering.types import resolve, results
+from robocomp_yaml.languages._shared.text import IN, declaration
+from robocomp_yaml.languages._shared.views import PortViews
 from robocomp_yaml.languages.java.names import PORTS, ice_name, parameter, proxy, qualified
-from robocomp_yaml.languages.java.text import IN, comment, declaration, literal, one_line
+from robocomp_yaml.languages.java.text import comment, literal, one_line
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.interface import Enum, Map, Member, Method, Sequence, TypeRef
 
 
 class MethodView(msgspec.Struct, frozen=True):
-    """A method of the worker: as GenericWorker asks for it, and as the user's class has it at first."""
+    """A method of the worker: abstract in GenericWorker, and as a stub in the user's class."""
 
     comment: str
     declaration: str
@@ -23,7 +25,7 @@ class MethodView(msgspec.Struct, frozen=True):
 
 
 class OperationView(msgspec.Struct, frozen=True):
-    """An operation of a servant, which `call`s the worker's method; `name` is that method."""
+    """An operation of a servant: `call` calls the worker's method, `name` is the method's name."""
 
     declaration: str
     call: str
@@ -32,8 +34,8 @@ class OperationView(msgspec.Struct, frozen=True):
 
 
 class ServiceView(msgspec.Struct, frozen=True):
-    """An implemented or subscribed port; `arguments` make the run time's, and `comma` stands behind it.
-    `new_methods` are those that no earlier port has brought."""
+    """An implemented or subscribed port; `arguments` are those of the run time's `Service`. `new_methods` are the
+    methods that no earlier port has."""
 
     title: str
     servant: str
@@ -41,11 +43,10 @@ class ServiceView(msgspec.Struct, frozen=True):
     arguments: str
     operations: list[OperationView]
     new_methods: list[MethodView]
-    comma: str = ","
 
 
 class AccessorView(msgspec.Struct, frozen=True):
-    """A proxy that the worker has; `made` makes it."""
+    """A proxy of the worker; `made` creates it."""
 
     name: str
     proxy: str
@@ -54,15 +55,17 @@ class AccessorView(msgspec.Struct, frozen=True):
     made: str
 
 
-class Ports:
-    """All ports of a component."""
+Ports = PortViews[AccessorView, ServiceView]
 
-    def __init__(self, component: LinkedComponent) -> None:
-        lowered, servants = lowering.lower(component, PORTS), Names(("Services",))
-        self.requires = [_required(accessor) for accessor in lowered.requires]
-        self.publishes = [_published(accessor) for accessor in lowered.publishes]
-        self.implements = [_service(one, servants, "Servant", one.identity) for one in lowered.implements]
-        self.subscribes = [_service(one, servants, "Subscriber", "") for one in lowered.subscribes]
+
+def port_views(component: LinkedComponent) -> Ports:
+    lowered, servants = lowering.lower(component, PORTS), NameAllocator(("Services",))
+    return Ports(
+        [_required(accessor) for accessor in lowered.requires],
+        [_published(accessor) for accessor in lowered.publishes],
+        [_service(one, servants, "Servant", one.identity) for one in lowered.implements],
+        [_service(one, servants, "Subscriber", "") for one in lowered.subscribes],
+    )
 
 
 def _required(accessor: lowering.Accessor) -> AccessorView:
@@ -86,12 +89,12 @@ def _accessor(accessor: lowering.Accessor, made: str, summary: str) -> AccessorV
     )
 
 
-def _service(service: lowering.Service, servants: Names, suffix: str, identity: str) -> ServiceView:
+def _service(service: lowering.Service, servants: NameAllocator, suffix: str, identity: str) -> ServiceView:
     port, calls = service.port, {called.method.name: called.name for called in service.methods}
     words = (port.name, identity, port.interface.name)
     return ServiceView(
         title=one_line(service.title),
-        servant=servants.take(f"{port.name}{suffix}"),
+        servant=servants.allocate(f"{port.name}{suffix}"),
         base=qualified(port.scope, port.interface.name),
         arguments=", ".join(map(literal, words)),
         operations=[_operation(method, port, calls.get(method.name, "")) for method in port.interface.methods],
@@ -100,7 +103,7 @@ def _service(service: lowering.Service, servants: Names, suffix: str, identity: 
 
 
 def _operation(method: Method, port: Port, calls: str) -> OperationView:
-    """Calls the worker's method called so; '' where it has none, because it is not published."""
+    """The operation that calls the worker's method `calls`; '' for an operation that cannot be published."""
     names = [f"in{number}" for number in range(len(method.inputs))]
     typed = [f"{type_name(m.type, port.scope)} {name}" for m, name in zip(method.inputs, names, strict=True)]
     typed.append("com.zeroc.Ice.Current current")
@@ -113,7 +116,7 @@ def _operation(method: Method, port: Port, calls: str) -> OperationView:
     )
 
 
-def _method(called: lowering.Called) -> MethodView:
+def _method(called: lowering.CalledMethod) -> MethodView:
     method, port = called.method, called.port
     returns = result_type(method, port)
     typed = [f"{type_name(member.type, port.scope)} {parameter(member.name)}" for member in method.inputs]
@@ -127,17 +130,12 @@ def _method(called: lowering.Called) -> MethodView:
 
 
 def _throws(method: Method, port: Port) -> str:
-    names = [qualified(*_home(ref, port.scope)) for ref in method.throws]
+    names = [type_name(ref, port.scope) for ref in method.throws]
     return f" throws {', '.join(names)}" if names else ""
 
 
-def _home(ref: TypeRef, scope: LinkedModule) -> tuple[LinkedModule, str]:
-    home, definition = found(ref, scope)
-    return home, definition.name
-
-
-def _stub(called: lowering.Called, returns: str) -> list[str]:
-    """What a method does until the user writes it."""
+def _stub(called: lowering.CalledMethod, returns: str) -> list[str]:
+    """The statements of a method until the user writes it."""
     method, scope = called.method, called.port.scope
     hidden = "this." if any(member.name == "log" for member in method.inputs) else ""
     lines = [f'{hidden}log.info("{called.name}() is still to be written");']
@@ -150,12 +148,12 @@ def _stub(called: lowering.Called, returns: str) -> list[str]:
 def _described(method: Method, port: Port) -> str:
     lines = [method.doc.strip() or f"{port.interface.name}.{method.name}"]
     for member in (*method.inputs, *method.outputs):
-        if said := _said(member):
-            lines.append(f"{ice_name(member.name)}: {said}")
+        if note := _note(member):
+            lines.append(f"{ice_name(member.name)}: {note}")
     return "\n".join(lines)
 
 
-def _said(member: Member) -> str:
+def _note(member: Member) -> str:
     unit = f"[{member.unit}]" if member.unit else ""
     return " ".join(part for part in (" ".join(member.doc.split()), unit) if part)
 
@@ -175,7 +173,7 @@ def type_name(ref: TypeRef, scope: LinkedModule, *, boxed: bool = False) -> str:
     """The type of a value; `boxed` where a map holds it."""
     if ref.is_basic:
         return (_BOXED if boxed else _BASIC)[ref.text]
-    home, definition = found(ref, scope)
+    home, definition = resolve(ref, scope)
     match definition:
         case Sequence(element=element):
             return f"{type_name(element, home)}[]"
@@ -186,18 +184,18 @@ def type_name(ref: TypeRef, scope: LinkedModule, *, boxed: bool = False) -> str:
 
 
 def result_type(method: Method, port: Port) -> str:
-    """What a method gives back: several values come in an object of their own."""
-    given = results(method)
-    if len(given) > 1:
+    """The return type of a method: an object if there are several results."""
+    types = results(method)
+    if len(types) > 1:
         return f"{qualified(port.scope, port.interface.name)}.{method.name[:1].upper()}{method.name[1:]}Result"
-    return type_name(given[0], port.scope) if given else "void"
+    return type_name(types[0], port.scope) if types else "void"
 
 
 def zero(ref: TypeRef, scope: LinkedModule) -> str:
-    """The plainest value: zero, empty, the first enumerator, a struct of its defaults."""
+    """The default value: zero, empty, the first enumerator, a struct of its defaults."""
     if ref.is_basic:
         return _ZEROS.get(ref.text, "0")
-    home, definition = found(ref, scope)
+    home, definition = resolve(ref, scope)
     match definition:
         case Sequence():
             of = type_name(ref, scope)

@@ -1,18 +1,16 @@
-"""Pieces of Java source: comments, literals and signatures."""
+"""Java source text: comments and literals."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
-WIDTH = 120
-IN = "    "
-_LONGEST = 20_000  # characters of a literal: a class file takes 65,535 bytes
+_LONGEST = 20_000  # characters of a literal: a class file allows 65,535 bytes
 _CHARS = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t", "\r": "\\r"}
 _IN_COMMENTS = {"&": "&amp;", "<": "&lt;", ">": "&gt;", "\\": "&#92;", "@": "&#64;"}
 
 
 def comment(text: str, indent: str = "") -> str:
-    """A documentation comment; without the first line's indent. Nothing in it can end it, or be taken for a tag."""
+    """A documentation comment, in which no text can end the comment or be a tag. The first line has no indent."""
     lines = [_harmless(line) for line in text.strip().splitlines()] or [""]
     if len(lines) == 1:
         return f"/** {lines[0]} */"
@@ -20,7 +18,7 @@ def comment(text: str, indent: str = "") -> str:
 
 
 def one_line(text: str) -> str:
-    """A document's text as the rest of a line of comment."""
+    """A text of a document as the rest of a comment line."""
     return _harmless(" ".join(text.split()))
 
 
@@ -30,7 +28,7 @@ def _harmless(line: str) -> str:
 
 
 def literal(data: str) -> str:
-    """A string literal; a long one in pieces."""
+    """A string literal; a long one is joined from pieces."""
     if len(data) <= _LONGEST:
         return f'"{_escaped(data)}"'
     pieces = [data[start : start + _LONGEST] for start in range(0, len(data), _LONGEST)]
@@ -42,7 +40,7 @@ def _escaped(data: str) -> str:
 
 
 def _units(char: str) -> str:
-    """Octal where Java has it: before anything else is read, `\\u000a` is a line end."""
+    """Octal where possible: Java translates `\\u000a` to a line end before it parses anything."""
     if ord(char) < 0x100:
         return f"\\{ord(char):03o}"
     raw = char.encode("utf-16-be", "surrogatepass")
@@ -73,16 +71,3 @@ def value(data: object) -> str:
 
 def listed(items: Sequence[str]) -> str:
     return f"java.util.List.of({', '.join(items)})"
-
-
-def declaration(head: str, parameters: Sequence[str], tail: str, indent: str) -> str:
-    """`HEAD(PARAMETERS)TAIL`, with the parameters on a line of their own, or each, where it would be too long; without
-    the first line's indent."""
-    line = f"{head}({', '.join(parameters)}){tail}"
-    if len(indent) + len(line) <= WIDTH:
-        return line
-    inner = f"{indent}{IN}"
-    joined = ", ".join(parameters)
-    if len(inner) + len(joined) + 1 + len(tail) > WIDTH:
-        joined = f",\n{inner}".join(parameters)
-    return f"{head}(\n{inner}{joined}){tail}"

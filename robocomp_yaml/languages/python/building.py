@@ -1,4 +1,4 @@
-"""Python components "built": compiled to bytecode and imported once, by the Python that runs them."""
+"""Builds Python components: compiles them to bytecode and imports them once, with the Python that will run them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import sys
 from collections.abc import Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 
-from robocomp_yaml.building.job import Job, Made, Step
+from robocomp_yaml.building.job import BuildStep, ComponentBuild, Job
 from robocomp_yaml.building.unit import Unit
 from robocomp_yaml.diag.codes import building as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
@@ -17,23 +17,23 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.languages.python import LANGUAGE
 
 _MARK = "\x1ercyaml "
-_LAST = 10  # lines that are shown of what fails outside of the user's code
+_LAST = 10  # lines that are shown of an error outside of the user's code
 
 
-def build(job: Job, units: list[Unit]) -> dict[Unit, Made]:
-    done: dict[Unit, Made] = {}
+def build(job: Job, units: list[Unit]) -> dict[Unit, ComponentBuild]:
+    done: dict[Unit, ComponentBuild] = {}
     with ThreadPoolExecutor(job.jobs) as pool:
         try:
             running = {unit: pool.submit(_tried, job, unit) for unit in units}
             for number, (unit, future) in enumerate(running.items()):
-                job.report(Step(number, len(units), f"Trying {unit.name}"))
+                job.report(BuildStep(number, len(units), f"Trying {unit.name}"))
                 code, cpu, lines = future.result()
                 found = list(_diagnostics(lines))
-                job.tell(found)
+                job.add(found)
                 if code and not has_errors(found):
-                    said = [line for line in lines if not line.startswith(_MARK)]
-                    job.failed(unit, "its code cannot be imported", more=said[-_LAST:])
-                done[unit] = Made(code == 0, cpu)
+                    output = [line for line in lines if not line.startswith(_MARK)]
+                    job.add_failure(unit, "its code cannot be imported", more=output[-_LAST:])
+                done[unit] = ComponentBuild(code == 0, cpu)
         except BaseException:
             job.processes.end()
             raise
@@ -57,10 +57,10 @@ def _tried(job: Job, unit: Unit) -> tuple[int, float, list[str]]:
 def _diagnostics(lines: Iterable[str]) -> Iterator[Diagnostic]:
     for line in lines:
         if line.startswith(_MARK):
-            said = json.loads(line.removeprefix(_MARK))
-            code = codes.ERROR_OF_COMPILER if said["kind"] == "error" else codes.WARNING_OF_COMPILER
-            column = max(1, said["column"])
-            end = max(column + 1, said["end"])
-            path = os.path.relpath(said["file"])
-            file = said["file"] if path.startswith(os.pardir) else path
-            yield code.at(Span(file, said["line"], column, said["line"], end), tool="Python", text=said["text"])
+            fault = json.loads(line.removeprefix(_MARK))
+            code = codes.ERROR_OF_COMPILER if fault["kind"] == "error" else codes.WARNING_OF_COMPILER
+            column = max(1, fault["column"])
+            end = max(column + 1, fault["end"])
+            path = os.path.relpath(fault["file"])
+            file = fault["file"] if path.startswith(os.pardir) else path
+            yield code.at(Span(file, fault["line"], column, fault["line"], end), tool="Python", text=fault["text"])

@@ -1,4 +1,4 @@
-"""The specific class as Python has it."""
+"""Parses the specific class in Python."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from tree_sitter import Language, Node, Parser
 
 from robocomp_yaml.emit.specific.code import (
     CLASS,
-    Code,
-    Import,
-    Method,
+    ImportLine,
     Signature,
+    SourceCode,
+    SourceMethod,
     below,
     faults,
     field,
     lines_of,
-    place,
+    location,
     plain,
     text,
 )
@@ -31,7 +31,7 @@ def _parser() -> Parser:
     return Parser(Language(tree_sitter_python.language()))
 
 
-def read(path: str, source: str) -> Code:
+def read(path: str, source: str) -> SourceCode:
     root = _parser().parse(source.encode()).root_node
     lines = lines_of(source)
     imports = list(_imports(root))
@@ -39,21 +39,21 @@ def read(path: str, source: str) -> Code:
     import_end = tops[-1].end_point[0] + 1 if tops else _behind_docstring(root)
     found = next((node for node in _classes(root) if text(field(node, "name")) == CLASS), None)
     if found is None:
-        return Code(path, lines, faults(root), imports=tuple(imports), import_end=import_end)
+        return SourceCode(path, lines, faults(root), imports=tuple(imports), import_end=import_end)
     body = field(found, "body")
     members = tuple(_members(body, lines))
     bases = found.child_by_field_name("superclasses")
-    return Code(
+    return SourceCode(
         path, lines, faults(root), members, (), tuple(imports), import_end,
-        place(field(found, "name"), lines),
+        location(field(found, "name"), lines),
         _last_line(body),
         _indent(body, lines) or "    ",
         tuple(text(base) for base in bases.named_children) if bases else (),
     )  # fmt: skip
 
 
-def compiles(code: Code) -> bool:
-    """Whether Python takes it."""
+def compiles(code: SourceCode) -> bool:
+    """Whether Python compiles it."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -64,36 +64,38 @@ def compiles(code: Code) -> bool:
 
 
 def _is_condition(node: Node) -> bool:
-    """Whether what stands in it may be there or not."""
+    """Whether a node contains statements that may or may not be executed."""
     return node.type in ("if_statement", "try_statement", "with_statement", "block") or node.type.endswith("_clause")
 
 
 def _classes(root: Node) -> Iterator[Node]:
-    """Classes of the module, under conditions too."""
+    """The classes of the module, also those in conditional statements."""
     for node, _ in below(root, _is_condition):
         inner = field(node, "definition") if node.type == "decorated_definition" else node
         if inner.type == "class_definition":
             yield inner
 
 
-def _members(body: Node, lines: list[str]) -> Iterator[Method]:
+def _members(body: Node, lines: list[str]) -> Iterator[SourceMethod]:
     for node, nested in below(body, _is_condition):
         inner = field(node, "definition") if node.type == "decorated_definition" else node
         if inner.type == "function_definition":
             name = field(inner, "name")
             first = _with_comments(node.start_point[0], lines)
-            yield Method(text(name), place(name, lines), first, _last_line(node), _signature(inner), nested=nested)
+            yield SourceMethod(
+                text(name), location(name, lines), first, _last_line(node), _signature(inner), nested=nested
+            )
         elif node.type == "expression_statement":
             yield from _assigned(node, lines)
 
 
-def _assigned(statement: Node, lines: list[str]) -> Iterator[Method]:
+def _assigned(statement: Node, lines: list[str]) -> Iterator[SourceMethod]:
     """`name = something` in the class."""
     for node in statement.children:
         name = node.child_by_field_name("left") if node.type == "assignment" else None
         if name is not None and name.type == "identifier":
             row = statement.start_point[0]
-            yield Method(text(name), place(name, lines), row, _last_line(statement), None)
+            yield SourceMethod(text(name), location(name, lines), row, _last_line(statement), None)
 
 
 def _signature(function: Node) -> Signature:
@@ -110,7 +112,7 @@ def _signature(function: Node) -> Signature:
             limited = limited and word == "*"
             continue
         if keywords:
-            least += "default" not in node.type  # which no servant gives
+            least += "default" not in node.type  # a servant never passes it
             continue
         parameters.append(word)
         names.append(re.split(r"[ :=]", word, maxsplit=1)[0])
@@ -120,7 +122,7 @@ def _signature(function: Node) -> Signature:
     return Signature(tuple(parameters), tuple(names), returns, least, most if limited else None)
 
 
-def _imports(root: Node) -> Iterator[Import]:
+def _imports(root: Node) -> Iterator[ImportLine]:
     """The names that come from generated modules."""
     for node in root.children:
         module = node.child_by_field_name("module_name") if node.type == "import_from_statement" else None
@@ -128,11 +130,11 @@ def _imports(root: Node) -> Iterator[Import]:
             continue
         for name in node.children_by_field_name("name"):
             words = plain(name)
-            yield Import(f"{text(module)} {words}", f"from {text(module)} import {words}\n")
+            yield ImportLine(f"{text(module)} {words}", f"from {text(module)} import {words}\n")
 
 
 def _with_comments(row: int, lines: list[str]) -> int:
-    """The comment lines right above belong to what follows."""
+    """The first of the comment lines directly above a row."""
     while row and lines[row - 1].lstrip().startswith("#"):
         row -= 1
     return row
@@ -145,7 +147,7 @@ def _behind_docstring(root: Node) -> int:
 
 
 def _last_line(node: Node) -> int:
-    """The line behind a node."""
+    """The number of the line after a node."""
     row, column = node.end_point
     return row + 1 if column else row
 

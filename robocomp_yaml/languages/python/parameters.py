@@ -1,16 +1,16 @@
-"""A component's parameters as Python: a class for each record, whose members say type, limits, default and unit."""
+"""A component's parameters as Python: a class for each record, whose members have type, limits, default and unit."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
 import msgspec
 
-from robocomp_yaml.emit.lowering.names import Names
+from robocomp_yaml.emit.lowering.names import NameAllocator
 from robocomp_yaml.emit.lowering.parameters import (
     ConstraintView,
-    Spelling,
     Types,
+    TypeSpelling,
     about_enum,
     about_member,
     declared,
@@ -20,24 +20,25 @@ from robocomp_yaml.emit.lowering.parameters import (
     titled,
 )
 from robocomp_yaml.emit.render import render
+from robocomp_yaml.languages._shared.views import constraint_views
 from robocomp_yaml.languages.python import LANGUAGE
-from robocomp_yaml.languages.python.text import docstring, literal, one_line
+from robocomp_yaml.languages.python.text import docstring, folded, literal, one_line
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.parameters.specification.document import Spelling as PropertySpelling
+from robocomp_yaml.parameters.specification.document import LegacySpelling as PropertySpelling
 from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,
     ListType,
     MapType,
-    Member,
     Parameters,
     RecordType,
+    ResolvedMember,
     Size,
     Type,
 )
 from robocomp_yaml.transactions.plan import FilePlan
 
-WIDTH = 112
+WIDTH = 92
 _TAKEN = (
     "Literal Mapping Optional Parameters TABLE Values annotations bool composite constraints float int parameters "
     "plain reading str tuple"
@@ -63,7 +64,7 @@ class RecordView(msgspec.Struct, frozen=True):
     members: list[MemberView]
 
 
-class View(msgspec.Struct, frozen=True):
+class ParametersView(msgspec.Struct, frozen=True):
     source: str
     title: str
     imports: list[str]
@@ -79,32 +80,20 @@ def plan(linked: LinkedComponent) -> FilePlan:
 
 
 def text(parameters: Parameters, component: str, source: str) -> str:
-    """The module with the parameters of a component, made from the document `source`."""
-    return render("python/parameters.py.j2", _view(parameters, component, one_line(source.rpartition("/")[2])))
-
-
-def _view(parameters: Parameters, name: str, source: str) -> View:
+    """The module with the parameters of a component; `source` is the path of their document."""
     types = _Types(parameters.root)
     views = [types.record(path, record) for path, record in types.records]
-    constraints = _constraints(parameters) if parameters.constraints else []
-    return View(
-        source=source,
-        title=docstring(titled(f"The parameters of {name}.", parameters.doc), ""),
+    constraints = constraint_views(parameters, LANGUAGE, literal)
+    view = ParametersView(
+        source=one_line(source.rpartition("/")[2]),
+        title=docstring(titled(f"The parameters of {component}.", parameters.doc), ""),
         imports=list(_imports(views, bool(types.enums), bool(parameters.spellings), bool(constraints))),
         enums=[types.enum(enum) for enum in types.enums],
         records=views,
         spellings=[f"{literal(spelling.path)}: {_spelling(spelling)}" for spelling in parameters.spellings],
         constraints=constraints,
     )
-
-
-def _constraints(parameters: Parameters) -> list[ConstraintView]:
-    from robocomp_yaml.languages.python.constraints import lambda_of  # with all about expressions
-
-    return [
-        ConstraintView(literal(each.text), literal(each.message), lambda_of(each.expression, parameters.root))
-        for each in parameters.constraints
-    ]
+    return render("python/parameters.py.j2", view)
 
 
 def _imports(views: list[RecordView], enums: bool, spellings: bool, constraints: bool) -> Iterator[str]:
@@ -121,7 +110,7 @@ def _imports(views: list[RecordView], enums: bool, spellings: bool, constraints:
     yield f"from generated.runtime.semantics import {', '.join(name for name, used in modules.items() if used)}"
 
 
-_SPELLING = Spelling(
+_SPELLING = TypeSpelling(
     basic={"bool": "bool", "int": "int", "long": "int", "float": "float", "double": "float", "string": "str"},
     listing="tuple[{}, ...]",
     mapping="Mapping[str, {}]",
@@ -134,7 +123,9 @@ class _Types(Types):
 
     def __init__(self, root: RecordType) -> None:
         members = {LANGUAGE.in_code(member.code_name) for _, record in records(root)[0] for member in record.members}
-        super().__init__(root, Names((*_TAKEN, *members)), _SPELLING)  # a class's members hide what else is called so
+        super().__init__(
+            root, NameAllocator((*_TAKEN, *members)), _SPELLING
+        )  # a class's members hide types of the same name
 
     def enum(self, enum: EnumType) -> EnumView:
         names = ", ".join(map(literal, enum.names))
@@ -148,8 +139,8 @@ class _Types(Types):
             [self.member(member, group) for member in record.members],
         )
 
-    def member(self, member: Member, group: str | None) -> MemberView:
-        """`group` is the path of the group that it stands in, None in a struct."""
+    def member(self, member: ResolvedMember, group: str | None) -> MemberView:
+        """`group` is the path of the member's group, None in a struct."""
         inner = path_of(member, group)
         arguments = [self.kind(member.type, inner)]
         if member.default is not None:
@@ -161,7 +152,9 @@ class _Types(Types):
         hint = self.spelled(member.type, inner)
         hint = f"Optional[{hint}]" if member.optional else hint
         doc = about_member(member, "\n\n")
-        return MemberView(name, hint, _call("composite.member", arguments, "    "), docstring(doc, "    "))
+        return MemberView(
+            name, hint, folded("composite.member(", arguments, ")", "    ", WIDTH), docstring(doc, "    ")
+        )
 
     def kind(self, type_: Type, group: str | None) -> str:
         match type_:
@@ -222,14 +215,4 @@ def _spelling(spelling: PropertySpelling) -> str:
     words += [f"separators={literal(spelling.separators)}"] if spelling.separators else []
     words += ["trailing=True"] if spelling.trailing else []
     words += [f"count={literal(spelling.count)}"] if spelling.count else []
-    return _call("reading.Spelling", words, "        ")
-
-
-def _call(function: str, arguments: Iterable[str], indent: str) -> str:
-    """On one line, or one argument a line where it would be too long."""
-    words = list(arguments)
-    line = f"{function}({', '.join(words)})"
-    if len(indent) + len(line) <= WIDTH - 20:
-        return line
-    inner = "".join(f"{indent}    {word},\n" for word in words)
-    return f"{function}(\n{inner}{indent})"
+    return folded("reading.Spelling(", words, ")", "        ", WIDTH)

@@ -1,7 +1,7 @@
-"""The Python target: a component that runs with Python 3.9 and Ice 3.7 alone.
+"""Plans Python components, which need only Python 3.9 and Ice 3.7.
 
-Most of it is the same for every component: the run time (`templates/runtime/`, `semantics`). What differs are a few
-small generated files, the user's skeleton and a launcher.
+Most code is the run time (`templates/runtime/`, `semantics`), which is the same in all components. A few small
+generated files, the user's skeleton and a launcher differ.
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ import json
 import os
 import re
 from collections.abc import Callable, Iterable, Iterator
-from types import ModuleType
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -20,13 +19,15 @@ from robocomp_yaml.emit import runtime, windows
 from robocomp_yaml.emit.layout import Layout, stated
 from robocomp_yaml.emit.lowering.component import BEHAVIOR, lower
 from robocomp_yaml.emit.render import render
-from robocomp_yaml.languages.python import parameters, qt
-from robocomp_yaml.languages.python.names import ice_name, is_forgotten, module_variable
-from robocomp_yaml.languages.python.ports import AccessorView, Ports, ServedView
+from robocomp_yaml.languages.python import LANGUAGE, parameters
+from robocomp_yaml.languages.python.names import ice_name, module_variable, python_name
+from robocomp_yaml.languages.python.ports import Ports, port_views
 from robocomp_yaml.languages.python.stubs import ModuleStub, stub
 from robocomp_yaml.languages.python.text import docstring, one_line
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.link.references import groups
+from robocomp_yaml.model.interface import Sequence
+from robocomp_yaml.semantics.slice_names import NOT_ESCAPED
 from robocomp_yaml.transactions.plan import ONCE, FilePlan
 
 if TYPE_CHECKING:
@@ -34,18 +35,18 @@ if TYPE_CHECKING:
 
 
 class SliceModule(msgspec.Struct, frozen=True):
-    """A Slice module: the name Ice gives it, and the variable that holds it."""
+    """A Slice module: Ice's name for it, and the variable that holds it."""
 
     name: str
     variable: str
 
 
 class View(msgspec.Struct, frozen=True):
-    """What the templates show: each file is about the same few things.
+    """What the templates show. All files of a component use the same view.
 
     `files` are literals of Python; `has_behavior` says that CommonBehavior's Slice is ours, not the user's; `stage`,
-    `window`, `qt_base`, `sequences` and `spread` are for components in Qt's event loop; `imports` names the modules
-    that the file at hand uses.
+    `window`, `qt_base`, `sequences` and `spread` are for components in Qt's event loop; `imports` are the modules that
+    the rendered file uses.
     """
 
     source: str
@@ -63,12 +64,7 @@ class View(msgspec.Struct, frozen=True):
     behavior: str
     has_behavior: bool
     stubs: list[ModuleStub]
-    implements: list[ServedView]
-    subscribes: list[ServedView]
-    served: list[ServedView]
-    requires: list[AccessorView]
-    publishes: list[AccessorView]
-    accessors: list[AccessorView]
+    ports: Ports
     stage: str
     window: str
     qt_base: str
@@ -80,17 +76,21 @@ class View(msgspec.Struct, frozen=True):
 
 
 def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
-    """The component's files but for `slice/`, `etc/` and the run time."""
+    """The files of a component, except `slice/`, `etc/` and the run time."""
     view = _view(component, layout)
-    methods = [method for port in view.served for method in port.new_methods]
-    proxies = [port.proxy for port in view.accessors]
+    methods = [method for port in view.ports.services for method in port.new_methods]
+    proxies = [port.proxy for port in view.ports.accessors]
     signatures = [method.signature for method in methods]
-    table = [view.behavior + ".", *proxies, *(port.interface for port in view.served)]
-    table += [method.throws for port in view.implements for method in port.methods]
+    table = [view.behavior + ".", *proxies, *(port.interface for port in view.ports.services)]
+    table += [method.throws for port in view.ports.implements for method in port.methods]
     stubs = [*signatures, *(method.value for method in methods)]
     return [
         FilePlan("generated/__init__.py", _rendered("__init__.py", view)),
-        *(_machine().files(component.machine, component.component.name) if component.machine else []),
+        *(
+            LANGUAGE.part("statemachine").files(component.machine, component.component.name)
+            if component.machine
+            else []
+        ),
         FilePlan("generated/interfaces.py", _rendered("interfaces.py", view)),
         FilePlan("generated/interfaces.pyi", _rendered("interfaces.pyi", view)),
         parameters.plan(component),
@@ -108,17 +108,11 @@ def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
     ]
 
 
-_SCRIPTING = "machine/scripting.py"  # it evaluates what documents say
-
-
-def _machine() -> ModuleType:
-    from robocomp_yaml.languages.python import statemachine  # with all about machines, which few have
-
-    return statemachine
+_SCRIPTING = "machine/scripting.py"  # it evaluates expressions of documents
 
 
 def _robocomp(view: View) -> list[FilePlan]:
-    """What code written for RoboComp's own tool imports, and a skeleton like its own."""
+    """The modules that code for RoboComp's own tool imports, and a skeleton as that tool writes it."""
     every = tuple(module.variable for module in view.modules)
     view = replace(view, imports=", ".join(every), spread=every)
     return [
@@ -129,22 +123,22 @@ def _robocomp(view: View) -> list[FilePlan]:
 
 
 def _rendered(template: str, view: View, code: Iterable[str] = ()) -> str:
-    """The template, importing those modules that the pieces of code name."""
+    """The rendered template, which imports the modules that the pieces of code use."""
     named = {name for piece in code for name in re.findall(r"(\w+)\.", piece)}
     imports = ", ".join(sorted(module.variable for module in view.modules if module.variable in named))
     return render(f"python/{template}.j2", replace(view, imports=imports))
 
 
 def needs(component: LinkedComponent) -> Callable[[str], bool]:
-    """Which files of the run time a component needs that stands alone."""
+    """Whether a component outside of a workspace needs a file of the run time."""
     folders = {"runtime", "slice", *windows.folders(component)}
-    left_out = set() if component.machine and _machine().scripts(component.machine) else {_SCRIPTING}
+    left_out = set() if component.machine and LANGUAGE.part("statemachine").scripts(component.machine) else {_SCRIPTING}
     return lambda path: path.partition("/")[0] in folders and path not in left_out
 
 
 def _view(linked: LinkedComponent, layout: Layout) -> View:
     component = linked.component
-    ports = Ports(linked)
+    ports = port_views(linked)
     lowered = lower(linked)
     return View(
         source=one_line(lowered.source),
@@ -158,27 +152,22 @@ def _view(linked: LinkedComponent, layout: Layout) -> View:
         period=lowered.period,
         files=[json.dumps(file, ensure_ascii=False) for file in lowered.imported],
         modules=[SliceModule(ice_name(name), module_variable(name)) for name in lowered.modules],
-        escape=any(is_forgotten(name) for name in _identifiers(linked)),
+        escape=any(name in NOT_ESCAPED for name in _identifiers(linked)),
         behavior=module_variable(BEHAVIOR),
         has_behavior=lowered.is_common,
         stubs=[stub(scope) for scope in linked.modules()],
-        implements=ports.implements,
-        subscribes=ports.subscribes,
-        served=[*ports.implements, *ports.subscribes],
-        requires=ports.requires,
-        publishes=ports.publishes,
-        accessors=[*ports.requires, *ports.publishes],
-        stage=qt.stage(linked),
+        ports=ports,
+        stage=_stage(linked),
         window=component.gui.base if component.gui else "",
-        qt_base=qt.qt_base(linked),
-        sequences=qt.sequences(linked),
-        machine=_machine().view(linked.machine) if linked.machine else None,
+        qt_base=f"QtWidgets.{component.gui.base}" if component.gui else "QtCore.QObject",
+        sequences=list(_sequences(linked)),
+        machine=LANGUAGE.part("statemachine").view(linked.machine) if linked.machine else None,
         base=_base(linked),
     )
 
 
 def _base(linked: LinkedComponent) -> str:
-    """What GenericWorker is derived from."""
+    """The base classes of GenericWorker."""
     machine = "MachineWorker" if linked.machine else ""
     window = "WindowWorker" if linked.component.gui else ""
     return ", ".join(base for base in (window, machine) if base) or "Worker"
@@ -191,3 +180,18 @@ def _identifiers(linked: LinkedComponent) -> Iterator[str]:
         for definition in scope.module.definitions:
             yield definition.name
             yield from (name.text for group in groups(definition) for name in group)
+
+
+def _stage(linked: LinkedComponent) -> str:
+    """The module with the `Stage` of the component's worker; '' for the default."""
+    if linked.component.compatibility:
+        return "generated.robocomp.stage"
+    return "generated.qt.stage" if linked.component.gui else ""
+
+
+def _sequences(linked: LinkedComponent) -> Iterator[str]:
+    """For each module with sequences: the module and the names of the sequences, as arguments."""
+    for scope in linked.modules():
+        names = [f'"{python_name(d.name)}"' for d in scope.module.definitions if isinstance(d, Sequence)]
+        if names:
+            yield ", ".join([module_variable(scope.module.name), *names])

@@ -1,6 +1,6 @@
-"""A component's ports as Python spells them: accessors, and the worker's methods with their signatures.
+"""The ports of a component in Python: accessors, and the worker's methods with their signatures.
 
-All that is here goes to the templates as it is.
+Templates show these views unchanged.
 """
 
 from __future__ import annotations
@@ -10,19 +10,19 @@ from collections.abc import Iterator, Sequence
 import msgspec
 
 from robocomp_yaml.emit.lowering import ports as lowering
-from robocomp_yaml.emit.lowering.types import found, results
+from robocomp_yaml.emit.lowering.types import results
+from robocomp_yaml.languages._shared.text import IN
+from robocomp_yaml.languages._shared.views import PortViews
 from robocomp_yaml.languages.python.names import PORTS, ice_name, module_variable, parameters
 from robocomp_yaml.languages.python.text import about, docstring, one_line, signature
 from robocomp_yaml.languages.python.types import hint, qualified, result_hint, zero
-from robocomp_yaml.link.program import LinkedComponent, LinkedModule
-from robocomp_yaml.model.interface import Method, TypeRef
-
-IN = "    "
+from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.model.interface import Method
 
 
 class MethodView(msgspec.Struct, frozen=True):
-    """A method of the worker that a servant calls; `value` is what its stub returns, '' where there is nothing;
-    `plain_signature` has no hints."""
+    """A method of the worker that a servant calls; `value` is what its stub returns, '' for nothing; `plain_signature`
+    has no type hints."""
 
     operation: str
     name: str
@@ -36,7 +36,7 @@ class MethodView(msgspec.Struct, frozen=True):
 
 
 class ServedView(msgspec.Struct, frozen=True):
-    """An implemented or subscribed port. `new_methods` are those that no earlier port has brought."""
+    """An implemented or subscribed port. `new_methods` are the methods that no earlier port has."""
 
     name: str
     identity: str
@@ -48,7 +48,7 @@ class ServedView(msgspec.Struct, frozen=True):
 
 
 class AccessorView(msgspec.Struct, frozen=True):
-    """A proxy that the worker has. `absent` and `timeout` are '' where the run time's default holds."""
+    """A proxy of the worker. `absent` and `timeout` are '' for the run time's default."""
 
     name: str
     topic: str
@@ -60,16 +60,18 @@ class AccessorView(msgspec.Struct, frozen=True):
     timeout: str = ""
 
 
-class Ports:
-    """All ports of a component, as Python has them."""
+Ports = PortViews[AccessorView, ServedView]
 
-    def __init__(self, component: LinkedComponent) -> None:
-        found = lowering.lower(component, PORTS)
-        modules = [module_variable(linked.module.name) for linked in component.modules()]
-        self.requires = [_accessor(accessor) for accessor in found.requires]
-        self.publishes = [_accessor(accessor, accessor.port.interface.name) for accessor in found.publishes]
-        self.implements = [_served(service, modules) for service in found.implements]
-        self.subscribes = [_served(service, modules) for service in found.subscribes]
+
+def port_views(component: LinkedComponent) -> Ports:
+    lowered = lowering.lower(component, PORTS)
+    modules = [module_variable(linked.module.name) for linked in component.modules()]
+    return Ports(
+        [_accessor(accessor) for accessor in lowered.requires],
+        [_accessor(accessor, accessor.port.interface.name) for accessor in lowered.publishes],
+        [_served(service, modules) for service in lowered.implements],
+        [_served(service, modules) for service in lowered.subscribes],
+    )
 
 
 def _accessor(accessor: lowering.Accessor, topic: str = "") -> AccessorView:
@@ -94,12 +96,12 @@ def _served(service: lowering.Service, modules: Sequence[str]) -> ServedView:
     return ServedView(port.name, service.identity, topic, interface, service.title, every, new)
 
 
-def _method(called: lowering.Called, modules: Sequence[str]) -> MethodView:
+def _method(called: lowering.CalledMethod, modules: Sequence[str]) -> MethodView:
     port, method, name = called.port, called.method, called.name
     scope = port.scope
     names = list(parameters((member.name for member in method.inputs), modules))
     typed = [f"{n}: {hint(member.type, scope)}" for n, member in zip(names, method.inputs, strict=True)]
-    throws = [qualified(*_home(ref, scope)) for ref in method.throws]
+    throws = [hint(ref, scope) for ref in method.throws]
     doc = method.doc or f"{port.interface.name}.{method.name}"
     details = "\n".join(_details(method, names, throws))
     return MethodView(
@@ -107,7 +109,7 @@ def _method(called: lowering.Called, modules: Sequence[str]) -> MethodView:
         name=name,
         signature=signature(name, typed, result_hint(method, scope), IN),
         plain_signature=f"def {name}({', '.join(['self', *names])}):",
-        throws=_throws(throws),
+        throws=f", throws=({', '.join(throws)}{',' * (len(throws) == 1)})" if throws else "",
         is_tuple=", is_tuple=True" if len(results(method)) > 1 else "",
         docstring=docstring(f"{doc}\n\n{details}", IN * 2),
         summary=docstring(one_line(doc.strip().partition("\n")[0]), IN * 2),
@@ -115,13 +117,8 @@ def _method(called: lowering.Called, modules: Sequence[str]) -> MethodView:
     )
 
 
-def _home(ref: TypeRef, scope: LinkedModule) -> tuple[LinkedModule, str]:
-    home, definition = found(ref, scope)
-    return home, definition.name
-
-
 def _details(method: Method, names: Sequence[str], throws: Sequence[str]) -> Iterator[str]:
-    """What the signature does not say."""
+    """What the signature does not show."""
     for name, member in zip(names, method.inputs, strict=True):
         if note := about(member):
             yield f"{name}: {note}"
@@ -133,9 +130,3 @@ def _details(method: Method, names: Sequence[str], throws: Sequence[str]) -> Ite
             yield f"{member.name}: {note}"
     if throws:
         yield f"Raises {', '.join(throws)}."
-
-
-def _throws(exceptions: Sequence[str]) -> str:
-    """The argument of the method's row in the table."""
-    inner = ", ".join(exceptions)
-    return f", throws=({inner},)" if len(exceptions) == 1 else f", throws=({inner})" if exceptions else ""

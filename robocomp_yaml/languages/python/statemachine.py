@@ -12,38 +12,24 @@ from robocomp_yaml.emit.machines import lower, views
 from robocomp_yaml.emit.machines.views import EventView, MachineView
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.languages.python.names import python_name
-from robocomp_yaml.languages.python.text import docstring, one_line
+from robocomp_yaml.languages.python.text import docstring, folded, one_line
 from robocomp_yaml.model.machine_index import MachineIndex
 from robocomp_yaml.model.statemachine import PYTHON, StateMachine
 from robocomp_yaml.transactions.plan import FilePlan
 
-WIDTH = 110
-
 
 def text(table: object, indent: str = "") -> str:
-    """A call of the table's class, without what is as by default; long ones with one argument a line."""
+    """A constructor call without arguments that have their default; a long one has a line per argument."""
+    inner = indent + "    "
     if isinstance(table, tuple):
-        return _sequence([text(item, indent + "    ") for item in table], indent)
+        return folded("(", [text(item, inner) for item in table], ",)" if len(table) == 1 else ")", indent)
     if isinstance(table, str):
         return json.dumps(table, ensure_ascii=False)
     if not is_dataclass(table):
         return repr(table)
-    name = type(table).__name__
-    given = [f for f in fields(table) if f.default is MISSING or getattr(table, f.name) != f.default]
-    inner = indent + "    "
-    parts = [f"{f.name}={text(getattr(table, f.name), inner)}" for f in given]
-    line = f"{name}({', '.join(parts)})"
-    if "\n" not in line and len(indent) + len(line) <= WIDTH:
-        return line
-    return f"{name}(\n" + "".join(f"{inner}{part},\n" for part in parts) + f"{indent})"
-
-
-def _sequence(items: list[str], indent: str) -> str:
-    line = f"({', '.join(items)}{',' if len(items) == 1 else ''})"
-    if "\n" not in line and len(indent) + len(line) <= WIDTH:
-        return line
-    inner = indent + "    "
-    return "(\n" + "".join(f"{inner}{item},\n" for item in items) + f"{indent})"
+    set_ = [f for f in fields(table) if f.default is MISSING or getattr(table, f.name) != f.default]
+    parts = [f"{f.name}={text(getattr(table, f.name), inner)}" for f in set_]
+    return folded(f"{type(table).__name__}(", parts, ")", indent)
 
 
 class TablesView(msgspec.Struct, frozen=True):
@@ -60,12 +46,12 @@ def view(machine: StateMachine) -> MachineView:
 
 
 def files(machine: StateMachine, component: str) -> list[FilePlan]:
-    """The tables of the component's machine."""
+    """The files with the tables of the component's machine."""
     return [FilePlan("generated/statemachine.py", tables(machine, component))]
 
 
 def tables(machine: StateMachine, component: str) -> str:
-    """The module that holds the tables."""
+    """The module with the tables."""
     literal = text(lower.lower(machine))
     return render(
         "python/statemachine.py.j2",
@@ -85,5 +71,5 @@ def _without_texts(literal: str) -> str:
 
 
 def scripts(machine: StateMachine) -> bool:
-    """Whether it, or a machine that it invokes, has expressions of Python."""
+    """Whether a machine, or one that it invokes, has Python expressions."""
     return machine.datamodel == PYTHON or any(map(scripts, MachineIndex(machine).invoked()))

@@ -1,4 +1,4 @@
-"""What editors and type checkers know of the Slice modules, which exist only once Ice has loaded them: a `.pyi`."""
+"""Stubs (`.pyi`) of the Slice modules, for editors and type checkers: only Ice creates the modules, at run time."""
 
 from __future__ import annotations
 
@@ -6,13 +6,12 @@ from collections.abc import Iterator, Sequence
 
 import msgspec
 
+from robocomp_yaml.languages._shared.text import IN
 from robocomp_yaml.languages.python.names import module_variable, parameters, proxy_method, python_name
 from robocomp_yaml.languages.python.text import about, docstring, signature
 from robocomp_yaml.languages.python.types import hint, qualified, result_hint
 from robocomp_yaml.link.program import Definition, LinkedModule
 from robocomp_yaml.model.interface import Constant, Enum, ExceptionType, Interface, Member, Struct
-
-IN = "    "
 
 
 class MethodStub(msgspec.Struct, frozen=True):
@@ -23,7 +22,7 @@ class MethodStub(msgspec.Struct, frozen=True):
 
 
 class ClassStub(msgspec.Struct, frozen=True):
-    """A class: `header` from its name to the colon, its attributes, and its methods."""
+    """A class: `header` from the name to the colon, attributes, and methods."""
 
     header: str
     docstring: str
@@ -32,7 +31,7 @@ class ClassStub(msgspec.Struct, frozen=True):
 
 
 class ModuleStub(msgspec.Struct, frozen=True):
-    """A Slice module, shown as a class: that is a name space, too."""
+    """A Slice module. It is shown as a class, which is a name space too."""
 
     variable: str
     docstring: str
@@ -41,7 +40,7 @@ class ModuleStub(msgspec.Struct, frozen=True):
 
 
 def stub(linked: LinkedModule) -> ModuleStub:
-    """The names of a module."""
+    """The stub of a module."""
     module = linked.module
     return ModuleStub(
         variable=module_variable(module.name),
@@ -72,7 +71,7 @@ def _classes(definition: Definition, linked: LinkedModule) -> Iterator[ClassStub
 
 
 def _record(header: str, doc: str, members: Sequence[Member], linked: LinkedModule) -> ClassStub:
-    """A struct or exception: every member may be given to its constructor, by place or by name."""
+    """A struct or exception. Its constructor accepts every member, by position or by name."""
     fields = [f"{python_name(member.name)}: {hint(member.type, linked)}" for member in members]
     notes = [f"  # {note}" if (note := about(member)) else "" for member in members]
     made = signature("__init__", [f"{field} = ..." for field in fields], "None", IN * 2)

@@ -1,8 +1,8 @@
-"""Types of the documents as Python sees them through Ice's mapping: hints, and the value that a stub returns."""
+"""Types of documents in Python, after Ice's mapping: type hints, and the value that a stub returns."""
 
 from __future__ import annotations
 
-from robocomp_yaml.emit.lowering.types import found, results
+from robocomp_yaml.emit.lowering.types import resolve, results
 from robocomp_yaml.languages.python.names import module_variable, python_name
 from robocomp_yaml.link.program import LinkedModule
 from robocomp_yaml.model.interface import Enum, Map, Method, Sequence, TypeRef
@@ -21,10 +21,10 @@ _ZEROS = {"bool": "False", "int": "0", "float": "0.0", "str": '""'}
 
 
 def hint(ref: TypeRef, scope: LinkedModule) -> str:
-    """The annotation for a value of this type, as `scope` names it."""
+    """The type hint for a value of this type, as `scope` names it."""
     if ref.is_basic:
         return _BASIC_HINTS[ref.text]
-    home, definition = found(ref, scope)
+    home, definition = resolve(ref, scope)
     match definition:
         case Sequence(element=element):
             return "bytes" if element.text == "byte" else f"list[{hint(element, home)}]"
@@ -35,16 +35,16 @@ def hint(ref: TypeRef, scope: LinkedModule) -> str:
 
 
 def result_hint(method: Method, scope: LinkedModule) -> str:
-    """The annotation for what a method gives back: several values come as a tuple."""
+    """The type hint for the result of a method: several results are a tuple."""
     types = [hint(ref, scope) for ref in results(method)]
     return "None" if not types else types[0] if len(types) == 1 else f"tuple[{', '.join(types)}]"
 
 
 def zero(ref: TypeRef, scope: LinkedModule) -> str:
-    """An expression for the plainest value: zero, empty, the first enumerator, a struct of its defaults."""
+    """An expression for the default value: zero, empty, the first enumerator, a struct of its defaults."""
     if ref.is_basic:
         return _ZEROS[_BASIC_HINTS[ref.text]]
-    home, definition = found(ref, scope)
+    home, definition = resolve(ref, scope)
     match definition:
         case Sequence(element=element):
             return 'b""' if element.text == "byte" else "[]"

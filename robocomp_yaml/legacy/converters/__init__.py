@@ -1,1 +1,1 @@
-"""One module a kind of document: `convert(reader)` makes a draft of a parsed legacy file."""
+"""The converters, a module for each format: `convert(reader)` returns the draft of a parsed legacy file."""

@@ -1,4 +1,4 @@
-"""CDSL to a CDSL document."""
+"""Convert CDSL to a CDSL document."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from lark import Token, Tree
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Related
-from robocomp_yaml.legacy.document import Doc, Entry, List, Map, Notes, Value
-from robocomp_yaml.legacy.draft import ComponentDraft, NamedMachine, Reader
+from robocomp_yaml.legacy.document import Doc, List, Map, Notes, Value
+from robocomp_yaml.legacy.draft import ComponentBuilder, ComponentDraft, Reader
 from robocomp_yaml.legacy.grammar import token, trees, words
 from robocomp_yaml.source import regular
 
@@ -19,28 +19,26 @@ LISTS = ("implements", "requires", "publishes", "subscribesto")
 
 
 def convert(reader: Reader) -> ComponentDraft | None:
-    """The document of a file's component."""
+    """Return the document of a file's component."""
     tree = reader.tree
-    return _Converter(reader).document(tree, trees(tree, "component")[0])
+    return _CdslConverter(reader).document(tree, trees(tree, "component")[0])
 
 
-class _Converter:
+class _CdslConverter(ComponentBuilder):
     def __init__(self, reader: Reader) -> None:
-        self.reader = reader
-        self.entries: dict[str, Entry] = {}
+        super().__init__(reader)
         self.seen: dict[str, Tree[Token]] = {}
-        self.machine: NamedMachine | None = None
 
     def document(self, tree: Tree[Token], component: Tree[Token]) -> ComponentDraft:
         reader, notes = self.reader, self.reader.notes(component)
         name = reader.name(component)
-        self._put("component", name, Notes(notes.head, notes.tail))
+        self.put("component", name, Notes(notes.head, notes.tail))
         doc = reader.doc(component, name)
         if doc:
-            self._put("doc", Doc(doc), Notes())
+            self.put("doc", Doc(doc))
         listed, imports = reader.imports(trees(tree, "import"))
         if listed.items:
-            self._put("imports", listed, Notes())
+            self.put("imports", listed)
         for clause in trees(component):
             if clause.data == "communications":
                 self._once(clause)
@@ -49,45 +47,35 @@ class _Converter:
                 self._once(clause)
                 CLAUSES[str(clause.data)](self, clause)
         if self._has_code_of_robocomp():
-            self._put("compatibility", "robocomp", Notes())
-        if "language" not in self.entries:
-            at = reader.span(token(component, "NAME") or component)
-            reader.diagnostics.append(codes.NO_LANGUAGE.at(at, name=name))
-        document = Map([self.entries[key] for key in reader.rules.order if key in self.entries], block=True)
+            self.put("compatibility", "robocomp")
         around = reader.placed.around
         rest = [words(node) for node in trees(tree, "lenient_rest")]
         around.foot[:0] = [*notes.foot, *rest]
-        return ComponentDraft(document, around, tuple(imports), self.machine)
+        return self.draft(token(component, "NAME") or component, imports, around)
 
     def _has_code_of_robocomp(self) -> bool:
-        """Whether the user's code beside the file was written against what RoboComp's own tool generates."""
+        """Whether the user's code was written for RoboComp's own generator."""
         folder = os.path.dirname(self.reader.source.path)
         code = self.reader.rules.code.items()
         return any(re.search(pattern, regular.text(os.path.join(folder, name)) or "") for name, pattern in code)
 
     def _once(self, clause: Tree[Token]) -> None:
-        """A clause stands at most once; of two, nobody knows which one holds."""
+        """Report a clause that occurs twice, because it is unknown which one is meant."""
         name = str(clause.data)
         if name in self.seen:
             first = Related("the first one is here", self.reader.span(self.seen[name]))
-            self.reader.diagnostics.append(
-                codes.DUPLICATE.at(self.reader.span(clause), name=self._keyword(clause), related=[first])
-            )
+            self.reader.report(codes.DUPLICATE, clause, name=self._keyword(clause), related=[first])
         self.seen.setdefault(name, clause)
 
     def _keyword(self, clause: Tree[Token]) -> str:
-        """A clause's first word, as the file spells it."""
+        """Return a clause's first word, as the file spells it."""
         return self.reader.source.text[clause.meta.start_pos : clause.meta.end_pos].split("{")[0].split()[0]
-
-    def _put(self, key: str, value: Value, notes: Notes) -> Entry:
-        self.entries[key] = Entry(key, value, notes)
-        return self.entries[key]
 
     def _key(self, clause: Tree[Token]) -> str:
         return self.reader.rules.keys[str(clause.data)]
 
     def _communications(self, clause: Tree[Token]) -> None:
-        """The lists of the block; the comments around it stand above the first and below the last of them."""
+        """Convert the lists of the block. Its own comments are written above the first and below the last list."""
         notes, listed = self.reader.notes(clause), trees(clause, *LISTS)
         for communication in listed:
             self._interfaces(communication)
@@ -101,11 +89,11 @@ class _Converter:
             self.reader.placed.around.foot += [*notes.head, *notes.tail, *notes.foot]
 
     def _interfaces(self, clause: Tree[Token]) -> None:
-        """A list with its order and its repetitions: a second entry of one interface gets a name of its own."""
+        """Convert a list with its order and repetitions: a second port of the same interface gets a new name."""
         key, notes = self._key(clause), self.reader.notes(clause)
         known = self.entries.get(key)
         if known is None:
-            known = self._put(key, List(), notes)
+            known = self.put(key, List(), notes)
         else:
             known.notes.add(notes)
         assert isinstance(known.value, List)
@@ -123,56 +111,51 @@ class _Converter:
     def language(self, clause: Tree[Token]) -> None:
         word = token(clause, "WORD")
         assert word is not None
-        self._put("language", self.reader.word("language", str(word), word), self.reader.notes(clause))
+        self.put("language", self.reader.word("language", str(word), word), self.reader.notes(clause))
 
     def gui(self, clause: Tree[Token]) -> None:
         names = [child for child in clause.children if isinstance(child, Token)]
         body = self.reader.gui([str(name) for name in names], [*names])
-        self._put("gui", body, self.reader.notes(clause))
+        self.put("gui", body, self.reader.notes(clause))
 
     def options(self, clause: Tree[Token]) -> None:
         listed = List()
         for option in trees(clause, "option"):
             listed.put(self.reader.name(option).lower(), self.reader.notes(option))
-        self._put("options", listed, self.reader.notes(clause))
+        self.put("options", listed, self.reader.notes(clause))
 
     def statemachine(self, clause: Tree[Token]) -> None:
         literal = token(clause, "STRING")
         assert literal is not None
-        legacy = literal[1:-1].strip()
-        entry = self._put("statemachine", legacy, self.reader.notes(clause))
-        self.machine = NamedMachine(legacy, self.reader.span(literal), entry)
-        entry.value = self.machine.document
-        visual = token(clause, "VISUAL")
-        if visual is not None:
-            self._no_place(clause, "visual", "true")
+        self.put_machine(literal[1:-1].strip(), literal, self.reader.notes(clause))
+        if token(clause, "VISUAL") is not None:
+            self._keep_unknown(clause, "visual", "true")
 
     def obsolete(self, clause: Tree[Token]) -> None:
-        self._no_place(clause, str(clause.data), self.reader.name(clause))
+        self._keep_unknown(clause, str(clause.data), self.reader.name(clause))
 
-    def _no_place(self, clause: Tree[Token], name: str, value: str) -> None:
+    def _keep_unknown(self, clause: Tree[Token], name: str, value: str) -> None:
         key = self.reader.rules.keys[name]
-        notes = self.reader.notes(clause) if name != "visual" else Notes()
-        self._put(key, value, notes)
-        self.reader.diagnostics.append(codes.NO_PLACE.at(self.reader.span(clause), what=words(clause), key=key))
+        self.put(key, value, self.reader.notes(clause) if name != "visual" else None)
+        self.reader.report(codes.NO_PLACE, clause, what=words(clause), key=key)
 
     def sources(self, clause: Tree[Token]) -> None:
-        """Paths are files of the user's repository; bare words are folders of shared classes."""
+        """Convert sources: paths are files of the user's repository, words are folders of shared classes."""
         self._uses(clause, lambda item, text: ("sources", text.lstrip("/")) if token(item, "STRING") else (
             "classes", text
         ))  # fmt: skip
 
     def libraries(self, clause: Tree[Token]) -> None:
-        self._uses(clause, lambda item, text: ("libraries", Map([Entry("link", text)])))
+        self._uses(clause, lambda item, text: ("libraries", Map.of({"link": text})))
 
-    def _uses(self, clause: Tree[Token], place: Callable[[Tree[Token], str], tuple[str, Value]]) -> None:
-        """The entries of a block under `uses:`, with the comments of the block."""
-        uses = self.entries.get("uses") or self._put("uses", Map(block=True), Notes())
+    def _uses(self, clause: Tree[Token], convert_item: Callable[[Tree[Token], str], tuple[str, Value]]) -> None:
+        """Add the entries of a block to `uses:`, with the comments of the block."""
+        uses = self.entries.get("uses") or self.put("uses", Map(block=True))
         assert isinstance(uses.value, Map)
         by_key = {entry.key: entry for entry in uses.value.entries}
         entry = None
         for item in trees(clause, "item"):
-            key, value = place(item, str(item.children[0]).strip('"'))
+            key, value = convert_item(item, str(item.children[0]).strip('"'))
             entry = by_key.get(key) or by_key.setdefault(key, uses.value.put(key, List()))
             assert isinstance(entry.value, List)
             entry.value.put(value, self.reader.notes(item))
@@ -181,14 +164,14 @@ class _Converter:
             uses.notes.head += notes.head
             entry.notes.tail += notes.tail
             entry.notes.foot += notes.foot
-        else:  # nothing but comments
+        else:  # the block has only comments
             self.reader.placed.around.foot += [*notes.head, *notes.tail, *notes.foot]
         if not uses.value.entries:
             del self.entries["uses"]
 
 
-CLAUSES: dict[str, Callable[[_Converter, Tree[Token]], None]] = {
-    "language": _Converter.language, "gui": _Converter.gui, "options": _Converter.options,
-    "statemachine": _Converter.statemachine, "useqt": _Converter.obsolete, "worker": _Converter.obsolete,
-    "robocompclasses": _Converter.sources, "robocompmodules": _Converter.libraries,
+CLAUSES: dict[str, Callable[[_CdslConverter, Tree[Token]], None]] = {
+    "language": _CdslConverter.language, "gui": _CdslConverter.gui, "options": _CdslConverter.options,
+    "statemachine": _CdslConverter.statemachine, "useqt": _CdslConverter.obsolete, "worker": _CdslConverter.obsolete,
+    "robocompclasses": _CdslConverter.sources, "robocompmodules": _CdslConverter.libraries,
 }  # fmt: skip

@@ -1,4 +1,4 @@
-"""Flat configs to settings; they become documents together with the other configs of their component."""
+"""Convert flat configs to settings. The configs of a component become documents together."""
 
 from __future__ import annotations
 
@@ -6,20 +6,11 @@ import re
 
 from lark import Token, Tree
 
-from robocomp_yaml.diag.codes import migration as codes
-from robocomp_yaml.legacy import flat
+from robocomp_yaml.legacy import grammar
 from robocomp_yaml.legacy.document import Notes
 from robocomp_yaml.legacy.draft import ConfigDraft, Reader
-from robocomp_yaml.legacy.settings.entries import (
-    CLASSIC,
-    FLAT_TOML,
-    STRING,
-    Leaf,
-    Setting,
-    Settings,
-    guess,
-    settle_head,
-)
+from robocomp_yaml.legacy.settings import entries
+from robocomp_yaml.legacy.settings.entries import CLASSIC, FLAT_TOML, ConfigSettings, Leaf, Setting
 from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source import properties
 
@@ -29,13 +20,13 @@ _PROTECTED = re.compile(r'\s*"(?P<value>[^"]*#[^"]*)"\s*(?:#(?P<comment>.*))?$')
 
 
 def convert(reader: Reader) -> ConfigDraft | None:
-    """The settings of a file. Lines that set nothing stay as comments above the next setting."""
+    """Return the settings of a file. Lines that set nothing become comments above the next setting."""
     tree = reader.tree
-    lines = flat.lines(tree)
+    lines = [line for line in tree.children if isinstance(line, grammar.LineTree)]
     last = properties.last(line.entry for line in lines if line.entry is not None)
     dialect = _dialect(reader, lines)
-    found = Settings(dialect)
-    around, waiting = reader.placed.around, list[str]()
+    settings = ConfigSettings(dialect)
+    around, pending = reader.placed.around, list[str]()
     for node in lines:
         entry, notes = node.entry, reader.notes(node)
         protected = _protected(node.rest) if dialect == FLAT_TOML and entry is not None else None
@@ -44,23 +35,22 @@ def convert(reader: Reader) -> ConfigDraft | None:
         elif not entry.value and protected is None:
             reader.repaired("empty", node, entry.key)
         elif reason := properties.unwritable(entry.key, entry.value) or _too_long(entry.key):
-            what = reader.rules.losses["unwritable"].format(text=entry.key, reason=reason)
-            reader.diagnostics.append(codes.LOST.at(reader.span(node), what=what))
+            reader.lost("unwritable", node, entry.key, reason=reason)
         elif entry.key in last and last[entry.key].line > entry.line:
             reader.repaired("overridden", node, entry.key)
         elif entry.key in last or protected is not None:
-            if waiting:
-                notes.head[:0] = [line or "" for line in waiting]
-                waiting.clear()
+            if pending:
+                notes.head[:0] = [line or "" for line in pending]
+                pending.clear()
             setting = _setting(reader, node, entry, notes, dialect, protected)
-            found.settings.append(setting)
+            settings.settings.append(setting)
             continue
         else:
             reader.repaired("overridden", node, entry.key)
-        waiting += [*notes.head, *_as_comment(reader, node, notes)]
-    around.foot[:0] = waiting
-    settle_head(found, around)
-    return ConfigDraft(found, around)
+        pending += [*notes.head, *_as_comment(reader, node, notes)]
+    around.foot[:0] = pending
+    entries.assign_head_comments(settings, around)
+    return ConfigDraft(settings, around)
 
 
 def _too_long(key: str) -> str:
@@ -68,8 +58,8 @@ def _too_long(key: str) -> str:
     return f"its name has more than {MAX_KEY} characters" if len(key) > MAX_KEY else ""
 
 
-def _dialect(reader: Reader, lines: list[flat.LineTree]) -> str:
-    """Flat TOML writes the words the other way round: `Endpoints.Laser`."""
+def _dialect(reader: Reader, lines: list[grammar.LineTree]) -> str:
+    """Return the dialect of a config. Flat TOML reverses the parts of keys: `Endpoints.Laser`."""
     begins = reader.rules.sections["dialect"]
     keys = [line.entry.key for line in lines if line.entry is not None]
     if not any(begins.match(key) for key in keys):
@@ -79,14 +69,14 @@ def _dialect(reader: Reader, lines: list[flat.LineTree]) -> str:
 
 
 def _protected(rest: str) -> tuple[str, str] | None:
-    """Value and comment of a line whose quotes hold a '#', which flat TOML's reader takes for part of the value. `rest`
-    is what stands behind its '='."""
-    found = _PROTECTED.match(rest)
-    return (found["value"], (found["comment"] or "").strip()) if found else None
+    """Return value and comment of a line with a '#' in quotes, which is part of the value in flat TOML; None for other
+    lines. `rest` is the text after its '='."""
+    match = _PROTECTED.match(rest)
+    return (match["value"], (match["comment"] or "").strip()) if match else None
 
 
 def _setting(
-    reader: Reader, node: Tree[Token], entry: properties.Entry, notes: Notes, dialect: str,
+    reader: Reader, node: Tree[Token], entry: properties.IceProperty, notes: Notes, dialect: str,
     protected: tuple[str, str] | None,
 ) -> Setting:  # fmt: skip
     raw, text = entry.value, entry.value
@@ -99,11 +89,11 @@ def _setting(
         if text == raw and '"' in raw:
             reader.repaired("half_quoted", node, entry.key)
     is_quoted = text != raw
-    value = Leaf(text, STRING) if is_quoted else guess(text)
+    value = Leaf(text, entries.STRING) if is_quoted else entries.guess(text)
     return Setting(entry.key, tuple(entry.key.split(".")), value, reader.span(node), notes, raw, is_quoted)
 
 
 def _as_comment(reader: Reader, node: Tree[Token], notes: Notes) -> list[str]:
-    """A line that counts for nothing, as the file has it."""
+    """Return a line that sets nothing as comments, in the spelling of the file."""
     text = reader.source.text[node.meta.start_pos : node.meta.end_pos].rstrip()
     return ["  # ".join([" ".join(text.split("\t")), *notes.tail]), *notes.foot]

@@ -1,4 +1,4 @@
-"""IDSL and Slice to an IDSL document."""
+"""Convert IDSL and Slice to an IDSL document."""
 
 from __future__ import annotations
 
@@ -10,12 +10,13 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy import literals
-from robocomp_yaml.legacy.document import TRUE, Doc, List, Map, Name, Notes, Value
+from robocomp_yaml.legacy.document import TRUE, Doc, List, Map, Notes, ReferredName, Value
 from robocomp_yaml.legacy.draft import ModuleDraft, ModuleNames, Reader, Reference, plain
 from robocomp_yaml.legacy.grammar import token, trees
+from robocomp_yaml.legacy.settings.headers import free
 
 FEW = 4
-"""A struct with more members than this stands in a block."""
+"""A struct with more members is written in block style."""
 SHORT = 100
 
 SECTIONS = {
@@ -25,7 +26,7 @@ SECTIONS = {
 
 
 def convert(reader: Reader) -> ModuleDraft | None:
-    """The document of a file's one module; None where it cannot be written, with the reason."""
+    """Return the document of a file's module; None, with a diagnostic, where it has none."""
     tree = reader.tree
     modules = trees(tree, "module")
     if not modules:
@@ -33,10 +34,10 @@ def convert(reader: Reader) -> ModuleDraft | None:
         return None
     for extra in modules[1:]:
         reader.refused("refused_second_module", extra.children[0])
-    return _Converter(reader).document(tree, modules[0])
+    return _IdslConverter(reader).document(tree, modules[0])
 
 
-class _Converter:
+class _IdslConverter:
     def __init__(self, reader: Reader) -> None:
         self.reader = reader
         self.names = ModuleNames("")
@@ -68,31 +69,29 @@ class _Converter:
             section.put(name, body, _foot_inside(self.reader.notes(tree), body))
 
     def _is_new(self, seen: dict[str, Span], name: str, tree: Tree[Token]) -> bool:
-        """Whether a name is free yet; if not, that is said."""
-        at = self.reader.span(token(tree, "NAME") or tree)
+        """Whether a name is not used yet; report it otherwise."""
+        at = token(tree, "NAME") or tree
         if name in seen:
-            self.reader.diagnostics.append(
-                codes.DUPLICATE.at(at, name=name, related=[Related("the first one is here", seen[name])])
-            )
+            self.reader.report(codes.DUPLICATE, at, name=name, related=[Related("the first one is here", seen[name])])
             return False
-        seen[name] = at
+        seen[name] = self.reader.span(at)
         return True
 
     def _doc(self, into: Map, tree: Tree[Token], *names: str) -> None:
         doc = self.reader.doc(tree, *names)
         into.put_some("doc", Doc(doc) if doc else None)
 
-    def _type(self, tree: Tree[Token]) -> Name:
-        """A type as a document names it, noted as a reference."""
+    def _type(self, tree: Tree[Token]) -> ReferredName:
+        """Return a type as a document names it, and add it to the module's references."""
         qname = next((child for child in trees(tree) if child.data == "qname"), None)
-        return self._name(qname) if qname is not None else Name(str(tree.children[0]))
+        return self._name(qname) if qname is not None else ReferredName(str(tree.children[0]))
 
-    def _name(self, qname: Tree[Token]) -> Name:
+    def _name(self, qname: Tree[Token]) -> ReferredName:
         parts = [plain(child) for child in qname.children if isinstance(child, Token) and child.type == "NAME"]
         if len(parts) > 2:
             self.reader.refused("refused_scope", qname)
         module = parts[0] if len(parts) > 1 else ""
-        written = Name(".".join(parts))
+        written = ReferredName(".".join(parts))
         self.names.references.append(Reference(module, parts[-1], written, self.reader.span(qname)))
         return written
 
@@ -115,9 +114,8 @@ class _Converter:
         return body
 
     def exception(self, tree: Tree[Token], name: str) -> Map | None:
-        members = trees(tree, "member")
         body = self.struct(tree, name)
-        if not members:
+        if not trees(tree, "member"):
             body.entries.pop()
         return body if body.entries else None
 
@@ -130,7 +128,7 @@ class _Converter:
         return members
 
     def _member(self, tree: Tree[Token], name: str) -> Value:
-        """The short form, a type, unless there is more to say."""
+        """Return a member: only its type, unless it has a default or documentation."""
         parts = {str(part.data): part for part in trees(tree)}
         body = Map()
         body.put("type", self._type(parts["type"]))
@@ -181,14 +179,14 @@ class _Converter:
         body, methods = Map(block=True), Map(block=True)
         self._doc(body, tree, name, self.names.name)
         declared = trees(tree, "method")
-        taken = {self.reader.name(method).lower() for method in declared}
+        used_names = {self.reader.name(method).lower() for method in declared}
         used: set[str] = set()
         for method in declared:
             legacy = key = self.reader.name(method)
             if legacy in used:
-                key = free_name(legacy, taken)
-                at = self.reader.span(token(method, "NAME") or method)
-                self.reader.diagnostics.append(codes.OVERLOAD.at(at, name=legacy, new=key))
+                key = legacy + free(legacy.lower(), used_names)[len(legacy) :]
+                used_names.add(key.lower())
+                self.reader.report(codes.OVERLOAD, token(method, "NAME") or method, name=legacy, new=key)
             used.add(key)
             methods.put(key, self._method(method, legacy, key), self.reader.notes(method))
         body.put_some("methods", methods)
@@ -203,10 +201,10 @@ class _Converter:
         if outs != sorted(outs):
             self.reader.repaired("lenient_order", token(tree, "NAME") or tree, legacy)
         seen: dict[str, Span] = {}
-        for direction, wanted in (("in", False), ("out", True)):
-            chosen = [parameter for parameter, out in zip(parameters, outs, strict=True) if out is wanted]
-            if chosen:
-                members = self._members(chosen, seen)
+        for direction, is_out in (("in", False), ("out", True)):
+            selected = [parameter for parameter, out in zip(parameters, outs, strict=True) if out is is_out]
+            if selected:
+                members = self._members(selected, seen)
                 members.block = False
                 body.put(direction, members)
         for returned in trees(tree, "type"):
@@ -219,26 +217,17 @@ class _Converter:
 
 
 def _foot_inside(notes: Notes, body: Value) -> Notes:
-    """Comments at the end of a definition's block stand below the last thing in it."""
+    """Return the comments of a definition, with those at the end of its block moved below the block's last entry."""
     inner = body.entries[-1] if notes.foot and isinstance(body, Map) and body.entries else None
-    if inner is None or not isinstance(inner.value, Map | List):
+    if inner is None or not isinstance(inner.value, (Map, List)):
         return notes
     inner.value.block = True
     inner.notes.foot += notes.foot
     return Notes(notes.head, notes.tail)
 
 
-def free_name(name: str, taken: set[str]) -> str:
-    """`name_2`, or the next that is free; it is taken then."""
-    number = 2
-    while f"{name}_{number}".lower() in taken:
-        number += 1
-    taken.add(f"{name}_{number}".lower())
-    return f"{name}_{number}"
-
-
-BODIES: dict[str, Callable[[_Converter, Tree[Token], str], Value]] = {
-    "constant": _Converter.constant, "struct": _Converter.struct, "enum": _Converter.enum,
-    "sequence": _Converter.sequence, "dictionary": _Converter.dictionary, "exception": _Converter.exception,
-    "interface": _Converter.interface,
+BODIES: dict[str, Callable[[_IdslConverter, Tree[Token], str], Value]] = {
+    "constant": _IdslConverter.constant, "struct": _IdslConverter.struct, "enum": _IdslConverter.enum,
+    "sequence": _IdslConverter.sequence, "dictionary": _IdslConverter.dictionary, "exception": _IdslConverter.exception,
+    "interface": _IdslConverter.interface,
 }  # fmt: skip

@@ -1,4 +1,4 @@
-"""JSON of a CDSL to a CDSL document."""
+"""Convert JSON of a CDSL to a CDSL document."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from lark import Token, Tree
 
 from robocomp_yaml.diag.codes import migration as codes
-from robocomp_yaml.legacy.document import Entry, List, Map, Notes, Value
-from robocomp_yaml.legacy.draft import ComponentDraft, ImportDraft, NamedMachine, Reader, base_name
+from robocomp_yaml.legacy.document import List, Map, Notes
+from robocomp_yaml.legacy.draft import ComponentBuilder, ComponentDraft, ImportDraft, Reader, base_name
 from robocomp_yaml.legacy.grammar import token, trees
 
 _LISTS = {"implements": "implements", "requires": "requires", "publishes": "publishes", "subscribesto": "subscribes"}
@@ -20,24 +20,23 @@ def convert(reader: Reader) -> ComponentDraft | None:
     tree = reader.tree
     top = trees(tree)
     if not top or top[0].data != "object":
-        reader.diagnostics.append(codes.SYNTAX.at(reader.source.span(0, 1), problem="this is no JSON object", hint=""))
+        at = reader.source.span(0, 1)
+        reader.diagnostics.append(codes.SYNTAX.at(at, problem="this is not a JSON object", hint=""))
         return None
-    return _Converter(reader).document(top[0])
+    return _JcdslConverter(reader).document(top[0])
 
 
-class _Converter:
+class _JcdslConverter(ComponentBuilder):
     def __init__(self, reader: Reader) -> None:
-        self.reader = reader
-        self.entries: dict[str, Entry] = {}
+        super().__init__(reader)
         self.imports: list[ImportDraft] = []
         self.options: list[str] = []
-        self.machine: NamedMachine | None = None
 
     def document(self, top: Node) -> ComponentDraft | None:
         for key, name, value in _pairs(top):
             known = name.lower()
             if known in _LISTS:
-                self.put(_LISTS[known], self.ports(value))
+                self.put_some(_LISTS[known], self.ports(value))
             elif known in ("name", "component"):
                 self.put("component", self.text(value))
             elif known in _CLAUSES:
@@ -45,37 +44,33 @@ class _Converter:
             elif known == "innermodelviewer" and _word(value) in ("true", "false", "null"):
                 self.options += ["innermodelviewer"] if _word(value) == "true" else []
             else:
-                self.no_place(key, name, value)
+                self.keep_unknown(key, name, value)
         if self.options:
             self.put("options", List.of(dict.fromkeys(self.options)))
         named = self.entries.get("component")
         if named is None or not named.value:
-            at = self.reader.span(top)
-            self.reader.diagnostics.append(codes.SYNTAX.at(at, problem='the component has no "name"', hint=""))
+            self.reader.report(codes.SYNTAX, top, problem='the component has no "name"', hint="")
             return None
-        if "language" not in self.entries:
-            self.reader.diagnostics.append(codes.NO_LANGUAGE.at(self.reader.span(top), name=named.value))
-        order = [*self.reader.rules.order, *(key for key in self.entries if key not in self.reader.rules.order)]
-        entries = [self.entries[key] for key in order if key in self.entries]
-        return ComponentDraft(Map(entries, block=True), Notes(), tuple(self.imports), self.machine)
+        return self.draft(top, self.imports, Notes())
 
-    def put(self, key: str, value: Value) -> None:
-        if not (isinstance(value, List) and not value.items):
-            self.entries[key] = Entry(key, value)
+    def put_some(self, key: str, listed: List) -> None:
+        if listed.items:
+            self.put(key, listed)
 
     def text(self, node: Node) -> str:
-        """A text; something else is an error."""
+        """Return a text; report another type."""
         if node.data == "text":
             return _text(node)
-        self.reader.diagnostics.append(codes.SYNTAX.at(self.reader.span(node), problem="here stands a text", hint=""))
+        self.reader.report(codes.SYNTAX, node, problem="expected a text", hint="")
         return ""
 
     def texts(self, node: Node) -> list[str]:
-        """One text, or several."""
+        """Return the texts of a node: one, or the items of an array."""
         return [self.text(item) for item in trees(node)] if node.data == "array" else [self.text(node)]
 
     def ports(self, node: Node) -> List:
-        """Interfaces: names, or pairs of a name and its middleware. A second one gets a number, as in CDSL."""
+        """Return a list of ports: names, or pairs of a name and its middleware. A second port of the same interface
+        gets a number, as in CDSL."""
         listed, used = List(), set[str]()
         for item in trees(node) if node.data == "array" else [node]:
             parts = self.texts(item)
@@ -94,18 +89,18 @@ class _Converter:
             path = self.text(item)
             if path and not any(known.stem == base_name(path) for known in self.imports):
                 self.imports.append(ImportDraft(path, self.reader.span(item), listed.put(base_name(path))))
-        self.put("imports", listed)
+        self.put_some("imports", listed)
 
     def language(self, node: Node) -> None:
         name = node
         if node.data == "object":
-            found = {name.lower(): value for _, name, value in _pairs(node)}
+            values = {name.lower(): value for _, name, value in _pairs(node)}
             for key, spelled, value in _pairs(node):
                 if spelled.lower() != "name":
-                    self.no_place(key, f"language-{spelled}", value)
-            if "name" not in found:
+                    self.keep_unknown(key, f"language-{spelled}", value)
+            if "name" not in values:
                 return
-            name = found["name"]
+            name = values["name"]
         self.put("language", self.reader.word("language", self.text(name), name))
 
     def gui(self, node: Node) -> None:
@@ -120,29 +115,25 @@ class _Converter:
 
     def statemachine(self, node: Node) -> None:
         parts = self.texts(node) if _word(node) != "null" else []
-        if not parts or not parts[0]:
-            return
-        self.put("statemachine", parts[0])
-        entry = self.entries["statemachine"]
-        self.machine = NamedMachine(parts[0], self.reader.span(node), entry)
-        entry.value = self.machine.document
-        if "visual" in parts[1:]:
-            self.put(self.reader.rules.keys["visual"], "true")
+        if parts and parts[0]:
+            self.put_machine(parts[0], node)
+            if "visual" in parts[1:]:
+                self.put(self.reader.rules.keys["visual"], "true")
 
-    def no_place(self, key: Node, name: str, value: Node) -> None:
-        """What CDSL documents have no place for is kept as it is."""
+    def keep_unknown(self, key: Node, name: str, value: Node) -> None:
+        """Keep an entry that CDSL documents do not have, as text, and report it."""
         kept = f"x-legacy-{name}"
         start, end = value.meta.start_pos, value.meta.end_pos
         self.put(kept, " ".join(self.reader.source.text[start:end].split()))
-        self.reader.diagnostics.append(codes.NO_PLACE.at(self.reader.span(key), what=name, key=kept))
+        self.reader.report(codes.NO_PLACE, key, what=name, key=kept)
 
 
 _CLAUSES = {
-    "imports": _Converter.import_,
-    "language": _Converter.language,
-    "gui": _Converter.gui,
-    "options": _Converter.option,
-    "statemachine": _Converter.statemachine,
+    "imports": _JcdslConverter.import_,
+    "language": _JcdslConverter.language,
+    "gui": _JcdslConverter.gui,
+    "options": _JcdslConverter.option,
+    "statemachine": _JcdslConverter.statemachine,
 }
 
 
@@ -158,10 +149,10 @@ def _text(node: Node) -> str:
         return ""
     try:
         return str(json.loads(literal))
-    except ValueError:  # an escape that JSON has not
+    except ValueError:  # an escape that is not JSON
         return literal[1:-1]
 
 
 def _word(node: Node) -> str:
-    found = token(node, "WORD") if node.data == "word" else None
-    return str(found) if found is not None else ""
+    word = token(node, "WORD") if node.data == "word" else None
+    return str(word) if word is not None else ""

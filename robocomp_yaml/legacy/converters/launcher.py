@@ -1,31 +1,29 @@
-"""A launcher's list of components to a network; it becomes a deployment once the run's components are known."""
+"""Convert a launcher's list of components to a network, which becomes a deployment when the run's components are
+known."""
 
 from __future__ import annotations
 
-import tomllib
-
 from lark import Token, Tree
 
-from robocomp_yaml.diag.codes import migration as codes
+from robocomp_yaml.legacy.converters import toml
 from robocomp_yaml.legacy.document import Notes
-from robocomp_yaml.legacy.draft import DeploymentDraft, Reader
+from robocomp_yaml.legacy.draft import DeploymentDraft, Reader, named_node
 from robocomp_yaml.legacy.grammar import trees
 from robocomp_yaml.legacy.networks import command, endpoint
-from robocomp_yaml.legacy.networks.node import NetworkDraft, Node, safe_name
-from robocomp_yaml.legacy.toml_tree import toml_tree
+from robocomp_yaml.legacy.networks.node import NetworkDraft
 
 _KEYS = {"name": "", "cwd": "cwd", "cmd": "program", "ice_name": "endpoints"}
-"""The keys of a component, and those of the document that take their comments."""
+"""The keys of a component, and the keys of the document that get their comments."""
 
 _Pairs = dict[str, tuple[str, Tree[Token]]]
 
 
 def convert(reader: Reader) -> DeploymentDraft | None:
-    tree = toml_tree(reader)
-    return None if tree is None else _Converter(reader).draft(tree)
+    tree = toml.toml_tree(reader)
+    return None if tree is None else _LauncherConverter(reader).draft(tree)
 
 
-class _Converter:
+class _LauncherConverter:
     def __init__(self, reader: Reader) -> None:
         self.reader = reader
         self.network = NetworkDraft()
@@ -40,11 +38,11 @@ class _Converter:
                 is_foreign = node.data == "table" or _key(node) not in ("component", "components")
                 head, pairs = None if is_foreign else node, {}
                 if is_foreign:
-                    self.refused("foreign", node, f"[{_key(node)}]")
+                    self.reader.refused("foreign", node, f"[{_key(node)}]")
             elif is_foreign:
-                continue  # its table has been told
+                continue  # its table is reported
             elif head is None or _key(node) not in _KEYS:
-                self.refused("foreign", node, _key(node))
+                self.reader.refused("foreign", node, _key(node))
             else:
                 pairs[_key(node)] = (self.text(node), node)
         self.component(head, pairs)
@@ -56,17 +54,8 @@ class _Converter:
         texts = {key: text for key, (text, _) in pairs.items()}
         name = texts.get("name", "")
         at = pairs["name"][1] if "name" in pairs else head
-        if not name.strip():
-            self.refused("unnamed", at)
-        taken = [node.name for node in self.network.nodes]
-        node = Node(name, safe_name(name, taken), self.reader.span(at), notes=self.reader.notes(head))
-        if any(name == known.alias for known in self.network.nodes):
-            self.reader.diagnostics.append(codes.DUPLICATE.at(node.span, name=name))
-        elif node.name != name and name.strip():
-            what = self.reader.rules.repairs["name"].format(text=name, name=node.name)
-            self.reader.diagnostics.append(codes.REPAIRED.at(node.span, what=what))
-        for key, (_, pair) in pairs.items():
-            self.comments(self.reader.notes(pair), node.by_key.setdefault(_KEYS[key], Notes()))
+        node = named_node(self.reader, self.network, name, at, self.reader.notes(head), at)
+        node.by_key = {_KEYS[key]: self.reader.notes(pair) for key, (_, pair) in pairs.items()}
         node.notes.add(node.by_key.pop("", Notes()))
         node.command = command.parse(texts.get("cmd", ""), texts.get("cwd", ""))
         node.endpoint = endpoint.parse(texts.get("ice_name", ""))
@@ -76,25 +65,15 @@ class _Converter:
                 node.extra.put("endpoint", texts["ice_name"])
         if node.endpoint is not None:
             node.interface = node.endpoint.identity
-        self.network.nodes.append(node)
 
     def text(self, pair: Tree[Token]) -> str:
         value = trees(pair)[1]
         if value.data != "text":
-            self.refused("no_text", pair, _key(pair))
+            self.reader.refused("no_text", pair, _key(pair))
             return ""
-        return str(tomllib.loads(f"x = {value.children[0]}")["x"])
-
-    def comments(self, notes: Notes, other: Notes) -> None:
-        other.head += notes.head
-        other.tail += notes.tail
-        other.foot += notes.foot
-
-    def refused(self, refusal: str, node: Tree[Token], text: str = "") -> None:
-        reason = self.reader.rules.refusals[refusal].format(text=text)
-        self.reader.diagnostics.append(codes.REFUSED.at(self.reader.span(node), reason=reason))
+        return toml.text(str(value.children[0]))
 
 
 def _key(node: Tree[Token]) -> str:
-    """The key of a pair or a table, as it is spelled."""
+    """Return the key of a pair or a table, as it is spelled."""
     return ".".join(str(part) for part in trees(node, "key")[0].children)

@@ -1,4 +1,4 @@
-"""The values of 2011 to a values document, of the PDSL that they import."""
+"""Convert the values of 2011 to a values document. Its component is the PDSL that they import."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def convert(reader: Reader) -> ValuesDraft | None:
             reader.repaired("repeated", node, name)
             continue
         seen.add(name)
-        parameters.put(name, value("", literal(node)), reader.notes(node))
+        parameters.put(name, value(literal(node)), reader.notes(node))
     document.put_some("parameters", parameters)
     reader.placed.around.foot[:0] = notes.foot
     return ValuesDraft(document, reader.placed.around)

@@ -1,4 +1,4 @@
-"""The PDSL of 2011 to a PDSL document."""
+"""Convert the PDSL of 2011 to a PDSL document."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def convert(reader: Reader) -> ParametersDraft | None:
     document, parameters = Map(block=True), Map(block=True)
     document.put("component", reader.name(component), Notes(notes.head, notes.tail))
     seen: set[str] = set()
-    told = False
+    has_flag = False
     for node in trees(component, "parameter"):
         name = reader.name(node)
         if name in seen:
@@ -28,13 +28,12 @@ def convert(reader: Reader) -> ParametersDraft | None:
             continue
         seen.add(name)
         body = _parameter(reader, node)
-        flag = next((token(found, "FLAG") for found in trees(node, "flag")), None)
+        flag = next((token(each, "FLAG") for each in trees(node, "flag")), None)
         if flag == "T":
             body.put("editable", TRUE)
-            if not told:
-                what = reader.rules.repairs["flag"]
-                reader.diagnostics.append(codes.GUESSED.at(reader.span(flag), name=reader.name(component), what=what))
-            told = True
+            if not has_flag:
+                reader.report(codes.GUESSED, flag, name=reader.name(component), what=reader.rules.repairs["flag"])
+            has_flag = True
         parameters.put(name, body, reader.notes(node))
     document.put("parameters", parameters)
     reader.placed.around.foot[:0] = notes.foot
@@ -45,12 +44,12 @@ def _parameter(reader: Reader, node: Tree[Token]) -> Map:
     kind = str(token(node, "TYPE"))
     body = Map()
     body.put("type", kind)
-    limits = [literals.value(end) for found in trees(node, "range") for end in found.children if isinstance(end, Token)]
-    if limits and kind in ("int", "float", "double"):
-        body.put("range", List.of(limits))
+    ends = [end for limit in trees(node, "range") for end in limit.children if isinstance(end, Token)]
+    limits = [literals.value(end) for end in ends if kind in ("int", "float", "double")]
+    body.put_some("range", List.of(limits))
     default = literal(node)
-    if fits(kind, default) and _inside(default, limits if kind in ("int", "float", "double") else []):
-        body.put("default", value(kind, default))
+    if _fits(kind, default) and _inside(default, limits):
+        body.put("default", value(default))
     else:
         reader.repaired("default", default, str(default))
     return body
@@ -60,7 +59,7 @@ def literal(node: Tree[Token]) -> Token:
     return next(child for child in node.children if isinstance(child, Token) and child.type in LITERALS)
 
 
-def fits(kind: str, default: Token) -> bool:
+def _fits(kind: str, default: Token) -> bool:
     if kind == "string":
         return default.type == "STRING"
     if kind == "bool":
@@ -68,10 +67,8 @@ def fits(kind: str, default: Token) -> bool:
     return default.type == "NUMBER" and (kind != "int" or float(default).is_integer())
 
 
-def value(kind: str, default: Token) -> Value:
-    if default.type == "BOOLEAN":
-        return Raw(default.lower())
-    return literals.value(default)
+def value(default: Token) -> Value:
+    return Raw(default.lower()) if default.type == "BOOLEAN" else literals.value(default)
 
 
 def _inside(default: Token, limits: list[Value]) -> bool:

@@ -1,4 +1,4 @@
-"""RCManager's XML to a network of nodes; it becomes a deployment once the run's components are known."""
+"""Convert RCManager's XML to a network, which becomes a deployment when the run's components are known."""
 
 from __future__ import annotations
 
@@ -7,18 +7,17 @@ import re
 import msgspec
 from lark import Token, Tree
 
-from robocomp_yaml.diag.codes import migration as codes
-from robocomp_yaml.legacy.document import Entry, List, Map, Notes, Raw
-from robocomp_yaml.legacy.draft import DeploymentDraft, Reader
+from robocomp_yaml.legacy.document import DocumentEntry, List, Map, Notes, Raw
+from robocomp_yaml.legacy.draft import DeploymentDraft, Reader, named_node
 from robocomp_yaml.legacy.grammar import token, trees
 from robocomp_yaml.legacy.networks import command, endpoint
-from robocomp_yaml.legacy.networks.node import NetworkDraft, Node, safe_name
+from robocomp_yaml.legacy.networks.node import NetworkDraft, NetworkNode
 
 ATTRIBUTES = {
     "workingDir": "path", "upCommand": "command", "downCommand": "command", "configFile": "path",
     "xpos": "value", "ypos": "value", "radius": "value", "color": "value",
 }  # fmt: skip
-"""The elements of a node that say one thing, by the attribute that says it."""
+"""The elements of a node with one value, and the attribute of the value."""
 
 _ENTITIES = {"lt": "<", "gt": ">", "amp": "&", "quot": '"', "apos": "'"}
 _ENTITY = re.compile(r"&(?:#x(?P<hex>[0-9a-fA-F]+);|#(?P<decimal>[0-9]+);|(?P<name>\w+);)?")
@@ -30,24 +29,24 @@ class _Element(msgspec.Struct, eq=False):
     tree: Tree[Token]
     notes: Notes
     attributes: dict[str, str] = {}
-    places: dict[str, Token] = {}
+    locations: dict[str, Token] = {}
     children: list[_Element] = []
 
     def get(self, name: str) -> str:
         return self.attributes.get(name, "")
 
-    def place(self, name: str) -> Token | Tree[Token]:
-        return self.places.get(name, self.tree)
+    def location_of(self, name: str) -> Token | Tree[Token]:
+        return self.locations.get(name, self.tree)
 
 
 def convert(reader: Reader) -> DeploymentDraft | None:
     tree = reader.tree
     if trees(tree, "refused_doctype"):
         return None
-    return _Converter(reader).draft(trees(tree, "element")[0])
+    return _RcmanagerConverter(reader).draft(trees(tree, "element")[0])
 
 
-class _Converter:
+class _RcmanagerConverter:
     def __init__(self, reader: Reader) -> None:
         self.reader = reader
 
@@ -55,68 +54,57 @@ class _Converter:
         root = self.element(tree)
         network = NetworkDraft(notes=root.notes)
         if root.name != "rcmanager":
-            self.refused("root", token(tree, "OPEN") or tree, root.name)
-        taken: set[str] = set()
+            self.reader.refused("root", token(tree, "OPEN") or tree, root.name)
         for child in root.children:
-            if child.name != "node":
-                network.extra.entries.append(Entry(child.name, self.generic(child), child.notes))
-                continue
-            node = self.node(child, network, taken)
-            taken.add(node.name)
-            network.nodes.append(node)
+            if child.name == "node":
+                self.node(child, network)
+            else:
+                network.extra.entries.append(DocumentEntry(child.name, self.generic(child), child.notes))
         for name, value in root.attributes.items():
             network.extra.put(name, exact(value))
         return DeploymentDraft(network, self.reader.placed.around)
 
     def element(self, tree: Tree[Token]) -> _Element:
-        """An element with all that is in it; what the grammar does not judge is judged here."""
+        """Return an element with its content; report what the grammar does not check."""
         begin, end = token(tree, "OPEN"), token(tree, "CLOSE")
         assert begin is not None
-        made = _Element(begin[1:], tree, self.reader.notes(tree))
-        if end is not None and end[2:-1].strip() != made.name:
-            self.refused("mismatch", end, str(end), open=made.name)
+        result = _Element(begin[1:], tree, self.reader.notes(tree))
+        if end is not None and end[2:-1].strip() != result.name:
+            self.reader.refused("mismatch", end, str(end), open=result.name)
         for attribute in trees(tree, "attribute"):
             name, value = token(attribute, "WORD"), token(attribute, "VALUE")
             assert name is not None and value is not None
-            if name in made.attributes:
-                self.refused("attribute_twice", name, name)
-            made.attributes[str(name)] = self.text(value)
-            made.places[str(name)] = value
-        made.children = [self.element(child) for child in trees(tree, "element")]
-        return made
+            if name in result.attributes:
+                self.reader.refused("attribute_twice", name, name)
+            result.attributes[str(name)] = self.text(value)
+            result.locations[str(name)] = value
+        result.children = [self.element(child) for child in trees(tree, "element")]
+        return result
 
     def text(self, value: Token) -> str:
-        """An attribute's value with its entities, and each white space a blank, as XML has it."""
+        """Return an attribute's value with its entities resolved, and white space replaced by blanks, as in XML."""
 
-        def character(found: re.Match[str]) -> str:
-            if found["name"] in _ENTITIES:
-                return _ENTITIES[found["name"]]
-            if found["hex"] or found["decimal"]:
-                number = int(found["hex"], 16) if found["hex"] else int(found["decimal"])
+        def character(match: re.Match[str]) -> str:
+            if match["name"] in _ENTITIES:
+                return _ENTITIES[match["name"]]
+            if match["hex"] or match["decimal"]:
+                number = int(match["hex"], 16) if match["hex"] else int(match["decimal"])
                 if 0x20 <= number < 0xD800 or 0xE000 <= number < 0x110000 or number in (9, 10, 13):
                     return chr(number)
-            if found["name"] or found["hex"] or found["decimal"]:
-                self.refused("entity", value, found[0])
+            if match["name"] or match["hex"] or match["decimal"]:
+                self.reader.refused("entity", value, match[0])
                 return "x"
             self.reader.repaired("ampersand", value)
-            return found[0]
+            return match[0]
 
         return _ENTITY.sub(character, re.sub(r"[\t\n\r]", " ", value[1:-1]))
 
-    def node(self, element: _Element, network: NetworkDraft, taken: set[str]) -> Node:
+    def node(self, element: _Element, network: NetworkDraft) -> None:
         alias = element.get("alias")
-        if not alias.strip():
-            self.refused("unnamed", element.tree)
-        is_double = any(known.alias == alias for known in network.nodes)
-        if is_double:
-            at = self.reader.span(element.place("alias"))
-            self.reader.diagnostics.append(codes.DUPLICATE.at(at, name=alias))
-        node = Node(alias, safe_name(alias, taken), self.reader.span(element.place("alias")), notes=element.notes)
-        if node.name != alias and alias.strip() and not is_double:
-            what = self.reader.rules.repairs["name"].format(text=alias, name=node.name)
-            self.reader.diagnostics.append(codes.REPAIRED.at(node.span, what=what))
+        node = named_node(self.reader, network, alias, element.location_of("alias"), element.notes, element.tree)
+        if node.name != alias:
             node.extra.put("alias", exact(alias))
-        node.endpoint_span = self.reader.span(element.place("endpoint"))
+        node.endpoint_span = self.reader.span(element.location_of("endpoint"))
         node.endpoint = endpoint.parse(element.get("endpoint"))
         if "endpoint" in element.attributes:
             node.extra.put("endpoint", exact(element.get("endpoint")))
@@ -126,60 +114,54 @@ class _Converter:
             if name not in ("alias", "endpoint"):
                 node.extra.put(name, exact(value))
         self.children(element, node, network)
-        return node
 
-    def children(self, element: _Element, node: Node, network: NetworkDraft) -> None:
-        said: dict[str, _Element] = {}
+    def children(self, element: _Element, node: NetworkNode, network: NetworkDraft) -> None:
+        by_name: dict[str, _Element] = {}
         for child in element.children:
             if child.name == "dependence":
                 alias = child.get("alias")
                 if any(alias == known for known, _, _ in node.after):
                     self.reader.repaired("twice", child.tree, f"dependence {alias}")
                     continue
-                node.after.append((alias, self.reader.span(child.place("alias")), child.notes))
+                node.after.append((alias, self.reader.span(child.location_of("alias")), child.notes))
                 continue
-            if child.name in said:
-                what = self.reader.rules.losses["overridden"].format(text=child.name)
-                self.reader.diagnostics.append(codes.LOST.at(self.reader.span(said[child.name].tree), what=what))
+            if child.name in by_name:
+                self.reader.lost("overridden", by_name[child.name].tree, child.name)
                 node.extra.entries = [entry for entry in node.extra.entries if entry.key != child.name]
-            said[child.name] = child
+            by_name[child.name] = child
             node.extra.entries.append(self.extra(child))
-        folder = said["workingDir"].get("path") if "workingDir" in said else ""
-        if "upCommand" in said:
-            node.command = command.parse(said["upCommand"].get("command"), folder)
-        if "downCommand" in said and (user := _SSH.search(said["downCommand"].get("command"))):
+        folder = by_name["workingDir"].get("path") if "workingDir" in by_name else ""
+        if "upCommand" in by_name:
+            node.command = command.parse(by_name["upCommand"].get("command"), folder)
+        if "downCommand" in by_name and (user := _SSH.search(by_name["downCommand"].get("command"))):
             network.users.setdefault(user["host"], user["user"])
 
-    def extra(self, child: _Element) -> Entry:
-        """An element as RCManager's exporter finds it again: one value where it says one thing."""
+    def extra(self, child: _Element) -> DocumentEntry:
+        """Return an element as RCManager's exporter reads it: a single value, if it has only that."""
         simple = ATTRIBUTES.get(child.name)
         if simple is not None and list(child.attributes) == [simple] and not child.children:
-            return Entry(child.name, exact(child.get(simple)), child.notes)
-        return Entry(child.name, self.generic(child), child.notes)
+            return DocumentEntry(child.name, exact(child.get(simple)), child.notes)
+        return DocumentEntry(child.name, self.generic(child), child.notes)
 
     def generic(self, element: _Element) -> Map:
-        """Any element: its attributes, and the elements in it by their names, lists where there are several."""
-        made = Map()
+        """Return any element: its attributes, and its elements by name; several of one name are a list."""
+        result = Map()
         for name, value in element.attributes.items():
-            made.put(name, exact(value))
+            result.put(name, exact(value))
         for name in dict.fromkeys(child.name for child in element.children):
             same = [child for child in element.children if child.name == name]
             if name in element.attributes:
-                self.refused("collision", same[0].tree, name)
+                self.reader.refused("collision", same[0].tree, name)
             elif len(same) == 1:
-                made.entries.append(Entry(name, self.generic(same[0]), same[0].notes))
+                result.entries.append(DocumentEntry(name, self.generic(same[0]), same[0].notes))
             else:
-                made.put(name, List([Entry("", self.generic(child), child.notes) for child in same]))
-        return made
-
-    def refused(self, refusal: str, node: Tree[Token] | Token, text: str = "", **facts: str) -> None:
-        reason = self.reader.rules.refusals[refusal].format(text=text, **facts)
-        self.reader.diagnostics.append(codes.REFUSED.at(self.reader.span(node), reason=reason))
+                result.put(name, List([DocumentEntry("", self.generic(child), child.notes) for child in same]))
+        return result
 
 
 _NUMBER = re.compile(r"-?(?:0|[1-9][0-9]{0,15})(?:\.[0-9]{1,17})?")
 
 
 def exact(text: str) -> str | Raw:
-    """A plain number where it is one; everything else is text, in quotes where it has to be."""
+    """Return a plain number as a number, everything else as text."""
     return Raw(text) if _NUMBER.fullmatch(text) else text

@@ -1,6 +1,6 @@
-"""SMDSL to SCXML.
+"""Convert SMDSL to SCXML.
 
-Blocks are put together by the names of states: a block's parent may be any state of the file, in whatever order.
+Blocks are nested by the names of states: a block's parent may be any state of the file, in any order.
 """
 
 from __future__ import annotations
@@ -8,16 +8,29 @@ from __future__ import annotations
 import msgspec
 from lark import Token, Tree
 
-from robocomp_yaml.diag.codes import migration as codes
-from robocomp_yaml.digraph import reached
+from robocomp_yaml.digraph import reachable
+from robocomp_yaml.emit.xml_text import HEAD, comment, element
 from robocomp_yaml.legacy.document import Notes
 from robocomp_yaml.legacy.draft import MachineDraft, Reader
 from robocomp_yaml.legacy.grammar import token, trees
-from robocomp_yaml.legacy.scxmltext import ScxmlState, document
+
+NAMESPACE = "http://www.w3.org/2005/07/scxml"
+
+
+class ScxmlState(msgspec.Struct, eq=False):
+    """A state to write. `transitions` are the names of target states, with comments."""
+
+    name: str
+    final: bool = False
+    parallel: bool = False
+    initial: str = ""
+    states: list[ScxmlState] = []
+    transitions: list[tuple[str, Notes]] = []
+    notes: Notes = msgspec.field(default_factory=Notes)
 
 
 class _Block(msgspec.Struct, eq=False):
-    """A machine, or what stands inside of the state `name`."""
+    """A machine, or the states inside of the state `name`."""
 
     tree: Tree[Token]
     name: str
@@ -28,12 +41,11 @@ class _Block(msgspec.Struct, eq=False):
 
 
 def convert(reader: Reader) -> MachineDraft | None:
-    """The document of a file's machine."""
-    tree = reader.tree
-    return _Converter(reader).draft(tree)
+    """Return the SCXML of a file's machine."""
+    return _SmdslConverter(reader).draft(reader.tree)
 
 
-class _Converter:
+class _SmdslConverter:
     def __init__(self, reader: Reader) -> None:
         self.reader = reader
         self.known: dict[str, ScxmlState] = {}
@@ -45,21 +57,24 @@ class _Converter:
         inner = [self._block(block) for block in trees(tree, "submachine")]
         filled: set[str] = set()
         for block in inner:
-            self._place(block, filled)
-        self._circles(top, inner)
+            self._nest(block, filled)
+        self._cycles(top, inner)
         for block in (top, *inner):
             self._transitions(block)
         around = reader.placed.around
         notes = reader.notes(top.tree)
-        text = document(top.name, top.initial, top.states, Notes([*around.head, *notes.head], notes.tail, [
-            *notes.foot, *around.foot,
-        ]))  # fmt: skip
-        return MachineDraft(text)
+        attributes = {"xmlns": NAMESPACE, "version": "1.0", "name": top.name, "initial": top.initial}
+        machine = element("scxml", attributes, [line for state in top.states for line in _state_lines(state)])
+        above = [*comment([*around.head, *notes.head]), *comment(notes.tail)]
+        return MachineDraft(HEAD + "\n".join([*above, *machine, *comment([*notes.foot, *around.foot])]) + "\n")
 
     def _block(self, tree: Tree[Token]) -> _Block:
         block = _Block(tree, self.reader.name(tree), token(tree, "PARALLEL") is not None)
         for clause in trees(tree, "initial_state", "end_state"):
-            self._end(block, clause)
+            which = "initial" if clause.data == "initial_state" else "final"
+            if getattr(block, which):
+                self._refused("refused_two", clause, str(clause.data))
+            setattr(block, which, self.reader.name(trees(clause, "name")[0]))
         listed: dict[str, Tree[Token]] = {}
         for clause in trees(tree, "states"):
             self._comments_to(self.reader.notes(clause), self.reader.notes(tree))
@@ -92,13 +107,6 @@ class _Converter:
             block.initial = ""
         return block
 
-    def _end(self, block: _Block, clause: Tree[Token]) -> None:
-        name = self.reader.name(trees(clause, "name")[0])
-        which = "initial" if clause.data == "initial_state" else "final"
-        if getattr(block, which):
-            self._refused("refused_two", clause, str(clause.data))
-        setattr(block, which, name)
-
     def _declare(self, block: _Block, name: str, item: Tree[Token]) -> None:
         if name in self.known:
             self._refused("refused_twice", item, name)
@@ -107,7 +115,7 @@ class _Converter:
         self.known[name] = state
         block.states.append(state)
 
-    def _place(self, block: _Block, filled: set[str]) -> None:
+    def _nest(self, block: _Block, filled: set[str]) -> None:
         parent = self.known.get(block.name)
         if parent is None:
             self._refused("refused_parent", block.tree, block.name)
@@ -120,9 +128,9 @@ class _Converter:
             parent.states, parent.initial, parent.parallel = block.states, block.initial, block.parallel
             self._comments_to(self.reader.notes(block.tree), parent.notes)
 
-    def _circles(self, top: _Block, inner: list[_Block]) -> None:
-        """Every state is somewhere in the machine, not only in itself."""
-        placed = reached(top.states, lambda state: state.states)
+    def _cycles(self, top: _Block, inner: list[_Block]) -> None:
+        """Report states that are nested only in themselves."""
+        placed = reachable(top.states, lambda state: state.states)
         for block in inner:
             parent = self.known.get(block.name)
             if parent is not None and parent not in placed:
@@ -140,12 +148,11 @@ class _Converter:
         notes = self.reader.notes(tree)
         for target in targets:
             name = self.reader.name(target)
-            found = self._known(target)
-            if state is None or found is None:
+            target_state = self._known(target)
+            if state is None or target_state is None:
                 continue
             if state.final:
-                what = self.reader.rules.losses["lost_transition"].format(text=state.name)
-                self.reader.diagnostics.append(codes.LOST.at(self.reader.span(tree), what=what))
+                self.reader.lost("lost_transition", tree, state.name)
             elif (state.name, name) in self.joined:
                 self.reader.repaired("lenient_transition_twice", target, name)
                 state.transitions[-1][1].add(notes)
@@ -162,11 +169,21 @@ class _Converter:
         return self.known.get(name)
 
     def _comments_to(self, notes: Notes, other: Notes) -> None:
-        """Comments of what has no place of its own go to what is around it."""
+        """Move comments to another construct."""
         other.head += [*notes.head, *notes.tail]
         other.foot += notes.foot
 
     def _refused(self, refusal: str, at: Tree[Token], text: str) -> None:
-        place = token(at, "NAME") or at
-        reason = self.reader.rules.refusals[refusal].format(text=text)
-        self.reader.diagnostics.append(codes.REFUSED.at(self.reader.span(place), reason=reason))
+        self.reader.refused(refusal, token(at, "NAME") or at, text)
+
+
+def _state_lines(state: ScxmlState) -> list[str]:
+    name = "final" if state.final else "parallel" if state.parallel else "state"
+    attributes = {"id": state.name, **({"initial": state.initial} if state.initial else {})}
+    inside: list[str] = []
+    for target, notes in state.transitions:
+        transition = {"event": f"t_{state.name}_to_{target}", "target": target}
+        inside += [*comment([*notes.head, *notes.tail]), *element("transition", transition), *comment(notes.foot)]
+    inside += [line for child in state.states for line in _state_lines(child)]
+    inside += comment(state.notes.foot)
+    return [*comment([*state.notes.head, *state.notes.tail]), *element(name, attributes, inside)]

@@ -1,4 +1,4 @@
-"""TOML configs to settings; they become documents together with the other configs of their component."""
+"""Convert TOML configs to settings. The configs of a component become documents together."""
 
 from __future__ import annotations
 
@@ -6,28 +6,39 @@ import tomllib
 
 from lark import Token, Tree
 
+from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.legacy.document import Notes
 from robocomp_yaml.legacy.draft import ConfigDraft, Reader
 from robocomp_yaml.legacy.grammar import trees
 from robocomp_yaml.legacy.settings import entries
-from robocomp_yaml.legacy.settings.entries import BOOL, STRING, TOML, Item, Leaf, Setting, Settings
-from robocomp_yaml.legacy.toml_tree import toml_tree
+from robocomp_yaml.legacy.settings.entries import BOOL, STRING, TOML, ConfigSettings, Item, Leaf, Setting
 
 _Path = tuple[str, ...]
 
 
 def convert(reader: Reader) -> ConfigDraft | None:
-    """The settings of a file, by their full paths."""
+    """Return the settings of a file, by their full paths."""
     tree = toml_tree(reader)
-    return None if tree is None else _Converter(reader).draft(tree)
+    return None if tree is None else _TomlConverter(reader).draft(tree)
 
 
-class _Converter:
+def toml_tree(reader: Reader) -> Tree[Token] | None:
+    """Return the tree of a file; None, with a diagnostic, where it is not valid TOML."""
+    try:
+        tomllib.loads(reader.source.text)  # the grammar does not check all: repeated keys, for example
+    except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
+        at = reader.source.span(0, 1)
+        reader.diagnostics.append(codes.SYNTAX.at(at, problem=f"this is not valid TOML: {error}", hint=""))
+        return None
+    return reader.tree
+
+
+class _TomlConverter:
     def __init__(self, reader: Reader) -> None:
         self.reader = reader
-        self.found = Settings(TOML)
+        self.settings = ConfigSettings(TOML)
         self.arrays: dict[_Path, Setting] = {}
-        self.waiting: list[str] = []
+        self.pending: list[str] = []
 
     def draft(self, tree: Tree[Token]) -> ConfigDraft:
         table: _Path = ()
@@ -36,42 +47,42 @@ class _Converter:
             if node.data in ("table", "tables"):
                 table, row = self.path(trees(node, "key")[0]), None
                 notes = self.reader.notes(node)
-                self.waiting += [*notes.head, *notes.tail, *notes.foot]
+                self.pending += [*notes.head, *notes.tail, *notes.foot]
                 if node.data == "tables":
                     row = self.row(node, table)
                 continue
             path = self.path(trees(node, "key")[0])
             notes = self.reader.notes(node)
-            if self.waiting:
-                notes.head[:0], self.waiting = self.waiting, []
+            if self.pending:
+                notes.head[:0], self.pending = self.pending, []
             value = self.value(trees(node)[1])
             if row is not None:
                 self.put(row, path, Item(value, notes))
                 continue
             for full, leaf in self.flat((*table, *path), value):
-                self.found.settings.append(Setting(".".join(full), full, leaf, self.reader.span(node), notes))
+                self.settings.settings.append(Setting(".".join(full), full, leaf, self.reader.span(node), notes))
                 notes = Notes()
-        self.reader.placed.around.foot[:0] = self.waiting
-        entries.settle_head(self.found, self.reader.placed.around)
-        return ConfigDraft(self.found, self.reader.placed.around)
+        self.reader.placed.around.foot[:0] = self.pending
+        entries.assign_head_comments(self.settings, self.reader.placed.around)
+        return ConfigDraft(self.settings, self.reader.placed.around)
 
     def flat(self, path: _Path, value: entries.Tree) -> list[tuple[_Path, entries.Tree]]:
-        """An inline table is as good as a table."""
+        """Return the plain values and lists of a value: an inline table is equivalent to a table."""
         if not isinstance(value, dict):
             return [(path, value)]
-        return [found for name, item in value.items() for found in self.flat((*path, name), item.value)]
+        return [leaf for name, item in value.items() for leaf in self.flat((*path, name), item.value)]
 
     def row(self, node: Tree[Token], path: _Path) -> dict[str, Item]:
-        """The next table of an array of tables."""
+        """Add a table to an array of tables, and return it."""
         setting = self.arrays.get(path)
         if setting is None:
             setting = Setting(".".join(path), path, [], self.reader.span(node), Notes())
             self.arrays[path] = setting
-            self.found.settings.append(setting)
+            self.settings.settings.append(setting)
         body: dict[str, Item] = {}
         assert isinstance(setting.value, list)
-        setting.value.append(Item(body, Notes(head=self.waiting)))
-        self.waiting = []
+        setting.value.append(Item(body, Notes(head=self.pending)))
+        self.pending = []
         return body
 
     def put(self, row: dict[str, Item], path: _Path, item: Item) -> None:
@@ -82,7 +93,7 @@ class _Converter:
         row[path[-1]] = item
 
     def path(self, key: Tree[Token]) -> _Path:
-        return tuple(_text(str(part)) if part.type == "QUOTED_KEY" else str(part)
+        return tuple(text(str(part)) if part.type == "QUOTED_KEY" else str(part)
                      for part in key.children if isinstance(part, Token))  # fmt: skip
 
     def value(self, node: Tree[Token]) -> entries.Tree:
@@ -96,7 +107,7 @@ class _Converter:
         lexeme = str(node.children[0])
         match str(node.data):
             case "text":
-                return Leaf(_text(lexeme), STRING)
+                return Leaf(text(lexeme), STRING)
             case "boolean":
                 return Leaf(lexeme, BOOL)
             case "number":
@@ -106,12 +117,13 @@ class _Converter:
                 return Leaf(lexeme, STRING)
 
 
-def _text(lexeme: str) -> str:
+def text(lexeme: str) -> str:
+    """Return the value of a text in quotes."""
     return str(tomllib.loads(f"x = {lexeme}")["x"])
 
 
 def _number(lexeme: str) -> Leaf:
-    """As it is spelled, where YAML reads the same."""
+    """Return a number as it is spelled, where YAML reads the same number."""
     data = tomllib.loads(f"x = {lexeme}")["x"]
     if isinstance(data, int):
         return Leaf(str(data), entries.whole(data))

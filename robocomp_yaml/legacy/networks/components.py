@@ -1,4 +1,4 @@
-"""The components that a legacy network may start: those of the same run, and documents that are there already."""
+"""The components that a legacy network may start: those of the same run, and existing documents."""
 
 from __future__ import annotations
 
@@ -9,16 +9,15 @@ from collections.abc import Iterable, Mapping
 import msgspec
 
 from robocomp_yaml.legacy.convert import Converted
-from robocomp_yaml.legacy.document import List, Map, Name, Value
+from robocomp_yaml.legacy.document import data
 from robocomp_yaml.legacy.draft import ComponentDraft
-from robocomp_yaml.legacy.networks.command import Command
+from robocomp_yaml.legacy.networks.command import NodeCommand
 from robocomp_yaml.source.discover import of_kind
-from robocomp_yaml.source.text import decode, read_bytes
-from robocomp_yaml.source.tree import parse
+from robocomp_yaml.source.heading import root_of
 
 
-class Known(msgspec.Struct, frozen=True):
-    """A component's document at `path`; `implements` and `requires` are interfaces, the latter by proxy name."""
+class KnownComponent(msgspec.Struct, frozen=True):
+    """A component whose document is at `path`. `implements` are interfaces; `requires` are interfaces by proxy name."""
 
     name: str
     path: str
@@ -26,61 +25,44 @@ class Known(msgspec.Struct, frozen=True):
     requires: Mapping[str, str] = {}
 
 
-def of_run(files: Iterable[Converted], chosen: Mapping[str, str]) -> list[Known]:
-    """Those that this run writes."""
-    found = []
-    for file in files:
-        if isinstance(file.draft, ComponentDraft):
-            found.append(_known(chosen[file.path], _plain(file.draft.document)))
-    return found
+def of_run(files: Iterable[Converted], documents: Mapping[str, str]) -> list[KnownComponent]:
+    """Return the components that a run writes. `chosen` are the paths of documents by the paths of files."""
+    return [
+        _known(documents[file.path], data(file.draft.document))
+        for file in files if isinstance(file.draft, ComponentDraft)
+    ]  # fmt: skip
 
 
-def of_folder(folder: str, but: Iterable[str]) -> list[Known]:
-    """Those that stand below a folder, but for these paths."""
+def of_folder(folder: str, but: Iterable[str]) -> list[KnownComponent]:
+    """Return the components below a folder, except those at the paths `but`."""
     skipped = {os.path.normpath(path) for path in but}
     found = []
     for path in of_kind(folder, "cdsl"):
         if path not in skipped:
-            raw, _ = read_bytes(path)
-            text = decode(path, raw)[0] if raw is not None else None
-            tree, _ = parse(path, text) if text is not None else (None, [])
-            if tree is not None and isinstance(tree.data, dict):
-                found.append(_known(path, tree.data))
+            root = root_of(path)
+            if root is not None and isinstance(root.data, dict):
+                found.append(_known(path, root.data))
     return found
 
 
-def match(command: Command, known: Iterable[Known]) -> Known | None:
-    """The component that a command runs, by its name; of several, the one in the folder where it runs, else none."""
-    same = [component for component in known if component.name.lower() == command.stem.lower()]
-    if len(same) > 1:
-        place = posixpath.normpath(command.folder).split("/")
-        same = [item for item in same if os.path.basename(os.path.dirname(os.path.abspath(item.path))) in place]
-    return same[0] if len(same) == 1 else None
+def match(command: NodeCommand, known: Iterable[KnownComponent]) -> KnownComponent | None:
+    """Return the component that a command starts, by its name. Of several, it is the one in the folder of the command,
+    else None."""
+    same_name = [component for component in known if component.name.lower() == command.stem.lower()]
+    if len(same_name) > 1:
+        folders = posixpath.normpath(command.folder).split("/")
+        same_name = [each for each in same_name if os.path.abspath(each.path).split("/")[-2] in folders]
+    return same_name[0] if len(same_name) == 1 else None
 
 
-def _known(path: str, data: Mapping[str, object]) -> Known:
-    implements, requires = data.get("implements"), data.get("requires")
-    needed: dict[str, str] = {}
+def _known(path: str, content: Mapping[str, object]) -> KnownComponent:
+    implements, requires = content.get("implements"), content.get("requires")
+    required: dict[str, str] = {}
     for item in requires if isinstance(requires, list) else []:
         for name, interface in item.items() if isinstance(item, dict) else [(item, item)]:
-            told = interface.get("interface", name) if isinstance(interface, dict) else interface
-            needed[str(name)] = str(told).rpartition(".")[2]
+            interface_name = interface.get("interface", name) if isinstance(interface, dict) else interface
+            required[str(name)] = str(interface_name).rpartition(".")[2]
     served = implements if isinstance(implements, list) else []
     names = [str(next(iter(item), "")) if isinstance(item, dict) else str(item) for item in served]
-    return Known(str(data.get("component", "")), path, tuple(name.rpartition(".")[2] for name in names), needed)
-
-
-def _plain(value: Map) -> dict[str, object]:
-    return {entry.key: _data(entry.value) for entry in value.entries}
-
-
-def _data(value: Value) -> object:
-    match value:
-        case Map():
-            return _plain(value)
-        case List():
-            return [_data(item.value) for item in value.items]
-        case Name():
-            return value.text
-        case _:
-            return value
+    interfaces = tuple(name.rpartition(".")[2] for name in names)
+    return KnownComponent(str(content.get("component", "")), path, interfaces, required)

@@ -1,46 +1,70 @@
-"""A legacy network as a DDSL document: hosts, services, and what runs."""
+"""Convert a legacy network to a DDSL document: hosts, services and components."""
 
 from __future__ import annotations
 
+import os
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import msgspec
 
-from robocomp_yaml.diag.codes import managers as codes
+from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.digraph import reached
+from robocomp_yaml.digraph import reachable
 from robocomp_yaml.legacy.document import List, Map, Notes, Raw
+from robocomp_yaml.legacy.draft import DeploymentDraft
+from robocomp_yaml.legacy.ledger import LedgerEntry
 from robocomp_yaml.legacy.networks.command import LOCAL, LOOPBACK, is_config
-from robocomp_yaml.legacy.networks.components import Known, match
-from robocomp_yaml.legacy.networks.entries import COMMON, Site, component_entry, program_entry
-from robocomp_yaml.legacy.networks.node import NetworkDraft, Node, safe_name
+from robocomp_yaml.legacy.networks.components import KnownComponent, match, of_folder, of_run
+from robocomp_yaml.legacy.networks.entries import COMMON, Destination, component_entry, program_entry
+from robocomp_yaml.legacy.networks.node import NetworkDraft, NetworkNode, safe_name
+from robocomp_yaml.legacy.workspaces import Workspaces
 from robocomp_yaml.source.text import OF_NO_LINE
 
 _IP = re.compile(r"[\d.:]+")
 
 
-def build(
-    name: str, network: NetworkDraft, known: Sequence[Known], site: Site, key: str
-) -> tuple[Map, list[Diagnostic]]:
-    """The document of the network of that name, which starts some of the components known. What only an exporter needs
-    stands under `key`."""
-    builder = _Builder(name, network, known, site, key)
-    return builder.document(), builder.said
+def build_deployments(
+    accepted: Sequence[LedgerEntry], targets: Mapping[str, str], workspaces: Workspaces
+) -> dict[str, Map]:
+    """Return the document of each network among the accepted files, by the file's path."""
+    by_file: dict[str, Map] = {}
+    networks = [(entry, entry.file.draft) for entry in accepted if isinstance(entry.file.draft, DeploymentDraft)]
+    if not networks:
+        return by_file
+    migrated = of_run((entry.file for entry in accepted), targets)
+    by_real_path = {os.path.realpath(path): document for path, document in targets.items()}
+    existing: dict[str, list[KnownComponent]] = {}
+    for entry, draft in networks:
+        rules = entry.file.rules
+        assert rules is not None
+        document = targets[entry.file.path]
+        home = workspaces.of(document).root
+        if home not in existing:
+            existing[home] = of_folder(home, [known.path for known in migrated])
+        name = safe_name(os.path.basename(document).removesuffix(rules.document))
+        known = [*migrated, *existing[home]]
+        site = Destination(document, by_real_path, f"x-{rules.name}")
+        builder = _DeploymentBuilder(name, draft.network, known, site)
+        by_file[entry.file.path] = builder.document()
+        entry.diagnostics += builder.diagnostics
+    return by_file
 
 
-class _Builder(msgspec.Struct, eq=False):
+class _DeploymentBuilder(msgspec.Struct, eq=False):
+    """Builds the document of a network, which starts some of the known components. What only an exporter needs is
+    written under the key of its destination."""
+
     name: str
     network: NetworkDraft
-    known: Sequence[Known]
-    site: Site
-    key: str
-    said: list[Diagnostic] = []
-    by_alias: dict[str, Node] = {}
-    owners: dict[str, Node] = {}
-    """By the name of a node, the node whose process it is too."""
+    known: Sequence[KnownComponent]
+    site: Destination
+    diagnostics: list[Diagnostic] = []
+    by_alias: dict[str, NetworkNode] = {}
+    owners: dict[str, NetworkNode] = {}
+    """By the name of a node, the first node of the same process."""
     waits: dict[str, set[str]] = {}
-    """By the name of a process's first node, those that it waits for."""
+    """By the name of a process's first node, the names of those that it waits for."""
 
     def document(self) -> Map:
         nodes = self.network.nodes
@@ -53,38 +77,41 @@ class _Builder(msgspec.Struct, eq=False):
         self.find_waits()
         hosts = self.hosts(running)
         notes = self.network.notes
-        document, services, components = Map(block=True), Map(block=True), Map(block=True)
+        document, listed, services, components, kept = (Map(block=True) for _ in range(5))
         document.put("deployment", self.name, Notes(notes.head, notes.tail))
-        document.put_some("hosts", self.hosts_map(hosts))
-        kept = Map(block=True)
+        users = self.network.users
+        for address, name in hosts.items():
+            user = {"user": users[address]} if address in users else {}
+            listed.put(name, Map.of({"address": address, **user}))
+        document.put_some("hosts", listed)
         for node in nodes:
-            self.judge(node)
+            self.report_problems(node)
             if node not in running:
-                self.keep(kept, node)
+                self.keep_data(kept, node)
             elif node.endpoint is not None and node.endpoint.is_storm:
                 services.put(node.name, self.service(node, hosts), node.notes)
-                self.keep(kept, node)
+                self.keep_data(kept, node)
             else:
                 components.put(node.name, self.entry(node, hosts), node.notes)
         document.put_some("services", services)
         document.put("components", components)
         self.network.extra.put_some("nodes", kept)
-        document.put_some(self.key, self.network.extra)
+        document.put_some(self.site.key, self.network.extra)
         document.entries[-1].notes.foot += notes.foot
         return document
 
-    def is_started(self, node: Node) -> bool:
+    def is_started(self, node: NetworkNode) -> bool:
         if node.command is None:
-            reason = "it has no command that names a program"
+            reason = "it has no command with a program"
         elif any(map(OF_NO_LINE.search, (node.command.folder, node.command.words[0], node.command.config))):
-            reason = "a line break or another control character stands in its program, folder or configuration"
+            reason = "its program, folder or configuration contains a line break or another control character"
         else:
             return True
-        self.said.append(codes.NOT_STARTED.at(node.span, name=node.alias, reason=reason))
+        self.diagnostics.append(codes.NOT_STARTED.at(node.span, name=node.alias, reason=reason))
         return False
 
-    def find_owners(self, running: Sequence[Node]) -> None:
-        first: dict[tuple[object, ...], Node] = {}
+    def find_owners(self, running: Sequence[NetworkNode]) -> None:
+        first: dict[tuple[object, ...], NetworkNode] = {}
         for node in running:
             if node.command is None or (node.endpoint is not None and node.endpoint.is_storm):
                 continue
@@ -92,7 +119,7 @@ class _Builder(msgspec.Struct, eq=False):
             if owner is not node:
                 self.owners[node.name] = owner
                 owner.is_shared = node.is_shared = True
-                self.said.append(codes.SAME_PROCESS.at(node.span, name=node.alias, other=owner.alias))
+                self.diagnostics.append(codes.SAME_PROCESS.at(node.span, name=node.alias, other=owner.alias))
 
     def find_waits(self) -> None:
         for node in self.network.nodes:
@@ -101,91 +128,81 @@ class _Builder(msgspec.Struct, eq=False):
             names = {self.owners.get(target.name, target).name for target in targets} - {owner}
             self.waits.setdefault(owner, set()).update(names)
 
-    def hosts(self, running: Sequence[Node]) -> dict[str, str]:
-        """The name of each host by its address; none where everything runs here."""
+    def hosts(self, running: Sequence[NetworkNode]) -> dict[str, str]:
+        """Return the name of each host by its address; none where all processes run on this host."""
         addresses = dict.fromkeys(_address(node) for node in running)
         if set(addresses) <= {LOCAL}:
             return {}
         names: dict[str, str] = {}
         for address in addresses:
-            wanted = f"host{len(names) + 1}" if _IP.fullmatch(address) else address.partition(".")[0]
-            names[address] = safe_name(wanted, names.values())
+            name = f"host{len(names) + 1}" if _IP.fullmatch(address) else address.partition(".")[0]
+            names[address] = safe_name(name, names.values())
         return names
 
-    def hosts_map(self, hosts: dict[str, str]) -> Map:
-        made = Map(block=True)
-        for address, name in hosts.items():
-            host = Map()
-            host.put("address", address)
-            if address in self.network.users:
-                host.put("user", self.network.users[address])
-            made.put(name, host)
-        return made
-
-    def judge(self, node: Node) -> None:
-        """What is odd about a node, though the document can say it."""
+    def report_problems(self, node: NetworkNode) -> None:
+        """Report the problems of a node that do not prevent its conversion."""
         command, endpoint = node.command, node.endpoint
         if command is not None and command.in_shell:
-            self.said.append(codes.NEEDS_SHELL.at(node.span, name=node.alias))
+            self.diagnostics.append(codes.NEEDS_SHELL.at(node.span, name=node.alias))
         elif command is not None and len(command.words) == 1 and not command.config and is_config(command.words[0]):
-            self.said.append(codes.NO_PROGRAM.at(node.span, name=node.alias, word=command.words[0]))
+            self.diagnostics.append(codes.NO_PROGRAM.at(node.span, name=node.alias, word=command.words[0]))
         if endpoint is None:
             if node.endpoint_span.file:
                 problem = (
-                    f"the endpoint of '{node.alias}' is no address with a port, or no interface can have its name, so "
-                    "nothing says where it answers"
+                    f"the endpoint of '{node.alias}' has no address with a port, or its name cannot be an interface, "
+                    "so that its address is unknown"
                 )
-                self.said.append(codes.ODD_ENDPOINT.at(node.endpoint_span, problem=problem))
+                self.diagnostics.append(codes.ODD_ENDPOINT.at(node.endpoint_span, problem=problem))
             return
         host = LOCAL if endpoint.host in LOOPBACK else endpoint.host
         if command is not None and host and host != _address(node):
             problem = f"'{node.alias}' is started on {_address(node)}, but its endpoint is on {endpoint.host}"
-            self.said.append(codes.ODD_ENDPOINT.at(node.endpoint_span, problem=problem))
+            self.diagnostics.append(codes.ODD_ENDPOINT.at(node.endpoint_span, problem=problem))
 
-    def service(self, node: Node, hosts: dict[str, str]) -> Map:
-        storm, made = Map(), Map()
+    def service(self, node: NetworkNode, hosts: dict[str, str]) -> Map:
+        storm, result = Map(), Map()
         if hosts:
             storm.put("host", hosts[_address(node)])
         assert node.endpoint is not None
         storm.put("port", Raw(str(node.endpoint.port)))
-        made.put("icestorm", storm)
-        return made
+        result.put("icestorm", storm)
+        return result
 
-    def keep(self, kept: Map, node: Node) -> None:
-        """All that is said of a node which is no entry of `components:`."""
+    def keep_data(self, kept: Map, node: NetworkNode) -> None:
+        """Keep the data of a node that is not an entry of `components:`."""
         if node.after:
             self.keep_dependences(node)
             for _, _, notes in node.after:
                 node.extra.entries[-1].notes.add(notes)
         kept.put(node.name, node.extra, Notes() if node.command is not None else node.notes)
 
-    def entry(self, node: Node, hosts: dict[str, str]) -> Map:
+    def entry(self, node: NetworkNode, hosts: dict[str, str]) -> Map:
         owner = self.owners.get(node.name)
         if owner is not None:
             if node.after:
                 self.keep_dependences(node)
-            return program_entry(node, "", List(), self.key, process=owner.name)
+            return program_entry(node, "", List(), self.site, process=owner.name)
         assert node.command is not None
         after = self.after(node)
         host = hosts.get(_address(node), "")
         component = None if node.command.in_shell else match(node.command, self.known)
         if component is None:
-            return program_entry(node, host, after, self.key)
+            return program_entry(node, host, after, self.site)
         depends = [self.by_alias[alias] for alias, _, _ in node.after if alias in self.by_alias]
-        made, problem = component_entry(node, component, host, after, self.key, self.site, depends)
+        result, problem = component_entry(node, component, host, after, self.site, depends)
         if problem:
-            self.said.append(codes.ODD_ENDPOINT.at(node.endpoint_span, problem=problem))
-        return made
+            self.diagnostics.append(codes.ODD_ENDPOINT.at(node.endpoint_span, problem=problem))
+        return result
 
-    def after(self, node: Node) -> List:
-        """The entries that a process waits for: those of all its names, but for itself."""
+    def after(self, node: NetworkNode) -> List:
+        """Return the entries that a process waits for: those of all its nodes, except itself."""
         listed, is_plain = List(), True
-        second = [other for other in self.network.nodes if self.owners.get(other.name) is node]
-        for at in (node, *second):
+        others = [other for other in self.network.nodes if self.owners.get(other.name) is node]
+        for at in (node, *others):
             for alias, span, notes in at.after:
                 target = self.by_alias.get(alias)
                 if target is None:
-                    self.said.append(codes.DANGLING.at(span, name=at.alias, other=alias))
+                    self.diagnostics.append(codes.DANGLING.at(span, name=at.alias, other=alias))
                 if target is None or target.command is None or self.owners.get(target.name, target) is node:
                     is_plain = is_plain and at is not node
                     node.notes.add(notes)
@@ -193,26 +210,26 @@ class _Builder(msgspec.Struct, eq=False):
                 is_plain = is_plain and at is node and target.name == alias and target.name not in self.owners
                 if all(item.value != target.name for item in listed.items):
                     listed.put(target.name, notes)
-        if not is_plain or self.is_in_circle(node):
+        if not is_plain or self.is_in_cycle(node):
             self.keep_dependences(node)
         return listed
 
-    def is_in_circle(self, node: Node) -> bool:
-        """Whether it waits, by way of others, for itself: a deployment passes over one of these dependences."""
+    def is_in_cycle(self, node: NetworkNode) -> bool:
+        """Whether a node depends on itself through others. A deployment ignores one of these dependences."""
         waits = self.waits
-        return node.name in reached(waits.get(node.name, ()), lambda name: waits.get(name, ()))
+        return node.name in reachable(waits.get(node.name, ()), lambda name: waits.get(name, ()))
 
-    def keep_dependences(self, node: Node) -> None:
-        """The dependences as the file has them, where `after:` does not say the same."""
+    def keep_dependences(self, node: NetworkNode) -> None:
+        """Keep the dependences of the file where `after:` is not equivalent."""
         node.extra.put("dependence", List.of(alias for alias, _, _ in node.after))
 
 
-def _spellings(known: Sequence[Known]) -> dict[str, str]:
-    """Interfaces as components spell them, by their identities."""
+def _spellings(known: Sequence[KnownComponent]) -> dict[str, str]:
+    """Return the spelling of interfaces in components, by their identity in lower case."""
     names = [COMMON, *(name for item in known for name in (*item.implements, *item.requires.values()))]
     return {name.lower(): name for name in names}
 
 
-def _address(node: Node) -> str:
+def _address(node: NetworkNode) -> str:
     host = node.command.host if node.command is not None else LOCAL
     return LOCAL if host in LOOPBACK else host

@@ -1,4 +1,4 @@
-"""Where a node answers: an Ice proxy such as `laser:tcp -h localhost -p 10003`."""
+"""The endpoint of a node: an Ice proxy such as `laser:tcp -h localhost -p 10003`."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ _INTERFACE = re.compile(r"[_A-Za-z][A-Za-z0-9_]*(\.[A-Za-z0-9_]+)?")  # a key of
 _PROTOCOLS = frozenset(("tcp", "udp", "ssl", "default", "ws", "wss"))
 
 
-class Endpoint(msgspec.Struct, frozen=True):
-    """`options` are those but host and port, as they are spelled."""
+class NodeEndpoint(msgspec.Struct, frozen=True):
+    """An identity and its address. `options` are all but host and port, as they are spelled."""
 
     identity: str
     protocol: str
@@ -26,29 +26,28 @@ class Endpoint(msgspec.Struct, frozen=True):
 
     @property
     def text(self) -> str:
-        """What the adapter listens at: at every address of its host."""
-        more = f" {self.options}" if self.options else ""
-        return f"{self.protocol} -p {self.port}{more}"
+        """The endpoint of the adapter, which listens on all addresses of its host."""
+        return f"{self.protocol} -p {self.port} {self.options}".rstrip()
 
     @property
     def is_storm(self) -> bool:
         return self.identity == TOPIC_MANAGER
 
     def proxy(self, host: str) -> str:
-        """How others on any host find it: the spelling that needs not be kept."""
-        more = f" {self.options}" if self.options else ""
-        return f"{self.identity}:{self.protocol} -h {spelled_host(host)} -p {self.port}{more}"
+        """Return the proxy of the endpoint on a host, in the spelling that exporters write."""
+        return f"{self.identity}:{self.protocol} -h {spelled_host(host)} -p {self.port} {self.options}".rstrip()
 
 
-def parse(text: str) -> Endpoint | None:
-    """None for what is no proxy with one address, names no port, or has an identity that no interface can have."""
-    found = proxy_at(text)
-    if found is None or found.options or found.unknown or len(found.endpoints) != 1:
+def parse(text: str) -> NodeEndpoint | None:
+    """Return the endpoint of a proxy; None where it has not exactly one address, has no port, or its identity cannot
+    be an interface."""
+    proxy = proxy_at(text)
+    if proxy is None or proxy.options or proxy.unknown or len(proxy.endpoints) != 1:
         return None
-    where = found.endpoints[0]
-    is_name = found.identity == TOPIC_MANAGER or _INTERFACE.fullmatch(found.identity)
-    if not is_name or where.protocol not in _PROTOCOLS or not where.port:
+    address = proxy.endpoints[0]
+    is_name = proxy.identity == TOPIC_MANAGER or _INTERFACE.fullmatch(proxy.identity)
+    if not is_name or address.protocol not in _PROTOCOLS or not address.port:
         return None
-    if "--sourceAddress" in where.options or OF_NO_LINE.search(where.options):  # nothing that an adapter can have
+    if "--sourceAddress" in address.options or OF_NO_LINE.search(address.options):  # an adapter cannot have these
         return None
-    return Endpoint(found.identity, where.protocol, where.port, where.host, where.options)
+    return NodeEndpoint(proxy.identity, address.protocol, address.port, address.host, address.options)

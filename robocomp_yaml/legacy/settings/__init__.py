@@ -1,1 +1,1 @@
-"""Legacy configs: what their entries are, the parameters they imply, and the documents that say both."""
+"""Legacy configs: their settings, the parameters that these imply, and the documents of both."""

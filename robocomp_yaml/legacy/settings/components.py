@@ -1,94 +1,82 @@
-"""The configs of each component together: their values documents, and the PDSL that they imply."""
+"""Convert the configs of each component together: to values documents, and the PDSL that they imply."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 import msgspec
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.legacy.document import Map
 from robocomp_yaml.legacy.draft import ConfigDraft
-from robocomp_yaml.legacy.ledger import Entry
+from robocomp_yaml.legacy.ledger import LedgerEntry
 from robocomp_yaml.legacy.settings import declared
-from robocomp_yaml.legacy.settings.grouping import Component, Components, Good, first_half
+from robocomp_yaml.legacy.settings.grouping import ConfiguredComponent, ConfiguredComponents, generic_config
 from robocomp_yaml.legacy.settings.pdsl_document import pdsl_document
-from robocomp_yaml.legacy.settings.plan import Config, Guesses, Plan
+from robocomp_yaml.legacy.settings.plan import Config, Corrections, ParameterPlan
 from robocomp_yaml.legacy.settings.planning import plans
-from robocomp_yaml.legacy.settings.proof import proven
 from robocomp_yaml.legacy.settings.sorting import sort
-from robocomp_yaml.legacy.settings.values_document import Links, values_document
-from robocomp_yaml.legacy.sources import LegacyFile
+from robocomp_yaml.legacy.settings.trial import accepted_plans
+from robocomp_yaml.legacy.settings.values_document import DocumentLinks, values_document
 
 
-class Inferred(msgspec.Struct, frozen=True):
-    """A PDSL to be written, with the config whose ledger entry names it."""
+class InferredParameters(msgspec.Struct, frozen=True):
+    """A PDSL to write. `entry` is the ledger's entry of the component's first config, which reports it."""
 
     path: str
     document: Map
-    file: LegacyFile
-    entry: Entry
+    entry: LedgerEntry
 
 
-class Settled(msgspec.Struct, frozen=True):
-    """The documents of configs, by the configs' paths, and the PDSLs that they imply."""
-
-    documents: Mapping[str, Map]
-    inferred: tuple[Inferred, ...]
-
-
-def settle(
-    good: Good, chosen: Mapping[str, str], is_ours: Callable[[LegacyFile, str], bool], guesses: Guesses, *, exact: bool
-) -> Settled:
-    """`is_ours`: whether an earlier run wrote the document at a path."""
-    found = Components(good, chosen, is_ours)
-    found.declare()
+def build_config_documents(
+    accepted: Sequence[LedgerEntry], targets: Mapping[str, str], was_written: Callable[[LedgerEntry, str], bool],
+    corrections: Corrections, *, exact: bool,
+) -> tuple[dict[str, Map], list[InferredParameters]]:  # fmt: skip
+    """Return the values documents by the paths of the configs, and the PDSLs that these imply. `is_ours`: whether an
+    earlier run wrote the document at a path."""
+    components = ConfiguredComponents(accepted, targets, was_written)
+    components.declare()
     documents: dict[str, Map] = {}
-    inferred = [_settle(component, chosen, guesses, exact, documents) for component in found.all()]
-    return Settled(documents, tuple(made for made in inferred if made is not None))
+    inferred = [_build(component, targets, corrections, exact, documents) for component in components.all()]
+    return documents, [each for each in inferred if each is not None]
 
 
-def _settle(
-    component: Component, chosen: Mapping[str, str], guesses: Guesses, exact: bool, documents: dict[str, Map]
-) -> Inferred | None:
-    configs, links = list[Config](), dict[str, Links]()
-    by_path = {file.path: file for file, _ in component.configs}
-    for file, entry in component.configs:
+def _build(
+    component: ConfiguredComponent, targets: Mapping[str, str], corrections: Corrections, exact: bool,
+    documents: dict[str, Map],
+) -> InferredParameters | None:  # fmt: skip
+    configs, links = list[Config](), dict[str, DocumentLinks]()
+    entries = {entry.file.path: entry for entry in component.configs}
+    for path, entry in entries.items():
         draft, rules, source = entry.file.draft, entry.file.rules, entry.file.source
         assert isinstance(draft, ConfigDraft) and rules is not None and source is not None
-        first = first_half(file.path)
-        after = first if first in by_path else ""
-        config = Config(file.path, source, rules, sort(draft.settings, component.ports, rules))
-        configs.append(config)
-        folder = os.path.dirname(chosen[file.path]) or "."
-        links[file.path] = Links(
-            os.path.relpath(component.document or component.parameters, folder),
-            os.path.basename(file.path),
-            os.path.relpath(chosen[after], folder) if after else "",
-        )
-    planned = plans(configs, guesses)
+        first = generic_config(path)
+        configs.append(Config(path, source, rules, sort(draft.settings, component.ports, rules)))
+        folder = os.path.dirname(targets[path]) or "."
+        home = os.path.relpath(component.document or component.parameters, folder)
+        after = os.path.relpath(targets[first], folder) if first in entries else ""
+        links[path] = DocumentLinks(home, os.path.basename(path), after)
+    planned = plans(configs, corrections)
     if component.declared is not None:
         planned = declared.fitted(planned, component.declared, configs)
     else:
-        planned = proven(planned, configs, links)
-    entries = {file.path: entry for file, entry in component.configs}
+        planned = accepted_plans(planned, configs, links)
     for plan in planned:
-        _tell(plan, entries)
+        _report_guess(plan, entries)
     for config in configs:
         entries[config.name].diagnostics += config.sorted.diagnostics
         documents[config.name] = values_document(config, planned, links[config.name], exact=exact)
     if component.declared is not None:
         return None
     document = pdsl_document(os.path.basename(component.document) or component.name, planned)
-    file, entry = component.configs[0]
-    return Inferred(component.parameters, document, file, entry)
+    return InferredParameters(component.parameters, document, component.configs[0])
 
 
-def _tell(plan: Plan, entries: Mapping[str, Entry]) -> None:
-    """What was guessed, at the first line that it is about."""
+def _report_guess(plan: ParameterPlan, entries: Mapping[str, LedgerEntry]) -> None:
+    """Report what was guessed, at the first line that it concerns."""
     if plan.guessed:
-        name, given = next(iter(plan.given.items()))
-        first = min(given.settings, key=lambda setting: setting.span.line)
+        name, value = next(iter(plan.values.items()))
+        first = min(value.settings, key=lambda setting: setting.span.line)
         code = codes.UNNAMED if plan.is_unnamed else codes.GUESSED
         entries[name].diagnostics.append(code.at(first.span, what=plan.guessed, name=".".join(plan.path)))

@@ -1,51 +1,40 @@
-"""Parameters that somebody declared already: a PDSL of 2011, or a document that the user wrote."""
+"""Parameters that are declared already: by a PDSL of 2011, or by a document that the user wrote."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping, Sequence
 
-from robocomp_yaml.legacy.document import Map
-from robocomp_yaml.legacy.settings.plan import Config, Plan
-from robocomp_yaml.legacy.settings.planning import give_back
-from robocomp_yaml.legacy.settings.shapes import Scalar
+from robocomp_yaml.legacy.settings.plan import Config, ParameterPlan
+from robocomp_yaml.legacy.settings.planning import keep_as_properties
+from robocomp_yaml.legacy.settings.shapes import ScalarShape
 from robocomp_yaml.parameters.types import BASIC_TYPES
 from robocomp_yaml.source.discover import kind_of
+from robocomp_yaml.source.disk import names_in
 from robocomp_yaml.source.heading import component_in, root_of
 
 Types = dict[str, str]
-"""The types of plain parameters by their paths."""
+"""The types of plain parameters by path."""
 
 
-def of_draft(document: Map) -> Types:
-    """The parameters of a PDSL of 2011."""
-    listed = next((entry.value for entry in document.entries if entry.key == "parameters"), None)
-    found: Types = {}
-    for entry in listed.entries if isinstance(listed, Map) else ():
-        if isinstance(entry.value, Map):
-            found[entry.key] = str(entry.value.entries[0].value)
-    return found
+def types(document: object) -> Types:
+    """Return the types of the plain parameters of a PDSL document, those in groups included. `document` is its data."""
+    return dict(_plain(document.get("parameters"), "")) if isinstance(document, dict) else {}
 
 
 def beside(component: str) -> Iterator[str]:
-    """The PDSL documents in the folder of a component's document that name it as theirs."""
+    """Yield the PDSL documents in a component's folder that refer to the component."""
     folder = os.path.dirname(component)
-    try:
-        names = sorted(os.listdir(folder or "."))
-    except OSError:
-        return
-    for path in (os.path.join(folder, name) for name in names if kind_of(name) == "pdsl"):
-        said = component_in(path)
-        if said and os.path.realpath(os.path.join(folder, said)) == os.path.realpath(component):
+    for path in (os.path.join(folder, name) for name in names_in(folder) if kind_of(name) == "pdsl"):
+        component_path = component_in(path)
+        if component_path and os.path.realpath(os.path.join(folder, component_path)) == os.path.realpath(component):
             yield path
 
 
 def of_document(path: str) -> Types:
-    """The plain parameters of a PDSL document, groups opened."""
+    """Return the types of the plain parameters of the PDSL document at a path."""
     root = root_of(path)
-    data = root.data if root is not None else None
-    parameters = data.get("parameters") if isinstance(data, dict) else None
-    return dict(_plain(parameters, ""))
+    return types(root.data) if root is not None else {}
 
 
 def _plain(members: object, prefix: str) -> Iterator[tuple[str, str]]:
@@ -58,16 +47,17 @@ def _plain(members: object, prefix: str) -> Iterator[tuple[str, str]]:
                 yield f"{prefix}{name}", str(kind)
 
 
-def fitted(plans: Sequence[Plan], types: Mapping[str, str], configs: Sequence[Config]) -> list[Plan]:
-    """The plans that are declared, by their declared types; what the others hold goes back to the configs."""
+def fitted(plans: Sequence[ParameterPlan], known: Mapping[str, str], configs: Sequence[Config]) -> list[ParameterPlan]:
+    """Return the plans of declared parameters, with the declared types. The settings of the others become properties of
+    the configs."""
     kept = []
     for plan in plans:
-        kind = types.get(".".join(plan.path))
+        kind = known.get(".".join(plan.path))
         if plan.built_in and plan.spelled is None:
             kept.append(plan)
-        elif kind is not None and plan.spelled is None and isinstance(plan.shape, Scalar):
-            plan.shape, plan.guessed = Scalar(kind), ""
+        elif kind is not None and plan.spelled is None and isinstance(plan.shape, ScalarShape):
+            plan.shape, plan.guessed = ScalarShape(kind), ""
             kept.append(plan)
         else:
-            give_back(plan, configs)
+            keep_as_properties(plan, configs)
     return kept

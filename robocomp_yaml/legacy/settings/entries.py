@@ -1,4 +1,4 @@
-"""What a legacy config holds, whatever its format: settings with their values, as trees of leaves."""
+"""The content of a legacy config of any format: settings, whose values are trees."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ _BOOL = re.compile(r"(?:true|false|True|False)\Z")
 
 
 class Leaf(msgspec.Struct, frozen=True):
-    """A plain value: how it is spelled, and the type that this spelling has."""
+    """A plain value: its spelling, and the type of this spelling."""
 
     text: str
     kind: str = STRING
 
 
 class Item(msgspec.Struct):
-    """A value with the comments that stand at it."""
+    """A value with its comments."""
 
     value: Tree
     notes: Notes = msgspec.field(default_factory=Notes)
@@ -38,8 +38,8 @@ Tree = Leaf | list[Item] | dict[str, Item]
 
 
 class Setting(msgspec.Struct, frozen=True):
-    """One entry. `key` is the property's name; `path` its parts. `raw` is the property's value as Ice reads it, ''
-    where there is no such thing; `value` is without quotes."""
+    """One setting. `key` is the property's name, `path` its parts. `raw` is the property's value as Ice reads it, ''
+    in TOML; `value` is without quotes."""
 
     key: str
     path: tuple[str, ...]
@@ -54,23 +54,23 @@ class Setting(msgspec.Struct, frozen=True):
         return self.value.text if isinstance(self.value, Leaf) else ""
 
 
-class Settings(msgspec.Struct, frozen=True):
-    """A whole config: `settings` in the order of the file, each key once."""
+class ConfigSettings(msgspec.Struct, frozen=True):
+    """A config: `settings` in the order of the file, each key once."""
 
     dialect: str
     settings: list[Setting] = []
 
 
-def settle_head(found: Settings, around: Notes) -> None:
-    """Comments at the top of a file that stand close to the first entry are that entry's."""
-    if found.settings:
+def assign_head_comments(settings: ConfigSettings, around: Notes) -> None:
+    """Move the comments directly above the first setting from the file to the setting."""
+    if settings.settings:
         last = max((at for at, line in enumerate(around.head) if not line), default=-1)
-        found.settings[0].notes.head[:0] = around.head[last + 1 :]
+        settings.settings[0].notes.head[:0] = around.head[last + 1 :]
         del around.head[last + 1 :]
 
 
 def guess(text: str) -> Leaf:
-    """A plain value as a flat config spells it: numbers and truth values by their looks, all else is text."""
+    """Return a plain value of a flat config with the type of its spelling: a number, a boolean, or text."""
     if _BOOL.match(text):
         return Leaf(text, BOOL)
     if _INT.match(text) and text != "-0":
@@ -81,7 +81,7 @@ def guess(text: str) -> Leaf:
 
 
 def whole(number: int) -> str:
-    """The smallest type that holds a whole number."""
+    """Return the smallest type that can store an integer; STRING where none can."""
     if -(2**31) <= number < 2**31:
         return INT
     return LONG if -(2**63) <= number < 2**63 else STRING

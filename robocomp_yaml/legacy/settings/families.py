@@ -1,72 +1,74 @@
-"""Indexed families: `Motor0 = a,1`, `Motor1 = b,2` as a list of records, also where each field has its own keys."""
+"""Families of numbered keys as lists of records: `Motor0 = a,1`, `Motor1 = b,2`; also with a key for each field."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import msgspec
 
 from robocomp_yaml.legacy.document import Notes
-from robocomp_yaml.legacy.settings.entries import Item, Leaf, Setting, guess
+from robocomp_yaml.legacy.settings.entries import Item, Leaf, Setting, Tree, guess
 from robocomp_yaml.legacy.settings.headers import Column, columns, sanitized, unique
-from robocomp_yaml.legacy.settings.plan import Config, Given, Guesses, Path, Plan, Spelled
-from robocomp_yaml.legacy.settings.rows import are_rows, cells, joiner
-from robocomp_yaml.legacy.settings.sorting import Named
+from robocomp_yaml.legacy.settings.plan import Config, Corrections, ParameterPlan, Path, PlannedValue
+from robocomp_yaml.legacy.settings.rows import are_rows, joiner
+from robocomp_yaml.legacy.settings.sorting import NamedSetting
+from robocomp_yaml.semantics.rows import split
+from robocomp_yaml.semantics.spellings import Spelling
 
 _INDEXED = re.compile(r"(?P<stem>.*[^\d.])(?P<index>\d+)\Z")
 _RANGE = re.compile(r"(?P<stem>[^\d].*?[^\w]|[A-Za-z_]+)(?P<from>\d+)-(?P<to>\d+)\Z")
-_FREE = re.compile(r"[{}\s]")
+_BRACE_OR_BLANK = re.compile(r"[{}\s]")
 
 
 class _Row(msgspec.Struct, frozen=True):
     config: Config
     setting: Setting
     index: str
-    named: Named | None = None
-    """The proxy that the setting is, too."""
+    named: NamedSetting | None = None
+    """The entry under `proxies:` that the setting also is."""
 
 
 _Numbers = tuple[tuple[str, tuple[int, ...]], ...]
 Stems = dict[str, dict[str, list[_Row]]]
 
 
-def families(configs: Sequence[Config], guesses: Guesses) -> Iterator[Plan]:
-    """The plans of all families; their settings are taken out of the configs."""
+def families(configs: Sequence[Config], corrections: Corrections) -> Iterator[ParameterPlan]:
+    """Yield the plans of all families, and remove their settings from the configs."""
     yield from _ranges(configs)
     stems = _stems(configs)
     for stem, by_config in stems.items():
         rows = [row for group in by_config.values() for row in group]
         if are_rows([row.setting.text for row in rows]):
-            plan = _records(stem, by_config, configs, guesses)
+            plan = _records(stem, by_config, configs, corrections)
             if plan is not None:
                 yield plan
     yield from _parallel(configs)
 
 
-def _stems(configs: Sequence[Config], proxies: bool = False) -> Stems:
-    """The settings whose keys differ in a last number only. Where one of them cannot be a row, none is: its key would
-    be that of a row."""
+def _stems(configs: Sequence[Config], pattern: re.Pattern[str] = _INDEXED, proxies: bool = False) -> Stems:
+    """Group the settings whose keys differ only in a number, by stem and config. A stem with a setting that cannot be a
+    row is excluded, because a row would get that setting's key."""
     found: Stems = {}
-    spoilt: set[str] = set()
+    excluded: set[str] = set()
     for config in configs:
-        entries: list[tuple[Setting, Named | None]] = [(setting, None) for setting in config.parameters]
+        entries: list[tuple[Setting, NamedSetting | None]] = [(setting, None) for setting in config.parameters]
         if proxies:
             entries += [(named.setting, named) for named in config.sorted.proxies]
         for setting, named in entries:
-            match = _INDEXED.match(setting.key)
-            if match is None or not setting.raw or _FREE.search(setting.key):
+            match = pattern.match(setting.key)
+            if match is None or not setting.raw or _BRACE_OR_BLANK.search(setting.key):
                 continue
             if isinstance(setting.value, Leaf) and not setting.is_quoted:
-                row = _Row(config, setting, match["index"], named)
+                row = _Row(config, setting, match.groupdict().get("index", "0"), named)
                 found.setdefault(match["stem"], {}).setdefault(config.name, []).append(row)
             else:
-                spoilt.add(match["stem"])
-    return {stem: by_config for stem, by_config in found.items() if stem not in spoilt}
+                excluded.add(match["stem"])
+    return {stem: by_config for stem, by_config in found.items() if stem not in excluded}
 
 
 def _numbering(groups: Sequence[list[_Row]]) -> int | None:
-    """The first number, where each config counts up from it without a gap."""
+    """Return the first number, if the numbers of each config start with it and have no gap; else None."""
     first = min((int(row.index) for row in groups[0]), default=0)
     for group in groups:
         numbers = sorted(int(row.index) for row in group)
@@ -76,102 +78,100 @@ def _numbering(groups: Sequence[list[_Row]]) -> int | None:
     return first if first <= 1_000_000 else None
 
 
-def _records(stem: str, by_config: dict[str, list[_Row]], configs: Sequence[Config], guesses: Guesses) -> Plan | None:
-    """Rows of columns."""
+def _records(
+    stem: str, by_config: dict[str, list[_Row]], configs: Sequence[Config], corrections: Corrections
+) -> ParameterPlan | None:
+    """Return the plan of rows with columns; None if they are no list."""
     groups = list(by_config.values())
     first = _numbering(groups)
     if first is None and not _is_alone(stem, by_config, configs):
         return None
-    titles = _titles(stem, groups, guesses)
-    if titles is None:
+    header = _common_columns(stem, groups, corrections)
+    if header is None:
         return None if first is None else _texts(stem, by_config, first)
-    names, origin = titles
-    plan = Plan(_path(stem), docs=tuple(names), guessed=_why(stem, origin, names, guesses))
+    names, origin = header
+    plan = ParameterPlan(_path(stem), docs=tuple(names), guessed=_guess_message(stem, origin, names, corrections))
     plan.is_unnamed = not origin
     texts = [row.setting.text for group in groups for row in group]
     keyed = first is None
     index = unique([*(column.name for column in names), "index"])[-1]
-    plan.spelled = Spelled(
+    plan.spelled = Spelling(
         f"{stem}{{{index}}}" if keyed else f"{stem}{{i}}",
         first=first or 0,
-        columns=[column.name for column in names],
+        columns=tuple(column.name for column in names),
         separator=joiner(texts, ","),
     )
-    for name, group in by_config.items():
-        given = Given(Item([]))
-        for row in sorted(group, key=lambda row: int(row.index)):
-            record = {index: Item(guess(row.index))} if keyed else {}
-            record |= {c.name: Item(guess(cell)) for c, cell in zip(names, cells(row.setting.text), strict=False)}
-            _add(given, row, record)
-        plan.given[name] = given
-    return plan
+
+    def record(row: _Row) -> dict[str, Item]:
+        found = {index: Item(guess(row.index))} if keyed else {}
+        return found | {c.name: Item(guess(cell)) for c, cell in zip(names, split(row.setting.text, ","), strict=False)}
+
+    return _filled(plan, by_config, record)
 
 
-def _titles(stem: str, groups: Sequence[list[_Row]], guesses: Guesses) -> tuple[list[Column], str] | None:
-    """The columns of all rows. Configs of several versions of a component differ: where those of one are the first ones
-    of the other, the rest is optional. None where nothing fits all."""
+def _common_columns(
+    stem: str, groups: Sequence[list[_Row]], corrections: Corrections
+) -> tuple[list[Column], str] | None:
+    """Return the columns of all rows, and the source of their names; None where no columns fit all rows. Configs of
+    several versions of a component may differ: if one has the first columns of the other, the rest is optional."""
     found: dict[int, tuple[list[Column], str]] = {}
     for group in groups:
         top = min(group, key=lambda row: row.setting.span.line)
-        arity = len(cells(top.setting.text))
-        if any(len(cells(row.setting.text)) != arity for row in group):
+        arity = len(split(top.setting.text, ","))
+        if any(len(split(row.setting.text, ",")) != arity for row in group):
             return None
-        made = columns(stem, arity, top.config.source, top.setting.span.line, top.config.rules, guesses.names)
+        made = columns(stem, arity, top.config.source, top.setting.span.line, top.config.rules, corrections.names)
         if arity not in found or (made[1] and not found[arity][1]):
             found[arity] = made
     names, origin = found[max(found)]
-    told = [column.name for column in names]
-    if any([column.name for column in others] != told[: len(others)] for others, _ in found.values()):
+    listed = [column.name for column in names]
+    if any([column.name for column in others] != listed[: len(others)] for others, _ in found.values()):
         return None
     return names, origin
 
 
-def _texts(stem: str, by_config: dict[str, list[_Row]], first: int) -> Plan:
-    """Rows that differ in their columns, as a list of texts."""
-    plan = Plan(_path(stem), spelled=Spelled(f"{stem}{{i}}", first=first), is_unnamed=True)
-    plan.guessed = f"the rows {stem}… have different columns, so they are kept as texts"
+def _texts(stem: str, by_config: dict[str, list[_Row]], first: int) -> ParameterPlan:
+    """Return the plan of rows with different columns: a list of texts."""
+    plan = ParameterPlan(_path(stem), spelled=Spelling(f"{stem}{{i}}", first=first), is_unnamed=True)
+    plan.guessed = f"the rows {stem}… have different columns, so that they are kept as texts"
+    return _filled(plan, by_config, lambda row: Leaf(row.setting.text))
+
+
+def _filled(plan: ParameterPlan, by_config: dict[str, list[_Row]], value: Callable[[_Row], Tree]) -> ParameterPlan:
+    """Return the plan with a value for each row, in the order of the rows' numbers."""
     for name, group in by_config.items():
-        given = Given(Item([]))
-        for row in sorted(group, key=lambda row: int(row.index)):
-            assert isinstance(given.item.value, list)
-            given.item.value.append(Item(Leaf(row.setting.text), row.setting.notes))
-            given.settings.append(row.setting)
-            _take(row)
-        plan.given[name] = given
+        rows = sorted(group, key=lambda row: int(row.index))
+        items = [Item(value(row), row.setting.notes) for row in rows]
+        plan.values[name] = PlannedValue(Item(items), [row.setting for row in rows])
+        for row in rows:
+            _remove(row)
     return plan
 
 
-def _add(given: Given, row: _Row, record: dict[str, Item]) -> None:
-    assert isinstance(given.item.value, list)
-    given.item.value.append(Item(record, row.setting.notes))
-    given.settings.append(row.setting)
-    _take(row)
-
-
-def _take(row: _Row) -> None:
+def _remove(row: _Row) -> None:
     if row.named is not None:
         row.config.sorted.proxies.remove(row.named)
     else:
         row.config.parameters.remove(row.setting)
 
 
-def _why(stem: str, origin: str, names: Sequence[Column], guesses: Guesses) -> str:
-    """What was guessed; nothing where the user said it."""
-    told = ", ".join(column.name for column in names)
-    wrong = guesses.names.get(stem) or guesses.names.get(stem.rstrip("_.-"))
+def _guess_message(stem: str, origin: str, names: Sequence[Column], corrections: Corrections) -> str:
+    """Return what was guessed; '' where the user named the columns."""
+    listed = ", ".join(column.name for column in names)
+    requested = corrections.names.get(stem) or corrections.names.get(stem.rstrip("_.-"))
     if origin == "names":
         return ""
-    if wrong:
-        return f"{stem}… has {len(names)} columns, and --names gives {len(wrong)}; they are called {told}"
-    where = {
-        "header": f"the columns of {stem}… are taken from the comment above them: {told}",
-        "known": f"the columns of {stem}… are called as such rows mostly are: {told}",
+    if requested:
+        return f"{stem}… has {len(names)} columns, but --names has {len(requested)}; the columns are named {listed}"
+    sources = {
+        "header": f"the comment above {stem}… names the columns {listed}",
+        "known": f"the columns of {stem}… have the usual names of such rows: {listed}",
     }
-    return where.get(origin, f"nothing says what the columns of {stem}… are; they are called {told}")
+    return sources.get(origin, f"the columns of {stem}… have no known names; they are named {listed}")
 
 
 def _is_alone(stem: str, by_config: dict[str, list[_Row]], configs: Sequence[Config]) -> bool:
-    """Whether no other parameter's key begins so: then the number may be part of the record."""
+    """Whether no other parameter's key starts with the stem. Then the number may be part of the record."""
     own = {row.setting.key for group in by_config.values() for row in group}
     return not any(s.key.startswith(stem) and s.key not in own for config in configs for s in config.parameters)
 
@@ -181,57 +181,42 @@ def _path(stem: str) -> Path:
     return tuple(parts) or ("rows",)
 
 
-def _ranges(configs: Sequence[Config]) -> Iterator[Plan]:
-    """Ranges in the key: `ID:0-10 = 100`."""
-    found: Stems = {}
-    for config in configs:
-        for setting in config.parameters:
-            match = _RANGE.match(setting.key)
-            if match and isinstance(setting.value, Leaf) and setting.raw and not setting.is_quoted:
-                if not _FREE.search(setting.key):
-                    found.setdefault(match["stem"], {}).setdefault(config.name, []).append(_Row(config, setting, ""))
-    for stem, by_config in found.items():
-        if not _is_alone(stem, by_config, configs) or "," in "".join(
-            row.setting.text for group in by_config.values() for row in group
-        ):
+def _ranges(configs: Sequence[Config]) -> Iterator[ParameterPlan]:
+    """Yield the plans of keys with ranges: `ID:0-10 = 100`."""
+    for stem, by_config in _stems(configs, _RANGE).items():
+        rows = [row for group in by_config.values() for row in group]
+        if not _is_alone(stem, by_config, configs) or any("," in row.setting.text for row in rows):
             continue
         name = unique(["from", "to", _value_name(by_config)])[-1]
-        plan = Plan(_path(re.sub(r"\W+\Z", "", stem)), guessed=f"what the ranges {stem}… are for is called {name}")
-        plan.spelled = Spelled(f"{stem}{{from}}-{{to}}", columns=[name])
-        for title, group in by_config.items():
-            given = Given(Item([]))
-            for row in group:
-                match = _RANGE.match(row.setting.key)
-                assert match is not None
-                _add(
-                    given,
-                    row,
-                    {
-                        "from": Item(guess(match["from"])),
-                        "to": Item(guess(match["to"])),
-                        name: Item(guess(row.setting.text)),
-                    },
-                )
-            plan.given[title] = given
-        yield plan
+        what = f"the value of the ranges {stem}… is named {name}"
+        plan = ParameterPlan(_path(re.sub(r"\W+\Z", "", stem)), guessed=what)
+        plan.spelled = Spelling(f"{stem}{{from}}-{{to}}", columns=(name,))
+
+        def record(row: _Row, name: str = name) -> dict[str, Item]:
+            match = _RANGE.match(row.setting.key)
+            assert match is not None
+            texts = {"from": match["from"], "to": match["to"], name: row.setting.text}
+            return {key: Item(guess(text)) for key, text in texts.items()}
+
+        yield _filled(plan, by_config, record)
 
 
 def _value_name(by_config: dict[str, list[_Row]]) -> str:
-    """The last word of the comment that all rows have behind them."""
-    told = {" ".join(row.setting.notes.tail) for group in by_config.values() for row in group}
-    words = told.pop().split() if len(told) == 1 else []
+    """Return the last word of the comment that all rows have at their end, or `value`."""
+    comments = {" ".join(row.setting.notes.tail) for group in by_config.values() for row in group}
+    words = comments.pop().split() if len(comments) == 1 else []
     return sanitized(words[-1]) if 0 < len(words) <= 3 and words[-1].isalpha() else "value"
 
 
-def _parallel(configs: Sequence[Config]) -> Iterator[Plan]:
-    """Several keys with the same numbers, one for each field: `rx_0`, `ry_0`, `rx_1`, `ry_1`."""
-    alike: dict[tuple[str, _Numbers], list[str]] = {}
+def _parallel(configs: Sequence[Config]) -> Iterator[ParameterPlan]:
+    """Yield the plans of keys with the same numbers, one for each field: `rx_0`, `ry_0`, `rx_1`, `ry_1`."""
+    by_numbers: dict[tuple[str, _Numbers], list[str]] = {}
     stems = _stems(configs, proxies=True)
     for stem, by_config in stems.items():
         if _numbering(list(by_config.values())) is not None:
             numbers = tuple((name, tuple(sorted(int(r.index) for r in rows))) for name, rows in by_config.items())
-            alike.setdefault((stem.rpartition(".")[0], numbers), []).append(stem)
-    for (group, numbers), names in alike.items():
+            by_numbers.setdefault((stem.rpartition(".")[0], numbers), []).append(stem)
+    for (group, numbers), names in by_numbers.items():
         rows = max(len(indices) for _, indices in numbers)
         if len(names) < 2 or all(row.named for name in names for each in stems[name].values() for row in each):
             continue
@@ -241,34 +226,34 @@ def _parallel(configs: Sequence[Config]) -> Iterator[Plan]:
         yield _fields(group, names, stems, count, configs)
 
 
-def _fields(group: str, names: list[str], stems: Stems, count: str, configs: Sequence[Config]) -> Plan:
-    bare = [name.rpartition(".")[2] if group else name for name in names]
-    fields = unique([sanitized(name) for name in bare])
+def _fields(group: str, names: list[str], stems: Stems, count: str, configs: Sequence[Config]) -> ParameterPlan:
+    short_names = [name.rpartition(".")[2] if group else name for name in names]
+    fields = unique([sanitized(name) for name in short_names])
     title = count or "_".join(field.strip("_") for field in fields[:3])
     path = (*(group.split(".") if group else ()), title)
-    told = ", ".join(fields)
-    plan = Plan(path, guessed=f"{', '.join(names)} count alike, so they are fields of one list, {title}: {told}")
+    what = f"have the same numbers, so that they become fields of one list, {title}: {', '.join(fields)}"
+    plan = ParameterPlan(path, guessed=f"{', '.join(names)} {what}")
     groups = list(stems[names[0]].values())
-    plan.spelled = Spelled(
-        fields={field: f"{name}{{i}}" for field, name in zip(fields, names, strict=True)},
+    plan.spelled = Spelling(
+        fields=tuple((field, f"{name}{{i}}") for field, name in zip(fields, names, strict=True)),
         first=_numbering(groups) or 0,
     )
     for config in configs:
         if config.name not in stems[names[0]]:
             continue
-        given, records = Given(Item([])), dict[int, dict[str, Item]]()
+        planned, records = PlannedValue(Item([])), dict[int, dict[str, Item]]()
         for field, name in zip(fields, names, strict=True):
             for row in stems[name][config.name]:
                 records.setdefault(int(row.index), {})[field] = Item(guess(row.setting.text), row.setting.notes)
-                given.settings.append(row.setting)
-                _take(row)
-        given.item.value = [Item(records[number], _above(records[number])) for number in sorted(records)]
-        plan.given[config.name] = given
+                planned.settings.append(row.setting)
+                _remove(row)
+        planned.item.value = [Item(records[number], _record_comments(records[number])) for number in sorted(records)]
+        plan.values[config.name] = planned
     return plan
 
 
-def _above(record: dict[str, Item]) -> Notes:
-    """The comments above a record's first field stand above the record."""
+def _record_comments(record: dict[str, Item]) -> Notes:
+    """Move the comments above a record's first field, and return them as those of the record."""
     first = next(iter(record.values()))
     notes = Notes(head=first.notes.head)
     first.notes = Notes(tail=first.notes.tail, foot=first.notes.foot)
@@ -276,7 +261,7 @@ def _above(record: dict[str, Item]) -> Notes:
 
 
 def _count(group: str, names: Sequence[str], configs: Sequence[Config], rows: int) -> str:
-    """What a count beside the family counts: `cameras` for `num_cameras`."""
+    """Return what a count in the same group counts: `cameras` for `num_cameras`; '' without such a count."""
     for config in configs:
         for setting in config.parameters:
             parent, _, name = setting.key.rpartition(".")

@@ -1,4 +1,4 @@
-"""Which component each config belongs to."""
+"""Assign each config to a component."""
 
 from __future__ import annotations
 
@@ -9,149 +9,142 @@ import msgspec
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.legacy.document import List, Map
+from robocomp_yaml.legacy.document import Map, data
 from robocomp_yaml.legacy.draft import ComponentDraft, ConfigDraft, ParametersDraft, ValuesDraft
-from robocomp_yaml.legacy.ledger import Entry
+from robocomp_yaml.legacy.ledger import LedgerEntry
 from robocomp_yaml.legacy.settings import declared
-from robocomp_yaml.legacy.settings.sorting import Ports
-from robocomp_yaml.legacy.sources import LegacyFile
+from robocomp_yaml.legacy.settings.sorting import PortNames
+from robocomp_yaml.source.disk import names_in
 from robocomp_yaml.source.heading import component_in
 
-_PARTS = ("implements", "requires", "publishes", "subscribes")
 
-Good = Sequence[tuple[LegacyFile, Entry]]
-
-
-class Component(msgspec.Struct, eq=False):
-    """A component with its configs. `document`: its CDSL; '' where it has none, and is called as its config.
-    `declared`: what the PDSL at `parameters` says already; None where it is to be inferred."""
+class ConfiguredComponent(msgspec.Struct, eq=False):
+    """A component with its configs. `document` is its CDSL, '' where it has none and is named after its config.
+    `declared` are the types in the PDSL at `parameters`; None where the PDSL is to be inferred."""
 
     name: str
     document: str
     parameters: str
-    ports: Ports = Ports()
+    ports: PortNames = PortNames()
     declared: declared.Types | None = None
-    configs: list[tuple[LegacyFile, Entry]] = []
+    configs: list[LedgerEntry] = []
 
 
-def first_half(path: str) -> str:
-    """`generic_config` for `specific_config`: RoboComp's first generator split configs in two."""
+def generic_config(path: str) -> str:
+    """Return `generic_config` for `specific_config`, else ''. RoboComp's first generator split configs in these two."""
     folder, name = os.path.split(path)
     return os.path.join(folder, name.replace("specific", "generic")) if "specific" in name else ""
 
 
-class Components:
+class ConfiguredComponents:
+    """The components of a run, by the folders of their files."""
+
     def __init__(
-        self, good: Good, chosen: Mapping[str, str], is_ours: Callable[[LegacyFile, str], bool]
+        self, accepted: Sequence[LedgerEntry], documents: Mapping[str, str],
+        was_written: Callable[[LedgerEntry, str], bool],
     ) -> None:  # fmt: skip
-        self.good, self.chosen, self.is_ours = good, chosen, is_ours
-        self.by_folder: dict[str, list[tuple[str, Component]]] = {}
-        self.taken = set(chosen.values())
+        self.accepted, self.documents, self.was_written = accepted, documents, was_written
+        self.by_folder: dict[str, list[tuple[str, ConfiguredComponent]]] = {}
+        self.used = set(documents.values())
         self.listed: dict[str, list[str]] = {}
-        self.known: dict[str, Component] = {}
-        for file, entry in good:
-            if isinstance(entry.file.draft, ComponentDraft):
-                made = _of_cdsl(chosen[file.path], entry.file.draft.document)
-                self.by_folder.setdefault(_folder(file.path), []).append((_stem(file.path), made))
+        self.known: dict[str, ConfiguredComponent] = {}
+        for file in (entry.file for entry in accepted):
+            if isinstance(file.draft, ComponentDraft):
+                self._join(file.path, _of_cdsl(documents[file.path], file.draft.document))
 
     def declare(self) -> None:
-        """Joins the PDSLs of 2011 with their components, and the values of 2011 with their PDSLs."""
-        named: dict[str, str] = {}
-        for file, entry in self.good:
-            if isinstance(entry.file.draft, ParametersDraft):
-                draft, path = entry.file.draft.document, self.chosen[file.path]
-                named.setdefault(str(draft.entries[0].value), path)
-                named[os.path.basename(file.path)] = path
-                component = self._of(file)
+        """Assign the PDSLs of 2011 to their components, and the values of 2011 to their PDSLs."""
+        paths: dict[str, str] = {}
+        for file in (entry.file for entry in self.accepted):
+            if isinstance(file.draft, ParametersDraft):
+                draft, path = file.draft.document, self.documents[file.path]
+                name = str(draft.entries[0].value)
+                paths.setdefault(name, path)
+                paths[os.path.basename(file.path)] = path
+                component = self._of(file.path)
                 if component is None:
-                    name = str(draft.entries[0].value)
-                    component = Component(name, "", path)
-                    self.by_folder.setdefault(_folder(file.path), []).append((_stem(file.path), component))
+                    component = ConfiguredComponent(name, "", path)
+                    self._join(file.path, component)
                 elif component.document:
                     draft.entries[0].value = os.path.relpath(component.document, os.path.dirname(path) or ".")
-                component.declared, component.parameters = declared.of_draft(draft), path
-        for file, entry in self.good:
+                component.declared, component.parameters = declared.types(data(draft)), path
+        for entry in self.accepted:
             if isinstance(entry.file.draft, ValuesDraft):
                 declares = entry.file.draft.document.entries[0]
-                wanted = os.path.basename(str(declares.value)).removesuffix(".yaml")
-                path = named.get(wanted) or named.get(wanted.removesuffix(".pdsl"), "")
+                pdsl = os.path.basename(str(declares.value)).removesuffix(".yaml")
+                path = paths.get(pdsl) or paths.get(pdsl.removesuffix(".pdsl"), "")
                 if path:
-                    folder = os.path.dirname(self.chosen[file.path]) or "."
+                    folder = os.path.dirname(self.documents[entry.file.path]) or "."
                     declares.value = os.path.relpath(path, folder)
                 else:
-                    entry.diagnostics.append(codes.NO_PDSL.at(Span(file.path), name=wanted))
+                    entry.diagnostics.append(codes.NO_PDSL.at(Span(entry.file.path), name=pdsl))
 
-    def all(self) -> list[Component]:
-        """The components that have configs."""
-        found: dict[Component, None] = {}
-        own: dict[str, Component] = {}
-        paths = {file.path for file, entry in self.good if isinstance(entry.file.draft, ConfigDraft)}
-        for file, entry in self.good:
-            if not isinstance(entry.file.draft, ConfigDraft):
-                continue
-            component = self._of(file)
+    def all(self) -> list[ConfiguredComponent]:
+        """Return the components that have configs."""
+        components: dict[ConfiguredComponent, None] = {}
+        unnamed: dict[str, ConfiguredComponent] = {}
+        configs = {entry.file.path: entry for entry in self.accepted if isinstance(entry.file.draft, ConfigDraft)}
+        for config, entry in configs.items():
+            component = self._of(config)
             if component is None:
-                first = first_half(file.path)
-                name = first if first in paths else file.path
-                if name not in own:
-                    own[name] = self._of_its_own(file, name)
-                component = own[name]
-                what = codes.OWN_COMPONENT.at(Span(file.path), name=component.name)
-                entry.diagnostics.append(what)
+                first = generic_config(config)
+                name = first if first in configs else config
+                if name not in unnamed:
+                    unnamed[name] = self._from_config(config, name)
+                component = unnamed[name]
+                entry.diagnostics.append(codes.OWN_COMPONENT.at(Span(config), name=component.name))
             if not component.configs and component.declared is None and component.document:
                 for path in declared.beside(component.document):
-                    if not self.is_ours(file, path):
+                    if not self.was_written(entry, path):
                         component.declared = declared.of_document(path)
-            component.configs.append((file, entry))
-            found[component] = None
-        return list(found)
+            component.configs.append(entry)
+            components[component] = None
+        return list(components)
 
-    def _of(self, file: LegacyFile) -> Component | None:
-        """The component in a config's folder, or in the one above: the only one, or the one of its name."""
-        here = _folder(file.path)
-        for folder in (here, os.path.dirname(here)):
+    def _join(self, path: str, component: ConfiguredComponent) -> None:
+        self.by_folder.setdefault(_folder(path), []).append((_stem(path), component))
+
+    def _of(self, file: str) -> ConfiguredComponent | None:
+        """Return the component in a file's folder, or in the parent folder: the only one, or the one with the file's
+        name."""
+        own_folder = _folder(file)
+        for folder in (own_folder, os.path.dirname(own_folder)):
             known = self.by_folder.get(folder, [])
-            known = known or [(_stem(path), self._written(path)) for path in self._documents(folder, file)]
-            alike = [component for stem, component in known if stem == _stem(file.path)]
-            if len(known) == 1 or len(alike) == 1:
-                return (alike or [known[0][1]])[0]
+            known = known or [(_stem(path), self._written(path)) for path in self._existing(folder, file)]
+            same_name = [component for stem, component in known if stem == _stem(file)]
+            if len(known) == 1 or len(same_name) == 1:
+                return (same_name or [known[0][1]])[0]
             if known:
                 return None
         return None
 
-    def _documents(self, folder: str, file: LegacyFile) -> list[str]:
-        """The CDSL documents that stand in a folder already, where the config's own document will be near them."""
-        if os.path.realpath(folder) not in (_folder(self.chosen[file.path]), os.path.dirname(
-            _folder(self.chosen[file.path])
-        )):  # fmt: skip
+    def _existing(self, folder: str, file: str) -> list[str]:
+        """Return the CDSL documents that exist in a folder, if the config's document is written to it or below it."""
+        own = _folder(self.documents[file])
+        if os.path.realpath(folder) not in (own, os.path.dirname(own)):
             return []
         if folder not in self.listed:
-            try:
-                names = sorted(os.listdir(folder))
-            except OSError:
-                names = []
-            self.listed[folder] = [os.path.join(folder, name) for name in names if name.endswith(".cdsl.yaml")]
-        shown = os.path.dirname(self.chosen[file.path])
-        up = folder != _folder(self.chosen[file.path])
-        base = os.path.normpath(os.path.join(shown, os.pardir)) if up else shown
-        return [os.path.normpath(os.path.join(base, os.path.basename(path))) for path in self.listed[folder]]
+            self.listed[folder] = [name for name in names_in(folder) if name.endswith(".cdsl.yaml")]
+        below = os.path.dirname(self.documents[file])
+        base = below if folder == own else os.path.normpath(os.path.join(below, os.pardir))
+        return [os.path.normpath(os.path.join(base, name)) for name in self.listed[folder]]
 
-    def _written(self, path: str) -> Component:
+    def _written(self, path: str) -> ConfiguredComponent:
         if path not in self.known:
             name = component_in(path) or _stem(path)
-            self.known[path] = Component(name, path, os.path.join(os.path.dirname(path), f"{name}.pdsl.yaml"))
+            self.known[path] = ConfiguredComponent(name, path, os.path.join(os.path.dirname(path), f"{name}.pdsl.yaml"))
         return self.known[path]
 
-    def _of_its_own(self, file: LegacyFile, named: str) -> Component:
-        """A component that has only its config: `config.new` is called so, `side.conf` is called `side`."""
+    def _from_config(self, file: str, named: str) -> ConfiguredComponent:
+        """Return a component without a CDSL, named after a config: `config.new`, or `side` for `side.conf`."""
         base = os.path.basename(named)
         stem = base.removesuffix(".conf")
-        folder = os.path.dirname(self.chosen[file.path])
+        folder = os.path.dirname(self.documents[file])
         path, number = os.path.join(folder, f"{stem}.pdsl.yaml"), 2
-        while path in self.taken:
+        while path in self.used:
             path, number = os.path.join(folder, f"{base if number == 2 else number}.pdsl.yaml"), number + 1
-        self.taken.add(path)
-        return Component(os.path.basename(path).removesuffix(".pdsl.yaml"), "", path)
+        self.used.add(path)
+        return ConfiguredComponent(os.path.basename(path).removesuffix(".pdsl.yaml"), "", path)
 
 
 def _folder(path: str) -> str:
@@ -162,15 +155,14 @@ def _stem(path: str) -> str:
     return os.path.basename(path).split(".")[0].lower()
 
 
-def _of_cdsl(document: str, draft: Map) -> Component:
-    entries = {entry.key: entry.value for entry in draft.entries}
-    names: dict[str, list[str]] = {part: [] for part in _PARTS}
-    for part in _PARTS:
-        listed = entries.get(part)
-        for item in listed.items if isinstance(listed, List) else ():
-            value = item.value
-            names[part].append(value.entries[0].key if isinstance(value, Map) else str(value))
-    topics = [*names["publishes"], *names["subscribes"]]
-    ports = Ports(frozenset(names["implements"]), frozenset(names["requires"]), frozenset(topics))
-    name = str(entries["component"])
-    return Component(name, document, os.path.join(os.path.dirname(document), f"{name}.pdsl.yaml"), ports)
+def _of_cdsl(document: str, draft: Map) -> ConfiguredComponent:
+    content = data(draft)
+    ports = [_ports(content.get(part)) for part in ("implements", "requires", "publishes", "subscribes")]
+    name = str(content["component"])
+    parameters = os.path.join(os.path.dirname(document), f"{name}.pdsl.yaml")
+    return ConfiguredComponent(name, document, parameters, PortNames(ports[0], ports[1], ports[2] | ports[3]))
+
+
+def _ports(listed: object) -> frozenset[str]:
+    items = listed if isinstance(listed, list) else []
+    return frozenset(str(next(iter(item), "") if isinstance(item, dict) else item) for item in items)

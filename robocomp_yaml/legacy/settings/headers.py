@@ -1,4 +1,4 @@
-"""What the columns of rows are called: by a comment above them, by the user, or by a table of known records."""
+"""Name the columns of rows: by the user, by a comment above the rows, or by a table of known records."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from collections.abc import Container, Iterator, Mapping, Sequence
 
 import msgspec
 
-from robocomp_yaml.legacy.reading import Source
+from robocomp_yaml.legacy.reading import SourceText
 from robocomp_yaml.legacy.rules import Rules
 
 REACH = 25
-"""So many lines above the first row a header may stand."""
+"""At most this many lines above the first row, a comment may be a header."""
 
 _NAME = re.compile(r"(?P<name>[A-Za-z_][\w/ -]*?)\s*(?:\((?P<doc>.*)\))?\s*\Z")
 _LABEL = re.compile(r"\s*[A-Za-z_][\w. ]*?\s*[:=]\s*(?=\S)")
@@ -24,13 +24,13 @@ class Column(msgspec.Struct, frozen=True):
 
 
 def columns(
-    stem: str, arity: int, source: Source, line: int, rules: Rules, given: Mapping[str, Sequence[str]]
+    stem: str, arity: int, source: SourceText, line: int, rules: Rules, requested: Mapping[str, Sequence[str]]
 ) -> tuple[list[Column], str]:
-    """The columns of the rows `stem`0, `stem`1, … whose first one stands at a line, and where their names are from:
-    `names`, `header`, `known`, or '' where nobody knows."""
+    """Return the columns of the rows `stem`0, `stem`1, …, the first of which is at `line`, and the source of their
+    names: `names` (the user), `header` (a comment), `known` (the rules), or ''."""
     for key in (stem, stem.rstrip("_.-")):
-        if len(given.get(key, ())) == arity:
-            return [Column(name) for name in unique(given[key])], "names"
+        if len(requested.get(key, ())) == arity:
+            return [Column(name) for name in unique(requested[key])], "names"
     for text in _comments_above(source, line, stem):
         found = header(text, arity, rules.stop)
         if found:
@@ -41,8 +41,8 @@ def columns(
     return [Column(f"f{number}") for number in range(1, arity + 1)], ""
 
 
-def _comments_above(source: Source, line: int, stem: str) -> Iterator[str]:
-    """Comments above a line, the nearest first, without rows that are commented out."""
+def _comments_above(source: SourceText, line: int, stem: str) -> Iterator[str]:
+    """Yield the comments above a line, the nearest first, without rows that are commented out."""
     row = re.compile(rf"[#~;\s]*{re.escape(stem)}\d+\s*=")
     for number in range(line - 1, max(line - 1 - REACH, 0), -1):
         text = source.line_text(number).strip()
@@ -51,7 +51,7 @@ def _comments_above(source: Source, line: int, stem: str) -> Iterator[str]:
 
 
 def header(text: str, arity: int, stop: frozenset[str] = frozenset()) -> list[Column]:
-    """The names in a comment, if they are as many as there are columns."""
+    """Return the columns that a comment names, if it names as many as there are; else none."""
     label = _LABEL.match(text)
     for body in dict.fromkeys((text[label.end() :] if label else text, text)):
         parts = [part.strip() for part in _split(body)]
@@ -69,7 +69,7 @@ def header(text: str, arity: int, stop: frozenset[str] = frozenset()) -> list[Co
 
 
 def _split(text: str) -> list[str]:
-    """At commas, but for those in parentheses."""
+    """Split a text at commas, except in parentheses."""
     parts, depth = [""], 0
     for char in text:
         depth += (char == "(") - (char == ")")
@@ -81,11 +81,11 @@ def _split(text: str) -> list[str]:
 
 
 def _names(parts: Sequence[str]) -> list[Column]:
-    found = [_NAME.match(part) for part in parts]
-    if not all(found):
+    matches = [match for match in map(_NAME.match, parts) if match]
+    if len(matches) < len(parts):
         return []
-    names = unique([sanitized(match["name"]) for match in found if match])
-    docs = [(match["doc"] or "").strip() or _doc(match["name"]) for match in found if match]
+    names = unique([sanitized(match["name"]) for match in matches])
+    docs = [(match["doc"] or "").strip() or _doc(match["name"]) for match in matches]
     return [Column(name, doc) for name, doc in zip(names, docs, strict=True)]
 
 
@@ -94,23 +94,23 @@ def _doc(original: str) -> str:
 
 
 def sanitized(text: str) -> str:
-    """A text as a name: several words become `several_words`."""
+    """Return a text as a legal name: several words become `several_words`."""
     words = re.sub(r"[^A-Za-z0-9_]+", "_", text.strip()).strip("_") or "field"
     words = words.lower() if " " in text.strip() else words
     return f"f{words}" if words[0].isdigit() else words
 
 
 def unique(names: Sequence[str]) -> list[str]:
-    """Names, those that stand there before with a number."""
+    """Return the names; a name that occurs again gets a number."""
     found: dict[str, None] = {}
     for name in names:
         found[free(name, found)] = None
     return list(found)
 
 
-def free(name: str, taken: Container[str]) -> str:
-    """A name that is not taken: itself, or with a number."""
-    found, number = name, 2
-    while found in taken:
-        found, number = f"{name}_{number}", number + 1
-    return found
+def free(name: str, used: Container[str]) -> str:
+    """Return a name that is not used: the name itself, or with a number."""
+    result, number = name, 2
+    while result in used:
+        result, number = f"{name}_{number}", number + 1
+    return result

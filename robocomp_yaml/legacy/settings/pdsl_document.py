@@ -1,31 +1,33 @@
-"""The PDSL that a component's configs imply."""
+"""Write the PDSL that a component's configs imply."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence
 
-from robocomp_yaml.legacy.document import TRUE, Entry, List, Map, Notes, Raw, Value
+from robocomp_yaml.legacy.document import TRUE, List, Map, Notes, Raw, Value
 from robocomp_yaml.legacy.settings.entries import STRING
 from robocomp_yaml.legacy.settings.headers import free
-from robocomp_yaml.legacy.settings.plan import Path, Plan, Spelled
-from robocomp_yaml.legacy.settings.shapes import Field, ListOf, Record, Scalar, Shape, leaves
+from robocomp_yaml.legacy.settings.plan import ParameterPlan, Path
+from robocomp_yaml.legacy.settings.shapes import ListShape, MemberShape, RecordShape, ScalarShape, Shape, leaves
+from robocomp_yaml.semantics.spellings import Spelling
 from robocomp_yaml.source.allowances import GUESSED
 
 MARK = f"rcyaml: {GUESSED}"
 _IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
 
 
-def pdsl_document(component: str, plans: Sequence[Plan]) -> Map:
-    return _Writer().document(component, plans)
+def pdsl_document(component: str, plans: Sequence[ParameterPlan]) -> Map:
+    """Return the PDSL of a component with the parameters of these plans."""
+    return _PdslWriter().document(component, plans)
 
 
-class _Writer:
+class _PdslWriter:
     def __init__(self) -> None:
         self.types = Map(block=True)
-        self.known: dict[str, Record] = {}
+        self.known: dict[str, RecordShape] = {}
 
-    def document(self, component: str, plans: Sequence[Plan]) -> Map:
+    def document(self, component: str, plans: Sequence[ParameterPlan]) -> Map:
         document = Map(block=True)
         document.put("component", component)
         parameters = self.parameters([plan for plan in plans if not plan.built_in])
@@ -38,7 +40,7 @@ class _Writer:
         document.put_some("legacy", legacy)
         return document
 
-    def parameters(self, plans: Sequence[Plan]) -> Map:
+    def parameters(self, plans: Sequence[ParameterPlan]) -> Map:
         top = Map(block=True)
         groups: dict[Path, Map] = {(): top}
         siblings: dict[Path, set[str]] = {}
@@ -47,7 +49,7 @@ class _Writer:
                 path = plan.path[:depth]
                 if path not in groups:
                     groups[path] = Map(block=True)
-                    body = Map([Entry("group", groups[path])])
+                    body = Map.of({"group": groups[path]})
                     self._code_name(body, path, siblings)
                     groups[path[:-1]].put(path[-1], body)
             body = Map()
@@ -64,7 +66,7 @@ class _Writer:
         return top
 
     def _code_name(self, body: Map, path: Path, siblings: dict[Path, set[str]]) -> None:
-        """`as:` where the name is no identifier, or another one's."""
+        """Add `as:` where a name is not an identifier, or is used already."""
         used = siblings.setdefault(path[:-1], set())
         name = re.sub(r"[^A-Za-z0-9_]", "_", path[-1])
         name = f"p{name}" if name[0].isdigit() else name
@@ -73,18 +75,18 @@ class _Writer:
         if own != path[-1]:
             body.put("as", own)
 
-    def type(self, shape: Shape, name: str, plan: Plan, body: Map) -> None:
-        key, element = ("list", shape.element) if isinstance(shape, ListOf) else ("type", shape)
+    def type(self, shape: Shape, name: str, plan: ParameterPlan, body: Map) -> None:
+        key, element = ("list", shape.element) if isinstance(shape, ListShape) else ("type", shape)
         body.put(key, self.element(element, name, plan))
 
-    def element(self, shape: Shape, name: str, plan: Plan) -> Value:
-        if isinstance(shape, Scalar):
+    def element(self, shape: Shape, name: str, plan: ParameterPlan) -> Value:
+        if isinstance(shape, ScalarShape):
             return shape.kind
-        if isinstance(shape, ListOf):
-            return Map([Entry("list", self.element(shape.element, name, plan))])
+        if isinstance(shape, ListShape):
+            return Map.of({"list": self.element(shape.element, name, plan)})
         return self.struct(shape, name, plan)
 
-    def struct(self, shape: Record, name: str, plan: Plan) -> str:
+    def struct(self, shape: RecordShape, name: str, plan: ParameterPlan) -> str:
         own = "".join(part[:1].upper() + part[1:] for part in re.split(r"[^A-Za-z0-9]+", name) if part) or "Record"
         own = own if _IDENTIFIER.match(own) else f"T{own}"
         title = next((known for known, record in self.known.items() if record == shape and known == own), "")
@@ -96,10 +98,10 @@ class _Writer:
         members, used = Map(block=True), dict[Path, set[str]]()
         for field in shape.fields:
             members.put(field.name, self.member(field, plan, docs.get(field.name, ""), used))
-        self.types.put(title, Map([Entry("struct", members)]))
+        self.types.put(title, Map.of({"struct": members}))
         return title
 
-    def member(self, field: Field, plan: Plan, doc: str, used: dict[Path, set[str]]) -> Value:
+    def member(self, field: MemberShape, plan: ParameterPlan, doc: str, used: dict[Path, set[str]]) -> Value:
         body = Map()
         self.type(field.shape, field.name, plan, body)
         if field.optional:
@@ -109,17 +111,18 @@ class _Writer:
         return body.entries[0].value if len(body.entries) == 1 and body.entries[0].key == "type" else body
 
 
-def _is_sometimes_empty(plan: Plan) -> bool:
-    """An optional text that is empty somewhere: without a default it would read as left out."""
-    texts = [leaf for given in plan.given.values() for leaf in leaves(given.item.value)]
-    return plan.optional and plan.shape == Scalar(STRING) and any(not leaf.text for leaf in texts if leaf)
+def _is_sometimes_empty(plan: ParameterPlan) -> bool:
+    """Whether an optional text is empty in a config. It needs a default, because an empty property means a missing
+    one."""
+    texts = [leaf for value in plan.values.values() for leaf in leaves(value.item.value)]
+    return plan.optional and plan.shape == ScalarShape(STRING) and any(not leaf.text for leaf in texts)
 
 
-def _spelling(spelled: Spelled) -> Value:
+def _spelling(spelled: Spelling) -> Value:
     if not (spelled.columns or spelled.separators or spelled.fields or spelled.first or "{i}" in spelled.key):
         return spelled.key
     body = Map()
-    body.put_some("fields", Map([Entry(name, key) for name, key in spelled.fields.items()]))
+    body.put_some("fields", Map.of(dict(spelled.fields)))
     body.put_some("key", "" if spelled.fields else spelled.key)
     body.put_some("first", Raw(str(spelled.first)) if spelled.first else None)
     body.put_some("columns", List.of(spelled.columns))

@@ -1,4 +1,4 @@
-"""What a component's parameters will be: one plan for each, with its values in each of the component's configs."""
+"""Plans of a component's parameters, with the values in each of the component's configs."""
 
 from __future__ import annotations
 
@@ -6,19 +6,20 @@ from collections.abc import Mapping, Sequence
 
 import msgspec
 
-from robocomp_yaml.legacy.reading import Source
+from robocomp_yaml.legacy.reading import SourceText
 from robocomp_yaml.legacy.rules import Rules
 from robocomp_yaml.legacy.settings.entries import Item, Setting
 from robocomp_yaml.legacy.settings.headers import Column
 from robocomp_yaml.legacy.settings.shapes import Shape
-from robocomp_yaml.legacy.settings.sorting import Sorted
+from robocomp_yaml.legacy.settings.sorting import SortedSettings
+from robocomp_yaml.semantics.spellings import Spelling
 
 Path = tuple[str, ...]
 
 
-class Guesses(msgspec.Struct, frozen=True):
-    """What the user knows better (`--names`, `--rules`): columns by the key of their rows, types by parameter, and
-    keys whose values are plain text, no lists."""
+class Corrections(msgspec.Struct, frozen=True):
+    """The user's corrections (`--names`, `--rules`): columns by the key of their rows, types by parameter, and keys
+    whose values are plain text instead of lists."""
 
     names: Mapping[str, Sequence[str]] = {}
     types: Mapping[str, str] = {}
@@ -26,20 +27,20 @@ class Guesses(msgspec.Struct, frozen=True):
 
 
 class Config(msgspec.Struct, frozen=True):
-    """One config of a component. `sorted` loses what becomes part of a plan."""
+    """One config of a component. A setting that becomes part of a plan is removed from `sorted`."""
 
     name: str
-    source: Source
+    source: SourceText
     rules: Rules
-    sorted: Sorted
+    sorted: SortedSettings
 
     @property
     def parameters(self) -> list[Setting]:
         return self.sorted.parameters
 
 
-class Given(msgspec.Struct, frozen=True):
-    """A parameter's value in one config, and the settings that hold it there."""
+class PlannedValue(msgspec.Struct, frozen=True):
+    """A parameter's value in one config, and the settings that contain it."""
 
     item: Item
     settings: list[Setting] = []
@@ -49,24 +50,13 @@ class Given(msgspec.Struct, frozen=True):
         return min((setting.span.line for setting in self.settings), default=0)
 
 
-class Spelled(msgspec.Struct, frozen=True):
-    """How a flat file spells a parameter: an entry of the PDSL's legacy table."""
-
-    key: str = ""
-    fields: dict[str, str] = {}
-    first: int = 0
-    columns: list[str] = []
-    separator: str = ","
-    separators: list[str] = []
-    trailing: bool = False
-
-
-class Plan(msgspec.Struct):
-    """A parameter. `built_in`: every component has it, so that no PDSL has to define it. `guessed` says what."""
+class ParameterPlan(msgspec.Struct):
+    """A parameter, with its values by config. `built_in`: every component has it, so that no PDSL defines it. `guessed`
+    is a message about what was guessed."""
 
     path: Path
-    given: dict[str, Given] = {}
-    spelled: Spelled | None = None
+    values: dict[str, PlannedValue] = {}
+    spelled: Spelling | None = None
     shape: Shape | None = None
     docs: tuple[Column, ...] = ()
     built_in: bool = False

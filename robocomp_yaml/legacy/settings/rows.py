@@ -1,4 +1,4 @@
-"""Texts split into rows and lists, and the separators that join them again."""
+"""Detect rows and lists in texts, and their separators."""
 
 from __future__ import annotations
 
@@ -6,67 +6,44 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
 
-import msgspec
+from robocomp_yaml.semantics.rows import split
+from robocomp_yaml.semantics.texts import BLANKS
 
 _NO_ROW = re.compile(r"""[\[\](){}"';]|://""")
 _NO_LIST = re.compile(r"""[\[\](){}"']|://""")
 _PATH_WITH_BLANK = re.compile(r"/[^,;]*[^\s,;]\s+[^\s,;]|[^\s,;]\s+[^\s,;]*/")
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?\Z")
 _WHOLE = re.compile(r"[-+]?\d+\Z")
-BLANKS = " \t"
-
-
-def cells(text: str) -> list[str]:
-    """The columns of a row."""
-    return [part.strip(BLANKS) for part in text.split(",")]
 
 
 def are_rows(texts: Sequence[str]) -> bool:
-    """Whether all texts are rows of columns, and no numbers with a decimal comma."""
+    """Whether all texts are rows of columns, and not numbers with a decimal comma."""
     if not texts or any("," not in text or _NO_ROW.search(text) for text in texts):
         return False
-    return not all(len(row) == 2 and all(map(_WHOLE.match, row)) for row in map(cells, texts))
-
-
-class Split(msgspec.Struct, frozen=True):
-    """A text as a list: of texts, or of lists of texts."""
-
-    parts: list[str] | list[list[str]]
-    separators: tuple[str, ...]
-    trailing: bool = False
+    return not all(len(row) == 2 and all(map(_WHOLE.match, row)) for row in (split(text, ",") for text in texts))
 
 
 def could_be_list(text: str) -> bool:
-    """Whether no part is missing, but for the last one, and none looks like something else."""
+    """Whether a text can be a list: only the last part may be missing, and no part looks like something else."""
     if _NO_LIST.search(text) or _PATH_WITH_BLANK.search(text) or text != text.strip(BLANKS):
         return False
     return all(part.strip(BLANKS) for part in re.split("[,;]", re.sub(r"[;,]\Z", "", text)))
 
 
 def is_list(text: str) -> bool:
-    """Whether a text is a list by itself: what holds only one comma may be a number, or an address."""
+    """Whether a text is certainly a list. A text with one comma may be a number or an address."""
     if not could_be_list(text):
         return False
     if ";" in text:
         return True
-    parts = cells(text)
+    parts = split(text, ",")
     if len(parts) == 2:
         return all(parts) and not any(_NUMBER.match(part) for part in parts)
     return len(parts) > 2
 
 
-def split(text: str, separators: tuple[str, ...]) -> Split:
-    """A text by separators that are known: `;` outside, `,` inside."""
-    trailing = text.rstrip(BLANKS).endswith(separators[0])
-    body = text.rstrip(BLANKS)[:-1] if trailing else text
-    outer = [part.strip(BLANKS) for part in body.split(separators[0])]
-    if len(separators) == 1:
-        return Split(outer, separators, trailing)
-    return Split([cells(part) for part in outer], separators, trailing)
-
-
 def separators(texts: Iterable[str]) -> tuple[str, ...]:
-    """The separators of a list, as its texts in several files show them."""
+    """Return the separators of a list, the outermost first, from its texts in several files."""
     listed = list(texts)
     outer = any(";" in text for text in listed)
     inner = any("," in text for text in listed)
@@ -74,13 +51,13 @@ def separators(texts: Iterable[str]) -> tuple[str, ...]:
 
 
 def joiner(texts: Iterable[str], separator: str) -> str:
-    """The separator with or without a blank behind it, as most of the texts have it."""
+    """Return a separator with or without a blank behind it, as most of the texts have it."""
     found = Counter(part.startswith(" ") for text in texts for part in text.split(separator)[1:] if part.strip(BLANKS))
     return f"{separator} " if found[True] > found[False] else separator
 
 
 def squeezed(text: str, separators: Iterable[str]) -> str:
-    """A text without the blanks around its separators."""
+    """Return a text without blanks around its separators."""
     for separator in separators:
         bare = separator.strip(BLANKS)
         first, *rest = text.split(bare)

@@ -1,4 +1,4 @@
-"""The shape that values have in common: the least type that all of them fit."""
+"""Shapes of values: the smallest type that all values of a parameter fit."""
 
 from __future__ import annotations
 
@@ -13,79 +13,79 @@ from robocomp_yaml.legacy.settings.entries import DOUBLE, FLOAT, INT, LONG, STRI
 _NUMBERS = (INT, LONG, FLOAT, DOUBLE)
 
 
-class Scalar(msgspec.Struct, frozen=True):
+class ScalarShape(msgspec.Struct, frozen=True):
     kind: str
 
 
-class ListOf(msgspec.Struct, frozen=True):
+class ListShape(msgspec.Struct, frozen=True):
     element: Shape
 
 
-class Field(msgspec.Struct, frozen=True):
+class MemberShape(msgspec.Struct, frozen=True):
     name: str
     shape: Shape
     optional: bool = False
 
 
-class Record(msgspec.Struct, frozen=True):
-    fields: tuple[Field, ...]
+class RecordShape(msgspec.Struct, frozen=True):
+    fields: tuple[MemberShape, ...]
 
 
-Shape = Scalar | ListOf | Record
+Shape = ScalarShape | ListShape | RecordShape
 
 
 def least(kinds: Iterable[str]) -> str:
-    """The least type of plain values: numbers widen, all else is text."""
-    found = set(kinds)
-    if len(found) == 1:
-        return found.pop()
-    if not found or not found <= set(_NUMBERS):
+    """Return the smallest type of plain values: numbers widen, other combinations are text."""
+    known = set(kinds)
+    if len(known) == 1:
+        return known.pop()
+    if not known or not known <= set(_NUMBERS):
         return STRING
-    return DOUBLE if {LONG, FLOAT} <= found else max(found, key=_NUMBERS.index)
+    return DOUBLE if {LONG, FLOAT} <= known else max(known, key=_NUMBERS.index)
 
 
 def shape_of(trees: Sequence[Tree]) -> Shape | None:
-    """What all of these are; None where some are lists and others not."""
+    """Return the common shape of values; None where only some are lists or records."""
     if all(isinstance(tree, Leaf) for tree in trees):
-        return Scalar(least(tree.kind for tree in trees if isinstance(tree, Leaf)))
+        return ScalarShape(least(tree.kind for tree in trees if isinstance(tree, Leaf)))
     if all(isinstance(tree, list) for tree in trees):
         inner = [item.value for tree in trees if isinstance(tree, list) for item in tree]
         element = shape_of(inner)
-        return ListOf(element) if element is not None else None
+        return ListShape(element) if element is not None else None
     records = [tree for tree in trees if isinstance(tree, dict)]
     if len(records) < len(trees):
         return None
     fields = []
     for name in dict.fromkeys(name for record in records for name in record):
-        given = [record[name].value for record in records if name in record]
-        shape = shape_of(given)
+        values = [record[name].value for record in records if name in record]
+        shape = shape_of(values)
         if shape is None:
             return None
-        fields.append(Field(name, shape, len(given) < len(records)))
-    return Record(tuple(fields)) if fields else None
+        fields.append(MemberShape(name, shape, len(values) < len(records)))
+    return RecordShape(tuple(fields)) if fields else None
 
 
 def retyped(shape: Shape, path: str, types: Mapping[str, str]) -> Shape:
-    """A shape with the wider types that the user gives, by path: `Motors.zero`."""
-    if isinstance(shape, ListOf):
-        return ListOf(retyped(shape.element, path, types))
-    if isinstance(shape, Record):
-        return Record(tuple(replace(f, shape=retyped(f.shape, f"{path}.{f.name}", types)) for f in shape.fields))
-    told = types.get(path)
-    return Scalar(told) if told is not None and least((told, shape.kind)) == told else shape
+    """Return a shape with the wider types that the user requests, by path: `Motors.zero`."""
+    if isinstance(shape, ListShape):
+        return ListShape(retyped(shape.element, path, types))
+    if isinstance(shape, RecordShape):
+        return RecordShape(tuple(replace(f, shape=retyped(f.shape, f"{path}.{f.name}", types)) for f in shape.fields))
+    requested = types.get(path)
+    return ScalarShape(requested) if requested is not None and least((requested, shape.kind)) == requested else shape
 
 
 def written(shape: Shape, tree: Tree) -> Value:
-    """A value as a document writes it, by the type of its parameter."""
+    """Return a value for a document, by the type of its parameter."""
     if isinstance(tree, Leaf):
-        return plain(tree, shape.kind if isinstance(shape, Scalar) else STRING)
+        return plain(tree, shape.kind if isinstance(shape, ScalarShape) else STRING)
     if isinstance(tree, list):
-        assert isinstance(shape, ListOf)
-        listed = List(block=isinstance(shape.element, Record))
+        assert isinstance(shape, ListShape)
+        listed = List(block=isinstance(shape.element, RecordShape))
         for item in tree:
             listed.put(written(shape.element, item.value), item.notes)
         return listed
-    assert isinstance(shape, Record)
+    assert isinstance(shape, RecordShape)
     shapes = {field.name: field.shape for field in shape.fields}
     body = Map()
     for name, item in tree.items():
@@ -98,12 +98,12 @@ def plain(leaf: Leaf, kind: str) -> Value:
 
 
 def becomes_text(shape: Shape, tree: Tree) -> bool:
-    """Whether a number or truth value stands where others have text, so that it is text from now on."""
+    """Whether a value has a number or boolean where its parameter has text, so that it becomes text."""
     if isinstance(tree, Leaf):
-        return shape == Scalar(STRING) and tree.kind != STRING
+        return shape == ScalarShape(STRING) and tree.kind != STRING
     if isinstance(tree, list):
-        return isinstance(shape, ListOf) and any(becomes_text(shape.element, item.value) for item in tree)
-    shapes = {field.name: field.shape for field in shape.fields} if isinstance(shape, Record) else {}
+        return isinstance(shape, ListShape) and any(becomes_text(shape.element, item.value) for item in tree)
+    shapes = {field.name: field.shape for field in shape.fields} if isinstance(shape, RecordShape) else {}
     return any(name in shapes and becomes_text(shapes[name], item.value) for name, item in tree.items())
 
 

@@ -1,4 +1,4 @@
-"""Which settings are endpoints, proxies, topics, Ice's own, and which are parameters."""
+"""Sort settings: endpoints, proxies, topics, properties of Ice, and parameters."""
 
 from __future__ import annotations
 
@@ -9,26 +9,26 @@ import msgspec
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.legacy.rules import Rules
-from robocomp_yaml.legacy.settings.entries import CLASSIC, TOML, Leaf, Setting, Settings
+from robocomp_yaml.legacy.settings.entries import CLASSIC, TOML, ConfigSettings, Leaf, Setting
 from robocomp_yaml.legacy.settings.headers import free
 from robocomp_yaml.parameters.spelling import references
 
 MAX_DEPTH = 20
-"""So many parts may a parameter's key have; nobody writes half as many."""
+"""At most this many parts may a parameter's key have. Real files have less than half as many."""
 
-_OWN = "x-"
+_USER_PREFIX = "x-"
 _WORD = re.compile(r"[A-Za-z_]\w*\Z")
 
 
-class Ports(msgspec.Struct, frozen=True):
-    """The interfaces that a component names, as far as its document is known."""
+class PortNames(msgspec.Struct, frozen=True):
+    """The names of a component's ports, as far as its document is known."""
 
     implements: frozenset[str] = frozenset()
     requires: frozenset[str] = frozenset()
     topics: frozenset[str] = frozenset()
 
-    def takes(self, key: str) -> bool:
-        """Whether a property of this name is the connection's, and no parameter's."""
+    def is_connection(self, key: str) -> bool:
+        """Whether a property of this name configures a connection instead of a parameter."""
         return (
             key in self.implements | self.topics
             or key.removesuffix("Topic") in self.topics
@@ -37,113 +37,120 @@ class Ports(msgspec.Struct, frozen=True):
         )
 
 
-class Named(msgspec.Struct, frozen=True):
-    """A setting under its name in a section. `key`: the property, where the name does not say it."""
+class NamedSetting(msgspec.Struct, frozen=True):
+    """A setting under its name in a section. `key` is the property, where it differs from the one of the name."""
 
     name: str
     setting: Setting
     key: str = ""
 
 
-class Sorted(msgspec.Struct, frozen=True):
-    """The settings of one file by section."""
+class SortedSettings(msgspec.Struct, frozen=True):
+    """The settings of one file, by section."""
 
     dialect: str
     parameters: list[Setting] = []
-    endpoints: list[Named] = []
-    proxies: list[Named] = []
-    manager: list[Named] = []
-    prefixes: list[Named] = []
-    names: list[Named] = []
-    ice: list[Named] = []
-    properties: list[Named] = []
+    endpoints: list[NamedSetting] = []
+    proxies: list[NamedSetting] = []
+    manager: list[NamedSetting] = []
+    prefixes: list[NamedSetting] = []
+    names: list[NamedSetting] = []
+    ice: list[NamedSetting] = []
+    properties: list[NamedSetting] = []
     diagnostics: list[Diagnostic] = []
 
-    def put(self, section: list[Named], name: str, setting: Setting) -> None:
-        """Under its name in a section, where one that starts with `x-` would be the user's own."""
-        if name.startswith(_OWN):
+    def put(self, section: list[NamedSetting], name: str, setting: Setting) -> None:
+        """Add a setting to a section. Names that start with `x-` are reserved for the user: such a setting becomes a
+        property."""
+        if name.startswith(_USER_PREFIX):
             self.keep(setting)
         else:
-            section.append(Named(name, setting))
+            section.append(NamedSetting(name, setting))
 
     def connect(self, name: str, setting: Setting) -> None:
-        """A proxy. Without a name of its own it is called as its property."""
-        taken = {named.name for named in self.proxies}
-        if name and name not in taken and not name.startswith(_OWN):
-            self.proxies.append(Named(name, setting))
+        """Add a proxy. Without a name, it is named after its property."""
+        used = {named.name for named in self.proxies}
+        if name and name not in used and not name.startswith(_USER_PREFIX):
+            self.proxies.append(NamedSetting(name, setting))
         else:
-            self.proxies.append(Named(free(setting.key.replace(_OWN, "x_", 1), taken), setting, setting.key))
+            unique = free(setting.key.replace(_USER_PREFIX, "x_", 1), used)
+            self.proxies.append(NamedSetting(unique, setting, setting.key))
 
     def keep(self, setting: Setting) -> None:
-        """A property that no section has a place for. A list or a table, which TOML may give, can be none."""
+        """Add a property that fits no section. Lists and tables of TOML cannot be properties, and are lost."""
         if isinstance(setting.value, Leaf):
-            self.properties.append(Named(setting.key, setting))
+            self.properties.append(NamedSetting(setting.key, setting))
         else:
-            what = f"only texts and numbers can stand here, so '{setting.key}' is left out"
+            what = f"only texts and numbers can be properties, so that '{setting.key}' is omitted"
             self.diagnostics.append(codes.LOST.at(setting.span, what=what))
 
 
-def sort(settings: Settings, ports: Ports, rules: Rules) -> Sorted:
-    found = Sorted(settings.dialect)
+def sort(settings: ConfigSettings, ports: PortNames, rules: Rules) -> SortedSettings:
+    """Return the settings of a config by section."""
+    result = SortedSettings(settings.dialect)
     for setting in settings.settings:
         if not isinstance(setting.value, Leaf):
             if rules.sections["service"].match(f"{setting.key}.") or len(setting.path) > MAX_DEPTH:
-                found.keep(setting)
+                result.keep(setting)
             else:
-                found.parameters.append(setting)
+                result.parameters.append(setting)
         elif settings.dialect == CLASSIC:
-            _classic(found, setting, ports, rules)
+            _classic(result, setting, ports, rules)
         else:
-            _toml(found, setting, ports, rules)
-    return found
+            _toml(result, setting, ports, rules)
+    return result
 
 
-def _classic(found: Sorted, setting: Setting, ports: Ports, rules: Rules) -> None:
+def _classic(result: SortedSettings, setting: Setting, ports: PortNames, rules: Rules) -> None:
     key, text = setting.key, setting.text
     if key.startswith("Ice.") and len(key) > 4:
-        found.ice.append(Named(key[4:], setting))
+        result.ice.append(NamedSetting(key[4:], setting))
     elif key.endswith(".Endpoints") and len(key) > 10:
-        found.put(found.endpoints, key[:-10], setting)
+        result.put(result.endpoints, key[:-10], setting)
     elif key == "TopicManager.Proxy":
-        found.manager.append(Named("manager", setting))
+        result.manager.append(NamedSetting("manager", setting))
     elif rules.sections["proxy"].match(text) or (key.removesuffix("Proxy") in ports.requires and key[-5:] == "Proxy"):
         name = key.removesuffix("Proxy")
-        found.connect(name if name != key else "", setting)
+        result.connect(name if name != key else "", setting)
     elif key.startswith("Proxies.") and key.endswith("Prefix") and len(key) > 14:
-        found.put(found.prefixes, key[8:-6], setting)
+        result.put(result.prefixes, key[8:-6], setting)
     elif (key == text or key.removesuffix("Topic") in ports.topics) and _WORD.match(key) and _WORD.match(text):
-        found.names.append(Named(key, setting))
+        result.names.append(NamedSetting(key, setting))
     else:
-        _rest(found, setting, ports, rules)
+        _rest(result, setting, ports, rules)
 
 
-def _toml(found: Sorted, setting: Setting, ports: Ports, rules: Rules) -> None:
+def _toml(result: SortedSettings, setting: Setting, ports: PortNames, rules: Rules) -> None:
     key, path, text = setting.key, setting.path, setting.text
     if path[0] == "Ice" and len(path) > 1:
-        found.ice.append(Named(key[4:], setting))
+        result.ice.append(NamedSetting(key[4:], setting))
     elif path[0] == "Endpoints" and len(path) == 2 and text:
-        found.put(found.endpoints, path[1], setting)
+        result.put(result.endpoints, path[1], setting)
     elif key == "Proxies.TopicManager" and text:
-        found.manager.append(Named("manager", setting))
+        result.manager.append(NamedSetting("manager", setting))
     elif path[0] == "Proxies" and len(path) == 2 and not rules.sections["proxy"].match(text) and key[-6:] == "Prefix":
-        found.put(found.prefixes, path[1][:-6], setting)
+        result.put(result.prefixes, path[1][:-6], setting)
     elif path[0] == "Proxies" and len(path) == 2 and text:
-        found.connect(path[1], setting)
+        result.connect(path[1], setting)
     elif rules.sections["proxy"].match(text):
-        found.connect("", setting)
+        result.connect("", setting)
     else:
-        _rest(found, setting, ports, rules)
+        _rest(result, setting, ports, rules)
 
 
-def _rest(found: Sorted, setting: Setting, ports: Ports, rules: Rules) -> None:
-    """A parameter, unless its name could not be one's."""
-    if found.dialect != TOML and rules.sections["suspicious"].search(setting.key):
+def _rest(result: SortedSettings, setting: Setting, ports: PortNames, rules: Rules) -> None:
+    """Add a parameter; a setting whose name cannot be a parameter's becomes a property."""
+    if result.dialect != TOML and rules.sections["suspicious"].search(setting.key):
         what = rules.repairs["suspicious"].format(text=setting.key)
-        found.diagnostics.append(codes.REPAIRED.at(setting.span, what=what))
-        found.keep(setting)
-    elif rules.sections["service"].match(setting.key) or ports.takes(setting.key) or references.in_text(setting.text):
-        found.keep(setting)
+        result.diagnostics.append(codes.REPAIRED.at(setting.span, what=what))
+        result.keep(setting)
+    elif (
+        rules.sections["service"].match(setting.key)
+        or ports.is_connection(setting.key)
+        or references.in_text(setting.text)
+    ):
+        result.keep(setting)
     elif len(setting.path) > MAX_DEPTH:
-        found.keep(setting)
+        result.keep(setting)
     else:
-        found.parameters.append(setting)
+        result.parameters.append(setting)

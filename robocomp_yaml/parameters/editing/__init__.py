@@ -1,1 +1,1 @@
-"""Values looked at and changed in their documents."""
+"""Effective values with their origin, and edits of values in documents."""

@@ -1,9 +1,8 @@
-"""One value of a document changed in its text; every other byte stays.
+"""An edit of one value in the text of its document; every other byte is unchanged.
 
-The tree says where: an existing value is replaced between its marks, a new one is put behind the last entry of the
-mapping or list that it belongs to, and behind the comments that are indented as that entry's own. Where a first
-document (`values.new`) has a line for it with a # before it, that line becomes the value. What would touch more than
-that (a list over many lines, an alias) is refused.
+An existing value is replaced at its location. A new value is inserted after the last entry of its mapping or list, and
+after the comments that are indented like that entry. A commented line of a first document (`examples.new`) is replaced.
+An edit that affects more than the value, such as a list on several lines or an alias, is rejected.
 """
 
 from __future__ import annotations
@@ -14,6 +13,7 @@ from typing import Any
 
 import msgspec
 
+from robocomp_yaml.semantics.limits import entries
 from robocomp_yaml.semantics.paths import Step
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, end_of, last_end, parse
 from robocomp_yaml.source.yaml_text import quoted, scalar, single_quoted
@@ -24,15 +24,15 @@ _REST_OF_LINE = re.compile(r"[ \t]*(?:#[^\n]*)?(?=\r?\n|\Z)")
 
 
 class NotEditable(Exception):
-    """Says why a value cannot be changed in place; `node` is what stands in the way."""
+    """A value cannot be edited in place. `node` is the reason."""
 
     def __init__(self, reason: str, node: Node) -> None:
         super().__init__(reason)
         self.node = node
 
 
-class Change(msgspec.Struct, frozen=True):
-    """`text` is the whole document after the change; `was` what stood there before, or ''."""
+class DocumentEdit(msgspec.Struct, frozen=True):
+    """`text` is the whole document after the edit, `was` the previous text of the value, or ''."""
 
     text: str
     was: str
@@ -41,24 +41,23 @@ class Change(msgspec.Struct, frozen=True):
 def set_value(
     path: str, text: str, root: Mapping, steps: list[Step], new: str, *, is_text: bool,
     lines_above: Callable[[list[Step]], Collection[str]] = lambda steps: (),
-) -> Change:  # fmt: skip
-    """The document with another value at `steps` (from its top; numbers are places in lists, and the one behind the
-    last is a new entry); `new` is YAML on one line, or the text itself where `is_text`. `lines_above` gives the
-    comments of which one stands above the line of a value that is left out. Raises NotEditable."""
+) -> DocumentEdit:  # fmt: skip
+    """The document with a new value at `steps`, from its root. An index equal to the length of a list appends an entry.
+    `new` is YAML on one line, or the text itself if `is_text`. `lines_above` returns the possible comments above the
+    commented line of a value. Raises NotEditable."""
     node: Node = root
     key: Scalar | None = None
     for depth, step in enumerate(steps):
         found = _child(node, step)
         if found is None:
             if any(isinstance(each, int) for each in steps[depth + 1 :]):
-                raise NotEditable("there is no list here to add to; give the whole list", node)
+                raise NotEditable("there is no list to append to; set the whole list", node)
             spelled = scalar(new) if is_text else new
-            left_out = _left_out(text, node, key, steps[depth], lines_above(steps[: depth + 1]))
-            change = (
-                _uncommented(text, left_out, steps[depth:], spelled)
-                if left_out is not None
-                else (_insert(text, node, key, steps[depth:], spelled))
-            )
+            commented = _commented(text, node, key, steps[depth], lines_above(steps[: depth + 1]))
+            if commented is not None:
+                change = _uncommented(text, commented, steps[depth:], spelled)
+            else:
+                change = _insert(text, node, key, steps[depth:], spelled)
             break
         key, node = found[0] or key, found[1]
     else:
@@ -67,7 +66,7 @@ def set_value(
     meant, _ = (None, []) if is_text else parse(path, new)
     expected = new if is_text else meant.data if meant is not None else None
     if after is None or faults or not _same_but(root.data, after.data, steps) or _at(after.data, steps) != expected:
-        raise NotEditable("a change here would touch more than this value", node)
+        raise NotEditable("an edit would affect more than this value", node)
     return change
 
 
@@ -83,16 +82,16 @@ def _child(node: Node, step: Step) -> tuple[Scalar | None, Node] | None:
     if isinstance(node, Sequence) and isinstance(step, int):
         count = len(node.items)
         if step > count:
-            raise NotEditable(f"the list has {count} entr{'y' if count == 1 else 'ies'} here", node)
+            raise NotEditable(f"the list has {entries(count)}", node)
         return (None, node.items[step]) if step < count else None
     return None
 
 
 def _same_but(before: object, after: object, steps: list[Step]) -> bool:
-    """Whether two documents are the same but for the place."""
+    """Whether the data of two documents differ at most at `steps`."""
     if not steps:
         return True
-    if isinstance(before, dict | None.__class__) and isinstance(after, dict):
+    if isinstance(before, (dict, None.__class__)) and isinstance(after, dict):
         old = before or {}
         others = {key for key in (*old, *after) if key != steps[0]}
         return all(key in old and key in after and old[key] == after[key] for key in others) and _same_but(
@@ -102,74 +101,74 @@ def _same_but(before: object, after: object, steps: list[Step]) -> bool:
     if isinstance(before, list) and isinstance(after, list) and isinstance(at, int):
         if at == len(before):
             return after[:-1] == before
-        around = [*before[:at], *before[at + 1 :]] == [*after[:at], *after[at + 1 :]]
-        return len(before) == len(after) and around and _same_but(before[at], after[at], steps[1:])
+        others_alike = [*before[:at], *before[at + 1 :]] == [*after[:at], *after[at + 1 :]]
+        return len(before) == len(after) and others_alike and _same_but(before[at], after[at], steps[1:])
     return False
 
 
-def _replace(text: str, node: Node, key: Scalar | None, new: str, is_text: bool) -> Change:
+def _replace(text: str, node: Node, key: Scalar | None, new: str, is_text: bool) -> DocumentEdit:
     start, end = node.start, node.end
     if key is not None and start < key.end:
         raise NotEditable("the value is an alias of another one", key)
     if text[start : start + 1] in ("&", "!", "*"):
-        raise NotEditable("the value has an anchor, which aliases may repeat", node)
+        raise NotEditable("the value has an anchor, to which aliases may refer", node)
     old = text[start:end]
     if isinstance(node, Scalar):
-        if not old:  # nothing behind the colon, or in a list
+        if not old:  # an empty value, or an empty entry of a list
             return _fill(text, node, key, scalar(new) if is_text else new)
         if old[0] in "|>":
             raise NotEditable("the value is a text of several lines", node)
         spelled = new
         if is_text:
             spelled = quoted(new) if old[0] == '"' else single_quoted(new) if old[0] == "'" else scalar(new)
-        return Change(text[:start] + spelled + text[end:], old)
+        return DocumentEdit(text[:start] + spelled + text[end:], old)
     if old[0] not in "[{":
-        raise NotEditable("the value fills several lines; change what it holds, or write it in the document", node)
-    return Change(text[:start] + (scalar(new) if is_text else new) + text[end:], old)
+        raise NotEditable("the value spans several lines; set its entries, or edit the document", node)
+    return DocumentEdit(text[:start] + (scalar(new) if is_text else new) + text[end:], old)
 
 
-def _fill(text: str, node: Node, key: Scalar | None, new: str) -> Change:
+def _fill(text: str, node: Node, key: Scalar | None, new: str) -> DocumentEdit:
     if key is None:
         raise NotEditable("the entry is empty", node)
     colon = _COLON.match(text, key.end)
     if colon is None:
         raise NotEditable("the key has no value", key)
-    return Change(f"{text[: colon.end()]} {new}{text[colon.end() :]}", "")
+    return DocumentEdit(f"{text[: colon.end()]} {new}{text[colon.end() :]}", "")
 
 
-def _insert(text: str, node: Node, key: Scalar | None, steps: list[Step], new: str) -> Change:
-    """A new entry in a mapping or list, or the first one below a key that has nothing behind it."""
+def _insert(text: str, node: Node, key: Scalar | None, steps: list[Step], new: str) -> DocumentEdit:
+    """Inserts an entry in a mapping or list, or the first entry below a key without a value."""
     if isinstance(node, Sequence) and isinstance(steps[0], int):
         return _append(text, node, key, steps[1:], new)
     if isinstance(node, Scalar) and node.data is None and key is not None and isinstance(steps[0], str):
         colon = _COLON.match(text, key.end)
         if colon is None or node.end > node.start:
-            raise NotEditable("there is no mapping here to add to", node)
+            raise NotEditable("there is no mapping to add to", node)
         at = _end_of_line(text, colon.end())
         indent = " " * _inside(text, key)
-        return Change(text[:at] + _line_end(text) + _block(steps, new, indent, _line_end(text)) + text[at:], "")
+        return DocumentEdit(text[:at] + _line_end(text) + _block(steps, new, indent, _line_end(text)) + text[at:], "")
     if not isinstance(node, Mapping) or not isinstance(steps[0], str):
         what = "list" if isinstance(steps[0], int) else "mapping"
-        raise NotEditable(f"there is no {what} here to add to", node)
+        raise NotEditable(f"there is no {what} to add to", node)
     if key is not None and node.start < key.end:
         raise NotEditable("the mapping is an alias of another one", key)
     last = last_end(node)
     if text[node.start : node.start + 1] == "{":
         entry = _flow(steps, new)
         at = node.start + 1 if last is None else last
-        return Change(text[:at] + (f", {entry}" if last is not None else entry) + text[at:], "")
+        return DocumentEdit(text[:at] + (f", {entry}" if last is not None else entry) + text[at:], "")
     first_key = next(iter(node.entries.values()))[0]
     indent = " " * (first_key.span.column - 1)
     assert last is not None
     line_end = _line_end(text)
-    if text[:last].endswith("\n"):  # behind a text of several lines
-        return Change(text[:last] + _block(steps, new, indent, line_end) + line_end + text[last:], "")
+    if text[:last].endswith("\n"):  # after a text of several lines
+        return DocumentEdit(text[:last] + _block(steps, new, indent, line_end) + line_end + text[last:], "")
     at = _behind_comments(text, _end_of_line(text, last), len(indent))
-    return Change(text[:at] + line_end + _block(steps, new, indent, line_end) + text[at:], "")
+    return DocumentEdit(text[:at] + line_end + _block(steps, new, indent, line_end) + text[at:], "")
 
 
 def _behind_comments(text: str, at: int, indent: int) -> int:
-    """Behind the comments that follow and are indented deeper: they are about what stands above them."""
+    """The index after the following comments that are indented deeper: they belong to the entry above them."""
     for line in _LINE.finditer(text, at):
         if line["body"] and (not line["body"].startswith("#") or len(line["indent"]) <= indent):
             break
@@ -178,14 +177,14 @@ def _behind_comments(text: str, at: int, indent: int) -> int:
     return at
 
 
-def _left_out(text: str, node: Node, key: Scalar | None, step: Step, above: Collection[str]) -> re.Match[str] | None:
-    """The line of an entry that a first document leaves out, below the key of the mapping that it belongs to."""
+def _commented(text: str, node: Node, key: Scalar | None, step: Step, above: Collection[str]) -> re.Match[str] | None:
+    """The commented line of an entry in a first document, below the key of its mapping; None if there is none."""
     is_block = (isinstance(node, Mapping) and not node.is_flow) or (isinstance(node, Scalar) and node.data is None)
     if key is None or not above or not is_block:
         return None
     outer = key.span.column - 1
-    entries = iter(node.entries.values()) if isinstance(node, Mapping) else iter(())
-    indent = next((first.span.column - 1 for first, _ in entries), _inside(text, key))
+    keys = (first for first, _ in node.entries.values()) if isinstance(node, Mapping) else iter(())
+    indent = next((first.span.column - 1 for first in keys), _inside(text, key))
     found, before = None, ""
     for line in _LINE.finditer(text, _end_of_line(text, key.end)):
         body = line["body"]
@@ -198,31 +197,31 @@ def _left_out(text: str, node: Node, key: Scalar | None, step: Step, above: Coll
 
 
 def _inside(text: str, key: Scalar) -> int:
-    """The indentation of what belongs below a key that has nothing yet: that of the comments which stand there."""
+    """The indentation of the entries below a key without entries: that of the comments there."""
     outer = key.span.column - 1
     line = _LINE.search(text, key.end)
     is_inside = line is not None and line["body"].startswith("#") and len(line["indent"]) > outer
     return len(line["indent"]) if line is not None and is_inside else outer + 2
 
 
-def _uncommented(text: str, line: re.Match[str], steps: list[Step], new: str) -> Change:
+def _uncommented(text: str, line: re.Match[str], steps: list[Step], new: str) -> DocumentEdit:
     block = _block(steps, new, line["indent"], _line_end(text))
-    return Change(text[: line.start("indent")] + block + text[line.end("body") :], "")
+    return DocumentEdit(text[: line.start("indent")] + block + text[line.end("body") :], "")
 
 
-def _append(text: str, node: Sequence, key: Scalar | None, steps: list[Step], new: str) -> Change:
-    """A new entry behind the last one of a list."""
+def _append(text: str, node: Sequence, key: Scalar | None, steps: list[Step], new: str) -> DocumentEdit:
+    """Appends an entry to a list."""
     if key is not None and node.start < key.end:
         raise NotEditable("the list is an alias of another one", key)
     entry = f"{{{_flow(steps, new)}}}" if steps else new
     if text[node.start : node.start + 1] == "[":
         at = node.items[-1].end if node.items else node.start + 1
-        return Change(text[:at] + (f", {entry}" if node.items else entry) + text[at:], "")
+        return DocumentEdit(text[:at] + (f", {entry}" if node.items else entry) + text[at:], "")
     last = end_of(node)
     if node.items[-1].data is None or text[:last].endswith("\n"):
         raise NotEditable("the last entry is empty, or a text of several lines", node)
     at, indent = _end_of_line(text, last), " " * (node.span.column - 1)
-    return Change(f"{text[:at]}{_line_end(text)}{indent}- {entry}{text[at:]}", "")
+    return DocumentEdit(f"{text[:at]}{_line_end(text)}{indent}- {entry}{text[at:]}", "")
 
 
 def _end_of_line(text: str, at: int) -> int:

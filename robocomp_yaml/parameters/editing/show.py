@@ -1,4 +1,4 @@
-"""Every effective value with where it comes from."""
+"""Effective values with their origin."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from robocomp_yaml import secrets
 from robocomp_yaml.parameters.hidden import hidden, holds_secret
 from robocomp_yaml.parameters.layers.effective import Effective
-from robocomp_yaml.parameters.layers.merge import Place, Where, child, node_of, step
+from robocomp_yaml.parameters.layers.merge import MergedValue, Origin, child, node_of, step
 from robocomp_yaml.parameters.types import (
     BasicType,
     ListType,
@@ -28,8 +28,8 @@ from robocomp_yaml.source.yaml_text import flow
 
 
 class Value(msgspec.Struct, frozen=True):
-    """A plain value, or an empty list or map. `node` is where it is given; None for a default, whose node (if a
-    document wrote it) is `default`. `overrode` are the nodes of earlier layers, the latest first."""
+    """A plain value, or an empty list or map. `node` is the node that sets it; None for a default, whose node is
+    `default` if a document defines it. `overrode` are the nodes of earlier layers, the latest first."""
 
     path: str
     data: Any
@@ -44,32 +44,33 @@ class Value(msgspec.Struct, frozen=True):
     reveal: bool = True
 
     def hide(self, data: Any) -> Any:
-        """What was given in another layer, as it may be shown."""
+        """The value of another layer, as it may be shown."""
         return data if self.reveal else _hidden(self.type, self.steps, data)
 
 
 def shown(effective: Effective, *, reveal: bool) -> Iterator[Value]:
-    """Secrets are hidden unless `reveal` says otherwise."""
-    for row in _record(effective.parameters.root, effective.data, effective.place, None, (), False):
+    """All effective values, in order. Secrets are hidden unless `reveal`."""
+    for row in _record(effective.parameters.root, effective.data, effective.merged, None, (), False):
         data = row.data if reveal else _hidden(row.type, row.steps, row.data)
         text = row.text if data == row.data else flow(data) if data != HIDDEN else HIDDEN
         yield replace(row, data=data, text=text, reveal=reveal)
 
 
 def _hidden(type_: Type, steps: Path, data: Any) -> Any:
-    """Data at a path, as it may be shown: what stands in a map can be secret by its name."""
+    """Data at a path, as it may be shown. An entry of a map can be secret by its name."""
     name = steps[-1] if steps else 0
     named = isinstance(data, str) and data != "" and isinstance(name, str) and secrets.is_secret(name)
     return HIDDEN if named and isinstance(type_, BasicType) else hidden(type_, data)
 
 
 def hidden_at(root: RecordType, steps: list[str], data: Any) -> Any:
+    """Data at a path, with its secrets hidden."""
     type_ = type_at(root, steps)
     return data if type_ is None else _hidden(type_, tuple(steps), data)
 
 
 def hidden_text(root: RecordType, steps: list[str], text: str) -> str:
-    """A value as it is written in a document, as it may be shown."""
+    """The text of a value in a document, as it may be shown."""
     type_ = type_at(root, steps)
     if type_ is None or not text or text == "null":
         return text
@@ -83,27 +84,21 @@ def hidden_text(root: RecordType, steps: list[str], text: str) -> str:
 
 
 def _record(
-    type_: RecordType, data: dict[str, Any], where: Where, default: Node | None, path: Path, editable: bool
+    type_: RecordType, data: dict[str, Any], where: Origin, default: Node | None, path: Path, editable: bool
 ) -> Iterator[Value]:
     for member in type_.members:
         if member.name in data:
-            given = step(where, member.name)
+            inner_origin = step(where, member.name)
             own = step(default, member.name) if default is not None else None
             fallback = own if own is not None else member.default.node if member.default else None
-            yield from _value(
-                member.type,
-                data[member.name],
-                given,
-                node_of(fallback),
-                (*path, member.name),
-                editable or member.editable,
-            )
+            inner, is_editable = (*path, member.name), editable or member.editable
+            yield from _value(member.type, data[member.name], inner_origin, node_of(fallback), inner, is_editable)
 
 
-def _value(type_: Type, data: Any, where: Where, default: Node | None, path: Path, editable: bool) -> Iterator[Value]:
+def _value(type_: Type, data: Any, where: Origin, default: Node | None, path: Path, editable: bool) -> Iterator[Value]:
     if isinstance(type_, RecordType) and isinstance(data, dict):
         yield from _record(type_, data, where, default, path, editable)
-    elif isinstance(type_, ListType | MapType) and data:
+    elif isinstance(type_, (ListType, MapType)) and data:
         entries: list[tuple[Step, Any]] = list(data.items() if isinstance(type_, MapType) else enumerate(data))
         for name, item in entries:
             own = step(default, name) if default is not None and where is None else None
@@ -113,21 +108,21 @@ def _value(type_: Type, data: Any, where: Where, default: Node | None, path: Pat
         spelled = default if node is None else node
         as_spelled = isinstance(spelled, Scalar) and spelled.data == data and not isinstance(data, str)
         text = spelled.lexeme if as_spelled else flow(data)  # type: ignore[union-attr]
-        overrode = where.overrode if isinstance(where, Place) else ()
+        overrode = where.overrode if isinstance(where, MergedValue) else ()
         yield Value(in_words(path), data, text, unit_of(type_), editable, node, default, overrode, type_, path)
 
 
-def _below(where: Where, name: Step) -> Where:
-    """One step down, with what the same place of the overridden lists was."""
+def _below(where: Origin, name: Step) -> Origin:
+    """The origin one step below, with the entries of overridden lists at the same position."""
     inner = step(where, name)
-    if isinstance(where, Place) and inner is not None and not isinstance(inner, Place) and where.overrode:
+    if isinstance(where, MergedValue) and inner is not None and not isinstance(inner, MergedValue) and where.overrode:
         earlier = tuple(found[1] for node in where.overrode if (found := child(node, name)) is not None)
-        return Place(inner, None, None, earlier)
+        return MergedValue(inner, None, None, earlier)
     return inner
 
 
 def find(effective: Effective, steps: list[str]) -> Any:
-    """The value at a path; None where there is none."""
+    """The effective value at a path; None if it has none."""
     data: Any = effective.data
     for name in typed(effective.parameters.root, steps):
         try:
@@ -138,7 +133,7 @@ def find(effective: Effective, steps: list[str]) -> Any:
 
 
 def type_at(root: RecordType, steps: Sequence[str]) -> Type | None:
-    """The type of what a path names, whether or not it has a value; None where the path names nothing."""
+    """The type at a path, whether or not it has a value; None if the path is unknown."""
     type_: Type | None = root
     for name in steps:
         type_ = below(type_, name)
@@ -146,7 +141,6 @@ def type_at(root: RecordType, steps: Sequence[str]) -> Type | None:
 
 
 def typed(root: RecordType, steps: list[str]) -> list[Step]:
-    """The steps of a path that names something, with numbers for places in lists."""
-    return [
-        int(step) if isinstance(type_at(root, steps[:depth]), ListType) else step for depth, step in enumerate(steps)
-    ]
+    """The steps of a known path, with indexes of lists as numbers."""
+    types = (type_at(root, steps[:depth]) for depth in range(len(steps)))
+    return [int(step) if isinstance(type_, ListType) else step for step, type_ in zip(steps, types, strict=True)]

@@ -1,1 +1,1 @@
-"""Values that a document may have, and first documents made of them."""
+"""Examples of values, and first documents with them."""

@@ -1,4 +1,4 @@
-"""A value that fits a parameter: its default, else the simplest."""
+"""An example of a parameter: its default, or else the simplest valid value."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from robocomp_yaml.parameters.types import (
     EnumType,
     ListType,
     MapType,
-    Member,
+    ResolvedMember,
     ScalarType,
     Size,
     Type,
@@ -22,12 +22,13 @@ from robocomp_yaml.semantics.limits import LIMITS
 from robocomp_yaml.parameters.patterns.example_text import example_texts
 from robocomp_yaml.parameters.hidden import hidden
 
-_MOST = 16  # different values that are thought of
+_MOST = 16  # different values of one type
 _LARGEST = 1024  # entries of an example
 
 
-def example(member: Member) -> object:
-    if isinstance(member.type, BasicType | EnumType) and member.type.secret:
+def example(member: ResolvedMember) -> object:
+    """An example of a member, without secrets."""
+    if isinstance(member.type, (BasicType, EnumType)) and member.type.secret:
         return reference(member.name)
     if member.default is not None and not is_secret(member.type):
         return hidden(member.type, member.default.data)
@@ -35,7 +36,7 @@ def example(member: Member) -> object:
 
 
 def reference(name: str) -> dict[str, str]:
-    """A secret is not written down: it stands in the variable of the environment that has its name."""
+    """The reference to the environment variable for a secret of this name: secrets are not in documents."""
     made = re.sub(r"[^A-Z0-9]+", "_", re.sub(r"([a-z0-9])([A-Z])", r"\1_\2", name).upper()).strip("_")
     return {"env": made if made[:1].isalpha() else f"SECRET_{made}".rstrip("_")}
 
@@ -47,26 +48,26 @@ def example_of(type_: Type) -> object:
         case ListType(element=element, size=size, unique=unique):
             return _different(element, count_of(size)) if unique else [example_of(element)] * count_of(size)
         case MapType(element=element, size=size):
-            return {f"name{place or ''}": example_of(element) for place in range(count_of(size))}
+            return {f"name{index or ''}": example_of(element) for index in range(count_of(size))}
         case _:
             return {m.name: example(m) for m in type_.members if not m.optional}
 
 
-def count_of(size: Size, wanted: int | None = None) -> int:
-    """How many entries an example has: as many as wanted (usually one), or the nearest number that is allowed."""
-    count = max(1 if wanted is None else wanted, size.least)
+def count_of(size: Size, preferred: int | None = None) -> int:
+    """The number of entries of an example: the preferred number (1 if None), or the nearest allowed one."""
+    count = max(1 if preferred is None else preferred, size.least)
     return min(count, _LARGEST if size.most is None else size.most)
 
 
 def _different(element: Type, count: int) -> list[object]:
-    """As many different entries as are easily found; the rest, which a person must change, repeat the last."""
-    plain = element if isinstance(element, EnumType | BasicType) else None
+    """Different entries, as far as they are known. The others repeat the last one, and the user must change them."""
+    plain = element if isinstance(element, (EnumType, BasicType)) else None
     entries = list(islice(simplest(plain), count)) if plain else [example_of(element)]
     return entries + entries[-1:] * (count - len(entries))
 
 
 def simplest(type_: ScalarType) -> Iterator[object]:
-    """Values that fit, all different, the simplest first; at least one."""
+    """Different valid values, the simplest first; at least one."""
     if type_.secret:
         yield from ({"env": f"SECRET{number}" if number > 1 else "SECRET"} for number in range(1, _MOST + 1))
     elif isinstance(type_, EnumType):
@@ -85,7 +86,7 @@ def simplest(type_: ScalarType) -> Iterator[object]:
 
 
 def _numbers(type_: BasicType) -> Iterator[int | float]:
-    """What is nearest to zero, and others around it in steps of 1, or of less where the range is narrow."""
+    """The valid number nearest to zero, then its neighbours in steps of 1 or, in a narrow range, less."""
     first = _nearest(type_)
     yield first
     for step in (1, -1) if type_.is_integer else (1, -1, 1 / 64, -1 / 64):

@@ -1,7 +1,7 @@
-"""Example values that fit together: a document's constraints hold for them, and what is to differ does.
+"""Examples that satisfy the constraints of a document, and in which entries that must differ are different.
 
-A search over few values for each: the simplest ones, and those that the constraints speak of. It gives up after a
-number of steps; then there is no example, and a person has to find one.
+The search tries few values of each parameter: the simplest ones, and those that occur in the constraints. It stops
+after a limited number of steps; then there is no example, and the user has to choose one.
 """
 
 from __future__ import annotations
@@ -12,19 +12,20 @@ from typing import Any
 
 import msgspec
 
-from robocomp_yaml.parameters.specification import expression
+from robocomp_yaml.parameters.specification.expression import Each, Expression, LiteralExpression, parts
 from robocomp_yaml.parameters.types import (
     BasicType,
-    Constraint,
+    ResolvedConstraint,
     EnumType,
     ListType,
     MapType,
-    Member,
+    ResolvedMember,
     Parameters,
     RecordType,
     ScalarType,
     Type,
     leaves,
+    nested,
 )
 from robocomp_yaml.parameters.expressions import evaluate
 from robocomp_yaml.parameters.defaults import defaults, with_defaults
@@ -33,52 +34,52 @@ from robocomp_yaml.parameters.verdict.plain import wrong
 
 _STEPS = 3000  # of one search
 _MOST_STEPS = 12_000  # of all, with up to ten parameters; with more, each step takes longer
-_PLACES = 200
-_VALUES = 14  # tried for one place
-_UNKNOWN = {"env": "UNKNOWN"}  # what a reference is before the component starts
-_COUNTS = (None, 2, 3, 0, 1, 4, 6)  # of the entries of lists and maps, where they may be so many; None: the usual
+_MOST_SLOTS = 200
+_VALUES = 14  # tried for one slot
+_UNKNOWN = {"env": "UNKNOWN"}  # a value that is not chosen yet; constraints skip references
+_COUNTS = (None, 2, 3, 0, 1, 4, 6)  # numbers of entries of lists and maps to try; None: the default of `count_of`
 
 Path = tuple[str, ...]
 
 
 class Fitted(msgspec.Struct):
-    """Examples by path. `given` stand in the document, so that it is right as it is; `possible` may be added to it,
-    alone or together. `unknown` are those for which no example was found."""
+    """Examples by path. `present` are in the document, so that it is valid. `possible` may be added to it, alone or
+    together. `unknown` are the parameters without an example."""
 
-    given: dict[Path, Any] = {}
+    present: dict[Path, Any] = {}
     possible: dict[Path, Any] = {}
     unknown: set[Path] = set()
 
 
 def fitted(parameters: Parameters, carried: Mapping[str, Any] | None = None) -> Fitted:
-    """Examples of all parameters; `carried` are values that are given already."""
+    """Examples of all parameters. `carried` are values that are already set."""
     found = Fitted()
     members = {tuple(path.split(".")): member for path, member in leaves(parameters.root)}
     carried_ = {path: value for path in members if (value := _at(carried or {}, path)) is not None}
     required = [path for path, member in members.items() if member.required and path not in carried_]
     optional = [path for path, member in members.items() if not member.required and path not in carried_]
     search = _Search(parameters, members, {**carried_})
-    # First what must be given; then with some that may be given, where the others alone cannot fit.
+    # First the required ones; then, if these alone have no solution, together with optional ones.
     some = [path for path in optional if search.concerns(path)]
     chosen = search.solve(required) or (search.solve([*required, *some], some) if some else None)
     if chosen is None:
-        found.given = dict(carried_)
+        found.present = dict(carried_)
         for path in required:
             alone = search.solve([path], others=False)
             if alone is None or search.concerns(path):
                 found.unknown.add(path)
             else:
-                found.given[path] = alone[path]
+                found.present[path] = alone[path]
         chosen = {}
     else:
-        found.given = {**carried_, **chosen}
-    together = dict(found.given)
-    for path in (path for path in optional if path not in found.given):
+        found.present = {**carried_, **chosen}
+    together = dict(found.present)
+    for path in (path for path in optional if path not in found.present):
         if members[path].default is not None:
             found.possible[path] = example(members[path])
             continue
         search.base = together
-        fit = search.solve([path], both=found.given)
+        fit = search.solve([path], both=found.present)
         if fit is None:
             found.unknown.add(path)
         else:
@@ -87,37 +88,43 @@ def fitted(parameters: Parameters, carried: Mapping[str, Any] | None = None) -> 
 
 
 class _Form(msgspec.Struct, frozen=True):
-    """What lists, maps and records look like: their number of entries, whether optional members are there, and names
-    that maps have."""
+    """The form of lists, maps and records: their number of entries, whether they have optional members, and names of
+    maps."""
 
     count: int | None = None
     is_full: bool = False
     keys: tuple[str, ...] = ()
 
 
-class _Place(msgspec.Struct):
-    """A plain value inside of an example, by its way from the top."""
+class _Slot(msgspec.Struct):
+    """A plain value of an example, by the path of its parameter and the steps inside its value. `first` are tried
+    first."""
 
-    steps: tuple[str | int, ...]
+    path: Path
+    inside: tuple[str | int, ...]
     type: ScalarType
     first: list[Any] = []
     is_optional: bool = False
 
     @property
-    def column(self) -> tuple[str, ...]:
-        """What it shares with its like in other entries of a list."""
+    def steps(self) -> tuple[Any, ...]:
+        return (self.path, *self.inside)
+
+    @property
+    def column(self) -> tuple[Any, ...]:
+        """The steps without indexes: slots of one column are in different entries of a list."""
         return tuple("" if isinstance(step, int) else step for step in self.steps)
 
 
 class _Search:
-    """`base` are the values that stand already, by path."""
+    """`base` are the values that are already set, by path."""
 
-    def __init__(self, parameters: Parameters, members: Mapping[Path, Member], base: dict[Path, Any]) -> None:
+    def __init__(self, parameters: Parameters, members: Mapping[Path, ResolvedMember], base: dict[Path, Any]) -> None:
         self.parameters, self.members, self.base = parameters, members, base
-        said = [literal for each in parameters.constraints for literal in _literals(each.expression)]
-        said += [member.default.data for member in members.values() if member.default is not None]
-        self.texts = list(dict.fromkeys(each for each in said if isinstance(each, str)))
-        numbers = [each for each in said if isinstance(each, int | float) and not isinstance(each, bool)]
+        constants = [literal for each in parameters.constraints for literal in _literals(each.expression)]
+        constants += [member.default.data for member in members.values() if member.default is not None]
+        self.texts = list(dict.fromkeys(each for each in constants if isinstance(each, str)))
+        numbers = [each for each in constants if isinstance(each, (int, float)) and not isinstance(each, bool)]
         self.numbers = list(dict.fromkeys(numbers))
         named = [code for each in parameters.constraints for code in evaluate.paths(each.expression)]
         self.named = {path for path in members if _is_named(_code_path(parameters.root, path), named)}
@@ -126,7 +133,7 @@ class _Search:
         self.is_careful = False
 
     def concerns(self, path: Path) -> bool:
-        """Whether a constraint speaks of a parameter."""
+        """Whether a constraint names a parameter."""
         return path in self.named
 
     def solve(
@@ -137,8 +144,9 @@ class _Search:
         both: Mapping[Path, Any] | None = None,
         others: bool = True,
     ) -> dict[Path, Any] | None:
-        """Values for these parameters with which the constraints hold, beside those that stand, and beside `both`
-        alone; those that are `optional` only where they are needed. Without `others`, for each by itself."""
+        """Values of these parameters that satisfy the constraints, together with the values in `base`, and also
+        together with those in `both` alone. Parameters in `optional` have a value only if it is needed. `others`:
+        constraints apply; else each value is only valid by itself. None if there is no solution."""
         constraints = self.parameters.constraints if others else ()
         self.steps = 0
         for self.is_careful in (False, True):
@@ -163,32 +171,29 @@ class _Search:
         self,
         shapes: dict[Path, Any],
         optional: Sequence[Path],
-        constraints: Sequence[Constraint],
+        constraints: Sequence[ResolvedConstraint],
         both: Mapping[Path, Any] | None,
     ) -> dict[Path, Any] | None:
         data = {path: shape for path, shape in shapes.items() if path not in optional}
-        places = []
+        slots = []
         for path, shape in shapes.items():
             member = self.members[path]
-            found = list(_places(member.type, shape, path, path in optional))
+            found = list(_slots(member.type, shape, path, (), path in optional))
             if (constraints and self.concerns(path)) or _is_unique(member.type):
-                places += found
+                slots += found
                 continue
-            for place in found:
-                value = next(iter(self._values(place)), None)
+            for slot in found:
+                value = next(iter(self._values(slot)), None)
                 if value is None:
                     return None
-                if len(place.steps) > len(path):
-                    _put(shape, place.steps[len(path) :], value)
-                else:
-                    data[path] = value
-        if len(places) > _PLACES:
+                _put(data, slot.steps, value)
+        if len(slots) > _MOST_SLOTS:
             return None
-        columns = list(dict.fromkeys(place.column for place in places))
-        # Whether something is there decides most; what is compared with each other is chosen in a row.
-        places.sort(key=lambda place: (not place.is_optional, columns.index(place.column)))
+        columns = list(dict.fromkeys(slot.column for slot in slots))
+        # Optional parameters decide most, so they come first. Slots that are compared with each other are neighbours.
+        slots.sort(key=lambda slot: (not slot.is_optional, columns.index(slot.column)))
 
-        def goes_well() -> bool:
+        def is_consistent() -> bool:
             self.steps += 1
             self.left -= 1
             return all(
@@ -196,47 +201,37 @@ class _Search:
             ) and all(_differs(self.members[path].type, value) for path, value in data.items())
 
         def search(at: int) -> bool:
-            if at == len(places):
-                return goes_well()
-            place = places[at]
-            path = tuple(str(step) for step in place.steps[: _depth(place, self.members)])
-            inside = place.steps[len(path) :]
-            if place.is_optional and not inside:
-                data.pop(path, None)
+            if at == len(slots):
+                return is_consistent()
+            slot = slots[at]
+            can_be_absent = slot.is_optional and not slot.inside
+            if can_be_absent:
+                data.pop(slot.path, None)
                 if search(at + 1):
                     return True
-            for value in self._values(place):
+            for value in self._values(slot):
                 if self.steps >= _STEPS or (constraints and self.left <= 0):
                     return False
-                if inside:
-                    if path not in data:
-                        data[path] = shapes[path]
-                    _put(data[path], inside, value)
-                else:
-                    data[path] = value
-                if goes_well() and search(at + 1):
+                data.setdefault(slot.path, shapes[slot.path])
+                _put(data, slot.steps, value)
+                if is_consistent() and search(at + 1):
                     return True
-            if inside:
-                _put(data[path], inside, _UNKNOWN)
+            if can_be_absent:
+                data.pop(slot.path, None)
             else:
-                data.pop(path, None)
-                if not place.is_optional:
-                    data[path] = _UNKNOWN
+                _put(data, slot.steps, _UNKNOWN)
             return False
 
         return dict(data) if search(0) else None
 
-    def _hold(self, constraints: Sequence[Constraint], base: Mapping[Path, Any], more: Mapping[Path, Any]) -> bool:
+    def _hold(self, constraints: Sequence[ResolvedConstraint], base: Mapping[Path, Any], more: Mapping[Path, Any]) -> bool:
         if not constraints:
             return True
         root = self.parameters.root
         data = defaults(root)
         for path, value in {**base, **more}.items():
-            here = data
-            for step in path[:-1]:
-                here = here.setdefault(step, {})
-            here[path[-1]] = with_defaults(self.members[path].type, value)
-        for path, member in self.members.items():  # still to be chosen
+            _put(data, path, with_defaults(self.members[path].type, value))
+        for path, member in self.members.items():  # not chosen yet
             if member.required and _at(data, path) is None:
                 _put(data, path, _UNKNOWN)
         named = evaluate.by_code_names(root, data)
@@ -246,17 +241,18 @@ class _Search:
             if not self.is_careful or not any(_is_open(_at(named, path)) for path in evaluate.paths(each.expression))
         )
 
-    def _values(self, place: _Place) -> list[Any]:
-        """What a place may hold, the simplest first."""
-        type_ = place.type
+    def _values(self, slot: _Slot) -> list[Any]:
+        """The values to try in a slot, the simplest first."""
+        type_ = slot.type
         if type_.secret:
-            named = max(at for at, step in enumerate(place.steps) if isinstance(step, str))
-            return [reference("_".join(map(str, place.steps[named:])))]
-        found = [*place.first, *islice(simplest(type_), _VALUES)]
+            steps = (*slot.path, *slot.inside)
+            named = max(at for at, step in enumerate(steps) if isinstance(step, str))
+            return [reference("_".join(map(str, steps[named:])))]
+        found = [*slot.first, *islice(simplest(type_), _VALUES)]
         if isinstance(type_, BasicType) and type_.is_number:
-            near = [each for each in simplest(type_) if isinstance(each, int | float)]
+            near = [each for each in simplest(type_) if isinstance(each, (int, float))]
             whole = sorted((each for each in near if float(each).is_integer()), key=abs)
-            found = [*place.first, *near[:1], *whole[:_VALUES], *near[-4:]]
+            found = [*slot.first, *near[:1], *whole[:_VALUES], *near[-4:]]
             for number in self.numbers:
                 found += [_plain(each) for each in (number, number + 1, number - 1, number / 2, number * 2, -number)]
             if type_.range is not None:
@@ -270,12 +266,8 @@ def _plain(number: float) -> int | float:
     return int(number) if float(number).is_integer() else number
 
 
-def _depth(place: _Place, members: Mapping[Path, Member]) -> int:
-    return next(n for n in range(1, len(place.steps) + 1) if tuple(map(str, place.steps[:n])) in members)
-
-
 def _shape(type_: Type, form: _Form) -> Any:
-    """A value of which every plain part is still to be chosen."""
+    """A value in which no plain value is chosen."""
     match type_:
         case ListType(element=element, size=size):
             return [_shape(element, form) for _ in range(count_of(size, form.count))]
@@ -292,40 +284,30 @@ def _shape(type_: Type, form: _Form) -> Any:
             return dict(_UNKNOWN)
 
 
-def _places(
-    type_: Type, shape: Any, steps: tuple[str | int, ...], is_optional: bool, default: Any = None
-) -> Iterator[_Place]:
+def _slots(
+    type_: Type, shape: Any, path: Path, inside: tuple[str | int, ...], is_optional: bool, first: Sequence[Any] = ()
+) -> Iterator[_Slot]:
     match type_:
-        case ListType(element=element):
-            for n, item in enumerate(shape):
-                yield from _places(element, item, (*steps, n), is_optional)
-        case MapType(element=element):
-            for name, item in shape.items():
-                yield from _places(element, item, (*steps, name), is_optional)
+        case ListType(element=element) | MapType(element=element):
+            for name, item in shape.items() if isinstance(shape, dict) else enumerate(shape):
+                yield from _slots(element, item, path, (*inside, name), is_optional)
         case RecordType(members=members):
             for member in members:
-                if member.name in shape:
-                    usual = member.default.data if member.default is not None else None
-                    if member.default is None or isinstance(member.type, ScalarType):
-                        yield from _places(member.type, shape[member.name], (*steps, member.name), is_optional, usual)
+                if member.name in shape and (member.default is None or isinstance(member.type, ScalarType)):
+                    first = () if member.default is None else (member.default.data,)
+                    yield from _slots(
+                        member.type, shape[member.name], path, (*inside, member.name), is_optional, first
+                    )
         case BasicType() | EnumType():
-            yield _Place(steps, type_, [] if default is None else [default], is_optional)
+            yield _Slot(path, inside, type_, list(first), is_optional)
 
 
 def _is_unique(type_: Type) -> bool:
-    match type_:
-        case ListType(element=element, unique=unique):
-            return unique or _is_unique(element)
-        case MapType(element=element):
-            return _is_unique(element)
-        case RecordType(members=members):
-            return any(_is_unique(member.type) for member in members)
-        case _:
-            return False
+    return any(isinstance(each, ListType) and each.unique for each in nested(type_))
 
 
 def _is_open(data: Any) -> bool:
-    """Whether something in it is still to be chosen."""
+    """Whether data has a value that is not chosen."""
     if isinstance(data, dict):
         return data == _UNKNOWN or any(map(_is_open, data.values()))
     return isinstance(data, list) and any(map(_is_open, data))
@@ -344,7 +326,7 @@ def _at(data: Any, path: Path) -> Any:
 
 
 def _differs(type_: Type, value: Any) -> bool:
-    """Whether all that is chosen of lists whose entries are to differ does."""
+    """Whether the chosen entries of unique lists differ."""
     match type_:
         case ListType(element=element, unique=unique) if isinstance(value, list):
             known = [repr(item) for item in value if item != _UNKNOWN]
@@ -369,17 +351,13 @@ def _code_path(record: RecordType, path: Path) -> Path:
 
 
 def _is_named(code: Path, named: Sequence[Path]) -> bool:
-    """Whether expressions name a parameter, what it holds or what it stands in."""
+    """Whether expressions name a parameter, a value inside it, or a group around it."""
     return any(each[: len(code)] == code[: len(each)] for each in named)
 
 
-def _literals(part: object) -> Iterator[object]:
-    """The values that an expression holds."""
-    if isinstance(part, expression.Literal):
-        yield part.value
-    elif isinstance(part, msgspec.Struct):
-        for name in part.__struct_fields__:
-            yield from _literals(getattr(part, name))
-    elif isinstance(part, tuple):
-        for each in part:
-            yield from _literals(each)
+def _literals(expression: Expression | Each) -> Iterator[object]:
+    """The constants in an expression."""
+    if isinstance(expression, LiteralExpression):
+        yield expression.value
+    for part in parts(expression):
+        yield from _literals(part)

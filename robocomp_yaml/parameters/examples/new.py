@@ -1,11 +1,11 @@
-"""The first values document of a component: what must be given, with examples; what may be, as comments."""
+"""The first values document of a component: required values as examples, optional values as comments."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from robocomp_yaml.parameters.types import Member, Parameters, RecordType
+from robocomp_yaml.parameters.types import ResolvedMember, Parameters, RecordType
 from robocomp_yaml.semantics.paths import Step
 from robocomp_yaml.parameters.examples.fitting import Fitted, fitted
 from robocomp_yaml.source.yaml_text import comment, flow, scalar
@@ -13,15 +13,15 @@ from robocomp_yaml.parameters.words import for_documents
 
 Sections = list[tuple[str, list[tuple[str, str]]]]
 
-_NO_EXAMPLE = "# no example was found that fits the constraints: {}"
-_ADVICE = {True: "give it a value", False: "it may be left out"}  # by whether it is required
+_NO_EXAMPLE = "# no example satisfies the constraints: {}"
+_ADVICE = {True: "set a value", False: "optional"}  # by whether it is required
 
 
 def new_document(
     parameters: Parameters, component: str, modeline: str, sections: Sections, values: Mapping[str, Any] | None = None
 ) -> str:
-    """The text; `component` is a path from the document. `sections` (`endpoints`, `proxies` …) come with their
-    entries, `values` are those of parameters that are known already."""
+    """The text of the document. `component` is a path relative to it. `sections` (`endpoints`, `proxies` …) have their
+    entries. `values` are known values of parameters."""
     return "".join(f"{line}\n" for line in _lines(parameters, component, modeline, sections, values))
 
 
@@ -31,7 +31,7 @@ def _lines(
     yield modeline
     yield f"component: {scalar(component)}"
     yield ""
-    yield "# What stands without a # needs a value. A line with # shows a default: take the # away to change it."
+    yield "# Lines without # need a value. Lines with # show a default: remove the # to change it."
     yield "parameters:"
     yield from _record(parameters.root, "  ", (), fitted(parameters, values))
     for name, entries in sections:
@@ -41,15 +41,15 @@ def _lines(
             yield from (f"  {scalar(key)}: {scalar(value)}" for key, value in entries)
 
 
-def _record(record: RecordType, indent: str, above: tuple[str, ...], found: Fitted) -> Iterator[str]:
+def _record(record: RecordType, indent: str, outer: tuple[str, ...], found: Fitted) -> Iterator[str]:
     for member in record.members:
-        yield from _about(member, indent)
-        path, name = (*above, member.name), scalar(member.name)
+        yield from _comments(member, indent)
+        path, name = (*outer, member.name), scalar(member.name)
         if member.is_group and isinstance(member.type, RecordType):
             yield f"{indent}{name}:"
             yield from _record(member.type, f"{indent}  ", path, found)
-        elif path in found.given:
-            yield f"{indent}{name}: {flow(found.given[path])}"
+        elif path in found.present:
+            yield f"{indent}{name}: {flow(found.present[path])}"
         elif path in found.possible:
             yield f"{indent}# {name}: {flow(found.possible[path])}"
         else:
@@ -57,7 +57,7 @@ def _record(record: RecordType, indent: str, above: tuple[str, ...], found: Fitt
             yield f"{indent}# {name}:"
 
 
-def _about(member: Member, indent: str) -> Iterator[str]:
+def _comments(member: ResolvedMember, indent: str) -> Iterator[str]:
     for line in member.documentation.strip().splitlines():
         yield indent + comment(line)
     if not member.is_group:
@@ -65,8 +65,8 @@ def _about(member: Member, indent: str) -> Iterator[str]:
 
 
 def lines_above(root: RecordType, steps: Sequence[Step]) -> tuple[str, ...]:
-    """The comments of which one stands above the line of a parameter that a first document does not give; none where
-    the steps lead to no parameter of the top or of a group."""
+    """The possible comments above the commented line of a parameter in a first document; empty if the steps do not lead
+    to a parameter of the root or of a group."""
     record, member = root, None
     for step in steps:
         if member is not None and not member.is_group:

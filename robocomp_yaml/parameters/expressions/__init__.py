@@ -1,1 +1,1 @@
-"""Constraints: the types of their expressions, and what they come to."""
+"""Constraints: the types and values of their expressions."""

@@ -1,7 +1,7 @@
-"""What a constraint means: an expression's value over normalized parameters.
+"""The value of an expression over complete values of parameters.
 
-A value that is not there (an optional one left out, a reference to the environment) is unknown, None: what comes of it
-components decide by the same functions (`semantics.constraints`), with every reference resolved.
+A missing optional value and a reference are unknown, None. Components evaluate constraints with the same functions
+(`semantics.constraints`) when all references are resolved.
 """
 
 from __future__ import annotations
@@ -17,36 +17,39 @@ from robocomp_yaml.parameters.specification.expression import (
     Each,
     Expression,
     Index,
-    Listing,
-    Literal,
+    ListExpression,
+    LiteralExpression,
     Logic,
-    Name,
+    NameExpression,
     Unary,
+    parts,
 )
 from robocomp_yaml.parameters.types import ListType, MapType, RecordType, Type
 from robocomp_yaml.semantics import constraints
 from robocomp_yaml.semantics.references import is_reference
 
-_OF_ALL = ("len", "abs", "keys", "values")  # whatever is known of what it holds
+_OF_ALL = ("len", "abs", "keys", "values")  # defined even if entries are unknown
 
 
 def holds(expression: Expression, data: Mapping[str, Any]) -> bool:
-    """Whether a constraint holds; `data` is by the names that expressions use."""
+    """Whether a constraint holds. `data` has the names that expressions use, see `by_code_names`."""
     return constraints.holds(lambda: value(expression, data))
 
 
 def value(expression: Expression, scope: Mapping[str, Any]) -> Any:
+    """The value of an expression, None if it is unknown. Raises ArithmeticError, LookupError or ValueError if it is
+    undefined, as a division by zero is."""
     match expression:
-        case Literal(value=literal):
+        case LiteralExpression(value=literal):
             return literal
-        case Name(name=name):
+        case NameExpression(name=name):
             return _known(scope.get(name))
         case Attribute(of=of, name=name):
             owner = value(of, scope)
             return None if owner is None else _known(owner.get(name))
         case Index(of=of, index=index):
             return _known(constraints.entry(value(of, scope), value(index, scope)))
-        case Listing(items=items):
+        case ListExpression(items=items):
             return tuple(value(item, scope) for item in items)
         case Unary(operator="not", operand=operand):
             return constraints.opposite(value(operand, scope))
@@ -59,8 +62,8 @@ def value(expression: Expression, scope: Mapping[str, Any]) -> Any:
             others = ((operator, value(part, scope)) for operator, part in rest)
             return constraints.all_of(constraints.compared(value(first, scope), others))
         case Logic(operator=operator, operands=operands):
-            parts = (value(operand, scope) for operand in operands)
-            return constraints.all_of(parts) if operator == "and" else constraints.any_of(parts)
+            truths = (value(operand, scope) for operand in operands)
+            return constraints.all_of(truths) if operator == "and" else constraints.any_of(truths)
         case Call(function="has", arguments=(argument, *_)):
             return _has(argument, scope)
         case Call(function=function, arguments=arguments):
@@ -68,23 +71,23 @@ def value(expression: Expression, scope: Mapping[str, Any]) -> Any:
 
 
 def _known(data: Any) -> Any:
-    """What a reference stands for is not known yet."""
+    """The data, or None for a reference, whose value is unknown."""
     return None if is_reference(data) else data
 
 
-def _has(asked: Expression | Each, scope: Mapping[str, Any]) -> Any:
-    """Whether there is a value: one that a reference stands for is not known, but there."""
-    if isinstance(asked, Name):
-        return scope.get(asked.name) is not None
-    if not isinstance(asked, Attribute | Index):
-        return not isinstance(asked, Each) and value(asked, scope) is not None
-    if (around := _has(asked.of, scope)) is not True:
-        return around
-    owner = value(asked.of, scope)
-    if isinstance(asked, Attribute):
-        return None if owner is None else owner.get(asked.name) is not None
-    index = value(asked.index, scope)
-    constraints.entry(owner, index)  # raises where there is none
+def _has(operand: Expression | Each, scope: Mapping[str, Any]) -> Any:
+    """Whether a value is set. A reference sets a value, though it is unknown."""
+    if isinstance(operand, NameExpression):
+        return scope.get(operand.name) is not None
+    if not isinstance(operand, (Attribute, Index)):
+        return not isinstance(operand, Each) and value(operand, scope) is not None
+    if (outer := _has(operand.of, scope)) is not True:
+        return outer
+    owner = value(operand.of, scope)
+    if isinstance(operand, Attribute):
+        return None if owner is None else owner.get(operand.name) is not None
+    index = value(operand.index, scope)
+    constraints.entry(owner, index)  # raises LookupError if there is no such entry
     return None if owner is None or index is None else True
 
 
@@ -100,7 +103,7 @@ def _operand(function: str, arguments: tuple[Expression | Each, ...], scope: Map
 
 
 def _elements(each: Each, source: Any, scope: Mapping[str, Any]) -> Iterator[Any]:
-    """The values of the element; where a condition is unknown, so is the element."""
+    """The values of the element. Where the condition is unknown, the element is unknown."""
     inner = dict(scope)
     for item in source:
         inner[each.variable] = item
@@ -111,12 +114,12 @@ def _elements(each: Each, source: Any, scope: Mapping[str, Any]) -> Iterator[Any
 
 
 def by_code_names(record: RecordType, data: dict[str, Any]) -> dict[str, Any]:
-    """The values by the names that expressions use, which differ from the keys where `as:` says so."""
+    """The values by the names that expressions use: `as:` sets a name that differs from the key."""
     return data if not _renames(record, {}) else _renamed(record, data)
 
 
 def _renames(type_: Type, known: dict[str, bool]) -> bool:
-    """`known` remembers structs, which stand in many places."""
+    """Whether a type has names that differ from the keys. `known` caches structs, which are used more than once."""
     match type_:
         case RecordType(name=name, members=members):
             if name not in known:
@@ -141,26 +144,13 @@ def _renamed(type_: Type, data: Any) -> Any:
             return data
 
 
-def paths(expression: object) -> Iterator[tuple[str, ...]]:
-    """The parameters that an expression names, in order: `motors`, `Yolo.use_gpu`."""
+def paths(expression: Expression | Each) -> Iterator[tuple[str, ...]]:
+    """The paths that an expression names, in order: `motors`, `Yolo.use_gpu`."""
     match expression:
-        case Name(name=name):
+        case NameExpression(name=name):
             yield (name,)
         case Attribute(of=of, name=name):
             yield from ((*path, name) for path in paths(of))
-        case Each(element=element, source=source, condition=condition):
-            yield from paths(source)
-            yield from paths(element)
-            yield from paths(condition)
-        case Index(of=first, index=second) | Binary(left=first, right=second):
-            yield from paths(first)
-            yield from paths(second)
-        case Unary(operand=operand):
-            yield from paths(operand)
-        case Listing(items=parts) | Logic(operands=parts) | Call(arguments=parts):
-            for part in parts:
-                yield from paths(part)
-        case Compare(first=first, rest=rest):
-            yield from paths(first)
-            for _, part in rest:
+        case _:
+            for part in parts(expression):
                 yield from paths(part)

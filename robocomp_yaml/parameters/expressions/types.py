@@ -1,6 +1,6 @@
-"""Types of expressions: every name is there, every operator and function has operands that fit.
+"""Types of expressions: every name is known, and every operator and function has operands of the right types.
 
-A constraint that has a type can be said in every language that components are written in.
+A constraint with a valid type can be generated in every language of components.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ from robocomp_yaml.parameters.specification.expression import (
     Compare,
     Each,
     Expression,
+    ExpressionError,
     Index,
-    Listing,
-    Literal,
+    ListExpression,
+    LiteralExpression,
     Logic,
-    Name,
-    NotInLanguage,
+    NameExpression,
     Unary,
 )
 from robocomp_yaml.parameters.types import (
@@ -30,6 +30,7 @@ from robocomp_yaml.parameters.types import (
     MapType,
     RecordType,
     Type,
+    is_text,
 )
 from robocomp_yaml.parameters.words import in_brief
 
@@ -37,7 +38,7 @@ BOOL, WHOLE, NUMBER, TEXT = BasicType("bool"), BasicType("long"), BasicType("dou
 
 
 class Scope(msgspec.Struct, frozen=True):
-    """The names of the parameters, and of the variables of `for` around the place."""
+    """The names of parameters, and of the variables of the enclosing `for`."""
 
     root: RecordType
     variables: tuple[tuple[str, Type], ...] = ()
@@ -57,15 +58,17 @@ class Scope(msgspec.Struct, frozen=True):
 
 
 def find_member(record: RecordType, name: str) -> Type | None:
-    """A member's type by its name in expressions: the name in code."""
+    """The type of a member by its name in expressions, which is its name in code; None if it is unknown."""
     return next((member.type for member in record.members if member.code_name == name), None)
 
 
 def check_constraint(expression: Expression, root: RecordType) -> None:
-    """Raises NotInLanguage for what has no meaning, at its place."""
+    """Raises ExpressionError unless the expression has a valid type and is true or false."""
     type_ = type_of(expression, Scope(root))
     if not is_bool(type_):
-        raise NotInLanguage(f"a constraint is true or false, and this is {in_brief(type_)}", 0, "compare it: … > 0")
+        raise ExpressionError(
+            f"a constraint must be true or false, and this is {in_brief(type_)}", 0, "compare it: … > 0"
+        )
 
 
 def is_bool(type_: Type) -> bool:
@@ -76,45 +79,41 @@ def is_number(type_: Type) -> bool:
     return isinstance(type_, BasicType) and type_.is_number
 
 
-def is_text(type_: Type) -> bool:
-    return isinstance(type_, EnumType) or (isinstance(type_, BasicType) and type_.name == "string")
-
-
 def comparable(one: Type, other: Type) -> bool:
-    """Whether == has a meaning between them."""
+    """Whether two types can be compared with ==."""
     return any(fits(one) and fits(other) for fits in (is_bool, is_number, is_text))
 
 
 def type_of(expression: Expression, scope: Scope) -> Type:
-    """The type of an expression. Raises NotInLanguage."""
+    """The type of an expression. Raises ExpressionError."""
     match expression:
-        case Literal(value=bool()):
+        case LiteralExpression(value=bool()):
             return BOOL
-        case Literal(value=str()):
+        case LiteralExpression(value=str()):
             return TEXT
-        case Literal(value=value):
+        case LiteralExpression(value=value):
             return WHOLE if isinstance(value, int) else NUMBER
-        case Name(name=name, at=at):
+        case NameExpression(name=name, at=at):
             found = scope.find(name)
             if found is None:
-                raise _unknown(name, scope.names, at)
+                raise _unknown("parameter", name, scope.names, at)
             return found
         case Attribute(of=of, name=name, at=at):
             return _attribute(type_of(of, scope), name, at)
         case Index():
             return _index(expression, scope)
-        case Listing(items=items, at=at):
+        case ListExpression(items=items, at=at):
             return _listing(items, scope, at)
         case Unary(operator=operator, operand=operand):
-            wanted = is_bool if operator == "not" else is_number
-            return _want(operand, wanted, "true or false" if operator == "not" else "a number", operator, scope)
+            fits = is_bool if operator == "not" else is_number
+            return _expect(operand, fits, "true or false" if operator == "not" else "a number", operator, scope)
         case Binary(operator=operator, left=left, right=right):
-            types = [_want(side, is_number, "a number", operator, scope) for side in (left, right)]
+            types = [_expect(side, is_number, "a number", operator, scope) for side in (left, right)]
             whole = operator != "/" and all(isinstance(t, BasicType) and t.is_integer for t in types)
             return WHOLE if whole else NUMBER
         case Logic(operator=operator, operands=operands):
             for operand in operands:
-                _want(operand, is_bool, "true or false", operator, scope)
+                _expect(operand, is_bool, "true or false", operator, scope)
             return BOOL
         case Compare():
             return _compare(expression, scope)
@@ -122,25 +121,29 @@ def type_of(expression: Expression, scope: Scope) -> Type:
             return _call(expression, scope)
 
 
-def _want(expression: Expression, fits: object, wanted: str, where: str, scope: Scope) -> Type:
+def _expect(expression: Expression, fits: object, expected: str, where: str, scope: Scope) -> Type:
     found = type_of(expression, scope)
     if not fits(found):  # type: ignore[operator]
-        raise NotInLanguage(f"'{where}' needs {wanted} here, and this is {in_brief(found)}", expression.at)
+        raise _needs(f"'{where}'", expected, found, expression.at)
     return found
 
 
-def _unknown(name: str, known: list[str], at: int, of: str = "parameter") -> NotInLanguage:
+def _needs(what: str, expected: str, found: Type, at: int) -> ExpressionError:
+    return ExpressionError(f"{what} needs {expected} here, and this is {in_brief(found)}", at)
+
+
+def _unknown(what: str, name: str, known: list[str], at: int, of: str = "") -> ExpressionError:
     hint = did_you_mean(name, known, otherwise=f"there are: {', '.join(known[:20])}")
-    return NotInLanguage(f"there is no {of} '{name}'", at, hint)
+    return ExpressionError(f"unknown {what} '{name}'{of}", at, hint)
 
 
 def _attribute(owner: Type, name: str, at: int) -> Type:
     if not isinstance(owner, RecordType):
-        hint = "take an entry with [0], or go through them with 'for'" if isinstance(owner, ListType) else ""
-        raise NotInLanguage(f"{in_brief(owner)} has no members, so no '{name}'", at, hint)
+        hint = "select an entry with [0], or loop over the entries with 'for'" if isinstance(owner, ListType) else ""
+        raise ExpressionError(f"{in_brief(owner)} has no members, so no '{name}'", at, hint)
     found = find_member(owner, name)
     if found is None:
-        raise _unknown(name, [member.code_name for member in owner.members], at, "member")
+        raise _unknown("member", name, [member.code_name for member in owner.members], at)
     return found
 
 
@@ -149,21 +152,21 @@ def _index(expression: Index, scope: Scope) -> Type:
     if isinstance(owner, ListType):
         index = expression.index
         if isinstance(index, Unary) or not (isinstance(found := type_of(index, scope), BasicType) and found.is_integer):
-            raise NotInLanguage("an entry of a list is taken by its number, from 0", index.at)
+            raise ExpressionError("an entry of a list is selected by its number, counted from 0", index.at)
         return owner.element
     if isinstance(owner, MapType):
-        _want(expression.index, is_text, "text", "[]", scope)
+        _expect(expression.index, is_text, "text", "[]", scope)
         return owner.element
-    raise NotInLanguage(f"{in_brief(owner)} has no entries", expression.at)
+    raise ExpressionError(f"{in_brief(owner)} has no entries", expression.at)
 
 
 def _listing(items: tuple[Expression, ...], scope: Scope, at: int) -> Type:
     types = [type_of(item, scope) for item in items]
     if not types:
-        raise NotInLanguage("an empty list holds nothing to compare with", at)
+        raise ExpressionError("an empty list contains nothing to compare with", at)
     for item, type_ in zip(items, types, strict=True):
         if not comparable(types[0], type_):
-            raise NotInLanguage(f"{in_brief(type_)} stands beside {in_brief(types[0])}", item.at)
+            raise ExpressionError(f"a list cannot contain both {in_brief(types[0])} and {in_brief(type_)}", item.at)
     return ListType(types[0])
 
 
@@ -172,51 +175,48 @@ def _compare(expression: Compare, scope: Scope) -> Type:
     for operator, node in expression.rest:
         right = type_of(node, scope)
         if operator in ("in", "not in"):
-            if not isinstance(right, ListType | MapType):
-                raise NotInLanguage(f"'{operator}' needs a list or a map here, and this is {in_brief(right)}", node.at)
+            if not isinstance(right, (ListType, MapType)):
+                raise _needs(f"'{operator}'", "a list or a map", right, node.at)
             inner = right.element if isinstance(right, ListType) else TEXT
             _same(left, inner, left_node, node, operator)
-            if isinstance(node, Listing):
+            if isinstance(node, ListExpression):
                 for item in node.items:
                     _same(left, type_of(item, scope), left_node, item, operator)
         else:
             _same(left, right, left_node, node, operator)
             if operator in ("<", "<=", ">", ">=") and not (is_number(left) and is_number(right)):
-                raise NotInLanguage(f"'{operator}' compares numbers, and this is {in_brief(left)}", left_node.at)
+                raise ExpressionError(f"'{operator}' compares numbers, and this is {in_brief(left)}", left_node.at)
         left_node, left = node, right
     return BOOL
 
 
 def _same(left: Type, right: Type, left_node: Expression, right_node: Expression, operator: str) -> None:
     if not comparable(left, right):
-        raise NotInLanguage(f"'{operator}' cannot compare {in_brief(left)} with {in_brief(right)}", right_node.at)
+        raise ExpressionError(f"'{operator}' cannot compare {in_brief(left)} with {in_brief(right)}", right_node.at)
     for type_, node in ((left, right_node), (right, left_node)):
-        if isinstance(type_, EnumType) and isinstance(node, Literal) and node.value not in type_.names:
-            raise _unknown(str(node.value), list(type_.names), node.at, f"enumerator of {type_.name}")
+        if isinstance(type_, EnumType) and isinstance(node, LiteralExpression) and node.value not in type_.names:
+            raise _unknown("enumerator", str(node.value), list(type_.names), node.at, f" of {type_.name}")
 
 
 def _call(call: Call, scope: Scope) -> Type:
     function, first = call.function, call.arguments[0]
     if function == "has":
-        if not isinstance(first, Name | Attribute | Index):
-            raise NotInLanguage("has() asks whether a parameter has a value", call.at)
+        if not isinstance(first, (NameExpression, Attribute, Index)):
+            raise ExpressionError("has() needs the name of a parameter, member or entry", call.at)
         type_of(first, scope)
         return BOOL
     if isinstance(first, Each):
         element = _each(first, scope)
     elif len(call.arguments) > 1:
-        types = [
-            _want(one, is_number, "a number", f"{function}()", scope)
-            for one in call.arguments
-            if not isinstance(one, Each)
-        ]
+        arguments = (one for one in call.arguments if not isinstance(one, Each))
+        types = [_expect(one, is_number, "a number", f"{function}()", scope) for one in arguments]
         return WHOLE if all(isinstance(t, BasicType) and t.is_integer for t in types) else NUMBER
     else:
         operand = type_of(first, scope)
         if function in _OF_ONE:
             return _of_one(function, operand, first)
         if not isinstance(operand, ListType):
-            raise NotInLanguage(f"{function}() needs a list here, and this is {in_brief(operand)}", first.at)
+            raise _needs(f"{function}()", "a list", operand, first.at)
         element = operand.element
     return _of_many(function, element, first)
 
@@ -227,36 +227,37 @@ _OF_ONE = ("len", "abs", "keys", "values")
 def _of_one(function: str, operand: Type, node: Expression) -> Type:
     if function == "abs" and is_number(operand):
         return operand
-    if function == "len" and isinstance(operand, ListType | MapType):
+    if function == "len" and isinstance(operand, (ListType, MapType)):
         return WHOLE
     if function in ("keys", "values") and isinstance(operand, MapType):
         return ListType(TEXT if function == "keys" else operand.element)
-    wanted = {"abs": "a number", "len": "a list or a map"}.get(function, "a map")
-    raise NotInLanguage(f"{function}() needs {wanted} here, and this is {in_brief(operand)}", node.at)
+    expected = {"abs": "a number", "len": "a list or a map"}.get(function, "a map")
+    raise _needs(f"{function}()", expected, operand, node.at)
 
 
 def _of_many(function: str, element: Type, node: Expression | Each) -> Type:
     at = node.element.at if isinstance(node, Each) else node.at
     if function in ("all", "any"):
         if not is_bool(element):
-            raise NotInLanguage(f"{function}() needs true or false here, and this is {in_brief(element)}", at)
+            raise _needs(f"{function}()", "true or false", element, at)
         return BOOL
     if function == "unique":
-        if not isinstance(element, BasicType | EnumType):
-            raise NotInLanguage(f"unique() needs plain values, and this is {in_brief(element)}", at)
+        if not isinstance(element, (BasicType, EnumType)):
+            raise _needs("unique()", "plain values", element, at)
         return BOOL
     if not is_number(element):
-        raise NotInLanguage(f"{function}() needs numbers, and this is {in_brief(element)}", at)
+        raise _needs(f"{function}()", "numbers", element, at)
     return element
 
 
 def _each(each: Each, scope: Scope) -> Type:
     source = type_of(each.source, scope)
     if isinstance(source, MapType):
-        raise NotInLanguage("a 'for' goes through a list", each.source.at, "write keys(…) or values(…) of a map")
+        hint = "use keys(…) or values(…) of the map"
+        raise ExpressionError("'for' needs a list here, and this is a map", each.source.at, hint)
     if not isinstance(source, ListType):
-        raise NotInLanguage(f"a 'for' goes through a list, and this is {in_brief(source)}", each.source.at)
+        raise _needs("'for'", "a list", source, each.source.at)
     inner = scope.with_variable(each.variable, source.element)
     if each.condition is not None:
-        _want(each.condition, is_bool, "true or false", "if", inner)
+        _expect(each.condition, is_bool, "true or false", "if", inner)
     return type_of(each.element, inner)

@@ -1,1 +1,1 @@
-"""Values merged, completed and judged: what is in effect."""
+"""Effective values: layers merged, completed and judged."""

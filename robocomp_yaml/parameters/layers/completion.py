@@ -1,8 +1,8 @@
-"""Effective values made complete: defaults filled in at every level.
+"""Effective values completed with defaults at every level.
 
-What nobody gives comes from defaults alone, which are the same for all documents of values. Records that are given and
-lack something are completed by Cerberus. It is a hundred times slower than the compiled schema that tells, so of many
-records that lack the same it sees one.
+Parameters that no document sets have their defaults, which are computed once for a parameters document. Cerberus
+completes records that are set and lack members. It is a hundred times slower than the compiled schema that detects such
+records, so that of all records that lack the same members it completes only one.
 """
 
 from __future__ import annotations
@@ -14,33 +14,32 @@ from typing import Any
 
 from robocomp_yaml.parameters.defaults import defaults
 from robocomp_yaml.parameters.documents import ResolvedParameters
-from robocomp_yaml.parameters.schema.gate import fits, of_complete
-from robocomp_yaml.parameters.schema.json_schema import COMPLETE
-from robocomp_yaml.parameters.types import BasicType, ListType, MapType, Member, RecordType, Type
+from robocomp_yaml.parameters.json_schema import COMPLETE, fits, gate_of_complete
+from robocomp_yaml.parameters.types import BasicType, ListType, MapType, RecordType, ResolvedMember, Type
 
 Data = dict[str, Any]
 Completer = Callable[[Any], Any]
 
 
 def complete_at_once(linked: ResolvedParameters, data: Data) -> Data | None:
-    """Values that lack nothing but parameters which have defaults; None for all others, right or wrong."""
+    """The complete values, if only whole parameters with defaults are missing; else None, valid or not."""
     whole = _defaults(linked) | data
     return _in_order(linked.parameters.root, whole) if fits(linked, COMPLETE, whole) else None
 
 
 def completed(linked: ResolvedParameters, data: Data) -> Data:
-    """Values that the gate let pass (without null), with their defaults."""
+    """The complete values. `data` is valid, and has no null."""
     root = linked.parameters.root
-    completers = linked.once("completers", lambda: {m.name: _completer(m.type) or _as_it_is for m in root.members})
-    given = {name: completers[name](value) for name, value in data.items()}
-    return _in_order(root, _defaults(linked) | given)
+    completers = linked.once("completers", lambda: {m.name: _completer(m.type) or _unchanged for m in root.members})
+    own = {name: completers[name](value) for name, value in data.items()}
+    return _in_order(root, _defaults(linked) | own)
 
 
 def _defaults(linked: ResolvedParameters) -> Data:
     return linked.once("defaults", lambda: defaults(linked.parameters.root))
 
 
-def _as_it_is(value: Any) -> Any:
+def _unchanged(value: Any) -> Any:
     return value
 
 
@@ -49,13 +48,13 @@ def _in_order(record: RecordType, data: Data) -> Data:
 
 
 def _completer(type_: Type) -> Completer | None:
-    """What completes values of a type; None where they never lack anything."""
+    """The function that completes values of a type; None if they are always complete."""
     match type_:
         case ListType(element=element) | MapType(element=element):
             inner = _completer(element)
             return None if inner is None else partial(_entries, inner)
         case RecordType(members=members) if any(m.default is not None or _completer(m.type) for m in members):
-            return _Records(type_).complete
+            return _RecordCompleter(type_).complete
         case _:
             return None
 
@@ -66,12 +65,12 @@ def _entries(inner: Completer, value: Any) -> Any:
     return [inner(item) for item in value]
 
 
-class _Records:
-    """Completes records of a type. `added` is what those with these keys lacked."""
+class _RecordCompleter:
+    """Completes records of a type. `added` are the members that records with these keys lack."""
 
     def __init__(self, type_: RecordType) -> None:
         self.type = type_
-        self.is_complete = of_complete(type_).is_valid
+        self.is_complete = gate_of_complete(type_).is_valid
         self.added: dict[tuple[str, ...], Data] = {}
         self.normalize: Completer | None = None
 
@@ -82,7 +81,7 @@ class _Records:
         if self.is_complete(data):
             return data
         if self.normalize is None:
-            from cerberus import Validator  # slow to import, and seldom wanted
+            from cerberus import Validator  # slow to import, and rarely needed
 
             self.normalize = Validator(_rules(self.type)).normalized
         whole = _in_order(self.type, self.normalize(data))
@@ -91,21 +90,21 @@ class _Records:
 
 
 def _rules(record: RecordType) -> Data:
-    """Cerberus's rules for what a record lacks; whether the rest is right has been judged."""
-    return {member.name: _rules_of(member.type) | _default(member) for member in record.members}
+    """Cerberus's rules for missing members. The present ones have been judged."""
+    return {member.name: _type_rules(member.type) | _default(member) for member in record.members}
 
 
-def _default(member: Member) -> Data:
+def _default(member: ResolvedMember) -> Data:
     data = {} if member.is_group else None if member.default is None else member.default.data
     return {} if data is None else {"default_setter": lambda document: copy.deepcopy(data)}
 
 
-def _rules_of(type_: Type) -> Data:
+def _type_rules(type_: Type) -> Data:
     match type_:
         case ListType(element=element):
-            return {"type": "list", "schema": _rules_of(element)}
+            return {"type": "list", "schema": _type_rules(element)}
         case MapType(element=element):
-            return {"type": "dict", "valuesrules": _rules_of(element)}
+            return {"type": "dict", "valuesrules": _type_rules(element)}
         case RecordType():
             return {"type": "dict", "schema": _rules(type_)}
         case BasicType(is_integer=True):

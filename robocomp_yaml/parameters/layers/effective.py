@@ -1,9 +1,9 @@
-"""The effective values of a document and its layers, with everything that is wrong with them."""
+"""The effective values of a document and its layers, and their problems."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 
@@ -11,10 +11,9 @@ from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.parameters.documents import LayeredValues, ResolvedParameters
+from robocomp_yaml.parameters.json_schema import DOCUMENT, EFFECTIVE, fits
 from robocomp_yaml.parameters.layers.completion import complete_at_once, completed
-from robocomp_yaml.parameters.layers.merge import Place, data_of, merged, section
-from robocomp_yaml.parameters.schema.gate import fits
-from robocomp_yaml.parameters.schema.json_schema import DOCUMENT, EFFECTIVE
+from robocomp_yaml.parameters.layers.merge import MergedValue, data_of, merged, section
 from robocomp_yaml.parameters.types import MapType, Parameters, RecordType, Type
 from robocomp_yaml.parameters.verdict.judge import judge, missing, wrong_size
 from robocomp_yaml.parameters.verdict.specification import is_usable
@@ -22,18 +21,21 @@ from robocomp_yaml.semantics.paths import Path
 from robocomp_yaml.source.tree import Mapping, Node, mapping_at, sequence_at
 from robocomp_yaml.source.tree import Sequence as List
 
+if TYPE_CHECKING:
+    from robocomp_yaml.parameters.specification.expression import Expression
+
 
 class Effective(msgspec.Struct, frozen=True):
-    """`data` are the values with all defaults, references as `{"env": NAME}`; `place` is where they stand. Whoever
-    reads them shares them."""
+    """`data` are the values with all defaults, and references as `{"env": NAME}`. `merged` are the merged values with
+    their nodes. Callers share `data`, and do not change it."""
 
     data: dict[str, Any]
-    place: Place | None
+    merged: MergedValue | None
     parameters: Parameters
 
 
 def document_faults(values: LayeredValues, linked: ResolvedParameters) -> Sequence[Diagnostic]:
-    """What is wrong with the values that a document itself gives, whatever is missing."""
+    """The problems of the values that a document itself sets. Missing values are no problem."""
     return linked.once(values, lambda: tuple(_document_faults(values, linked)))
 
 
@@ -44,87 +46,82 @@ def _document_faults(values: LayeredValues, linked: ResolvedParameters) -> Itera
 
 
 def effective(values: LayeredValues) -> tuple[Effective | None, Sequence[Diagnostic]]:
-    """The values of a document and all that it builds on, and what is wrong with them; None where anything is. A
-    program works them out once for each of its documents."""
+    """The effective values of a document and its layers, and their problems. The values are None if there are problems.
+    A program computes them once for each document."""
     linked, found = values.parameters, list[Diagnostic]()
     assert linked is not None
-    root, place, head = linked.parameters.root, merged(values), _head(values)
+    root, merged_value, head = linked.parameters.root, merged(values), values.head
     data = _of_single_layer(values)
     whole = complete_at_once(linked, data) if data is not None else None
-    # A single layer that is effective as it stands is right as a layer, too: one look is enough.
+    # A single layer that is valid as effective values is also valid as a layer: one validation is enough.
     if data is None or (whole is None and not fits(linked, EFFECTIVE, data)):
-        data = data_of(place, root)
+        data = data_of(merged_value, root)
         found += [fault for layer in values.layers() for fault in document_faults(layer, linked)]
         if not values.broken and not fits(linked, EFFECTIVE, data):
-            found += _not_misspelled(found, _incomplete(root, place, (), head))
+            found += _without_misspelled(found, _incomplete(root, merged_value, (), head))
     if found or values.broken or not is_usable(linked):
         return None, found
     whole = completed(linked, data) if whole is None else whole
-    found += _broken_constraints(linked.parameters, whole, place, head)
-    return (None if found else Effective(whole, place, linked.parameters)), found
+    found += _broken_constraints(linked.parameters, whole, merged_value, head)
+    return (None if found else Effective(whole, merged_value, linked.parameters)), found
 
 
 def _of_single_layer(values: LayeredValues) -> dict[str, Any] | None:
-    given = section(values)
-    data = given[0][1].data if given and not values.extends else None
+    own = section(values)
+    data = own[0][1].data if own and not values.extends else None
     return data if isinstance(data, dict) else None
 
 
-def _not_misspelled(found: list[Diagnostic], missing_ones: Iterable[Diagnostic]) -> list[Diagnostic]:
-    """What is missing, but for what stands there misspelled: that is one cause, not two."""
+def _without_misspelled(found: list[Diagnostic], missing_ones: Iterable[Diagnostic]) -> list[Diagnostic]:
+    """The missing values, without those that are present with a misspelled name: these have one cause, not two."""
     meant = set()
     for fault in found:
         if fault.code == codes.UNKNOWN_PARAMETER.id and (name := fault.fact("meant")):
-            around = str(fault.fact("path")).rpartition(".")[0]
-            meant.add(f"{around}.{name}" if around else name)
+            outer = str(fault.fact("path")).rpartition(".")[0]
+            meant.add(f"{outer}.{name}" if outer else name)
     return [fault for fault in missing_ones if fault.fact("path") not in meant]
 
 
-def _head(values: LayeredValues) -> Span:
-    """Where a document's values begin."""
-    root = values.document.root
-    entry = root.entries.get("parameters") or root.entries.get("component")
-    return entry[0].span if entry else Span(root.file)
-
-
-def _incomplete(type_: Type, place: Place | None, path: Path, head: Span) -> Iterator[Diagnostic]:
-    """What is missing from merged values, and maps whose merged size is wrong."""
-    if place is not None and place.key is not None:
-        head = place.key.span
-    if place is not None and place.entries is None:
+def _incomplete(type_: Type, merged_value: MergedValue | None, path: Path, head: Span) -> Iterator[Diagnostic]:
+    """The missing values, and the maps whose size is wrong after merging."""
+    if merged_value is not None and merged_value.key is not None:
+        head = merged_value.key.span
+    if merged_value is not None and merged_value.entries is None:
         if path:
-            yield from _incomplete_node(type_, place, path, head)
+            yield from _incomplete_node(type_, merged_value, path, head)
         return
-    entries = place.entries if place is not None else None
+    entries = merged_value.entries if merged_value is not None else None
     if isinstance(type_, RecordType):
         yield from missing(type_, set(entries or ()), path, head)
         for name, entry in (entries or {}).items():
             member = type_.member(name)
             assert member is not None
             yield from _incomplete(member.type, entry, (*path, name), head)
-    elif isinstance(type_, MapType) and place is not None:
-        yield from wrong_size(type_, len(entries or ()), place.node, path, place.key)
+    elif isinstance(type_, MapType) and merged_value is not None:
+        yield from wrong_size(type_, len(entries or ()), merged_value.node, path, merged_value.key)
         for name, entry in (entries or {}).items():
             yield from _incomplete(type_.element, entry, (*path, name), head)
 
 
-def _incomplete_node(type_: Type, place: Place, path: Path, head: Span) -> Iterator[Diagnostic]:
-    """Inside of a list nothing merges: each entry is judged as it stands, but for null."""
-    for fault in judge(type_, _given(place.node), path, complete=True, key=place.key):
+def _incomplete_node(type_: Type, merged_value: MergedValue, path: Path, head: Span) -> Iterator[Diagnostic]:
+    """The same in a list, whose entries do not merge: each entry is judged, without null."""
+    for fault in judge(type_, _without_null(merged_value.node), path, complete=True, key=merged_value.key):
         if fault.code in (codes.MISSING.id, codes.WRONG_SIZE.id):
             yield fault
 
 
-def _given(node: Node) -> Node:
-    """Without what is null in a mapping: it is as good as not there."""
+def _without_null(node: Node) -> Node:
+    """The node without null in mappings, which is the same as a missing value."""
     if isinstance(node, Mapping):
-        entries = {name: (key, _given(value)) for name, (key, value) in node.entries.items() if value.data is not None}
+        entries = {
+            name: (key, _without_null(value)) for name, (key, value) in node.entries.items() if value.data is not None
+        }
         return mapping_at(node.span, entries)
-    return sequence_at(node.span, [_given(item) for item in node.items]) if isinstance(node, List) else node
+    return sequence_at(node.span, [_without_null(item) for item in node.items]) if isinstance(node, List) else node
 
 
 def _broken_constraints(
-    parameters: Parameters, data: dict[str, Any], place: Place | None, head: Span
+    parameters: Parameters, data: dict[str, Any], merged_value: MergedValue | None, head: Span
 ) -> Iterator[Diagnostic]:
     if not parameters.constraints:
         return
@@ -133,25 +130,25 @@ def _broken_constraints(
     named = evaluate.by_code_names(parameters.root, data)
     for constraint in parameters.constraints:
         if not evaluate.holds(constraint.expression, named):
-            span = _concerned(parameters.root, constraint.expression, place) or head
+            span = _concerned(parameters.root, constraint.expression, merged_value) or head
             yield codes.CONSTRAINT.at(
                 span, message=constraint.message, hint="" if not constraint.otherwise else constraint.text
             )
 
 
-def _concerned(root: RecordType, expression: object, place: Place | None) -> Span | None:
-    """The first value that a constraint names and that a document gives."""
+def _concerned(root: RecordType, expression: Expression, merged_value: MergedValue | None) -> Span | None:
+    """The location of the first value that a constraint names and a document sets; None if there is none."""
     from robocomp_yaml.parameters.expressions import evaluate
 
     for steps in evaluate.paths(expression):
-        here, record = place, root
+        value, record = merged_value, root
         found: Span | None = None
         for step in steps:
             member = next((m for m in record.members if m.code_name == step), None)
-            entry = here.entries.get(member.name) if here and here.entries and member else None
+            entry = value.entries.get(member.name) if value and value.entries and member else None
             if entry is None or member is None:
                 break
-            here, found = entry, entry.key.span if entry.key else entry.node.span
+            value, found = entry, entry.key.span if entry.key else entry.node.span
             if not isinstance(member.type, RecordType):
                 break
             record = member.type

@@ -1,1 +1,1 @@
-"""Patterns of texts: which every language of components understands alike, what they match, and a text that fits."""
+"""Patterns of texts: the subset that all languages of components support, matching, and examples of matching texts."""

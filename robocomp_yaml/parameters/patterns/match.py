@@ -1,22 +1,29 @@
-"""Whether a text matches a pattern, in a time that grows with the text and with the pattern, never with its square.
+"""Whether a text matches a pattern, in a time proportional to the lengths of both.
 
-Engines that try one way after the other take years for `(a+)+b`. Here all ways are gone at once: a pattern becomes a
-graph of places, and each character of the text leads from some of them to others. What was found out is kept.
+Backtracking engines need exponential time for `(a+)+b`. This matcher simulates a nondeterministic finite automaton
+(Thompson, 1968): it follows all alternatives at once, and caches the sets of states that it reaches.
 """
 
 from __future__ import annotations
 
 import re
 from functools import cache
+from typing import TypeAlias
 
 import msgspec
 
 from robocomp_yaml.patterns import pattern
 
-MAX_PLACES = 5_000  # so many that `[a-z]{1,1000}` is none of the large ones
+MAX_STATES = 5_000  # enough for `[a-z]{1,1000}`
 _KEPT = 10_000
 _ATOM = pattern(r"\[(?:\\.|[^\]\\])*\]|\\.|.", re.DOTALL)
 _COUNT = pattern(r"[*+?]|\{(\d+)(,(\d*))?\}")
+
+
+Alternatives: TypeAlias = "list[list[tuple[Atom, int, int | None]]]"
+"""Sequences of (atom, least, most)."""
+Atom: TypeAlias = "str | Alternatives"
+"""The text of a character or of a class of them, or a group."""
 
 
 class TooLarge(ValueError):
@@ -25,36 +32,37 @@ class TooLarge(ValueError):
 
 @cache
 def matcher(portable: str) -> Matcher:
-    """For what `patterns.pattern` writes. Raises TooLarge, where counts of counts come to more than MAX_PLACES."""
-    parser = _Parser(portable)
-    parsed = parser.alternatives()
-    if _size(parsed) > MAX_PLACES:
+    """The matcher of a portable pattern. Raises TooLarge if nested counts need more than MAX_STATES states."""
+    alternatives = parsed(portable)
+    if _size(alternatives) > MAX_STATES:
         raise TooLarge
     made = Matcher()
-    made.end = made.add(parsed, made.place())
+    made.end = made.add(alternatives, made.state())
     return made
 
 
-class _Parser(msgspec.Struct):
-    """Alternatives are lists of sequences, these of (atom, least, most); an atom is the text of a class of characters,
-    or alternatives."""
+def parsed(portable: str) -> Alternatives:
+    """The tree of a portable pattern."""
+    return _TreeParser(portable).alternatives()
 
+
+class _TreeParser(msgspec.Struct):
     text: str
     at: int = 0
 
-    def alternatives(self) -> list[list[tuple[str | list, int, int | None]]]:  # type: ignore[type-arg]
+    def alternatives(self) -> Alternatives:
         found = [self.sequence()]
         while self.text.startswith("|", self.at):
             self.at += 1
             found.append(self.sequence())
         return found
 
-    def sequence(self) -> list[tuple[str | list, int, int | None]]:  # type: ignore[type-arg]
+    def sequence(self) -> list[tuple[Atom, int, int | None]]:
         found = []
         while self.at < len(self.text) and self.text[self.at] not in "|)":
             if self.text.startswith("(?:", self.at):
                 self.at += 3
-                atom: str | list = self.alternatives()  # type: ignore[type-arg]
+                atom: Atom = self.alternatives()
                 self.at += 1
             else:
                 whole = _ATOM.match(self.text, self.at)
@@ -74,7 +82,7 @@ class _Parser(msgspec.Struct):
         return least, (least if found[2] is None else int(found[3]) if found[3] else None)
 
 
-def _size(alternatives: list[list[tuple[str | list, int, int | None]]]) -> int:  # type: ignore[type-arg]
+def _size(alternatives: Alternatives) -> int:
     return 1 + sum(
         (1 if isinstance(atom, str) else _size(atom)) * max(1, least + 1 if most is None else most)
         for sequence in alternatives for atom, least, most in sequence
@@ -82,7 +90,7 @@ def _size(alternatives: list[list[tuple[str | list, int, int | None]]]) -> int: 
 
 
 class Matcher:
-    """`free` leads from a place to others by itself, `steps` by a character of a class."""
+    """A finite automaton. `free` are the transitions without a character, `steps` those with a character of a class."""
 
     def __init__(self) -> None:
         self.free: list[list[int]] = []
@@ -90,64 +98,65 @@ class Matcher:
         self.end = 0
         self._next: dict[tuple[frozenset[int], str], frozenset[int]] = {}
 
-    def place(self) -> int:
+    def state(self) -> int:
         self.free.append([])
         self.steps.append(None)
         return len(self.free) - 1
 
-    def add(self, part: str | list, start: int) -> int:  # type: ignore[type-arg]
-        """The place that one is at behind a part that begins at `start`."""
-        end = self.place()
+    def add(self, part: Atom, start: int) -> int:
+        """Adds a part that begins at state `start`. Returns the state at its end."""
+        end = self.state()
         if isinstance(part, str):
             self.steps[start] = (re.compile(part), end)
             return end
         for sequence in part:
-            here = self.place()
-            self.free[start].append(here)
+            state = self.state()
+            self.free[start].append(state)
             for atom, least, most in sequence:
-                here = self.repeat(atom, least, most, here)
-            self.free[here].append(end)
+                state = self.repeat(atom, least, most, state)
+            self.free[state].append(end)
         return end
 
-    def repeat(self, atom: str | list, least: int, most: int | None, here: int) -> int:  # type: ignore[type-arg]
+    def repeat(self, atom: Atom, least: int, most: int | None, state: int) -> int:
         for _ in range(least):
-            here = self.add(atom, self.behind(here))
-        end = self.place()
+            state = self.add(atom, self.after(state))
+        end = self.state()
         if most is None:
-            around = self.behind(here)
-            self.free[self.add(atom, self.behind(around))].append(around)
-            here = around
+            loop = self.after(state)
+            self.free[self.add(atom, self.after(loop))].append(loop)
+            state = loop
         for _ in range((most or 0) - least):
-            self.free[here].append(end)
-            here = self.add(atom, self.behind(here))
-        self.free[here].append(end)
+            self.free[state].append(end)
+            state = self.add(atom, self.after(state))
+        self.free[state].append(end)
         return end
 
-    def behind(self, here: int) -> int:
-        there = self.place()
-        self.free[here].append(there)
-        return there
+    def after(self, state: int) -> int:
+        following = self.state()
+        self.free[state].append(following)
+        return following
 
     def matches(self, text: str) -> bool:
-        here = self._with_free({0})
+        states = self._with_free({0})
         for char in text:
-            there = self._next.get((here, char))
-            if there is None:
+            following = self._next.get((states, char))
+            if following is None:
                 if len(self._next) >= _KEPT:
                     self._next.clear()
-                steps = (self.steps[place] for place in here)
-                there = self._with_free({step[1] for step in steps if step and step[0].fullmatch(char)})
-                self._next[here, char] = there
-            if not there:
+                steps = (self.steps[state] for state in states)
+                following = self._with_free({step[1] for step in steps if step and step[0].fullmatch(char)})
+                self._next[states, char] = following
+            if not following:
                 return False
-            here = there
-        return self.end in here
+            states = following
+        return self.end in states
 
-    def _with_free(self, places: set[int]) -> frozenset[int]:
-        found, left = set(places), list(places)
+    def _with_free(self, states: set[int]) -> frozenset[int]:
+        """The states, and all that transitions without a character reach from them."""
+        found, left = set(states), list(states)
         while left:
-            for place in self.free[left.pop()]:
-                if place not in found:
-                    found.add(place)
-                    left.append(place)
+            for state in self.free[left.pop()]:
+                if state not in found:
+                    found.add(state)
+                    left.append(state)
         return frozenset(found)

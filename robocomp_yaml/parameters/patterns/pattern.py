@@ -1,15 +1,15 @@
-"""Regular expressions that mean the same to ECMAScript, Python, Rust and C++.
+"""Regular expressions with the same meaning in ECMAScript, Python, Rust and C++.
 
-What a PDSL's `pattern:` may say is the subset that all of them know: literals, `.`, classes, `\\d \\w \\s`, groups,
-alternatives and the usual counts. It is parsed here and written out again in a form without anything that the engines
-read differently: classes as sorted ranges, shorthands spelled out (ASCII), anchored at both ends.
+`pattern:` of a PDSL document accepts the subset that all of them support: literals, `.`, classes, `\\d \\w \\s`,
+groups, alternatives and counts. The parser rewrites a pattern in a portable form, which all engines read alike: classes
+are sorted ranges, and shorthands are spelled out (ASCII).
 """
 
 from __future__ import annotations
 
 import msgspec
 
-from robocomp_yaml.parameters.patterns.match import MAX_PLACES, TooLarge, matcher
+from robocomp_yaml.parameters.patterns.match import MAX_STATES, TooLarge, matcher
 from robocomp_yaml.patterns import pattern
 
 MAX_COUNT = 1000
@@ -18,14 +18,14 @@ _SHORTHANDS = {
     "w": [(0x30, 0x39), (0x41, 0x5A), (0x5F, 0x5F), (0x61, 0x7A)],
     "s": [(0x09, 0x0D), (0x20, 0x20)],
 }
-_CONTROLS = {"t": "\t", "n": "\n", "r": "\r", "f": "\f", "v": "\v"}
+CONTROLS = {"t": "\t", "n": "\n", "r": "\r", "f": "\f", "v": "\v"}
 _SPELLED = {"\t": "\\t", "\n": "\\n", "\r": "\\r", "\f": "\\f", "\v": "\\v"}
 _SYNTAX = frozenset("^$\\.*+?()[]{}|/")
 _COUNT = pattern(r"\{(\d{1,4})(,(\d{1,4})?)?\}")
 
 
 class NotPortable(ValueError):
-    """Says what an expression may not say, and where (an index)."""
+    """A pattern is not in the supported subset; `index` is the position of the problem."""
 
     def __init__(self, problem: str, index: int) -> None:
         super().__init__(problem)
@@ -33,7 +33,7 @@ class NotPortable(ValueError):
 
 
 class Pattern(msgspec.Struct, frozen=True):
-    """`text` is as written; `portable` is the same without anchors, for `^(?:…)$` in any engine."""
+    """`text` is the pattern as written, `portable` the same pattern without anchors, for `^(?:…)$` in any engine."""
 
     text: str
     portable: str
@@ -43,34 +43,33 @@ class Pattern(msgspec.Struct, frozen=True):
 
     @property
     def anchored(self) -> str:
-        """For engines that search. Python's `$` also matches before a last line end: the look-ahead forbids that."""
+        """For engines that search. The look-ahead is for Python, where `$` also matches before a last line end."""
         return f"^(?:{self.portable})$(?!\\n)"
 
 
 def parse(text: str) -> Pattern:
-    """The pattern of an expression. Raises NotPortable."""
+    """The pattern that a text spells. Raises NotPortable."""
     body, shift = text, 0
-    if body.startswith("^"):  # it matches the whole text in any case
+    if body.startswith("^"):  # a pattern always matches the whole text
         body, shift = body[1:], 1
     if body.endswith("$") and (len(body) - len(body.rstrip("$").rstrip("\\")) - 1) % 2 == 0:
         body = body[:-1]
-    parser = _Parser(body, shift)
+    parser = _PatternParser(body, shift)
     portable = parser.alternatives()
     if parser.at < len(body):
         raise NotPortable("a ')' has no '(' before it", parser.at + shift)
     try:
         matcher(portable)
     except TooLarge:
-        raise NotPortable(f"its counts come to more than {MAX_PLACES} characters", 0) from None
+        raise NotPortable(f"its counts add up to more than {MAX_STATES} characters", 0) from None
     return Pattern(text, portable)
 
 
-class _Parser(msgspec.Struct):
+class _PatternParser(msgspec.Struct):
     text: str
     shift: int
     at: int = 0
     depth: int = 0
-    out: list[str] = []
 
     def fail(self, problem: str, index: int | None = None) -> NotPortable:
         return NotPortable(problem, (self.at if index is None else index) + self.shift)
@@ -106,19 +105,21 @@ class _Parser(msgspec.Struct):
             case "*" | "+" | "?":
                 raise self.fail(f"'{char}' has nothing before it to repeat", start)
             case "^" | "$":
-                raise self.fail(f"'{char}' stands inside; a pattern matches the whole text in any case", start)
+                raise self.fail(
+                    f"'{char}' is not supported inside a pattern, which always matches the whole text", start
+                )
             case "{" | "}" | "]":
-                raise self.fail(f"'{char}' stands for itself only with a backslash: '\\{char}'", start)
+                raise self.fail(f"'{char}' needs a backslash: '\\{char}'", start)
         return _literal(char)
 
     def group(self, start: int) -> str:
         if self.text.startswith("?:", self.at):
             self.at += 2
         elif self.peek() == "?":
-            raise self.fail("look-around, names and flags of groups are not known to every engine", start)
+            raise self.fail("look-around, named groups and flags are not supported by every engine", start)
         self.depth += 1
         if self.depth > 20:
-            raise self.fail("groups are nested more than 20 deep", start)
+            raise self.fail("groups are nested more than 20 levels deep", start)
         inner = self.alternatives()
         if self.peek() != ")":
             raise self.fail("this '(' has no ')'", start)
@@ -134,19 +135,19 @@ class _Parser(msgspec.Struct):
         elif char == "{":
             counted = _COUNT.match(self.text, self.at)
             if not counted:
-                raise self.fail("a count is {2}, {2,} or {2,5}")
+                raise self.fail("a count is written {2}, {2,} or {2,5}")
             least, most = int(counted[1]), int(counted[3] or counted[1])
             if most < least or most > MAX_COUNT:
-                raise self.fail(f"a count goes up, and to {MAX_COUNT} at most")
+                raise self.fail(f"a count must go up, to at most {MAX_COUNT}")
             self.at = counted.end()
             found = counted[0]
         else:
             return ""
         following = self.peek()
         if following == "?":
-            raise self.fail("a lazy count changes nothing where the whole text must match; leave the '?' out")
+            raise self.fail("a lazy count has no effect where the whole text must match; remove the '?'")
         if following and following in "*+{":
-            raise self.fail("a count of a count needs a group around the first")
+            raise self.fail("a count after a count needs a group around the first")
         return found
 
     def escape(self, start: int) -> str:
@@ -157,13 +158,13 @@ class _Parser(msgspec.Struct):
         return _literal(self.single(char, start))
 
     def single(self, char: str, start: int) -> str:
-        """The character that stands behind a backslash."""
-        if char in _CONTROLS:
-            return _CONTROLS[char]
+        """The character that a backslash and `char` spell."""
+        if char in CONTROLS:
+            return CONTROLS[char]
         if not char:
-            raise self.fail("a backslash stands at the end", start)
+            raise self.fail("a backslash ends the pattern", start)
         if char.isalnum() or (char.isspace() and char != " "):
-            raise self.fail(f"'\\{char}' does not mean the same to every engine", start)
+            raise self.fail(f"'\\{char}' does not mean the same in every engine", start)
         return char
 
     def char_class(self, start: int) -> str:
@@ -177,11 +178,11 @@ class _Parser(msgspec.Struct):
             if isinstance(low, list):
                 ranges += low
             elif self.peek() == "-" and self.text[self.at + 1 : self.at + 2] not in ("]", ""):
-                place = self.at
+                start_of_range = self.at
                 self.at += 1
                 high = self.class_item()
                 if isinstance(high, list) or high < low:
-                    raise self.fail("a range of characters goes up, from one to another", place)
+                    raise self.fail("a range of characters must go up, from one character to another", start_of_range)
                 ranges.append((low, high))
             else:
                 ranges.append((low, low))
@@ -194,7 +195,7 @@ class _Parser(msgspec.Struct):
         start, char = self.at, self.peek()
         self.at += 1
         if char == "[":
-            raise self.fail("inside of a class, '[' needs a backslash: '\\['", start)
+            raise self.fail("inside a class, '[' needs a backslash: '\\['", start)
         if char != "\\":
             return ord(char)
         char = self.peek()
@@ -209,7 +210,8 @@ def _literal(char: str) -> str:
 
 
 def _class(ranges: list[tuple[int, int]], negated: bool) -> str:
-    """Sorted ranges that do not touch: so `--`, `&&` and `~~`, which mean something to Rust, never stand there."""
+    """A class of sorted, separate ranges, so that it never contains `--`, `&&` and `~~`, which are operators in
+    Rust."""
     merged: list[list[int]] = []
     for low, high in sorted(ranges):
         if merged and low <= merged[-1][1] + 1:

@@ -1,1 +1,1 @@
-"""The types of parameters resolved: names looked up, limits joined and judged."""
+"""Resolution of the types of parameters: names are looked up, limits are combined and checked."""

@@ -1,4 +1,4 @@
-"""Parameters as written become parameters with resolved types; each component also gets its `period`."""
+"""Parameters with resolved types, from parameters as written. Each component also has the parameters of `period`."""
 
 from __future__ import annotations
 
@@ -7,26 +7,28 @@ from collections.abc import Iterable, Iterator
 from msgspec.structs import replace
 
 from robocomp_yaml import secrets
+from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
+from robocomp_yaml.diag.fix import Hint
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean, meaning
 from robocomp_yaml.parameters.defaults import EMERGENCY, PERIOD
 from robocomp_yaml.parameters.resolution.limits import inside, limited
-from robocomp_yaml.parameters.specification.document import Entry, ParameterDocument, Rule, Spec
+from robocomp_yaml.parameters.specification.document import ConstraintSpec, MemberSpec, ParameterDocument, TypeSpec
 from robocomp_yaml.parameters.types import (
     BASIC_TYPES,
     BasicType,
     Bound,
-    Constraint,
     Default,
     EnumType,
     ListType,
     MapType,
-    Member,
     Parameters,
     Range,
     RecordType,
+    ResolvedConstraint,
+    ResolvedMember,
     ScalarType,
     Type,
     innermost,
@@ -41,54 +43,49 @@ _IN_PARAMETERS = ("type", "list", "map", "group")
 
 
 def resolve(document: ParameterDocument, period: int | None = None) -> tuple[Parameters, list[Diagnostic]]:
-    """The parameters of a document, as far as they have types, and what is wrong with these. `period` is what the
-    component says, in milliseconds."""
+    """The parameters of a document whose types can be resolved, and the problems of the others. `period` is the period
+    of the component in milliseconds, if it sets one."""
     resolver = _Resolver(document)
     members = tuple(resolver.members(document.parameters, None, _IN_PARAMETERS))
     constraints = tuple(resolver.constraints(document.rules))
     types = [resolver.named(name) for name, _ in document.types]
     resolver.unused()
     root = RecordType("", members, document.doc)
-    if resolver.found == [] and _size(root, {}) > MAX_VALUES:
-        resolver.found.append(
-            codes.TOO_LARGE.at(document.span, name="parameters", limit=MAX_VALUES, what="values of plain types")
-        )
+    if not resolver.found and _size(root, {}) > MAX_VALUES:
+        resolver.report(codes.TOO_LARGE, document.span, name="parameters", limit=MAX_VALUES, what="plain values")
     root, problems = with_period(root, period)
     found = [*resolver.found, *problems]
     sound = tuple(_sound(constraints, root, found))
-    return Parameters(
-        root,
-        tuple(t for t in types if isinstance(t, EnumType) or (isinstance(t, RecordType) and t.name)),
-        sound,
-        document.legacy,
-        document.doc,
-    ), found
+    named = tuple(t for t in types if isinstance(t, EnumType) or (isinstance(t, RecordType) and t.name))
+    return Parameters(root, named, sound, document.legacy, document.doc), found
 
 
-def hides_types(found: Iterable[Diagnostic]) -> bool:
-    """Whether some parameters have no usable type; a constraint that cannot be read harms no other."""
+def leaves_types_unknown(found: Iterable[Diagnostic]) -> bool:
+    """Whether some parameters have no usable type. An invalid constraint affects no type."""
     return has_errors(fault for fault in found if fault.code != codes.BAD_EXPRESSION.id)
 
 
-def _sound(constraints: Iterable[Constraint], root: RecordType, found: list[Diagnostic]) -> Iterator[Constraint]:
-    """The constraints that are true or false, and say only what has a meaning: nothing else ever sees others."""
+def _sound(
+    constraints: Iterable[ResolvedConstraint], root: RecordType, found: list[Diagnostic]
+) -> Iterator[ResolvedConstraint]:
+    """The constraints with valid types. The others are reported in `found` and dropped."""
     for constraint in constraints:
-        from robocomp_yaml.parameters.expressions.types import check_constraint  # few documents have any
-        from robocomp_yaml.parameters.specification.expression import NotInLanguage
+        from robocomp_yaml.parameters.expressions.types import check_constraint  # few documents have constraints
+        from robocomp_yaml.parameters.specification.expression import ExpressionError
 
         try:
             check_constraint(constraint.expression, root)
-        except NotInLanguage as refused:
+        except ExpressionError as error:
             assert isinstance(constraint.node, Scalar)
-            if not hides_types(found):
-                place = inside(constraint.node, refused.index)
-                found.append(codes.BAD_EXPRESSION.at(place, problem=str(refused), hint=refused.hint))
+            if not leaves_types_unknown(found):
+                location = inside(constraint.node, error.index)
+                found.append(codes.BAD_EXPRESSION.at(location, problem=str(error), hint=error.hint))
         else:
             yield constraint
 
 
 def of_no_document(period: int | None) -> Parameters:
-    """The parameters of a component that has no document for them."""
+    """The parameters of a component without a parameters document."""
     return Parameters(with_period(RecordType("", ()), period)[0])
 
 
@@ -101,34 +98,36 @@ class _Resolver:
         self.open: list[str] = []
         self.used: set[str] = set()
 
+    def report(self, code: Code, span: Span, *, hint: str | Hint = "", **facts: object) -> None:
+        self.found.append(code.at(span, hint=hint, related=(), more="", fixes=(), **facts))
+
     def unused(self) -> None:
         if not self.found:
             for name, spec in self.specs.items():
                 if name not in self.used:
-                    self.found.append(codes.UNUSED_TYPE.at(spec.key_span, name=name))
+                    self.report(codes.UNUSED_TYPE, spec.key_span, name=name)
 
     def named(self, name: str) -> Type | None:
-        """One of the document's own types."""
+        """The type that the document defines with this name; None if it is invalid."""
         if name in self.done:
             return self.done[name]
         spec = self.specs[name]
         if name in BASIC_TYPES:
-            self.found.append(codes.BASIC_NAME.at(spec.key_span, name=name))
+            self.report(codes.BASIC_NAME, spec.key_span, name=name)
         self.open.append(name)
         self.done[name] = resolved = self.definition(name, spec)
         self.open.pop()
         return resolved
 
-    def definition(self, name: str, spec: Spec) -> Type | None:
+    def definition(self, name: str, spec: TypeSpec) -> Type | None:
         if not self.has_one_kind(spec, "type", name, _IN_TYPES):
             return None
         if spec.kind == "enum":
             names = tuple(literal.lexeme for literal, _ in spec.enumerators)
-            for place, (literal, _) in enumerate(spec.enumerators):
-                if literal.lexeme in names[:place]:
-                    self.found.append(
-                        codes.UNREACHABLE.at(literal.span, problem=f"the enumerator '{literal.lexeme}' stands twice")
-                    )
+            for index, (literal, _) in enumerate(spec.enumerators):
+                if literal.lexeme in names[:index]:
+                    problem = f"enumerator '{literal.lexeme}' appears twice"
+                    self.report(codes.UNREACHABLE, literal.span, problem=problem)
             enumerators = tuple((literal.lexeme, doc) for literal, doc in spec.enumerators)
             return limited(EnumType(name, enumerators, names, spec.doc), spec.limits, self.found)
         if spec.kind == "struct":
@@ -136,19 +135,19 @@ class _Resolver:
             return limited(record, spec.limits, self.found)
         return self.type(spec, name)
 
-    def has_one_kind(self, spec: Spec, what: str, name: str, possible: tuple[str, ...]) -> bool:
+    def has_one_kind(self, spec: TypeSpec, what: str, name: str, possible: tuple[str, ...]) -> bool:
         if not spec.kinds:
             choice = ", ".join(f"{kind}: …" for kind in possible)
-            self.found.append(codes.NO_TYPE.at(spec.span, what=what, name=name, hint=f"write one of {choice}"))
+            self.report(codes.NO_TYPE, spec.span, what=what, name=name, hint=f"write one of {choice}")
         elif len(spec.kinds) > 1:
             kinds = " and ".join(f"'{kind}'" for kind, _ in spec.kinds)
-            self.found.append(codes.TWO_TYPES.at(spec.kinds[1][1], what=what, name=name, kinds=kinds))
+            self.report(codes.TWO_TYPES, spec.kinds[1][1], what=what, name=name, kinds=kinds)
         return len(spec.kinds) == 1
 
-    def type(self, spec: Spec, name: str) -> Type | None:
-        """The type of a parameter, a member, or of the entries of a list or map; `name` is for messages."""
+    def type(self, spec: TypeSpec, name: str) -> Type | None:
+        """The type of a parameter, a member, or the entries of a list or map. `name` is for messages."""
         if len(self.open) > MAX_DEPTH:
-            self.found.append(codes.TOO_LARGE.at(spec.span, name=name, limit=MAX_DEPTH, what="types inside each other"))
+            self.report(codes.TOO_LARGE, spec.span, name=name, limit=MAX_DEPTH, what="nested types")
             return None
         match spec.kind:
             case "type":
@@ -165,29 +164,29 @@ class _Resolver:
                 return None
         return None if base is None else limited(base, spec.limits, self.found)
 
-    def reference(self, spec: Spec) -> Type | None:
+    def reference(self, spec: TypeSpec) -> Type | None:
         name = spec.name
         if name in BASIC_TYPES and name not in self.specs:
             return BasicType(name)
         if name not in self.specs:
             known = (*BASIC_TYPES, *self.specs)
             hint = did_you_mean(name, known, otherwise=f"there are: {', '.join(known)}")
-            if hint.meant not in self.specs and (ours := _FOREIGN.get(name.lower())):
-                hint = meaning(name, ours)
-            self.found.append(codes.UNKNOWN_TYPE.at(spec.span, name=name, hint=hint))
+            if hint.meant not in self.specs and (own := _FOREIGN.get(name.lower())):
+                hint = meaning(name, own)
+            self.report(codes.UNKNOWN_TYPE, spec.span, name=name, hint=hint)
             return None
         self.used.add(name)
         if name in self.open:
             cycle = [*self.open[self.open.index(name) :], name]
-            self.found.append(codes.RECURSIVE_TYPE.at(spec.span, name=name, cycle=" → ".join(cycle)))
+            self.report(codes.RECURSIVE_TYPE, spec.span, name=name, cycle=" → ".join(cycle))
             return None
         return self.named(name)
 
     def members(
-        self, entries: tuple[Entry, ...], editable: bool | None, possible: tuple[str, ...], *, secret: bool = False
-    ) -> Iterator[Member]:
-        """Entries with their types; one without a type is left out, having been reported. `secret`: the name of the
-        group around them says so."""
+        self, entries: tuple[MemberSpec, ...], editable: bool | None, possible: tuple[str, ...], *, secret: bool = False
+    ) -> Iterator[ResolvedMember]:
+        """Members with resolved types. A member without a valid type is reported and omitted. `secret`: the name of
+        their group is the name of a secret."""
         what = "parameter" if "group" in possible else "member"
         for entry in entries:
             if not self.has_one_kind(entry.spec, what, entry.name, possible):
@@ -202,11 +201,11 @@ class _Resolver:
                 type_ = self.type(entry.spec, entry.name)
             if type_ is None:
                 continue
-            type_ = self.secret(entry, type_) if entry.secret else _named_so(type_) if hidden else type_
+            type_ = self.secret(entry, type_) if entry.secret else _secret_by_name(type_) if hidden else type_
             if entry.optional and entry.default is not None:
-                self.found.append(codes.DEFAULT_AND_OPTIONAL.at(entry.default_span or entry.span, name=entry.name))
+                self.report(codes.DEFAULT_AND_OPTIONAL, entry.default_span or entry.span, name=entry.name)
             default = None if entry.default is None else Default(entry.default.data, entry.default)
-            yield Member(
+            yield ResolvedMember(
                 entry.name,
                 type_,
                 entry.doc,
@@ -218,58 +217,56 @@ class _Resolver:
                 span=entry.span,
             )
 
-    def group(self, entry: Entry, type_: RecordType) -> None:
+    def group(self, entry: MemberSpec, type_: RecordType) -> None:
         limited(type_, entry.spec.limits, self.found)
-        problem = "is for values; give it to what the group holds"
+        problem = "does not apply to a group; set it for the members of the group"
         if entry.default is not None:
-            self.found.append(codes.LIMIT_MISFIT.at(entry.default_span or entry.span, key="default", problem=problem))
+            self.report(codes.LIMIT_MISFIT, entry.default_span or entry.span, key="default", problem=problem)
         if entry.optional:
-            self.found.append(codes.LIMIT_MISFIT.at(entry.span, key="optional", problem=problem))
+            self.report(codes.LIMIT_MISFIT, entry.span, key="optional", problem=problem)
 
-    def secret(self, entry: Entry, type_: Type) -> Type:
-        """The type of a parameter that the document calls secret."""
+    def secret(self, entry: MemberSpec, type_: Type) -> Type:
+        """The type of a parameter with `secret: true`."""
         assert entry.secret is not None
         if entry.default is not None:
-            self.found.append(codes.SECRET_DEFAULT.at(entry.default_span or entry.span, name=entry.name, hint=(
-                "leave the default out: values documents give {env: NAME} or {file: PATH}"
-            )))  # fmt: skip
+            hint = "remove the default: set {env: NAME} or {file: PATH} in a values document"
+            self.report(codes.SECRET_DEFAULT, entry.default_span or entry.span, name=entry.name, hint=hint)
         if _plain_of(type_) is None:
             words = "a group" if isinstance(type_, RecordType) and type_.is_group else kind_in_words(type_)
-            words += ", and not of plain values" if isinstance(type_, ListType) else ""
-            self.found.append(codes.SECRET_MISFIT.at(entry.secret, name=entry.name, words=words))
+            words += " of values that are not plain" if isinstance(type_, ListType) else ""
+            self.report(codes.SECRET_MISFIT, entry.secret, name=entry.name, words=words)
             return type_
         return _as_secret(type_)
 
-    def constraints(self, rules: tuple[Rule, ...]) -> Iterator[Constraint]:
+    def constraints(self, rules: tuple[ConstraintSpec, ...]) -> Iterator[ResolvedConstraint]:
         if rules:
             from robocomp_yaml.parameters.specification import expression  # Python's parser is slow to import
         for rule in rules:
             assert isinstance(rule.that, Scalar)
             try:
                 tree = expression.parse(rule.that.lexeme)
-            except expression.NotInLanguage as refused:
-                self.found.append(
-                    codes.BAD_EXPRESSION.at(inside(rule.that, refused.index), problem=str(refused), hint=refused.hint)
-                )
+            except expression.ExpressionError as error:
+                location = inside(rule.that, error.index)
+                self.report(codes.BAD_EXPRESSION, location, problem=str(error), hint=error.hint)
                 continue
-            yield Constraint(tree, rule.that.lexeme, rule.otherwise, rule.that, span=rule.span)
+            yield ResolvedConstraint(tree, rule.that.lexeme, rule.otherwise, rule.that, span=rule.span)
 
 
 def _plain_of(type_: Type) -> ScalarType | None:
-    """The plain type that lists, at any depth, hold; None where they hold something else."""
+    """The plain type of the entries of lists, at any depth; None if the entries are not plain."""
     while isinstance(type_, ListType):
         type_ = type_.element
-    return type_ if isinstance(type_, BasicType | EnumType) else None
+    return type_ if isinstance(type_, (BasicType, EnumType)) else None
 
 
 def _as_secret(type_: Type) -> Type:
-    if isinstance(type_, ListType | MapType):
+    if isinstance(type_, (ListType, MapType)):
         return replace(type_, element=_as_secret(type_.element))
-    return replace(type_, secret=True) if isinstance(type_, BasicType | EnumType) else type_
+    return replace(type_, secret=True) if isinstance(type_, (BasicType, EnumType)) else type_
 
 
-def _named_so(type_: Type) -> Type:
-    """The type of what is secret by its name: texts and numbers are, and lists and maps of them."""
+def _secret_by_name(type_: Type) -> Type:
+    """The type of a parameter with the name of a secret: texts and numbers, and lists and maps of these, are secret."""
     plain = innermost(type_)
     return _as_secret(type_) if isinstance(plain, BasicType) and plain.name != "bool" else type_
 
@@ -282,8 +279,8 @@ _FOREIGN = {
 
 
 def _size(type_: Type, known: dict[str, int]) -> int:
-    """How many plain values a value of a type has at least, each list and map counted as one entry. `known` are those
-    of structs, which stand in many places."""
+    """The number of plain values in a value of a type, where a list or map counts as one entry. `known` are the numbers
+    of structs, which are used more than once."""
     match type_:
         case RecordType(name=name, members=members):
             if name not in known:
@@ -297,53 +294,43 @@ def _size(type_: Type, known: dict[str, int]) -> int:
 
 
 def with_period(root: RecordType, period: int | None) -> tuple[RecordType, list[Diagnostic]]:
-    """The parameters with `period.compute` and `period.emergency`, as far as the document does not define them."""
+    """The parameters with `period.compute` and `period.emergency`, unless the document defines them, and the
+    problems."""
+    defined = root.member("period")
+    if defined is not None and not defined.is_group:
+        problem = "'period' must be the group of the worker's periods"
+        hint = "write period: {group: {compute: …}}, or rename the parameter"
+        return root, [codes.PERIOD.at(defined.span, problem=problem, hint=hint)]
     found: list[Diagnostic] = []
-    given = root.member("period")
-    if given is not None and not given.is_group:
-        found.append(
-            codes.PERIOD.at(
-                given.span,
-                problem="'period' is the group of the worker's periods",
-                hint="write period: {group: {compute: …}}, or give the parameter another name",
-            )
-        )
-        return root, found
-    own = given.type.members if given is not None and isinstance(given.type, RecordType) else ()
+    own = defined.type.members if defined is not None and isinstance(defined.type, RecordType) else ()
     by_name = {member.name: member for member in own}
-    for name in ("compute", "emergency"):
+    for name in _PERIODS:
         member = by_name.get(name)
         if member is not None and not (isinstance(member.type, BasicType) and member.type.name == "int"):
-            problem = f"'period.{name}' is a whole number of milliseconds: int"
+            problem = f"'period.{name}' must be a whole number of milliseconds: int"
             found.append(codes.PERIOD.at(member.span, problem=problem))
-    compute = by_name.get("compute") or _period("compute", "How often compute() runs.", period or PERIOD)
+    compute = by_name.get("compute") or _period("compute", period or PERIOD)
     if compute.default is None and not compute.optional:
         compute = replace(compute, default=Default(period or PERIOD))
-    elif period is not None and compute.default is not None and compute.default.data != period and by_name:
-        node = compute.default.node
-        if node is not None:
-            found.append(
-                codes.PERIOD.at(
-                    node.span, problem=f"the component's 'period:' says {period} ms", hint="leave one of the two out"
-                )
-            )
-    emergency = by_name.get("emergency") or _period(
-        "emergency", "The period of RoboComp's emergency(); in other components, for their own code.", EMERGENCY
-    )
-    others = [member for member in own if member.name not in ("compute", "emergency")]
+    elif period is not None and compute.default is not None and compute.default.data != period:
+        if (node := compute.default.node) is not None:
+            problem, hint = f"the component's 'period:' is {period} ms", "remove one of the two"
+            found.append(codes.PERIOD.at(node.span, problem=problem, hint=hint))
+    emergency = by_name.get("emergency") or _period("emergency", EMERGENCY)
+    others = [member for member in own if member.name not in _PERIODS]
     group = RecordType("", (compute, emergency, *others), "How often the component works.")
-    member = Member(
-        "period",
-        group,
-        given.doc if given else group.doc,
-        code_name="period",
-        editable=True,
-        span=given.span if given else Span(""),
-    )
+    doc, span = (defined.doc, defined.span) if defined is not None else (group.doc, Span(""))
+    made = ResolvedMember("period", group, doc, code_name="period", editable=True, span=span)
     rest = [other for other in root.members if other.name != "period"]
-    return replace(root, members=(*rest, member)), found
+    return replace(root, members=(*rest, made)), found
 
 
-def _period(name: str, doc: str, default: int) -> Member:
+_PERIODS = {
+    "compute": "How often compute() runs.",
+    "emergency": "The period of RoboComp's emergency(); in other components, for their own code.",
+}
+
+
+def _period(name: str, default: int) -> ResolvedMember:
     type_ = BasicType("int", Range(Bound(1, False, "1"), None), unit="ms")
-    return Member(name, type_, doc, Default(default), editable=True, code_name=name)
+    return ResolvedMember(name, type_, _PERIODS[name], Default(default), editable=True, code_name=name)

@@ -1,1 +1,1 @@
-"""Parameters, constraints and values as documents have them: no names are looked up yet."""
+"""Parameters, constraints and values as written: no name is resolved."""

@@ -1,4 +1,4 @@
-"""PDSL and values documents' trees to the model as written. The trees have their schemas' shapes."""
+"""The model as written, from the trees of PDSL and values documents, which have been validated."""
 
 from __future__ import annotations
 
@@ -8,19 +8,19 @@ from robocomp_yaml.model.build_interface import doc, entries, items, span_of, te
 from robocomp_yaml.model.interface import Literal
 from robocomp_yaml.parameters.specification.document import (
     KINDS,
-    Entry,
-    Limits,
+    ConstraintSpec,
+    LegacySpelling,
+    LimitNodes,
+    MemberSpec,
     ParameterDocument,
-    Rule,
-    Spec,
-    Spelling,
+    TypeSpec,
     ValuesDocument,
 )
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 
 def build(root: Mapping, path: str) -> ParameterDocument:
-    """The parameters of a document that fits `pdsl.schema.json`."""
+    """The parameters of a document that is valid by `pdsl.schema.json`."""
     return ParameterDocument(
         path=path,
         component=text(root, "component"),
@@ -35,13 +35,13 @@ def build(root: Mapping, path: str) -> ParameterDocument:
 
 
 def build_values(root: Mapping, path: str) -> ValuesDocument:
-    """A values document that fits `config.schema.json`."""
+    """The values document of a tree that is valid by `config.schema.json`."""
     extends = [
         Literal(node.lexeme, node.lexeme, span=node.span) for node in items(root, "extends") if isinstance(node, Scalar)
     ]
     after = root.get("legacy")
     first = after.get("after") if isinstance(after, Mapping) else None
-    if isinstance(first, Scalar):  # what comes first in the file is what later properties replace: a layer
+    if isinstance(first, Scalar):  # the properties before it in the file are a layer
         extends.insert(0, Literal(first.lexeme, first.lexeme, span=first.span))
     return ValuesDocument(path, root, text(root, "component"), tuple(extends), span=span_of(root, "component"))
 
@@ -50,13 +50,13 @@ def _named(parent: Node | None, key: str) -> Iterator[tuple[Scalar, Node]]:
     return ((name, value) for name, value in entries(parent, key) if not name.lexeme.startswith("x-"))
 
 
-def _entry(key: Scalar, node: Node) -> Entry:
+def _entry(key: Scalar, node: Node) -> MemberSpec:
     if not isinstance(node, Mapping):
-        return Entry(key.lexeme, _spec(node, key), span=key.span)
+        return MemberSpec(key.lexeme, _spec(node, key), span=key.span)
     default = node.entries.get("default")
     secret = node.entries.get("secret")
     editable = node.data.get("editable")  # type: ignore[attr-defined]
-    return Entry(
+    return MemberSpec(
         key.lexeme,
         _spec(node, key),
         default=default[1] if default else None,
@@ -70,15 +70,15 @@ def _entry(key: Scalar, node: Node) -> Entry:
     )
 
 
-def _spec(node: Node, key: Scalar | None = None) -> Spec:
-    """A type in its short or its long form."""
+def _spec(node: Node, key: Scalar | None = None) -> TypeSpec:
+    """A type in its short or long form."""
     if not isinstance(node, Mapping):
         assert isinstance(node, Scalar)
-        return Spec((("type", node.span),), node.lexeme, span=node.span, key_span=(key or node).span)
+        return TypeSpec((("type", node.span),), node.lexeme, span=node.span, key_span=(key or node).span)
     kinds = tuple((kind, node.entries[kind][0].span) for kind in KINDS if node.get(kind) is not None)
     found = {kind: node.get(kind) for kind, _ in kinds[:1]}
     named, element = found.get("type"), found.get("list") or found.get("map")
-    return Spec(
+    return TypeSpec(
         kinds,
         name=named.lexeme if isinstance(named, Scalar) else "",
         element=_spec(element) if element is not None else None,
@@ -86,7 +86,7 @@ def _spec(node: Node, key: Scalar | None = None) -> Spec:
         if kinds and kinds[0][0] in ("group", "struct")
         else (),
         enumerators=tuple(_enumerators(found.get("enum"))),
-        limits=Limits(*(node.get(name) for name in ("range", "values", "pattern", "size", "unique", "unit"))),
+        limits=LimitNodes(*(node.get(name) for name in ("range", "values", "pattern", "size", "unique", "unit"))),
         doc=doc(node),
         span=named.span if named is not None else key.span if key is not None else node.span,
         key_span=(key or node).span,
@@ -104,22 +104,22 @@ def _enumerators(node: Node | None) -> Iterator[tuple[Literal, str]]:
                 yield Literal(name.lexeme, name.lexeme, span=name.span), doc(value)
 
 
-def _rule(node: Node) -> Rule:
+def _rule(node: Node) -> ConstraintSpec:
     if not isinstance(node, Mapping):
-        return Rule(node, span=node.span)
+        return ConstraintSpec(node, span=node.span)
     that = node.get("that")
     assert that is not None
-    return Rule(that, text(node, "else"), doc(node), span=that.span)
+    return ConstraintSpec(that, text(node, "else"), doc(node), span=that.span)
 
 
-def _spelling(key: Scalar, node: Node) -> Spelling:
+def _spelling(key: Scalar, node: Node) -> LegacySpelling:
     if not isinstance(node, Mapping):
         assert isinstance(node, Scalar)
-        return Spelling(node.lexeme, path=key.lexeme, span=key.span)
+        return LegacySpelling(node.lexeme, path=key.lexeme, span=key.span)
     data = node.data
     assert isinstance(data, dict)
     fields = tuple((name.lexeme, value.lexeme) for name, value in entries(node, "fields") if isinstance(value, Scalar))
-    return Spelling(
+    return LegacySpelling(
         text(node, "key"),
         fields,
         int(data.get("first", 0)),

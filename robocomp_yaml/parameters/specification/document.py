@@ -1,4 +1,4 @@
-"""The PDSL model as written: names of types are not looked up yet. `parameters.types` is what becomes of it."""
+"""The PDSL model as written. Names of types are not resolved; `parameters.types` is the resolved model."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from robocomp_yaml.model.located import Located
 from robocomp_yaml.semantics import spellings
 from robocomp_yaml.source.tree import Mapping, Node
 
-# The keys that say what a type is, in the order in which they are looked at.
+# The keys that define a type, in order of precedence.
 KINDS = ("type", "list", "map", "group", "enum", "struct")
 
 
-class Limits(msgspec.Struct, frozen=True):
-    """The nodes of the keys that limit a type's values, as they stand there; None where a key is missing."""
+class LimitNodes(msgspec.Struct, frozen=True):
+    """The nodes of the keys that limit the values of a type; None if a key is missing."""
 
     range: Node | None = None
     values: Node | None = None
@@ -27,17 +27,17 @@ class Limits(msgspec.Struct, frozen=True):
     unit: Node | None = None
 
 
-class Spec(Located, frozen=True):
-    """What a document says about a type. `kinds` are those of KINDS that stand there, with their places: exactly one
-    when nothing is wrong. `name` goes with 'type', `element` with 'list' and 'map', `members` with 'group' and
-    'struct', `enumerators` with 'enum'. `key_span` is where it has its name, if it has one."""
+class TypeSpec(Located, frozen=True):
+    """A type as written. `kinds` are the keys of KINDS that it has, with their locations: one if the type is valid.
+    `name` is the value of 'type', `element` of 'list' and 'map', `members` of 'group' and 'struct', `enumerators` of
+    'enum'. `key_span` is the location of the name of the type, if it has one."""
 
     kinds: tuple[tuple[str, Span], ...]
     name: str = ""
-    element: Spec | None = None
-    members: tuple[Entry, ...] = ()
+    element: TypeSpec | None = None
+    members: tuple[MemberSpec, ...] = ()
     enumerators: tuple[tuple[Literal, str], ...] = ()
-    limits: Limits = Limits()
+    limits: LimitNodes = LimitNodes()
     doc: str = ""
     span: Span = Span("")
     key_span: Span = Span("")
@@ -47,12 +47,12 @@ class Spec(Located, frozen=True):
         return self.kinds[0][0] if self.kinds else ""
 
 
-class Entry(Located, frozen=True):
-    """A parameter, or a member of a group or struct. `editable` is None where nothing is said; `secret` is the place of
-    the key where the document says so."""
+class MemberSpec(Located, frozen=True):
+    """A parameter, or a member of a group or struct, as written. `editable` is None if the key is missing. `secret` is
+    the location of the key if it is true."""
 
     name: str
-    spec: Spec
+    spec: TypeSpec
     default: Node | None = None
     default_span: Span | None = None
     optional: bool = False
@@ -63,8 +63,8 @@ class Entry(Located, frozen=True):
     span: Span = Span("")
 
 
-class Rule(Located, frozen=True):
-    """An entry of `constraints:`. `that` is the expression's node: diagnostics point into it."""
+class ConstraintSpec(Located, frozen=True):
+    """An entry of `constraints:`. `that` is the node of the expression, with the locations for diagnostics."""
 
     that: Node
     otherwise: str = ""
@@ -73,7 +73,7 @@ class Rule(Located, frozen=True):
 
 
 @dataclass(frozen=True)
-class Spelling(spellings.Spelling):
+class LegacySpelling(spellings.Spelling):
     """An entry of `legacy:`: how properties spell the parameter at `path`."""
 
     path: str = ""
@@ -81,22 +81,22 @@ class Spelling(spellings.Spelling):
 
 
 class ParameterDocument(Located, frozen=True):
-    """One PDSL document. `component` is a path to a CDSL or a plain name, as written, or ''."""
+    """One PDSL document. `component` is the path of a CDSL document or a plain name, as written, or ''."""
 
     path: str
     component: str = ""
-    types: tuple[tuple[str, Spec], ...] = ()
-    parameters: tuple[Entry, ...] = ()
-    rules: tuple[Rule, ...] = ()
-    legacy: tuple[Spelling, ...] = ()
+    types: tuple[tuple[str, TypeSpec], ...] = ()
+    parameters: tuple[MemberSpec, ...] = ()
+    rules: tuple[ConstraintSpec, ...] = ()
+    legacy: tuple[LegacySpelling, ...] = ()
     doc: str = ""
     span: Span = Span("")
     component_span: Span = Span("")
 
 
 class ValuesDocument(Located, frozen=True):
-    """One values document: a layer of a component's values. `root` is its tree, which has the schema's shape;
-    `extends` are paths as written, the most general first, with their places."""
+    """One values document: a layer of the values of a component. `root` is its validated tree. `extends` are paths as
+    written, the most general first, with their locations."""
 
     path: str
     root: Mapping
@@ -105,7 +105,7 @@ class ValuesDocument(Located, frozen=True):
     span: Span = Span("")
 
     def section(self, *keys: str) -> Mapping | None:
-        """The mapping under these keys, one inside the other."""
+        """The mapping under these nested keys, or None."""
         node: Node | None = self.root
         for key in keys:
             node = node.get(key) if isinstance(node, Mapping) else None

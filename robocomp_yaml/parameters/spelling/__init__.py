@@ -1,1 +1,1 @@
-"""How single things are spelled in text: references, rows, names of properties, scalars of YAML."""
+"""Spellings in text: references, rows, and names of properties."""

@@ -1,7 +1,7 @@
-"""Values by reference in documents: `{env: NAME}` and `{file: PATH}`; `semantics.references` says what is one.
+"""Values by reference in documents: `{env: NAME}` and `{file: PATH}`, as `semantics.references` defines them.
 
-A relative path is one from the folder of the document that gives it; what is written says it from the folder of the
-file that is written, from which the component takes it.
+A relative path in a document starts at the folder of the document. A written path starts at the folder of the written
+file, where the component reads it.
 """
 
 from __future__ import annotations
@@ -14,13 +14,13 @@ from robocomp_yaml.source.tree import Mapping, Node
 
 
 def node_is_reference(node: Node) -> bool:
-    """Whether a node is meant as one, sound or not."""
+    """Whether a node is a reference, valid or not."""
     return isinstance(node, Mapping) and any(kind in node.entries for kind in KINDS)
 
 
 def text(data: dict[str, Any], node: Node | None, folder: str | None) -> str:
-    """The reference as properties have it. `node` stands in the document that gives it, `folder` is that of the file
-    that is written, None for one that may be put anywhere."""
+    """The reference as properties spell it. `node` is the reference in its document. `folder` is the folder of the
+    written file; None if it is unknown."""
     kind, name = next(iter(data.items()))
     return spelled(kind, _path(name, node, folder) if kind == FILE else name)
 
@@ -36,5 +36,5 @@ def _path(path: str, node: Node | None, folder: str | None) -> str:
 
 
 def in_text(text: str) -> bool:
-    """Whether a reference stands anywhere in the text."""
+    """Whether a text contains a reference."""
     return any(f"${{{kind}:" in text for kind in KINDS)

@@ -1,48 +1,35 @@
-"""Several values in one property, by their types; `semantics.rows` says how they are split."""
+"""Several values in one property, by their types. `semantics.rows` splits them."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from robocomp_yaml.parameters.specification.document import Spelling
-from robocomp_yaml.parameters.types import EnumType, ListType, RecordType, ScalarType, Type
+from robocomp_yaml.parameters.specification.document import LegacySpelling
+from robocomp_yaml.parameters.types import BasicType, ListType, RecordType, Type
 from robocomp_yaml.semantics import rows, texts
 
 
-def columns(record: RecordType, names: tuple[str, ...]) -> list[tuple[str, ScalarType]]:
-    """The members that a row holds."""
-    found = [(name, record.member(name)) for name in names]
-    return [(name, member.type) for name, member in found if member is not None]  # type: ignore[misc]
-
-
-def is_optional(record: RecordType, name: str) -> bool:
-    member = record.member(name)
-    return member is not None and member.optional
-
-
-def is_text(record: RecordType, name: str) -> bool:
-    member = record.member(name)
-    return member is not None and getattr(member.type, "name", "") == "string"
-
-
-def keeps_empty(record: RecordType, name: str) -> bool:
-    """Whether an empty column has a value: the empty text."""
-    return is_text(record, name) and not is_optional(record, name)
-
-
 def read_row(record: RecordType, names: tuple[str, ...], text: str, separator: str) -> rows.Row:
-    return rows.row(text, separator, names, lambda name: is_optional(record, name), lambda name: is_text(record, name))
+    """The texts of a row by member; None if the number of columns is wrong."""
+    members = {member.name: member for member in record.members}
+    return rows.row(
+        text, separator, names, lambda name: members[name].optional, lambda name: _is_string(members[name].type)
+    )
 
 
-def read_parts(type_: Type, text: str, spelling: Spelling) -> Any:
-    """Nested lists (and records, at the innermost level) between separators."""
+def _is_string(type_: Type) -> bool:
+    return isinstance(type_, BasicType) and type_.name == "string"
+
+
+def read_parts(type_: Type, text: str, spelling: LegacySpelling) -> Any:
+    """Nested lists of texts (and of rows, at the innermost level) between separators."""
     levels = 0
     while isinstance(type_, ListType):
         levels, type_ = levels + 1, type_.element
     return _parts(type_, rows.nested(text, spelling.separators, levels, spelling.trailing), spelling, levels)
 
 
-def _parts(type_: Type, parts: Any, spelling: Spelling, levels: int) -> Any:
+def _parts(type_: Type, parts: Any, spelling: LegacySpelling, levels: int) -> Any:
     if isinstance(parts, list):
         return [_parts(type_, part, spelling, levels) for part in parts]
     if isinstance(type_, RecordType):
@@ -50,9 +37,26 @@ def _parts(type_: Type, parts: Any, spelling: Spelling, levels: int) -> Any:
     return parts
 
 
-def plain(type_: ScalarType, text: str) -> Any:
-    """The value that a text spells. Raises ValueError where it spells none."""
-    found = text if isinstance(type_, EnumType) else texts.read(type_.name, text)
+def as_read(type_: Type, parts: Any, spelling: LegacySpelling) -> Any:
+    """Nested lists of texts, where a record is the list of its columns, as `read_parts` returns them."""
+    if isinstance(type_, ListType):
+        return [as_read(type_.element, part, spelling) for part in parts]
+    if not isinstance(type_, RecordType):
+        return parts
+    keep_empty = {member.name for member in type_.members if _is_string(member.type) and not member.optional}
+    return {name: text for name, text in zip(spelling.columns, parts, strict=True) if text or name in keep_empty}
+
+
+def typed(type_: Type, read: Any) -> Any:
+    """The values that texts spell. Raises ValueError where one spells none."""
+    if isinstance(type_, ListType):
+        return [typed(type_.element, part) for part in read]
+    if isinstance(type_, RecordType):
+        if read is None:
+            raise ValueError("the number of columns is wrong")
+        types = {member.name: member.type for member in type_.members}
+        return {name: typed(types[name], text) for name, text in read.items()}
+    found = texts.read(type_.name, read) if isinstance(type_, BasicType) else read
     if found is None:
-        raise ValueError(f"'{text}' is no {type_.name}")
+        raise ValueError(f"'{read}' is not a value of its type")
     return found

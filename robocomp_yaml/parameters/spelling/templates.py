@@ -1,13 +1,10 @@
-"""How parameters are spelled as properties: by their paths, or as the legacy table says.
-
-A shape says, for one parameter, which properties hold it; writing (`properties`) and reading (`reading`) both go by it.
-"""
+"""How properties spell parameters: by their paths, or by the entries of `legacy:`."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from robocomp_yaml.parameters.specification.document import Spelling
+from robocomp_yaml.parameters.specification.document import LegacySpelling
 from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,
@@ -18,86 +15,88 @@ from robocomp_yaml.parameters.types import (
     Type,
     leaves,
 )
-from robocomp_yaml.semantics.spellings import holes as holes_of
+from robocomp_yaml.semantics.spellings import placeholders as placeholders_of
 
 
-def fault(spelling: Spelling, type_: Type) -> str:
-    """Why a parameter of this type cannot be spelled so, or ''."""
-    key, holes = spelling.key, holes_of(spelling.key)
+def fault(spelling: LegacySpelling, type_: Type) -> str:
+    """Why a spelling does not fit the type of its parameter, or ''."""
+    key, placeholders = spelling.key, placeholders_of(spelling.key)
     if isinstance(type_, RecordType) and type_.is_group:
-        return "is a group's: spell what the group holds, such as period.compute"
+        return "is for a group: spell the members of the group, such as period.compute"
     if isinstance(type_, MapType):
-        return "is a map's; maps go by their paths"
+        return "is for a map, and maps are spelled by their paths"
     if spelling.fields and (key or spelling.columns or spelling.separators):
-        return "has 'fields' beside 'key', 'columns' or 'separators'"
+        return "cannot have 'fields' together with 'key', 'columns' or 'separators'"
     if not spelling.fields and not key:
         return "has neither 'key' nor 'fields'"
-    if isinstance(type_, BasicType | EnumType):
-        plain = not (spelling.fields or spelling.columns or spelling.separators or spelling.count or holes)
+    if isinstance(type_, (BasicType, EnumType)):
+        plain = not (spelling.fields or spelling.columns or spelling.separators or spelling.count or placeholders)
         return "" if plain else "is for rows, and the parameter is one plain value"
     if isinstance(type_, RecordType):
         return (
-            "is for a list, and the parameter is one record" if holes or spelling.count else _row(spelling, type_, ())
+            "is for a list, and the parameter is one record"
+            if placeholders or spelling.count
+            else _row(spelling, type_, ())
         )
     element = type_.element
     if spelling.separators:
-        return _separated(spelling, type_, holes)
+        return _separated(spelling, type_, placeholders)
     if spelling.fields:
         return _fields(spelling, element)
-    return _rows(spelling, element, holes)
+    return _rows(spelling, element, placeholders)
 
 
-def _rows(spelling: Spelling, element: Type, holes: tuple[str, ...]) -> str:
-    if not holes:
-        return "needs {i}, the row's number, in its key (or 'separators', for a list in one property)"
+def _rows(spelling: LegacySpelling, element: Type, placeholders: tuple[str, ...]) -> str:
+    if not placeholders:
+        return "needs the row number {i} in its key, or 'separators' for a list in one property"
     if isinstance(element, RecordType):
-        if found := _row(spelling, element, tuple(hole for hole in holes if hole != "i")):
+        if found := _row(spelling, element, tuple(name for name in placeholders if name != "i")):
             return found
-        return "has no row's number, so no 'count'" if "i" not in holes and spelling.count else ""
-    if holes != ("i",):
-        return "has holes other than {i}, and the entries are no records"
+        return "has no row number {i}, so it cannot have 'count'" if "i" not in placeholders and spelling.count else ""
+    if placeholders != ("i",):
+        return "has placeholders other than {i}, and the entries are not records"
     if spelling.columns:
-        return "has columns, and the entries are no records"
-    return "" if isinstance(element, BasicType | EnumType) else "cannot nest lists or maps in rows"
+        return "has columns, and the entries are not records"
+    return "" if isinstance(element, (BasicType, EnumType)) else "cannot nest lists or maps in rows"
 
 
-def _row(spelling: Spelling, record: RecordType, in_key: tuple[str, ...]) -> str:
+def _row(spelling: LegacySpelling, record: RecordType, in_key: tuple[str, ...]) -> str:
     if not spelling.columns:
-        return "needs 'columns': the members that a row holds, in order"
+        return "needs 'columns': the members in a row, in order"
     for name in (*in_key, *spelling.columns):
         member = record.member(name)
         if member is None:
-            return f"names '{name}', which is no member of {record.name}"
-        if not isinstance(member.type, BasicType | EnumType):
-            return f"has '{name}' in a row, which is no plain value"
+            return f"names unknown member '{name}' of {record.name}"
+        if not isinstance(member.type, (BasicType, EnumType)):
+            return f"has '{name}' in a row, which is not a plain value"
     both = set(in_key) & set(spelling.columns)
     if both:
         return f"has '{min(both)}' both in the key and in the columns"
-    return _left_out(record, {*in_key, *spelling.columns})
+    return _omitted(record, {*in_key, *spelling.columns})
 
 
-def _left_out(record: RecordType, named: set[str]) -> str:
+def _omitted(record: RecordType, named: set[str]) -> str:
     left = [member.name for member in record.members if member.name not in named and member.required]
-    return f"leaves '{left[0]}' out, which has no default" if left else ""
+    return f"omits '{left[0]}', which has no default" if left else ""
 
 
-def _fields(spelling: Spelling, element: Type) -> str:
+def _fields(spelling: LegacySpelling, element: Type) -> str:
     if not isinstance(element, RecordType):
-        return "has 'fields', and the entries are no records"
+        return "has 'fields', and the entries are not records"
     for name, key in spelling.fields:
         member = element.member(name)
         if member is None:
-            return f"names '{name}', which is no member of {element.name}"
-        if not isinstance(member.type, BasicType | EnumType):
-            return f"has '{name}' as a field, which is no plain value"
-        if holes_of(key) != ("i",):
+            return f"names unknown member '{name}' of {element.name}"
+        if not isinstance(member.type, (BasicType, EnumType)):
+            return f"has '{name}' as a field, which is not a plain value"
+        if placeholders_of(key) != ("i",):
             return f"needs {{i}} once in the property of '{name}'"
-    return _left_out(element, {name for name, _ in spelling.fields})
+    return _omitted(element, {name for name, _ in spelling.fields})
 
 
-def _separated(spelling: Spelling, type_: ListType, holes: tuple[str, ...]) -> str:
-    if holes or spelling.count:
-        return "has 'separators', and all in one property: so no {i} and no 'count'"
+def _separated(spelling: LegacySpelling, type_: ListType, placeholders: tuple[str, ...]) -> str:
+    if placeholders or spelling.count:
+        return "has 'separators' for one property, so it cannot have {i} or 'count'"
     depth, inner = 0, type_
     found: Type = inner
     while isinstance(found, ListType):
@@ -107,33 +106,34 @@ def _separated(spelling: Spelling, type_: ListType, holes: tuple[str, ...]) -> s
             return fault_
         depth += 1
     elif spelling.columns:
-        return "has columns, and the entries are no records"
-    if not isinstance(found, BasicType | EnumType | RecordType):
+        return "has columns, and the entries are not records"
+    if not isinstance(found, (BasicType, EnumType, RecordType)):
         return "cannot nest maps in one property"
     if depth != len(spelling.separators):
-        return f"needs {depth} separator{'' if depth == 1 else 's'}, one a level"
+        return f"needs {depth} separator{'' if depth == 1 else 's'}, one for each level"
     return ""
 
 
 def exact_keys(parameters: Parameters) -> Iterator[tuple[str, str, bool]]:
-    """Each property that a parameter always has: (path, property, whether it is spelled by the table). For a list or
-    map by its path it is the stem; rows have only their count."""
+    """The properties that parameters always have: (path, property, whether `legacy:` spells it). A list or map that is
+    spelled by its path has the stem of its properties; rows have only their count."""
     for path, _ in leaves(parameters.root):
         spelling = parameters.spelling(path)
         if spelling is None:
             yield path, path, False
         else:
-            if spelling.key and not holes_of(spelling.key):
+            if spelling.key and not placeholders_of(spelling.key):
                 yield path, spelling.key, True
             if spelling.count:
                 yield path, spelling.count, True
 
 
 def row_keys(parameters: Parameters) -> Iterator[tuple[str, str]]:
+    """The names of properties with placeholders: (path, name)."""
     for path, _ in leaves(parameters.root):
         spelling = parameters.spelling(path)
         if spelling is not None:
             keys = [spelling.key] if spelling.key else [key for _, key in spelling.fields]
             for key in keys:
-                if holes_of(key):
+                if placeholders_of(key):
                     yield path, key

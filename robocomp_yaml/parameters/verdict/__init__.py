@@ -1,1 +1,1 @@
-"""What is wrong with a value."""
+"""Problems of values, and of parameters themselves."""

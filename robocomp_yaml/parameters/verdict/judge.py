@@ -1,11 +1,10 @@
-"""Values judged at their places: what is wrong with each, in words that name parameter, value, limit and unit."""
+"""The judge: the problems of values as diagnostics, with parameter, value, limit, unit and location."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
-from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import NO_HINT, Fix, Hint, removal
@@ -17,11 +16,12 @@ from robocomp_yaml.parameters.types import (
     EnumType,
     ListType,
     MapType,
-    Member,
     RecordType,
     ScalarType,
     Type,
     is_secret,
+    json_type,
+    unit_of,
 )
 from robocomp_yaml.parameters.verdict.plain import KIND, wrong
 from robocomp_yaml.parameters.words import kind_in_words
@@ -29,13 +29,13 @@ from robocomp_yaml.secrets import HIDDEN, url
 from robocomp_yaml.semantics import references
 from robocomp_yaml.semantics.limits import CHOICE, PATTERN, RANGE, bounds, entries, one_of
 from robocomp_yaml.semantics.paths import Path, in_words
-from robocomp_yaml.source.retyped import BOOL, INTEGER, NUMBER, STRING, TRUTHS, retyped
+from robocomp_yaml.source.retyped import TRUTHS, retyped
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 
 def judge(type_: Type, node: Node, path: Path, *, complete: bool, key: Scalar | None = None) -> Iterator[Diagnostic]:
-    """All that is wrong with a value. `complete`: nothing required may be missing, and there is no null, as in a
-    default; else it is a layer, in which null returns to the default and anything may be left out."""
+    """All problems of a value. `complete`: required values must be set and null is invalid, as in a default; else the
+    value is a layer, in which null resets a value to its default and everything may be missing."""
     match type_:
         case BasicType() | EnumType():
             yield from _scalar(type_, node, path, key)
@@ -48,7 +48,7 @@ def judge(type_: Type, node: Node, path: Path, *, complete: bool, key: Scalar | 
 
 
 def shown(node: Node, type_: Type) -> str:
-    """A value for messages, shortened; a secret is not shown."""
+    """A value for messages, shortened to 40 characters; HIDDEN for a secret."""
     if isinstance(node, Mapping):
         return "a mapping"
     if isinstance(node, Sequence):
@@ -66,60 +66,48 @@ def _short(text: str) -> str:
     return text if len(text) <= 40 else f"{text[:39]}…"
 
 
-def _at(
-    code: Code, node: Node, key: Scalar | None, *, hint: str | Hint = "", fixes: Iterable[Fix] = (), **facts: str
-) -> Diagnostic:
-    """At the value; at its key where the value is empty or fills many lines."""
-    span = node.span
-    empty = isinstance(node, Scalar) and not node.lexeme and not node.quoted
-    at_key = key is not None and (empty or span.line != span.end_line)
-    place = key.span if key is not None and at_key else span
-    return code.at(place, hint=hint, related=(), more="", fixes=fixes, **facts)
+def _span(node: Node, key: Scalar | None) -> Span:
+    """The location of a value; of its key if the value is empty or spans several lines."""
+    is_at_key = _is_empty(node) or node.span.line != node.span.end_line
+    return key.span if key is not None and is_at_key else node.span
+
+
+def _is_empty(node: Node) -> bool:
+    return isinstance(node, Scalar) and not node.lexeme and not node.quoted
 
 
 def _wrong_type(type_: Type, node: Node, path: Path, key: Scalar | None) -> Diagnostic:
     hint = ""
     if is_secret(type_):
-        pass  # a hint would say it
+        pass  # a hint would show it
     elif isinstance(node, Scalar) and isinstance(node.data, str) and isinstance(type_, BasicType):
         bare = node.lexeme.strip()
         if node.quoted and (
             (type_.is_number and re.fullmatch(r"[-+]?[0-9.]+", bare))
             or (type_.name == "bool" and bare in ("true", "false", "True", "False"))
         ):
-            hint = f"without quotes: {bare}"
+            hint = f"write it without quotes: {bare}"
         elif type_.name == "bool" and (meant := TRUTHS.get(bare.lower())):
             hint = f"write {meant}"
     elif isinstance(type_, BasicType) and type_.name == "string" and isinstance(node, Scalar) and node.lexeme:
         hint = f'text needs quotes here: "{node.lexeme}"'
-    wanted = f"{kind_in_words(type_)}{_unit(type_)}"
-    return _at(
-        codes.WRONG_TYPE,
-        node,
-        key,
-        path=in_words(path),
-        wanted=wanted,
-        found=shown(node, type_),
-        hint=hint,
-        fixes=_retyped(type_, node),
+    expected = _expected(type_) if isinstance(type_, BasicType) else kind_in_words(type_)
+    found, fixes = shown(node, type_), _retyped(type_, node)
+    return codes.WRONG_TYPE.at(
+        _span(node, key), path=in_words(path), wanted=expected, found=found, hint=hint, fixes=fixes
     )
 
 
 def _retyped(type_: Type, node: Node) -> tuple[Fix, ...]:
     if not isinstance(node, Scalar) or not isinstance(type_, BasicType) or is_secret(type_):
         return ()
-    wanted = (
-        BOOL
-        if type_.name == "bool"
-        else STRING
-        if type_.name == "string"
-        else (INTEGER if type_.is_integer else NUMBER)
-    )
-    return retyped([wanted], node.lexeme, node.data, node.span)
+    return retyped([json_type(type_)], node.lexeme, node.data, node.span)
 
 
-def _unit(type_: Type) -> str:
-    return f" ({type_.unit})" if isinstance(type_, BasicType) and type_.unit else ""
+def _expected(type_: Type) -> str:
+    """The values of a type in words, with the unit of numbers."""
+    unit = unit_of(type_)
+    return f"{kind_in_words(type_)} ({unit})" if unit else kind_in_words(type_)
 
 
 def _scalar(type_: ScalarType, node: Node, path: Path, key: Scalar | None) -> Iterator[Diagnostic]:
@@ -132,7 +120,7 @@ def _scalar(type_: ScalarType, node: Node, path: Path, key: Scalar | None) -> It
     elif fault == PATTERN:
         assert isinstance(type_, BasicType) and type_.pattern is not None
         value = HIDDEN if type_.secret else f"'{_short(str(node.data))}'"
-        yield _at(codes.NO_MATCH, node, key, path=in_words(path), value=value, pattern=type_.pattern.text)
+        yield codes.NO_MATCH.at(_span(node, key), path=in_words(path), value=value, pattern=type_.pattern.text)
     elif fault:
         yield _outside(type_, fault, node, path, key)
 
@@ -143,39 +131,37 @@ def _reference(node: Node, path: Path) -> Iterator[Diagnostic]:
     key, name = node.entries[kind]
     for other, _ in node.items():
         if other.lexeme != kind:
-            problem = f"has '{other.lexeme}' beside '{kind}'"
+            problem = f"cannot have '{other.lexeme}' beside '{kind}'"
             yield codes.BAD_REFERENCE.at(other.span, path=in_words(path), problem=problem)
     if problem := references.problem(kind, name.data):
-        is_empty = isinstance(name, Scalar) and not name.lexeme and not name.quoted
-        yield codes.BAD_REFERENCE.at(
-            key.span if is_empty else name.span, path=in_words(path), problem=problem, hint=_REFERENCE_HINTS[kind]
-        )
+        span, hint = key.span if _is_empty(name) else name.span, _REFERENCE_HINTS[kind]
+        yield codes.BAD_REFERENCE.at(span, path=in_words(path), problem=problem, hint=hint)
 
 
 _REFERENCE_HINTS = {
-    references.ENV: "a variable's name has letters, digits and underscores, and starts with no digit",
+    references.ENV: "a variable's name has letters, digits and underscores, and does not start with a digit",
     references.FILE: "file: is the path of a file that is read when the component starts",
 }
 
 
 def _outside(type_: ScalarType, fault: str, node: Node, path: Path, key: Scalar | None) -> Diagnostic:
-    """Of the right kind, and not allowed."""
+    """The diagnostic for a value of the right kind that is not allowed."""
     assert isinstance(node, Scalar)
-    unit = f" {type_.unit}" if isinstance(type_, BasicType) and type_.unit else ""
+    unit = f" {unit}" if (unit := unit_of(type_)) else ""
     hint: str | Hint = NO_HINT
     value = _short(node.lexeme)
     if isinstance(node.data, str):
         value = f"'{node.data}'" if isinstance(type_, EnumType) else repr(value)
     if fault == CHOICE:
         allowed = type_.allowed if isinstance(type_, EnumType) else [each.lexeme for each in type_.values]
-        wanted = f"{one_of(allowed, type_.secret)}{unit}"
+        expected = f"{one_of(allowed, type_.secret)}{unit}"
         hint = did_you_mean(node.data, allowed) if isinstance(node.data, str) and not type_.secret else NO_HINT
     elif fault == RANGE and isinstance(type_, BasicType) and type_.range is not None:
-        wanted = f"{type_.range.in_words}{unit}"
+        expected = f"{type_.range.in_words}{unit}"
     else:
-        wanted = bounds(type_.name)
-    value = HIDDEN if type_.secret else value
-    return _at(codes.OUT_OF_RANGE, node, key, path=in_words(path), value=f"{value}{unit}", wanted=wanted, hint=hint)
+        expected = bounds(type_.name)
+    value = f"{HIDDEN if type_.secret else value}{unit}"
+    return codes.OUT_OF_RANGE.at(_span(node, key), path=in_words(path), value=value, wanted=expected, hint=hint)
 
 
 def _list(type_: ListType, node: Node, path: Path, complete: bool, key: Scalar | None) -> Iterator[Diagnostic]:
@@ -184,17 +170,13 @@ def _list(type_: ListType, node: Node, path: Path, complete: bool, key: Scalar |
         return
     yield from wrong_size(type_, len(node.items), node, path, key)
     seen: set[object] = set()
-    for place, item in enumerate(node.items):
-        yield from judge(type_.element, item, (*path, place), complete=complete)
+    for index, item in enumerate(node.items):
+        yield from judge(type_.element, item, (*path, index), complete=complete)
         if type_.unique:
-            known = item.data if isinstance(item.data, str | int | float) else repr(item.data)
+            known = item.data if isinstance(item.data, (str, int, float)) else repr(item.data)
             if known in seen:
-                yield codes.NOT_UNIQUE.at(
-                    item.span,
-                    path=in_words(path),
-                    value=shown(item, type_.element),
-                    fixes=[removal(item.span, safe=False)],
-                )
+                value, fixes = shown(item, type_.element), [removal(item.span, safe=False)]
+                yield codes.NOT_UNIQUE.at(item.span, path=in_words(path), value=value, fixes=fixes)
             seen.add(known)
 
 
@@ -202,15 +184,15 @@ def wrong_size(
     type_: ListType | MapType, count: int, node: Node, path: Path, key: Scalar | None
 ) -> Iterator[Diagnostic]:
     if not type_.size.holds(count):
-        wanted = type_.size.in_words
-        yield _at(codes.WRONG_SIZE, node, key, path=in_words(path), count=entries(count), wanted=wanted)
+        size = type_.size.in_words
+        yield codes.WRONG_SIZE.at(_span(node, key), path=in_words(path), count=entries(count), wanted=size)
 
 
 def _map(type_: MapType, node: Node, path: Path, complete: bool, key: Scalar | None) -> Iterator[Diagnostic]:
     if not isinstance(node, Mapping):
         yield _wrong_type(type_, node, path, key)
         return
-    if complete:  # layers are judged when they are merged
+    if complete:  # the size of a layer is judged after merging
         yield from wrong_size(type_, len(node.entries), node, path, key)
     for name, value in node.items():
         if value.data is None and not complete:
@@ -226,9 +208,9 @@ def _record(type_: RecordType, node: Node, path: Path, complete: bool, key: Scal
     for name, value in node.items():
         member = members.get(name.lexeme)
         if member is None:
-            if complete or not name.lexeme.startswith("x-"):  # the user's own, in a document
+            if complete or not name.lexeme.startswith("x-"):  # an extension of the user
                 yield unknown(name, type_, path, node)
-        elif value.data is None and not isinstance(value, Mapping | Sequence):
+        elif value.data is None and not isinstance(value, (Mapping, Sequence)):
             if complete:
                 yield _wrong_type(member.type, value, (*path, name.lexeme), name)
         else:
@@ -242,17 +224,14 @@ def unknown(name: Scalar, type_: RecordType, path: Path, node: Mapping) -> Diagn
     return codes.UNKNOWN_PARAMETER.at(name.span, path=in_words((*path, name.lexeme)), hint=hint)
 
 
-def missing(type_: RecordType, given: set[str], path: Path, span: Span) -> Iterator[Diagnostic]:
-    """What has no value and needs one; groups that are not there are looked into."""
+def missing(type_: RecordType, present: set[str], path: Path, span: Span) -> Iterator[Diagnostic]:
+    """The members that need a value and have none, those of missing groups included."""
     for member in type_.members:
-        if member.name in given:
+        if member.name in present:
             continue
         if isinstance(member.type, RecordType) and member.type.is_group:
             yield from missing(member.type, set(), (*path, member.name), span)
         elif member.required:
-            yield codes.MISSING.at(span, path=in_words((*path, member.name)), hint=_wish(member))
-
-
-def _wish(member: Member) -> str:
-    unit = f" ({member.unit})" if member.unit else ""
-    return f"give it {kind_in_words(member.type)}{unit}"
+            yield codes.MISSING.at(
+                span, path=in_words((*path, member.name)), hint=f"set it to {_expected(member.type)}"
+            )

@@ -1,6 +1,6 @@
-"""What is wrong with a plain value, whoever asks: the judge of values, of limits, or of examples.
+"""Whether a plain value fits its type: for values, limits and examples.
 
-Components decide it by the same code, `semantics.limits`.
+Components decide with the same code, `semantics.limits`.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ KIND = "kind"
 
 
 def wrong(type_: ScalarType, data: object) -> str:
-    """KIND for data of another kind, else what `outside` says."""
+    """KIND if the data has another kind, else the result of `outside`: '' if the value fits."""
     if isinstance(type_, EnumType):
         return outside(type_.name, data, type_.allowed) if is_of("string", data) else KIND
     if not is_of(type_.name, data):

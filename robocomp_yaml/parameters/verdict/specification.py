@@ -1,4 +1,4 @@
-"""What is wrong with parameters themselves: defaults that do not fit, and spellings that cannot say what they name."""
+"""Problems of parameters themselves: invalid defaults, and legacy spellings that do not fit their parameters."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.parameters.documents import ResolvedParameters
 from robocomp_yaml.parameters.spelling.templates import fault
-from robocomp_yaml.parameters.types import Member, Parameters, RecordType, Type, leaves
+from robocomp_yaml.parameters.types import Parameters, RecordType, ResolvedMember, leaves
 from robocomp_yaml.parameters.verdict.judge import judge
 from robocomp_yaml.semantics.paths import Path
 from robocomp_yaml.semantics.references import is_reference
@@ -18,8 +18,8 @@ from robocomp_yaml.source.tree import Mapping, Node, Sequence
 
 
 def is_usable(linked: ResolvedParameters) -> bool:
-    """Whether values can be completed and written by them. Where not, that has been told at the document's lines;
-    values are then judged each by itself, and no further."""
+    """Whether values can be completed and written by these parameters. If not, the problems are reported in the
+    parameters document, and values are only judged one by one."""
     return (
         not linked.broken and not default_faults(linked) and linked.once("spelled", lambda: _spells(linked.parameters))
     )
@@ -33,7 +33,7 @@ def _spells(parameters: Parameters) -> bool:
 
 
 def default_faults(linked: ResolvedParameters) -> list[Diagnostic]:
-    """Of each struct once, and of the groups of the parameters."""
+    """The problems of defaults of parameters and, once for each struct, of its members."""
     return linked.once("default faults", lambda: list(_default_faults(linked.parameters)))
 
 
@@ -52,16 +52,18 @@ def _of_members(record: RecordType, path: Path) -> Iterator[Diagnostic]:
             yield from _of_default(member, member.default.node, (*path, member.name))
 
 
-def _of_default(member: Member, node: Node, path: Path) -> Iterator[Diagnostic]:
+def _of_default(member: ResolvedMember, node: Node, path: Path) -> Iterator[Diagnostic]:
     for one in judge(member.type, node, path, complete=True):
         problem = one.message
         if one.code == value_codes.UNKNOWN_PARAMETER.id:
-            problem = f"{member.name} gives a value to something else: {problem}"
+            problem = f"{member.name} does not fit: {problem}"
         yield codes.BAD_DEFAULT.at(one.span, problem=problem, hint=one.hint, fixes=one.fixes)
     for reference in _references(node):
         source = "a file" if "file" in reference.entries else "the environment"
         yield codes.BAD_DEFAULT.at(
-            reference.span, problem=f"{member.name} comes from {source}", hint="references stand in values documents"
+            reference.span,
+            problem=f"{member.name} is a reference to {source}",
+            hint="write references in values documents",
         )
 
 
@@ -77,21 +79,15 @@ def _references(node: Node) -> Iterator[Mapping]:
 
 
 def spelling_faults(parameters: Parameters) -> Iterator[Diagnostic]:
-    """Entries of the legacy table that name no parameter, or cannot spell what it holds."""
-    known = dict(_paths(parameters.root))
+    """The problems of the entries of `legacy:`: unknown parameters, and spellings that do not fit their types."""
+    known = {path: member.type for path, member in leaves(parameters.root, groups=True)}
     for spelling in parameters.spellings:
         type_ = known.get(spelling.path)
         if type_ is None:
-            given = {other.path for other in parameters.spellings}
-            hint = did_you_mean(spelling.path, known, given)
-            yield codes.BAD_SPELLING.at(spelling.span, path=spelling.path, problem="names no parameter", hint=hint)
+            present = {other.path for other in parameters.spellings}
+            hint = did_you_mean(spelling.path, known, present)
+            yield codes.BAD_SPELLING.at(
+                spelling.span, path=spelling.path, problem="names an unknown parameter", hint=hint
+            )
         elif problem := fault(spelling, type_):
             yield codes.BAD_SPELLING.at(spelling.span, path=spelling.path, problem=problem)
-
-
-def _paths(record: RecordType, prefix: str = "") -> Iterator[tuple[str, Type]]:
-    """Parameters and groups by their paths."""
-    for member in record.members:
-        yield f"{prefix}{member.name}", member.type
-        if member.is_group and isinstance(member.type, RecordType):
-            yield from _paths(member.type, f"{prefix}{member.name}.")

@@ -1,1 +1,1 @@
-"""Values in effect as properties and TOML, and parameters as a reference in Markdown."""
+"""Effective values as properties and TOML, and the reference of parameters in Markdown."""

@@ -1,4 +1,4 @@
-"""A whole values document as the properties of `etc/config`, in their order, and as the text of that file."""
+"""A values document as the properties of `etc/config`, in their order, and as the text of that file."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from msgspec.structs import replace
 
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.build_interface import text
 from robocomp_yaml.parameters.documents import LayeredValues
 from robocomp_yaml.parameters.layers.effective import Effective
@@ -27,13 +26,14 @@ _OF_PORTS = ("endpoints", "proxies", "topics")
 
 
 class Section(msgspec.Struct):
-    """The properties that belong together, with what they are about."""
+    """Related properties under a title."""
 
     title: str
     properties: list[Property] = []
 
 
 def dialect(values: LayeredValues) -> str:
+    """The dialect of the property file: CLASSIC, FLAT_TOML or TOML."""
     for layer in reversed(values.layers()):
         if found := text(layer.document.root.get("legacy"), "dialect"):
             return found
@@ -41,33 +41,31 @@ def dialect(values: LayeredValues) -> str:
 
 
 def legacy_file(values: LayeredValues) -> str:
-    """The file that a migrated document is written to again, or ''."""
+    """The legacy file that a migrated document is written to, or ''."""
     return text(values.document.root.get("legacy"), "file")
 
 
 def properties(
     values: LayeredValues, effective: Effective, *, quoted: bool = False, beside: bool = False
 ) -> tuple[list[Section], list[Diagnostic]]:
-    """The properties of a document and its layers, and what of it no property can hold. `quoted`: text stands in
-    quotes, as it does in flat TOML anyway. `beside`: they are for a file in the document's folder."""
+    """The properties of a document and its layers, and the values that no property can hold. `quoted`: text is in
+    quotes, as always in flat TOML. `beside`: they are for a file in the document's folder."""
     form = dialect(values)
-    root = values.document.root
-    entry = root.entries.get("parameters") or root.entries.get("component")
-    head = entry[0].span if entry else Span(root.file)
+    head = values.head
     quote = quoted or form == FLAT_TOML
     sections = [
         Section("Where this component serves its interfaces", list(_endpoints(values, form, quote))),
         Section("Where the components are that it requires", list(_proxies(values, form, quote))),
         Section("Topics", list(_topics(values, form, quote))),
-        Section("Ice", [_property(f"Ice.{key}", node, quote) for key, node in given(values, "ice")]),
-        Section("Others", [_property(key, node, False) for key, node in given(values, "properties")]),
+        Section("Ice", [_property(f"Ice.{key}", node, quote) for key, node in merged_entries(values, "ice")]),
+        Section("Others", [_property(key, node, False) for key, node in merged_entries(values, "properties")]),
     ]
     unquotes = _seems_toml(effective.parameters, sections)
     folder = os.path.dirname(values.document.path) if beside else None
     writer = Writer(effective.parameters, head, bool(legacy_file(values)), quote, unquotes, folder)
-    sections.insert(3, Section("Parameters", writer.write(effective.data, effective.place)))
+    sections.insert(3, Section("Parameters", writer.write(effective.data, effective.merged)))
     faults = list(writer.faults)
-    exact = {key: node.lexeme for key, node in given(values, "legacy", "exact") if isinstance(node, Scalar)}
+    exact = {key: node.lexeme for key, node in merged_entries(values, "legacy", "exact") if isinstance(node, Scalar)}
     seen: dict[str, Property] = {}
     for section in sections:
         section.properties = [_exact(made, exact.get(made.key)) for made in section.properties]
@@ -75,7 +73,7 @@ def properties(
         for made in section.properties:
             problem = unwritable(made.key, made.value)
             if not problem and made.key in seen and seen[made.key].value != made.value:
-                problem = "another value is this property already"
+                problem = "another value already uses this property"
             if problem:
                 faults.append(codes.NOT_FOR_ICE.at(made.span or head, path=made.key, problem=problem))
             elif made.key not in seen:
@@ -86,7 +84,7 @@ def properties(
 
 
 def _seems_toml(parameters: Parameters, sections: list[Section]) -> bool:
-    """Whether components take the file for one that has its texts in quotes, by some of its keys."""
+    """Whether components read the texts of the file as quoted, because of some of its keys."""
     spelled = [key for each in parameters.spellings for key in (each.key, each.count, *(key for _, key in each.fields))]
     own = [f"{member.name}." for member in parameters.root.members]
     others = [made.key for section in sections for made in section.properties]
@@ -94,30 +92,25 @@ def _seems_toml(parameters: Parameters, sections: list[Section]) -> bool:
 
 
 def property_text(sections: list[Section], name: str, source: str) -> str:
-    """The text of `etc/config` of a component, made of the values document `source` (a path from the file)."""
+    """The text of `etc/config` of a component. `source` is the path of the values document, relative to the file."""
     head = f"# Configuration of {name}, written by rcyaml from {source}: change it there, and compile again."
     return f"{head}\n{section_text(sections)}"
 
 
 def section_text(sections: list[Section]) -> str:
-    return "".join(f"{line}\n" for line in _lines(sections))
-
-
-def _lines(sections: list[Section]) -> Iterator[str]:
+    lines = []
     for section in sections:
-        yield ""
-        yield f"# {section.title}."
-        for made in section.properties:
-            yield entry_line(made.key, made.value)
+        lines += ["", f"# {section.title}.", *(entry_line(made.key, made.value) for made in section.properties)]
+    return "".join(f"{line}\n" for line in lines)
 
 
 def secret_keys(sections: list[Section]) -> tuple[str, ...]:
-    """The properties that are not to be shown."""
+    """The names of the secret properties."""
     return tuple(sorted(made.key for section in sections for made in section.properties if made.secret))
 
 
 def _exact(made: Property, original: str | None) -> Property:
-    """The original spelling, while it still means the value."""
+    """The property with its original spelling, if this still means the same value."""
     if original is None or original == made.value or made.read is None:
         return made
     try:
@@ -127,9 +120,9 @@ def _exact(made: Property, original: str | None) -> Property:
     return replace(made, value=original) if same else made
 
 
-def given(values: LayeredValues, *keys: str) -> Iterator[tuple[str, Node]]:
-    """The entries of a section over all layers: later ones replace, null removes. Where names are those of ports, one
-    that starts with `x-` is the user's own."""
+def merged_entries(values: LayeredValues, *keys: str) -> Iterator[tuple[str, Node]]:
+    """The entries of a section over all layers: later layers replace entries, and null removes them. In sections of
+    ports, names that begin with `x-` are extensions of the user, and are skipped."""
     merged: dict[str, Node] = {}
     for layer in values.layers():
         section = layer.document.section(*keys)
@@ -144,7 +137,7 @@ def given(values: LayeredValues, *keys: str) -> Iterator[tuple[str, Node]]:
 
 
 def _property(key: str, node: Node, quote: bool) -> Property:
-    """`quote`: as in flat TOML, where text stands in quotes, and numbers do not."""
+    """`quote`: as in flat TOML, where text is in quotes and numbers are not."""
     assert isinstance(node, Scalar)
     value = node.lexeme
     if quote and isinstance(node.data, str) and '"' not in value:
@@ -153,12 +146,12 @@ def _property(key: str, node: Node, quote: bool) -> Property:
 
 
 def _endpoints(values: LayeredValues, form: str, quote: bool) -> Iterator[Property]:
-    for name, node in given(values, "endpoints"):
+    for name, node in merged_entries(values, "endpoints"):
         yield _property(connections.endpoints(name)[form != CLASSIC], node, quote)
 
 
 def _proxies(values: LayeredValues, form: str, quote: bool) -> Iterator[Property]:
-    for name, node in given(values, "proxies"):
+    for name, node in merged_entries(values, "proxies"):
         key = connections.proxy(name)[form != CLASSIC]
         if isinstance(node, Mapping):
             key = text(node, "key", key)
@@ -177,9 +170,9 @@ def _topics(values: LayeredValues, form: str, quote: bool) -> Iterator[Property]
             manager = None if entry[1].data is None else entry[1]
     if manager is not None:
         yield _property(connections.MANAGER[form != CLASSIC], manager, quote)
-    for name, node in given(values, "topics", "prefix"):
+    for name, node in merged_entries(values, "topics", "prefix"):
         made = _property(connections.prefix(name), node, quote)
-        if made.value:  # none at all is what an empty one means
+        if made.value:  # an empty prefix is no prefix
             yield made
-    for name, node in given(values, "topics", "name"):
+    for name, node in merged_entries(values, "topics", "name"):
         yield _property(name, node, quote)

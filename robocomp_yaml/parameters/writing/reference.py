@@ -5,12 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from robocomp_yaml.parameters.types import EnumType, Member, Parameters, RecordType, Type, innermost, is_secret
+from robocomp_yaml.parameters.types import EnumType, Parameters, RecordType, ResolvedMember, Type, innermost, is_secret
 from robocomp_yaml.parameters.words import default_in_words, in_words, prose
 
 
 def reference(parameters: Parameters, name: str) -> str:
-    """`name` is the component's."""
+    """The text of the reference. `name` is the name of the component."""
     return "\n".join(_lines(parameters, name)) + "\n"
 
 
@@ -45,13 +45,13 @@ def _lines(parameters: Parameters, name: str) -> Iterator[str]:
         yield ""
         yield "## Properties"
         yield ""
-        yield "In `etc/config` these are not spelled by their paths:"
+        yield "In `etc/config`, these parameters have other names than their paths:"
         yield ""
         for spelling in parameters.spellings:
             keys = [spelling.key] if spelling.key else [key for _, key in spelling.fields]
             shown = ", ".join(f"`{key}`" for key in keys)
             columns = f" = `{spelling.separator.join(spelling.columns)}`" if spelling.columns else ""
-            count = f"; `{spelling.count}` is their number" if spelling.count else ""
+            count = f"; `{spelling.count}` is the number of rows" if spelling.count else ""
             yield f"- `{spelling.path}`: {shown}{columns}{count}"
 
 
@@ -73,23 +73,23 @@ def _rows(record: RecordType, prefix: str) -> Iterator[str]:
 
 
 def _linked(type_: Type) -> str:
-    """The type in words, with a link to where a named one is described."""
+    """The type in words, with a link to the section of a named type."""
     named = innermost(type_)
-    if not isinstance(named, RecordType | EnumType):
+    if not isinstance(named, (RecordType, EnumType)):
         return in_words(type_)
     inner = in_words(named)
-    around = in_words(type_).removesuffix(inner)
-    link = f"{around}[{named.name}](#{named.name.lower()})"
-    return f"{link}: {inner}" if isinstance(named, EnumType) else link
+    outer = in_words(type_).removesuffix(inner)
+    link = f"[{named.name}](#{named.name.lower()})"
+    return f"{outer}{link}: {inner}" if isinstance(named, EnumType) else f"{outer}of type {link}"
 
 
-def _default(member: Member) -> str:
+def _default(member: ResolvedMember) -> str:
     if member.default is None:
-        return "may be left out" if member.optional else "**required**"
+        return "optional" if member.optional else "**required**"
     return _code(default_in_words(member)).replace("|", "\\|")
 
 
-def _meaning(member: Member) -> str:
+def _meaning(member: ResolvedMember) -> str:
     facts = ("May change while running.", member.editable), ("Secret.", is_secret(member.type))
     return " ".join(part for part in (member.documentation, *(fact for fact, holds in facts if holds)) if part)
 
@@ -99,6 +99,6 @@ def _cell(text: str) -> str:
 
 
 def _code(text: str) -> str:
-    """In as many backquotes as it takes."""
+    """Text as code in Markdown, in as many backquotes as necessary."""
     fence = "`" * (1 + max(map(len, re.findall("`+", text)), default=0))
     return f"{fence} {text} {fence}" if "`" in text else f"{fence}{text}{fence}"

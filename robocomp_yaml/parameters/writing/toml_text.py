@@ -1,14 +1,14 @@
-"""Effective values as TOML, nested as ConfigLoader-based components of RoboComp read them."""
+"""Effective values as TOML, nested as RoboComp components with ConfigLoader read them."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from robocomp_yaml.parameters.documents import LayeredValues
 from robocomp_yaml.parameters.layers.effective import Effective
-from robocomp_yaml.parameters.layers.merge import Where, node_of, step
+from robocomp_yaml.parameters.layers.merge import Origin, node_of, step
 from robocomp_yaml.parameters.spelling import references
 from robocomp_yaml.parameters.types import (
     BasicType,
@@ -21,7 +21,7 @@ from robocomp_yaml.parameters.types import (
 )
 from robocomp_yaml.parameters.writing.properties import CLASSIC, Section, dialect, legacy_file, properties
 from robocomp_yaml.semantics import connections
-from robocomp_yaml.semantics.spellings import holes
+from robocomp_yaml.semantics.spellings import placeholders
 from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source.tree import Scalar
 from robocomp_yaml.source.yaml_text import quoted
@@ -32,7 +32,7 @@ Table = dict[str, Any]
 
 
 def toml_text(values: LayeredValues, effective: Effective) -> str:
-    """The text of a TOML file: tables by the first part of each key; under `Ice` keys stay dotted, and text."""
+    """The text of a TOML file, with a table for the first part of each key. Keys under `Ice` stay dotted."""
     table: Table = {}
     sections = properties(values, effective, quoted=True)[0]
     connections = [section for section in sections if section.title != "Parameters"]
@@ -48,7 +48,7 @@ def toml_text(values: LayeredValues, effective: Effective) -> str:
 
 
 def _connections(sections: list[Section], unquotes: bool) -> Iterator[tuple[list[str], str]]:
-    """`unquotes`: quotes around a text are those of the file that it comes from, and no part of it."""
+    """`unquotes`: quotes around a text belong to its file, and are not part of the text."""
     for section in sections:
         for made in section.properties:
             name, _, tail = made.key.rpartition(".")
@@ -64,18 +64,18 @@ def _connections(sections: list[Section], unquotes: bool) -> Iterator[tuple[list
             yield key.split(".", 1), made.value if is_bare else quoted(plain)
 
 
-def _parameters(effective: Effective, as_given: bool) -> Iterator[tuple[list[str], str]]:
-    """`as_given`: a migrated document says again what the file said, without defaults, and as it spelled it."""
+def _parameters(effective: Effective, only_set: bool) -> Iterator[tuple[list[str], str]]:
+    """`only_set`: defaults are omitted, so that a migrated document is written as its legacy file."""
     for path, member in leaves(effective.parameters.root):
         data: Any = effective.data
-        where: Where = effective.place
+        where: Origin = effective.merged
         for name in path.split("."):
             data = data.get(name) if isinstance(data, dict) else None
             where = step(where, name) if where is not None else None
-        if data is None or (as_given and where is None):
+        if data is None or (only_set and where is None):
             continue
         spelling = effective.parameters.spelling(path)
-        is_plain = spelling is not None and bool(spelling.key) and not holes(spelling.key)
+        is_plain = spelling is not None and bool(spelling.key) and not placeholders(spelling.key)
         key = spelling.key if spelling is not None and is_plain else path
         yield key.split("."), _literal(member.type, data, where or (member.default.node if member.default else None))
 
@@ -104,27 +104,25 @@ def _key(key: str) -> str:
     return key if _BARE.match(key) else quoted(key)
 
 
-def _literal(type_: Type, data: Any, where: Where) -> str:
+def _literal(type_: Type, data: Any, where: Origin) -> str:
     match type_:
         case RecordType():
-            return (
-                "{"
-                + ", ".join(
-                    f"{_key(m.name)} = {_literal(m.type, data[m.name], step(where, m.name))}"
-                    for m in type_.members
-                    if m.name in data
-                )
-                + "}"
-            )
+            types = {member.name: member.type for member in type_.members if member.name in data}
+            return _inline({name: _literal(each, data[name], step(where, name)) for name, each in types.items()})
         case ListType(element=element):
             return "[" + ", ".join(_literal(element, item, step(where, n)) for n, item in enumerate(data)) + "]"
         case MapType(element=element):
-            return "{" + ", ".join(f"{_key(k)} = {_literal(element, v, step(where, k))}" for k, v in data.items()) + "}"
+            return _inline({name: _literal(element, item, step(where, name)) for name, item in data.items()})
         case BasicType() | EnumType():
             return _scalar(type_, data, where)
 
 
-def _scalar(type_: BasicType | EnumType, data: Any, where: Where) -> str:
+def _inline(literals: Mapping[str, str]) -> str:
+    """An inline table."""
+    return "{" + ", ".join(f"{_key(name)} = {literal}" for name, literal in literals.items()) + "}"
+
+
+def _scalar(type_: BasicType | EnumType, data: Any, where: Origin) -> str:
     if isinstance(data, dict):
         return quoted(references.text(data, node_of(where), None))
     if isinstance(data, bool):

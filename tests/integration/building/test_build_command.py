@@ -27,7 +27,7 @@ DOCUMENTS = {
     "arm/arm.cdsl.yaml": "component: ArmComp\nlanguage: python\nimports: [Arm]\nimplements: [Arm]\n",
     "leg/leg.cdsl.yaml": "component: LegComp\nlanguage: python\nimports: [Arm]\nrequires: [Arm]\n",
 }
-# What a component in Java looks like to a build: a command, code and a program.
+# A component in Java, as a build sees it: a command, code and a program.
 JAVA = {
     "eye/eye.cdsl.yaml": "component: EyeComp\nlanguage: java\n", "eye/src/SpecificWorker.java": "class SpecificWorker {}\n",
     "eye/generated/Main.java": "class Main {}\n",
@@ -57,7 +57,7 @@ def states(rcyaml: Rcyaml, *args: str) -> dict[str, str]:
     return {one["name"]: one["state"] for one in json.loads(result.stdout)["components"]}
 
 
-def test_all_then_nothing_then_what_changed(workspace: Path, rcyaml: Rcyaml) -> None:
+def test_all_components_then_none_then_those_that_changed(workspace: Path, rcyaml: Rcyaml) -> None:
     assert states(rcyaml) == {"ArmComp": "built", "LegComp": "built"}
     assert states(rcyaml) == {"ArmComp": "up to date", "LegComp": "up to date"}
     code = workspace / "leg" / "src" / "specificworker.py"
@@ -68,7 +68,7 @@ def test_all_then_nothing_then_what_changed(workspace: Path, rcyaml: Rcyaml) -> 
     assert list((workspace / "leg" / "src" / "__pycache__").glob("specificworker.*.pyc"))
 
 
-def test_an_interface_concerns_all_that_use_it(workspace: Path, rcyaml: Rcyaml) -> None:
+def test_a_changed_interface_makes_all_its_users_stale(workspace: Path, rcyaml: Rcyaml) -> None:
     states(rcyaml)
     (workspace / "Arm.idsl.yaml").write_text(DOCUMENTS["Arm.idsl.yaml"].replace("float", "int"))
     rcyaml("compile")
@@ -76,29 +76,29 @@ def test_an_interface_concerns_all_that_use_it(workspace: Path, rcyaml: Rcyaml) 
 
 
 @pytest.mark.parametrize("name", ["LegComp", "leg", "leg/leg.cdsl.yaml", "legcomp"])
-def test_who_is_meant(workspace: Path, rcyaml: Rcyaml, name: str) -> None:
+def test_named_components(workspace: Path, rcyaml: Rcyaml, name: str) -> None:
     assert states(rcyaml, name) == {"LegComp": "built"}
 
 
-def test_who_is_meant_from_a_folder(workspace: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_named_components_from_a_folder(workspace: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(workspace / "leg")
     assert states(rcyaml) == {"LegComp": "built"}
     assert states(rcyaml, "..") == {"ArmComp": "built", "LegComp": "up to date"}
 
 
 @pytest.mark.parametrize(
-    ("name", "said"),
+    ("name", "message"),
     [
-        ("LegCmop", "there is no component 'LegCmop'; did you mean 'LegComp'?"),
-        ("toe/toe.cdsl.yaml", "there is no document"),
+        ("LegCmop", "unknown component 'LegCmop'; did you mean 'LegComp'?"),
+        ("toe/toe.cdsl.yaml", "does not exist"),
     ],
 )
-def test_who_is_nobody(workspace: Path, rcyaml: Rcyaml, name: str, said: str) -> None:
+def test_unknown_components(workspace: Path, rcyaml: Rcyaml, name: str, message: str) -> None:
     result = rcyaml("build", name)
-    assert result.exit_code == 2 and said in result.stderr
+    assert result.exit_code == 2 and message in result.stderr
 
 
-def test_what_python_refuses_stands_at_its_line_and_keeps_no_other(workspace: Path, rcyaml: Rcyaml) -> None:
+def test_an_error_of_python_has_its_line_and_others_are_built(workspace: Path, rcyaml: Rcyaml) -> None:
     (workspace / "arm" / "src" / "specificworker.py").write_text("import os\n\n\ndef lift(:\n    pass\n")
     (workspace / "leg" / "src" / "specificworker.py").write_text("import os\n\nnowhere = os.no_such_name\n")
     result = rcyaml("build")
@@ -112,14 +112,14 @@ def test_what_python_refuses_stands_at_its_line_and_keeps_no_other(workspace: Pa
     assert "leg/src/helper.py:2:1" in rcyaml("build", "leg").stdout
 
 
-def test_what_user_code_prints_is_no_finding(workspace: Path, rcyaml: Rcyaml) -> None:
+def test_output_of_user_code_is_no_diagnostic(workspace: Path, rcyaml: Rcyaml) -> None:
     code = workspace / "leg" / "src" / "specificworker.py"
     code.write_text(f"{code.read_text()}\nprint('src/x.py:1:1: error: not one')\n")
     result = rcyaml("build", "leg")
     assert result.exit_code == 0 and "not one" not in result.stdout
 
 
-def test_what_is_not_compiled(rcyaml: Rcyaml, tmp_path: Path) -> None:
+def test_a_component_that_is_not_compiled(rcyaml: Rcyaml, tmp_path: Path) -> None:
     write_tree(tmp_path, DOCUMENTS)
     result = rcyaml("build", "arm")
     assert result.exit_code == 1
@@ -127,7 +127,7 @@ def test_what_is_not_compiled(rcyaml: Rcyaml, tmp_path: Path) -> None:
     assert "`rcyaml compile arm/arm.cdsl.yaml`" in result.stdout
 
 
-def test_what_changed_since_it_was_compiled_is_told(workspace: Path, rcyaml: Rcyaml) -> None:
+def test_a_change_since_the_compile_is_reported(workspace: Path, rcyaml: Rcyaml) -> None:
     (workspace / "Arm.idsl.yaml").write_text(DOCUMENTS["Arm.idsl.yaml"].replace("float", "int"))
     result = rcyaml("build", "leg")
     assert result.exit_code == 0
@@ -136,7 +136,7 @@ def test_what_changed_since_it_was_compiled_is_told(workspace: Path, rcyaml: Rcy
     assert "RC7012" not in rcyaml("build").stdout
 
 
-def test_a_document_that_cannot_be_read_keeps_no_other(workspace: Path, rcyaml: Rcyaml) -> None:
+def test_others_are_built_if_a_document_cannot_be_read(workspace: Path, rcyaml: Rcyaml) -> None:
     (workspace / "arm" / "arm.cdsl.yaml").write_text("component: [\n")
     result = rcyaml("build")
     assert result.exit_code == 1
@@ -145,25 +145,25 @@ def test_a_document_that_cannot_be_read_keeps_no_other(workspace: Path, rcyaml: 
     assert result.exit_code == 1 and "arm/arm.cdsl.yaml" in result.output
 
 
-def test_no_component_at_all(rcyaml: Rcyaml, tmp_path: Path) -> None:
+def test_no_components(rcyaml: Rcyaml, tmp_path: Path) -> None:
     result = rcyaml("build")
-    assert result.exit_code == 0 and result.stdout == "there is no component\n"
+    assert result.exit_code == 0 and result.stdout == "no components\n"
 
 
-def test_a_command_that_says_where_it_fails(rcyaml: Rcyaml, tmp_path: Path) -> None:
+def test_a_command_whose_output_has_a_location(rcyaml: Rcyaml, tmp_path: Path) -> None:
     write_tree(tmp_path, JAVA)
     command(tmp_path, "echo 'src/SpecificWorker.java:1: error: cannot find symbol'; exit 3")
     result = rcyaml("build")
-    assert "error[RC8001]: the Java compiler refuses this: cannot find symbol" in result.stdout
+    assert "error[RC8001]: the Java compiler rejects this: cannot find symbol" in result.stdout
     assert "eye/src/SpecificWorker.java:1:1" in result.stdout and "RC8003" not in result.stdout
     command(tmp_path, "echo no luck; exit 3")
     result = rcyaml("build")
-    assert "error[RC8003]: EyeComp cannot be built: its build ended with exit code 3" in result.stdout
+    assert "error[RC8003]: EyeComp cannot be built: its build failed with exit code 3" in result.stdout
     assert "    no luck" in result.stdout
 
 
-def test_a_program_older_than_its_code_is_not_deployed(rcyaml: Rcyaml, tmp_path: Path) -> None:
-    """Whoever built it, and with a hint that works when it is typed."""
+def test_a_stale_program_is_not_deployed(rcyaml: Rcyaml, tmp_path: Path) -> None:
+    """Whatever built it; the command in the hint works."""
     write_tree(tmp_path, JAVA | {
         "rcyaml.yaml": "", "robot.ddsl.yaml": "deployment: Robot\ncomponents:\n  eye: {component: eye, ready: {log: up}}\n  left: {component: eye, enabled: false}\n",
     })  # fmt: skip
@@ -175,13 +175,13 @@ def test_a_program_older_than_its_code_is_not_deployed(rcyaml: Rcyaml, tmp_path:
     code = tmp_path / "eye" / "src" / "SpecificWorker.java"
     code.write_text("class SpecificWorker { int more; }\n")
     for command_ in ("plan", "up"):
-        told = rcyaml("deploy", command_)
-        assert told.exit_code == 1
+        result = rcyaml("deploy", command_)
+        assert result.exit_code == 1
         assert (
-            "error[RC7016]: the program of 'eye' is older than what it is made of: eye/src/SpecificWorker.java"
-            in told.stderr
+            "error[RC7016]: the program of 'eye' is older than its sources: eye/src/SpecificWorker.java"
+            in result.stderr
         )
-        assert "`rcyaml build EyeComp`" in told.stderr
+        assert "`rcyaml build EyeComp`" in result.stderr
     assert "warning[RC7016]" in rcyaml("deploy", "status").stderr
     up = rcyaml("deploy", "up", "--build")
     assert up.exit_code == 0, up.output
@@ -191,10 +191,10 @@ def test_a_program_older_than_its_code_is_not_deployed(rcyaml: Rcyaml, tmp_path:
     assert rcyaml("deploy", "down").exit_code == 0
     command(tmp_path, "echo 'src/SpecificWorker.java:1: error: no'; exit 1")
     up = rcyaml("deploy", "up", "--build")
-    assert up.exit_code == 1 and "Robot: nothing was touched" in up.stdout
+    assert up.exit_code == 1 and "Robot: nothing was changed" in up.stdout
 
 
-def test_programs_on_other_hosts_and_of_other_names_are_not_judged(rcyaml: Rcyaml, tmp_path: Path) -> None:
+def test_programs_on_other_hosts_and_other_programs_are_not_checked(rcyaml: Rcyaml, tmp_path: Path) -> None:
     write_tree(tmp_path, JAVA | {
         "rcyaml.yaml": "", "eye/bin/EyeComp": "-> /bin/true", "eye/bin/other": "-> /bin/true",
         "robot.ddsl.yaml": "deployment: Robot\ncomponents:\n  eye: {component: eye, executable: bin/other}\n",
@@ -204,7 +204,7 @@ def test_programs_on_other_hosts_and_of_other_names_are_not_judged(rcyaml: Rcyam
         assert "RC7016" not in rcyaml("deploy", "plan", document).output
 
 
-def test_compile_says_what_to_build_again(rcyaml: Rcyaml, tmp_path: Path) -> None:
+def test_compile_lists_what_to_build_again(rcyaml: Rcyaml, tmp_path: Path) -> None:
     write_tree(
         tmp_path,
         DOCUMENTS | {"eye/eye.cdsl.yaml": "component: EyeComp\nlanguage: java\nimports: [Arm]\nrequires: [Arm]\n"},
@@ -216,7 +216,7 @@ def test_compile_says_what_to_build_again(rcyaml: Rcyaml, tmp_path: Path) -> Non
     assert "build again" not in rcyaml("compile").stdout, "nothing was written"
 
 
-def test_ctrl_c_ends_what_is_being_built(tmp_path: Path) -> None:
+def test_ctrl_c_ends_a_build(tmp_path: Path) -> None:
     write_tree(tmp_path, JAVA)
     command(tmp_path, "echo $$ > pid; sleep 60; echo gone on > after")
     build = subprocess.Popen(
@@ -234,7 +234,7 @@ def test_ctrl_c_ends_what_is_being_built(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(not shutil.which("cmake"), reason="CMake is not installed")
-def test_without_cmake_it_is_said_what_to_install(
+def test_without_cmake_the_package_to_install_is_named(
     rcyaml: Rcyaml, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     write_tree(tmp_path, {"rcyaml.yaml": "", "arm/arm.cdsl.yaml": "component: ArmComp\nlanguage: cpp\n"})
@@ -242,5 +242,5 @@ def test_without_cmake_it_is_said_what_to_install(
     monkeypatch.setenv("PATH", str(tmp_path))
     result = rcyaml("build")
     assert result.exit_code == 1
-    assert "error[RC8003]: ArmComp cannot be built: there is no program 'cmake'" in result.stdout
+    assert "error[RC8003]: ArmComp cannot be built: the program 'cmake' is missing" in result.stdout
     assert "sudo apt install cmake" in result.stdout

@@ -1,4 +1,4 @@
-"""Two components of one name are told, in `check` and `compile`, at the one that was copied."""
+"""Two components of one name are reported at the copy, by `check` and `compile`."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Run = Callable[..., Result]
 CDSL = "component: SpeechComp\nlanguage: python\n"
 
 
-def _told(result: Result) -> list[tuple[str, str, str]]:
+def _reported(result: Result) -> list[tuple[str, str, str]]:
     found = json.loads(result.stdout)["diagnostics"]
     return sorted((each["code"], each["file"], each["hint"]) for each in found if each["code"] != "RC6008")
 
@@ -30,11 +30,11 @@ def test_a_copied_folder(rcyaml: Run, tmp_path: Path, copy: str, head: Tree) -> 
     (tmp_path / copy).parent.mkdir(exist_ok=True)
     (tmp_path / "copied").rename(tmp_path / copy)
     document = f"{copy}/speech.cdsl.yaml"
-    wanted = ("RC2011", document, "a copy needs a name of its own: `component: SpeechComp2`")
+    expected = ("RC2011", document, "rename the copy: `component: SpeechComp2`")
     for command in ("check", "compile"):
         result = rcyaml(command, "--format", "json")
         assert result.exit_code == 1
-        assert wanted in _told(result)
+        assert expected in _reported(result)
     [found] = [each for each in json.loads(result.stdout)["diagnostics"] if each["code"] == "RC2011"]
     assert found["related"][0]["file"] == "speech/speech.cdsl.yaml"
     (tmp_path / document).write_text(CDSL.replace("SpeechComp", "SpeechComp2"))
@@ -42,11 +42,11 @@ def test_a_copied_folder(rcyaml: Run, tmp_path: Path, copy: str, head: Tree) -> 
     assert (tmp_path / copy / "bin/SpeechComp2").is_file()
 
 
-def test_each_copy_is_told_and_gets_another_name(rcyaml: Run, tmp_path: Path) -> None:
+def test_each_copy_is_reported_with_another_name(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {f"s{n}/s.cdsl.yaml": CDSL for n in ("", "2", "3")})
     write_tree(tmp_path, {"t/t.cdsl.yaml": CDSL.replace("SpeechComp", "SpeechComp2")})
-    hint = "a copy needs a name of its own: `component: SpeechComp{}`"
-    assert _told(rcyaml("check", "--format", "json")) == [
+    hint = "rename the copy: `component: SpeechComp{}`"
+    assert _reported(rcyaml("check", "--format", "json")) == [
         ("RC2011", "s2/s.cdsl.yaml", hint.format(3)), ("RC2011", "s3/s.cdsl.yaml", hint.format(4))
     ]  # fmt: skip
     for n in ("2", "3"):
@@ -61,18 +61,18 @@ def test_each_copy_is_told_and_gets_another_name(rcyaml: Run, tmp_path: Path) ->
     {"rcyaml.yaml": "lint: {RC2011: off}\n", "a/s.cdsl.yaml": CDSL, "b/s.cdsl.yaml": CDSL},
     {"a/s.cdsl.yaml": CDSL, "b": "-> a"},
 ])  # fmt: skip
-def test_what_is_no_copy(rcyaml: Run, tmp_path: Path, files: Tree) -> None:
+def test_components_that_are_no_copies(rcyaml: Run, tmp_path: Path, files: Tree) -> None:
     write_tree(tmp_path, files)
     told = rcyaml("check", ".", *(["b/s.cdsl.yaml"] if files.get("b") else []))
     assert told.exit_code == 0, told.output
 
 
-def test_a_deployment_with_both_is_refused(rcyaml: Run, tmp_path: Path) -> None:
+def test_a_deployment_with_both_is_rejected(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {
         "a/s.cdsl.yaml": CDSL, "b2/s.cdsl.yaml": CDSL,
         "d.ddsl.yaml": "deployment: D\ncomponents: {a: {component: a}, b: {component: b2}}\n",
     })  # fmt: skip
-    told = _told(rcyaml("check", "d.ddsl.yaml", "--format", "json"))
+    told = _reported(rcyaml("check", "d.ddsl.yaml", "--format", "json"))
     assert ("RC2011", "b2/s.cdsl.yaml") in [each[:2] for each in told]
 
 

@@ -1,4 +1,4 @@
-"""Keys `x-…` are the user's own, in every mapping of every kind of document but where each key is a name that is used."""
+"""Keys `x-…` are the user's own in all mappings of all kinds of documents, except in mappings of names."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ DOCUMENTS: dict[str, dict[str, Any]] = {
         "groups": {"both": {"components": ["speech", "other"]}},
     },
 }  # fmt: skip
-# The mappings in which each key is a name that is used, or a value's.
+# The mappings in which each key is a name.
 OF_NAMES = {
     "speech.cdsl.yaml: requires.0",
     "speech.cdsl.yaml: requires.1",
@@ -111,7 +111,7 @@ def _mappings(data: Any, path: str = "") -> Iterator[str]:
 
 
 def _extended(data: Any, path: str, at: str = "") -> Any:
-    """The same with an extension in the mapping at a path."""
+    """The data with an extension in the mapping at a path."""
     if isinstance(data, dict):
         made = {key: _extended(value, path, f"{at}.{key}".lstrip(".")) for key, value in data.items()}
         return {**made, "x-note": EXTENSION} if path == at else made
@@ -119,7 +119,7 @@ def _extended(data: Any, path: str, at: str = "") -> Any:
 
 
 def _result(folder: Path, documents: dict[str, dict[str, Any]]) -> Result:
-    """What is wrong, and the properties of the component."""
+    """The diagnostics, and the properties of the component."""
     write_tree(folder, {name: flow(data) + "\n" for name, data in documents.items()})
     analysis = analyse([str(folder)])
     faults = [f"{d.code} {d.message}" for d in analysis.diagnostics]
@@ -147,7 +147,7 @@ def test_an_extension_changes_nothing(case: str, plain: Result, tmp_path: Path) 
 
 
 @pytest.mark.parametrize("case", sorted(OF_NAMES))
-def test_a_name_that_starts_so_is_a_name(case: str, tmp_path: Path) -> None:
+def test_a_name_may_start_with_x(case: str, tmp_path: Path) -> None:
     name, path = case.split(": ", 1)
     extended = {**DOCUMENTS, name: _extended(DOCUMENTS[name], path)}
     assert _result(tmp_path, extended)[0], "it is no text, no number, and not what should stand there"

@@ -1,4 +1,4 @@
-"""`# rcyaml: allow RC1234 -- reason`: what it allows and where, and what is told of the comments themselves."""
+"""`# rcyaml: allow RC1234 -- reason`: what it suppresses and where, and the diagnostics of the comments themselves."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from click.testing import Result
 
 from conftest import Tree, write_tree
 from robocomp_yaml.source.allowances import allowances
-from robocomp_yaml.source.spelled import Text
+from robocomp_yaml.source.spelled import DocumentText
 
 Run = Callable[..., Result]
 Check = Callable[..., list[dict[str, object]]]
@@ -19,8 +19,8 @@ ALLOW = "# rcyaml: allow RC1006 -- only C++ calls it"
 METHODS = "module: RoboCompSpeech\ninterfaces:\n  Speech:\n    methods:\n"
 
 
-def codes(said: list[dict[str, object]]) -> list[tuple[object, object]]:
-    return [(d["code"], d["line"]) for d in said]
+def codes(diagnosed: list[dict[str, object]]) -> list[tuple[object, object]]:
+    return [(d["code"], d["line"]) for d in diagnosed]
 
 
 ALLOWED = {
@@ -54,7 +54,7 @@ ALLOWED = {
 
 
 @pytest.mark.parametrize("text", ALLOWED.values(), ids=ALLOWED)
-def test_it_is_allowed(diagnostics: Check, text: str) -> None:
+def test_a_diagnostic_is_suppressed(diagnostics: Check, text: str) -> None:
     assert diagnostics({"Speech.idsl.yaml": text}) == []
 
 
@@ -65,15 +65,15 @@ def test_a_list(diagnostics: Check) -> None:
         f"  - Speech\n  {allow}\n  - Speech\n",
         f"  [Speech,\n  Speech]  {allow}\n",
     ):
-        said = diagnostics({
+        diagnosed = diagnostics({
             "Speech.idsl.yaml": "module: RoboCompSpeech\n",
             "a.cdsl.yaml": f"component: A\nlanguage: python\nimports:\n{imports}",
         })  # fmt: skip
-        assert said == []
+        assert diagnosed == []
 
 
-def test_a_text_of_several_lines_is_one(diagnostics: Check) -> None:
-    """No comment can stand in it, so one above it, or behind its end, is about all of it."""
+def test_a_text_of_several_lines_is_one_value(diagnostics: Check) -> None:
+    """It cannot contain a comment, so one above it, or after its end, concerns all of it."""
     pdsl = "component: a.cdsl.yaml\n{above}types:\n  Unused: {{list: float, doc: {doc}}}{behind}\nparameters: {{}}\n"
     allow = "# rcyaml: allow RC3107 -- for later"
     a = {"a.cdsl.yaml": "component: A\nlanguage: python\n"}
@@ -82,15 +82,15 @@ def test_a_text_of_several_lines_is_one(diagnostics: Check) -> None:
         assert diagnostics({**a, "a.pdsl.yaml": text}) == [], doc
 
 
-def test_a_document_is_shown_by_its_first_line(diagnostics: Check, tmp_path: Path) -> None:
-    """What is about all of it is allowed above all else in it."""
+def test_a_document_is_reported_at_its_first_line(diagnostics: Check, tmp_path: Path) -> None:
+    """A diagnostic of the whole document is suppressed above everything else in it."""
     other = "component: B\nlanguage: python\n"
     allow = "# rcyaml: allow RC2010 -- they share a folder\n"
     for head in (allow, "# Ours.\n\n" + allow, allow + "# yaml-language-server: $schema=x\n---\n"):
         assert diagnostics({"a.cdsl.yaml": "component: A\nlanguage: python\n", "b.cdsl.yaml": head + other}) == []
     late = other + allow
-    said = diagnostics({"b.cdsl.yaml": late})
-    assert codes(said) == [("RC2010", 1), ("RC0060", 3)]
+    diagnosed = diagnostics({"b.cdsl.yaml": late})
+    assert codes(diagnosed) == [("RC2010", 1), ("RC0060", 3)]
 
 
 NOT_A_COMMENT = {
@@ -105,7 +105,7 @@ NOT_A_COMMENT = {
 
 
 @pytest.mark.parametrize("text", NOT_A_COMMENT.values(), ids=NOT_A_COMMENT)
-def test_what_is_no_comment_of_ours_is_nothing(diagnostics: Check, text: str) -> None:
+def test_other_comments_are_ignored(diagnostics: Check, text: str) -> None:
     assert diagnostics({"Speech.idsl.yaml": text}) == []
 
 
@@ -130,43 +130,43 @@ TOLD = {
 }
 
 
-@pytest.mark.parametrize(("comment", "told"), TOLD.values(), ids=TOLD)
-def test_comments_are_told(diagnostics: Check, comment: str, told: list[tuple[str, int]]) -> None:
-    assert sorted(codes(diagnostics({"Speech.idsl.yaml": f"{WRONG}{comment}\n"}))) == sorted(told)
+@pytest.mark.parametrize(("comment", "expected"), TOLD.values(), ids=TOLD)
+def test_wrong_comments_are_reported(diagnostics: Check, comment: str, expected: list[tuple[str, int]]) -> None:
+    assert sorted(codes(diagnostics({"Speech.idsl.yaml": f"{WRONG}{comment}\n"}))) == sorted(expected)
 
 
-def test_a_comment_elsewhere_allows_nothing(diagnostics: Check) -> None:
+def test_a_comment_elsewhere_suppresses_nothing(diagnostics: Check) -> None:
     text = f"{METHODS}      find: {{in: {{with: string}}}}\n      {ALLOW}\n      stop:\n"
     assert codes(diagnostics({"Speech.idsl.yaml": text})) == [("RC1006", 5), ("RC0060", 6)]
     text = f"{METHODS}      stop:  {ALLOW}\n      find: {{in: {{with: string}}}}\n"
     assert codes(diagnostics({"Speech.idsl.yaml": text})) == [("RC0060", 5), ("RC1006", 6)]
 
 
-def test_an_error_is_no_matter_of_opinion(diagnostics: Check) -> None:
+def test_an_error_cannot_be_suppressed(diagnostics: Check) -> None:
     text = f"{METHODS}      find: {{in: {{x: Quux}}}}  # rcyaml: allow RC1010 -- it comes\n"
-    said = diagnostics({"Speech.idsl.yaml": text})
-    assert codes(said) == [("RC1010", 5), ("RC0064", 5)]
-    assert said[1]["message"] == "no comment can allow RC1010: it is an error"
+    diagnosed = diagnostics({"Speech.idsl.yaml": text})
+    assert codes(diagnosed) == [("RC1010", 5), ("RC0064", 5)]
+    assert diagnosed[1]["message"] == "a comment cannot allow RC1010: it is an error"
 
 
 def test_a_document_that_cannot_be_read_has_no_comments(diagnostics: Check) -> None:
-    said = diagnostics({"Speech.idsl.yaml": f"{METHODS}      find: {{  {ALLOW}\n"})
-    assert [code for code, _ in codes(said)] == ["RC0101"]
+    diagnosed = diagnostics({"Speech.idsl.yaml": f"{METHODS}      find: {{  {ALLOW}\n"})
+    assert [code for code, _ in codes(diagnosed)] == ["RC0101"]
 
 
-@pytest.mark.parametrize(("lint", "told"), [
-    ("RC1006: error", []),  # as a compiler's `allow` has it: the workspace is strict but for this place
-    ("RC1006: off", []),  # the comment is right, whatever the workspace does
+@pytest.mark.parametrize(("lint", "expected"), [
+    ("RC1006: error", []),  # as `allow` of a compiler: the workspace is strict, except at this location
+    ("RC1006: off", []),  # the comment is used, whatever the workspace sets
     ("RC1006: note", []),
     ("RC1010: warning", ["RC0060"]),
 ])  # fmt: skip
-def test_the_workspace_and_the_comment(diagnostics: Check, lint: str, told: list[str]) -> None:
+def test_the_workspace_and_the_comment(diagnostics: Check, lint: str, expected: list[str]) -> None:
     files = {"rcyaml.yaml": f"lint: {{{lint}}}\n", "Speech.idsl.yaml": f"{WRONG}{ALLOW}\n"}
-    if told:
+    if expected:
         files["Speech.idsl.yaml"] = (
             f"{METHODS}      find: {{in: {{x: Quux}}}}  # rcyaml: allow RC1010, RC1006 -- it comes\n"
         )
-    assert [code for code, _ in codes(diagnostics(files))] == told
+    assert [code for code, _ in codes(diagnostics(files))] == expected
 
 
 def test_the_workspace_decides_about_the_comments(diagnostics: Check) -> None:
@@ -178,11 +178,11 @@ def test_the_workspace_decides_about_the_comments(diagnostics: Check) -> None:
 
 
 def test_the_workspace_s_own_document(diagnostics: Check) -> None:
-    said = diagnostics({
+    diagnosed = diagnostics({
         "Speech.idsl.yaml": "module: M\n",
         "rcyaml.yaml": "interfaces:\n  - later  # rcyaml: allow RC0301 -- it comes with the robot\n  - never\n",
     })  # fmt: skip
-    assert codes(said) == [("RC0301", 3)]
+    assert codes(diagnosed) == [("RC0301", 3)]
 
 
 KINDS: dict[str, Tree] = {
@@ -201,21 +201,21 @@ KINDS: dict[str, Tree] = {
 
 @pytest.mark.parametrize("files", KINDS.values(), ids=KINDS)
 def test_all_kinds_of_documents(diagnostics: Check, files: Tree) -> None:
-    said = diagnostics({
+    diagnosed = diagnostics({
         "I.idsl.yaml": "module: RoboCompI\n", "a.cdsl.yaml": "component: A\nlanguage: python\nimports: [I]\n", **files
     })  # fmt: skip
-    assert said == []
+    assert diagnosed == []
 
 
-def test_compile_follows_them(rcyaml: Run, tmp_path: Path) -> None:
+def test_compile_uses_the_comments(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"Speech.idsl.yaml": f"{WRONG}{ALLOW}\n"})
     first, again = (json.loads(rcyaml("compile", "--format", "json").stdout) for _ in range(2))
     assert first["diagnostics"] == again["diagnostics"] == []
     assert rcyaml("compile", "--fail-on", "warning").exit_code == 0
 
 
-def test_what_is_not_asked_for_is_not_judged(rcyaml: Run, tmp_path: Path) -> None:
-    """Of an import from elsewhere, not all is looked at."""
+def test_comments_outside_the_requested_documents_are_not_checked(rcyaml: Run, tmp_path: Path) -> None:
+    """An import from elsewhere is not checked completely."""
     write_tree(
         tmp_path,
         {"Arm.idsl.yaml": f"module: RoboCompArm {ALLOW}\n", "Leg.idsl.yaml": "module: RoboCompLeg\nimports: [Arm]\n"},
@@ -237,13 +237,13 @@ REMOVED = {
 
 
 @pytest.mark.parametrize(("comment", "after"), REMOVED.items(), ids=range(len(REMOVED)))
-def test_they_can_be_fixed(rcyaml: Run, tmp_path: Path, comment: str, after: str) -> None:
+def test_comments_can_be_fixed(rcyaml: Run, tmp_path: Path, comment: str, after: str) -> None:
     write_tree(tmp_path, {"Speech.idsl.yaml": f"{WRONG}{comment}"})
     rcyaml("check", "--unsafe-fixes")
     assert (tmp_path / "Speech.idsl.yaml").read_text() == WRONG.rstrip(" ") + (after or "\n")
 
 
-def test_a_comment_of_its_own_goes_with_its_line(rcyaml: Run, tmp_path: Path) -> None:
+def test_a_comment_on_its_own_line_is_removed_with_the_line(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"Speech.idsl.yaml": f"# Top.\r\n  {ALLOW}\r\nmodule: M\r\n"})
     assert "RC0060" in rcyaml("check", "--fix").stdout
     rcyaml("check", "--unsafe-fixes")
@@ -266,6 +266,6 @@ LINES = {
 
 
 @pytest.mark.parametrize(("text", "lines"), LINES.items(), ids=range(len(LINES)))
-def test_which_lines_a_comment_is_about(text: str, lines: tuple[int, int]) -> None:
-    (allowance,), said = allowances(Text("a.yaml", text))
-    assert (allowance.first, allowance.last) == lines and not said
+def test_the_lines_that_a_comment_concerns(text: str, lines: tuple[int, int]) -> None:
+    (allowance,), diagnosed = allowances(DocumentText("a.yaml", text))
+    assert (allowance.first, allowance.last) == lines and not diagnosed

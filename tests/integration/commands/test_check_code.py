@@ -1,4 +1,4 @@
-"""`check` says of the user's own code what `compile` says, and looks into it only where the skeleton is another."""
+"""`check` reports the same about the user's code as `compile`, and reads it only if the skeleton has changed."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ TREE = {
 }
 
 
-def told(result: Result) -> list[tuple[str, str, int]]:
+def diagnostics(result: Result) -> list[tuple[str, str, int]]:
     found = json.loads(result.stdout)["diagnostics"]
     return [(one["code"], one["file"], one["line"]) for one in found if one["code"].startswith("RC62")]
 
@@ -42,46 +42,50 @@ def compiled(rcyaml: Rcyaml, tmp_path: Path) -> Path:
         ("say: ", "speak: ", {"RC6201", "RC6203"}),
     ],
 )
-def test_check_says_what_compile_says(compiled: Path, rcyaml: Rcyaml, old: str, new: str, codes: set[str]) -> None:
+def test_check_and_compile_report_the_same(compiled: Path, rcyaml: Rcyaml, old: str, new: str, codes: set[str]) -> None:
     write_tree(compiled, {"Speech.idsl.yaml": SPEECH.replace(old, new)})
     before = read_tree(compiled)
-    checked = told(rcyaml("check", "--format", "json"))
+    checked = diagnostics(rcyaml("check", "--format", "json"))
     assert read_tree(compiled) == before
-    assert checked == told(rcyaml("compile", "--format", "json"))
+    assert checked == diagnostics(rcyaml("compile", "--format", "json"))
     assert {code for code, _, _ in checked} == codes
     assert {file.partition("/")[0] for _, file, _ in checked} == {"py", "cpp"}
-    assert checked == told(rcyaml("check", "--format", "json"))
+    assert checked == diagnostics(rcyaml("check", "--format", "json"))
 
 
-def test_only_of_what_is_asked(compiled: Path, rcyaml: Rcyaml) -> None:
+def test_only_requested_components_are_reported(compiled: Path, rcyaml: Rcyaml) -> None:
     write_tree(compiled, {"Speech.idsl.yaml": SPEECH.replace("stop: ", "stop: , pause: ")})
-    assert {file for _, file, _ in told(rcyaml("check", "--format", "json", "py"))} == {"py/src/specificworker.py"}
-    assert told(rcyaml("check", "--format", "json", "Speech.idsl.yaml")) == []
+    assert {file for _, file, _ in diagnostics(rcyaml("check", "--format", "json", "py"))} == {
+        "py/src/specificworker.py"
+    }
+    assert diagnostics(rcyaml("check", "--format", "json", "Speech.idsl.yaml")) == []
     write_tree(compiled, {"rcyaml.yaml": "lint: {RC6201: off}\n"})
-    assert told(rcyaml("check", "--format", "json")) == []
+    assert diagnostics(rcyaml("check", "--format", "json")) == []
 
 
-def test_code_is_read_only_where_it_has_to_be(compiled: Path, rcyaml: Rcyaml) -> None:
-    for name in [name for name in sys.modules if name.startswith("robocomp_yaml.emit.specific.telling")]:
+def test_code_is_read_only_if_the_skeleton_has_changed(compiled: Path, rcyaml: Rcyaml) -> None:
+    for name in [name for name in sys.modules if name.startswith("robocomp_yaml.emit.specific.reporting")]:
         del sys.modules[name]
     assert rcyaml("check").stdout == "3 documents: nothing wrong\n"
-    assert "robocomp_yaml.emit.specific.telling" not in sys.modules
+    assert "robocomp_yaml.emit.specific.reporting" not in sys.modules
 
 
-def test_nothing_is_said_before_the_first_compile(rcyaml: Rcyaml, tmp_path: Path) -> None:
+def test_nothing_is_reported_before_the_first_compile(rcyaml: Rcyaml, tmp_path: Path) -> None:
     write_tree(tmp_path, TREE)
     assert rcyaml("check").stdout == "3 documents: nothing wrong\n"
 
 
-def test_what_a_compile_has_looked_at_is_not_looked_at_again(
+def test_code_is_not_read_again_after_a_compile(
     compiled: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch
 ) -> None:  # fmt: skip
     looked: list[str] = []
-    monkeypatch.setattr("robocomp_yaml.emit.specific.written.of_written", lambda *_: looked.append("looked") or ())
-    (compiled / "py/generated/component.py").unlink()  # what rcyaml writes says nothing of the user's code
+    monkeypatch.setattr("robocomp_yaml.emit.specific.existing_code.check", lambda *_: looked.append("looked") or ())
+    (
+        compiled / "py/generated/component.py"
+    ).unlink()  # generated files do not change the diagnostics of the user's code
     rcyaml("check")
     assert looked == []
-    rcyaml("check", "py")  # nobody has compiled this alone
+    rcyaml("check", "py")  # this component was not compiled alone
     assert looked == ["looked"]
     worker = compiled / "py/src/specificworker.py"
     worker.write_text(worker.read_text(encoding="utf-8") + "# mine\n", encoding="utf-8")
@@ -93,14 +97,14 @@ def test_what_a_compile_has_looked_at_is_not_looked_at_again(
 
 
 @pytest.mark.parametrize("command", ["check", "compile"])
-def test_code_beside_the_skeleton_counts_too(compiled: Path, rcyaml: Rcyaml, command: str) -> None:
-    """A method may stand in another file: when it goes from there, that is said."""
+def test_other_files_of_the_user_count_too(compiled: Path, rcyaml: Rcyaml, command: str) -> None:
+    """A method may be in another file; when it is removed there, it is reported."""
     worker, more = compiled / "py/src/specificworker.py", compiled / "py/src/more.py"
     text = worker.read_text(encoding="utf-8")
     assert "(GenericWorker)" in text and "def Speech_stop(" in text
     worker.write_text(text.replace("(GenericWorker)", "(More, GenericWorker)").replace("Speech_stop", "other"), "utf-8")
     more.write_text("class More:\n    def Speech_stop(self):\n        pass\n", encoding="utf-8")
-    assert told(rcyaml("compile", "--format", "json")) == []
-    assert told(rcyaml(command, "--format", "json")) == []
+    assert diagnostics(rcyaml("compile", "--format", "json")) == []
+    assert diagnostics(rcyaml(command, "--format", "json")) == []
     more.write_text("class More:\n    pass\n", encoding="utf-8")
-    assert {code for code, _, _ in told(rcyaml(command, "--format", "json"))} == {"RC6201"}
+    assert {code for code, _, _ in diagnostics(rcyaml(command, "--format", "json"))} == {"RC6201"}

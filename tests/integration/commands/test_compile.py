@@ -1,4 +1,4 @@
-"""`rcyaml compile`, as its user meets it."""
+"""`rcyaml compile`, as its user sees it."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ def compiled(rcyaml: Run, tmp_path: Path) -> Path:
     return tmp_path
 
 
-def ours(folder: Path) -> dict[str, str]:
+def generated(folder: Path) -> dict[str, str]:
     """All files but rcyaml's records."""
     return {path: text for path, text in read_tree(folder).items() if "/." not in f"/{path}"}
 
 
-def test_a_first_compile_writes_what_the_design_names(compiled: Path) -> None:
+def test_the_files_of_a_first_compile(compiled: Path) -> None:
     assert {
         "slice/Speech.ice", "runtime/python/generated/slice/CommonBehavior.ice", "speech/etc/config",
         "speech/bin/SpeechComp", "speech/src/specificworker.py", "speech/generated/genericworker.py",
@@ -53,7 +53,7 @@ def test_a_second_compile_writes_nothing(compiled: Path, rcyaml: Run) -> None:
 
 
 @pytest.mark.parametrize("option", ["--dry-run", "--diff", "--check"])
-def test_looking_writes_nothing(option: str, rcyaml: Run, tmp_path: Path) -> None:
+def test_dry_runs_write_nothing(option: str, rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, TREE)
     result = rcyaml("compile", option)
     assert result.exit_code == (1 if option == "--check" else 0)
@@ -67,12 +67,12 @@ def test_all_documents_count(compiled: Path, rcyaml: Run) -> None:
     (compiled / "robot.ddsl.yaml").write_text("deployment: Robot\ncomponents: {speech: {component: speech}}\n")
     assert rcyaml("compile").stdout.splitlines()[-1].startswith("4 documents compiled: ")
     (compiled / "speech/speech.pdsl.yaml").write_text(parameters.replace("1", "one"))
-    assert rcyaml("compile").stdout.splitlines()[-1].startswith("2 documents compiled, 2 left out: ")
+    assert rcyaml("compile").stdout.splitlines()[-1].startswith("2 documents compiled, 2 skipped: ")
     (compiled / "interfaces/Speech.idsl.yaml").write_text("- no mapping\n")
-    assert rcyaml("compile", "speech").stdout.splitlines()[-1].startswith("0 documents compiled, 2 left out: ")
+    assert rcyaml("compile", "speech").stdout.splitlines()[-1].startswith("0 documents compiled, 2 skipped: ")
 
 
-def test_check_is_content_when_all_is_up_to_date(compiled: Path, rcyaml: Run) -> None:
+def test_check_succeeds_if_all_files_are_up_to_date(compiled: Path, rcyaml: Run) -> None:
     assert rcyaml("compile", "--check").exit_code == 0
     (compiled / "interfaces/Speech.idsl.yaml").write_text(SPEECH.replace("say", "tell"))
     assert rcyaml("compile", "--check").exit_code == 1
@@ -84,7 +84,7 @@ def test_diff_shows_the_lines(compiled: Path, rcyaml: Run) -> None:
     assert "-    void say(string text);\n+    void tell(string text);\n" in shown
 
 
-def test_user_files_stay_when_the_interface_changes(compiled: Path, rcyaml: Run) -> None:
+def test_user_files_are_kept_when_the_interface_changes(compiled: Path, rcyaml: Run) -> None:
     mine = compiled / "speech/src/specificworker.py"
     mine.write_text("# mine\n")
     (compiled / "interfaces/Speech.idsl.yaml").write_text(SPEECH.replace("say", "tell"))
@@ -103,14 +103,14 @@ def test_an_edited_generated_file_is_kept_as_orig(compiled: Path, rcyaml: Run) -
 
 
 def test_a_missing_file_is_written_again(compiled: Path, rcyaml: Run) -> None:
-    before = ours(compiled)
+    before = generated(compiled)
     (compiled / "slice/Speech.ice").unlink()
     (compiled / "speech/src/specificworker.py").unlink()
     rcyaml("compile")
-    assert ours(compiled) == before
+    assert generated(compiled) == before
 
 
-def test_what_a_deleted_document_left_is_removed(compiled: Path, rcyaml: Run) -> None:
+def test_files_of_a_deleted_document_are_removed(compiled: Path, rcyaml: Run) -> None:
     write_tree(compiled, {"interfaces/Mouth.idsl.yaml": SPEECH.replace("Speech", "Mouth")})
     rcyaml("compile")
     assert (compiled / "slice/Mouth.ice").exists()
@@ -120,14 +120,14 @@ def test_what_a_deleted_document_left_is_removed(compiled: Path, rcyaml: Run) ->
     assert (compiled / "slice/Speech.ice").exists()
 
 
-def test_one_document_does_not_remove_what_others_wrote(compiled: Path, rcyaml: Run) -> None:
-    before = ours(compiled)
+def test_compiling_one_document_keeps_the_files_of_others(compiled: Path, rcyaml: Run) -> None:
+    before = generated(compiled)
     rcyaml("compile", "speech/speech.cdsl.yaml")
     rcyaml("compile", "interfaces")
-    assert ours(compiled) == before
+    assert generated(compiled) == before
 
 
-def test_documents_with_errors_are_left_out_and_the_others_compiled(rcyaml: Run, tmp_path: Path) -> None:
+def test_documents_with_errors_are_skipped_and_the_others_compiled(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {**TREE, "interfaces/Mouth.idsl.yaml": "module: RoboCompMouth\ntypes: 5\n"})
     result = rcyaml("compile", "--format", "json")
     data = json.loads(result.stdout)
@@ -136,11 +136,11 @@ def test_documents_with_errors_are_left_out_and_the_others_compiled(rcyaml: Run,
     assert not (tmp_path / "slice/Mouth.ice").exists()
 
 
-def test_a_document_that_breaks_keeps_what_was_compiled(compiled: Path, rcyaml: Run) -> None:
-    before = ours(compiled)
+def test_a_document_with_new_errors_keeps_its_files(compiled: Path, rcyaml: Run) -> None:
+    before = generated(compiled)
     (compiled / "interfaces/Speech.idsl.yaml").write_text("module: RoboCompSpeech\ntypes: 5\n")
     assert rcyaml("compile").exit_code == 1
-    after = ours(compiled)
+    after = generated(compiled)
     assert {k: v for k, v in after.items() if not k.endswith(".yaml")} == {
         k: v for k, v in before.items() if not k.endswith(".yaml")
     }
@@ -163,10 +163,10 @@ def test_a_failed_write_leaves_everything_as_it_was(
     result = rcyaml("compile")
     assert calls, "the commit moves files into place"
     assert (result.exit_code, "RC6005" in result.stdout, "no space left" in result.stdout.lower()) == (1, True, True)
-    assert ours(tmp_path) == TREE
+    assert generated(tmp_path) == TREE
 
 
-def test_adopt_takes_over_and_keeps_the_old(rcyaml: Run, tmp_path: Path) -> None:
+def test_adopt_overwrites_and_keeps_a_backup(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {**TREE, "slice/Speech.ice": "// by hand\n"})
     assert rcyaml("compile").exit_code == 1
     assert (tmp_path / "slice/Speech.ice").read_text() == "// by hand\n"
@@ -186,7 +186,7 @@ def test_the_order_of_arguments_changes_nothing(rcyaml: Run, tmp_path: Path) -> 
     write_tree(tmp_path, TREE)
     rcyaml("compile", "speech", "interfaces", "-o", "one")
     rcyaml("compile", "interfaces", "speech", "-o", "two")
-    assert ours(tmp_path / "one") == ours(tmp_path / "two")
+    assert generated(tmp_path / "one") == generated(tmp_path / "two")
 
 
 def test_a_target_alone(rcyaml: Run, tmp_path: Path) -> None:
@@ -195,7 +195,7 @@ def test_a_target_alone(rcyaml: Run, tmp_path: Path) -> None:
     assert (tmp_path / "slice/Speech.ice").exists() and not (tmp_path / "speech/generated").exists()
 
 
-def test_imports_are_found_in_given_folders(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_imports_are_searched_in_included_folders(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     write_tree(tmp_path, {"far/Speech.idsl.yaml": SPEECH, "speech/speech.cdsl.yaml": COMPONENT})
     assert rcyaml("check", "speech").exit_code == 1
     assert rcyaml("check", "speech", "-I", "far").exit_code == 0
@@ -238,10 +238,10 @@ def test_names_with_blanks_and_accents(rcyaml: Run, tmp_path: Path) -> None:
     assert (tmp_path / "una cabeza señal/generated/genericworker.py").exists()
 
 
-def test_a_folder_that_cannot_be_read_is_told_and_not_taken_for_gone(
+def test_a_folder_that_cannot_be_read_is_reported_and_not_treated_as_deleted(
     compiled: Path, rcyaml: Run, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """What was generated from its documents stays."""
+    """The files of its documents are kept."""
 
     def closed(call: Callable[..., object]) -> Callable[..., object]:
         def refuse(path: str, *args: object, **options: object) -> object:
@@ -261,7 +261,7 @@ def test_a_folder_that_cannot_be_read_is_told_and_not_taken_for_gone(
     assert (compiled / "slice/Speech.ice").is_file()
 
 
-def test_a_document_whose_name_is_no_text_compiles(rcyaml: Run, tmp_path: Path) -> None:
+def test_a_document_whose_name_is_no_utf8_compiles(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {os.fsdecode(b"c\xe9.cdsl.yaml"): "component: C\nlanguage: python\n"})
     assert rcyaml("compile").exit_code == 0
     assert "0 files written" in rcyaml("compile").stdout

@@ -1,4 +1,4 @@
-"""A run with nothing to do is told as the run itself would tell it, and nothing else is made again for it."""
+"""A compile that is up to date prints the same as a complete one, and does nothing else."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def no_run(monkeypatch: pytest.MonkeyPatch) -> Callable[[], None]:
 
 
 @pytest.mark.parametrize("tree", [*FINE.values(), *FAULTY.values()], ids=[*FINE, *FAULTY])
-def test_it_is_told_as_the_run_would_tell_it(tree: Tree, rcyaml: Rcyaml, tmp_path: Path) -> None:
+def test_the_output_is_that_of_a_complete_compile(tree: Tree, rcyaml: Rcyaml, tmp_path: Path) -> None:
     write_tree(tmp_path, tree)
     first = rcyaml("compile")
     again = rcyaml("compile")
@@ -85,7 +85,7 @@ def test_it_is_told_as_the_run_would_tell_it(tree: Tree, rcyaml: Rcyaml, tmp_pat
     assert rcyaml("compile", "--format", "json").output == run_anew(rcyaml, tmp_path, "--format", "json").output
 
 
-def test_what_is_gone_is_told_once(rcyaml: Rcyaml, tmp_path: Path) -> None:
+def test_removed_files_are_reported_once(rcyaml: Rcyaml, tmp_path: Path) -> None:
     write_tree(tmp_path, FINE["component in the root"])
     rcyaml("compile")
     (tmp_path / "speech.cdsl.yaml").unlink()
@@ -96,7 +96,7 @@ def test_what_is_gone_is_told_once(rcyaml: Rcyaml, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("tree", FAULTY.values(), ids=FAULTY)
-def test_errors_of_contents_keep_nothing_from_being_found_done(
+def test_a_compile_with_errors_has_a_stamp_too(
     tree: Tree, rcyaml: Rcyaml, tmp_path: Path, no_run: Callable[[], None]
 ) -> None:  # fmt: skip
     write_tree(tmp_path, tree)
@@ -106,7 +106,7 @@ def test_errors_of_contents_keep_nothing_from_being_found_done(
     assert rcyaml("compile").exit_code == 1
 
 
-def test_a_component_with_parameters_is_found_done(rcyaml: Rcyaml, tmp_path: Path, no_run: Callable[[], None]) -> None:
+def test_a_component_with_parameters_is_up_to_date(rcyaml: Rcyaml, tmp_path: Path, no_run: Callable[[], None]) -> None:
     write_tree(tmp_path, {**BESIDE, "speech/speech.pdsl.yaml": PARAMETERS})
     rcyaml("compile")
     no_run()
@@ -114,17 +114,17 @@ def test_a_component_with_parameters_is_found_done(rcyaml: Rcyaml, tmp_path: Pat
 
 
 @pytest.mark.parametrize(("tree", "mended"), OF_THE_DISK.values(), ids=OF_THE_DISK)
-def test_a_mended_error_is_seen(tree: Tree, mended: Tree, rcyaml: Rcyaml, tmp_path: Path) -> None:
+def test_a_corrected_error_makes_the_stamp_stale(tree: Tree, mended: Tree, rcyaml: Rcyaml, tmp_path: Path) -> None:
     write_tree(tmp_path, tree)
     for _ in range(2):
         result = rcyaml("compile")
-        assert result.exit_code == 1 and "left out: " in result.output
+        assert result.exit_code == 1 and "skipped: " in result.output
     write_tree(tmp_path, mended)
     assert rcyaml("compile").exit_code == 0
 
 
-def test_a_name_that_was_meant_is_seen(rcyaml: Rcyaml, tmp_path: Path) -> None:
-    """In a folder that is no part of the run, too."""
+def test_a_new_file_with_a_missing_name_makes_the_stamp_stale(rcyaml: Rcyaml, tmp_path: Path) -> None:
+    """Also in a folder that is not compiled."""
     write_tree(tmp_path, {"a/Bad.idsl.yaml": "module: RoboCompBad\nimports: [Mouth]\n", "more": None})
     for _ in range(2):
         assert "did you mean" not in rcyaml("compile", "a", "-I", "more").output
@@ -140,9 +140,9 @@ def test_a_component_in_the_root_has_each_file_once(rcyaml: Rcyaml, tmp_path: Pa
     assert f" compiled: {len(files)} files written" in lines[-1] and all((tmp_path / file).is_file() for file in files)
 
 
-def test_what_is_left_out_has_a_name(rcyaml: Rcyaml, tmp_path: Path) -> None:
+def test_skipped_documents_are_listed(rcyaml: Rcyaml, tmp_path: Path) -> None:
     write_tree(tmp_path, {**BESIDE, "speech/speech.pdsl.yaml": PARAMETERS, "idsl/Speech.idsl.yaml": "module: [\n"})
-    told = rcyaml("compile").output.splitlines()
-    assert "left out: idsl/Speech.idsl.yaml (has errors)" in told
-    assert "left out: speech/speech.pdsl.yaml (what it needs or belongs to has errors)" in told
-    assert told[-1].startswith("0 documents compiled, 3 left out: ")
+    lines = rcyaml("compile").output.splitlines()
+    assert "skipped: idsl/Speech.idsl.yaml (it has errors)" in lines
+    assert "skipped: speech/speech.pdsl.yaml (a document that it depends on has errors)" in lines
+    assert lines[-1].startswith("0 documents compiled, 3 skipped: ")

@@ -1,4 +1,4 @@
-"""Deployments among what is compiled: nothing is made of them, but a run is made again when they change."""
+"""Deployments in a compile: nothing is generated from them, but a change makes the stamp stale."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ TEXT = "components:\n  speech: {component: speech, config: flat}\n  mouth: {comp
 
 @pytest.fixture
 def runs(rcyaml: Callable[..., Result], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[], bool]:
-    """Compiles all, and says whether documents were read for it; the first run is made."""
+    """Compiles everything. Returns whether documents were read; the first run is complete."""
     write_tree(tmp_path, {**deployed(TEXT), "rcyaml.yaml": "", "speech/flat": "volume = 1\n"})
     read: list[object] = []
     analyse = pipeline.analyse
@@ -43,18 +43,18 @@ def test_a_second_run_has_nothing_to_do(runs: Callable[[], bool]) -> None:
 
 
 @pytest.mark.parametrize("path", ["robot.ddsl.yaml", "speech/flat"])
-def test_a_change_is_looked_at(runs: Callable[[], bool], tmp_path: Path, path: str) -> None:
+def test_a_change_makes_the_stamp_stale(runs: Callable[[], bool], tmp_path: Path, path: str) -> None:
     with (tmp_path / path).open("a", encoding="utf-8") as file:
         file.write("# more\n")
     assert runs() and not runs()
 
 
-def test_an_executable_that_comes_is_no_reason(runs: Callable[[], bool], tmp_path: Path) -> None:
+def test_a_new_executable_does_not_make_the_stamp_stale(runs: Callable[[], bool], tmp_path: Path) -> None:
     (tmp_path / "speech/bin/other").write_text("", encoding="utf-8")
     assert not runs()
 
 
-def test_what_is_wrong_with_a_deployment_is_said(
+def test_diagnostics_of_a_deployment_are_printed(
     runs: Callable[[], bool], rcyaml: Callable[..., Result], tmp_path: Path
 ) -> None:
     document = tmp_path / "robot.ddsl.yaml"

@@ -1,4 +1,4 @@
-"""`rcyaml compile` after an interface changed: what it names, what `--merge` writes, and what it leaves alone."""
+"""`rcyaml compile` after an interface changed: what it reports, what `--merge` writes, and what it does not change."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def language(request: pytest.FixtureRequest) -> str:
 
 @pytest.fixture
 def component(language: str, rcyaml: Run, tmp_path: Path) -> Path:
-    """A component whose user has written something."""
+    """A component with code of its user."""
     write_tree(tmp_path, {"Speech.idsl.yaml": SPEECH, "speech.cdsl.yaml": COMPONENT % language})
     assert rcyaml("compile").exit_code == 0
     for path in sources(tmp_path):
@@ -54,11 +54,11 @@ def change(root: Path, old: str, new: str) -> None:
     path.write_text(path.read_text().replace(old, new))
 
 
-def told(rcyaml: Run, *args: str) -> list[dict[str, object]]:
+def diagnostics(rcyaml: Run, *args: str) -> list[dict[str, object]]:
     return json.loads(rcyaml("compile", *args, "--format", "json").stdout)["diagnostics"]
 
 
-def test_what_the_class_lacks_is_named_again_and_again(component: Path, language: str, rcyaml: Run) -> None:
+def test_missing_methods_are_reported_by_each_compile(component: Path, language: str, rcyaml: Run) -> None:
     before = sources(component)
     change(component, "      stop:\n", f"      stop:\n{SING}")
     for _ in range(2):
@@ -75,9 +75,9 @@ def test_what_the_class_lacks_is_named_again_and_again(component: Path, language
     assert sources(component) == before
 
 
-def test_the_text_to_paste_is_what_is_lacking(component: Path, language: str, rcyaml: Run) -> None:
+def test_the_text_to_paste_is_the_missing_methods(component: Path, language: str, rcyaml: Run) -> None:
     change(component, "      stop:\n", f"      stop:\n{SING}")
-    (diagnostic,) = told(rcyaml)
+    (diagnostic,) = diagnostics(rcyaml)
     pasted = str(diagnostic["more"])
     if language == "python":
         line, _, method = pasted.partition("\n")
@@ -88,10 +88,10 @@ def test_the_text_to_paste_is_what_is_lacking(component: Path, language: str, rc
         header, source = component / "src/specificworker.h", component / "src/specificworker.cpp"
         header.write_text(header.read_text().replace("\n};", f"\n{declaration}}};"))
         source.write_text(f"{source.read_text()}\n{definition}\n")
-    assert told(rcyaml) == []
+    assert diagnostics(rcyaml) == []
 
 
-def test_a_merge_brings_it_in(component: Path, rcyaml: Run) -> None:
+def test_a_merge_adds_them(component: Path, rcyaml: Run) -> None:
     change(component, "      say:", f"{SING}      say:")
     result = rcyaml("compile", "--merge")
     assert result.exit_code == 0
@@ -100,11 +100,11 @@ def test_a_merge_brings_it_in(component: Path, rcyaml: Run) -> None:
     assert "Speech_sing(" in now and "mine: Speech_say()" in now
     for path, text in sources(component).items():
         assert (component / ".rcyaml/base" / path).read_text() == text.replace("mine: ", "")
-    assert told(rcyaml) == []
+    assert diagnostics(rcyaml) == []
     assert rcyaml("compile", "--check").exit_code == 0
 
 
-def test_looking_writes_nothing(component: Path, rcyaml: Run) -> None:
+def test_dry_runs_of_a_merge_write_nothing(component: Path, rcyaml: Run) -> None:
     change(component, "      stop:\n", f"      stop:\n{SING}")
     before = read_tree(component)
     assert "would merge   src/specificworker." in rcyaml("compile", "--merge", "--dry-run").stdout
@@ -115,17 +115,17 @@ def test_looking_writes_nothing(component: Path, rcyaml: Run) -> None:
 
 def test_a_changed_signature(component: Path, rcyaml: Run) -> None:
     change(component, "{text: string}", "{text: string, times: int}")
-    assert {d["code"] for d in told(rcyaml)} == {"RC6202"}
+    assert {d["code"] for d in diagnostics(rcyaml)} == {"RC6202"}
     assert rcyaml("compile", "--merge").exit_code == 0
     now = "\n".join(sources(component).values())
     assert "times" in now and "mine: Speech_say()" in now
-    assert told(rcyaml) == []
+    assert diagnostics(rcyaml) == []
 
 
-def test_a_renamed_method_stays_and_is_warned_of(component: Path, language: str, rcyaml: Run) -> None:
+def test_a_renamed_method_is_kept_with_a_warning(component: Path, language: str, rcyaml: Run) -> None:
     change(component, "      stop:\n", "      halt:\n")
     for args in ((), ("--merge",), (), ("--merge",)):
-        gone = [d for d in told(rcyaml, *args) if d["code"] == "RC6203"]
+        gone = [d for d in diagnostics(rcyaml, *args) if d["code"] == "RC6203"]
         assert len(gone) == 1 and "Speech_stop" in str(gone[0]["message"])
         assert len(gone[0]["related"]) == (language == "cpp")  # the definition's place
         is_written = "Speech_halt" in "".join(sources(component).values())
@@ -135,7 +135,7 @@ def test_a_renamed_method_stays_and_is_warned_of(component: Path, language: str,
         assert "Speech_stop" in text and "Speech_halt" in text
 
 
-def test_a_conflict_is_shown_and_nothing_written(component: Path, language: str, rcyaml: Run) -> None:
+def test_a_conflict_is_shown_and_nothing_is_written(component: Path, language: str, rcyaml: Run) -> None:
     path = component / ("src/specificworker.py" if language == "python" else "src/specificworker.cpp")
     old = "text: str)" if language == "python" else "/*text*/)"
     path.write_text(path.read_text().replace(old, "words: str)" if language == "python" else "words)"))
@@ -154,7 +154,7 @@ def test_a_conflict_is_shown_and_nothing_written(component: Path, language: str,
     }
 
 
-def test_without_a_base_what_is_lacking_is_put_in(component: Path, rcyaml: Run) -> None:
+def test_without_a_base_missing_methods_are_added(component: Path, rcyaml: Run) -> None:
     for path in (component / ".rcyaml/base/src").iterdir():
         path.unlink()
     change(component, "      stop:\n", f"      stop:\n{SING}")
@@ -164,17 +164,17 @@ def test_without_a_base_what_is_lacking_is_put_in(component: Path, rcyaml: Run) 
         assert "Speech_sing(" in text
         kept = iter(text.splitlines())
         assert all(line in kept for line in before[path].splitlines())
-    assert told(rcyaml) == []
+    assert diagnostics(rcyaml) == []
 
 
-def test_what_a_user_removed_is_named_though_nothing_else_changed(component: Path, language: str, rcyaml: Run) -> None:
-    assert told(rcyaml) == []
+def test_a_method_that_the_user_removed_is_reported(component: Path, language: str, rcyaml: Run) -> None:
+    assert diagnostics(rcyaml) == []
     path = component / ("src/specificworker.py" if language == "python" else "src/specificworker.cpp")
     path.write_text(path.read_text().replace("Speech_stop(", "Speech_stopAll("))
-    assert [d["code"] for d in told(rcyaml)] == ["RC6201"]
+    assert [d["code"] for d in diagnostics(rcyaml)] == ["RC6201"]
 
 
-def test_parts_of_the_class_may_stand_elsewhere(component: Path, language: str, rcyaml: Run) -> None:
+def test_parts_of_the_class_may_be_in_other_files(component: Path, language: str, rcyaml: Run) -> None:
     if language == "python":
         (component / "src/voice.py").write_text("class Voice:\n    def Speech_stop(self):\n        pass\n")
         path = component / "src/specificworker.py"
@@ -185,10 +185,10 @@ def test_parts_of_the_class_may_stand_elsewhere(component: Path, language: str, 
         text = path.read_text()
         (component / "src/voice.cpp").write_text(text[text.index("void SpecificWorker::Speech_stop") :])
         path.write_text(text[: text.index("void SpecificWorker::Speech_stop")])
-    assert told(rcyaml) == []
+    assert diagnostics(rcyaml) == []
 
 
-def test_a_merge_keeps_the_ends_of_lines(component: Path, rcyaml: Run) -> None:
+def test_a_merge_keeps_line_ends(component: Path, rcyaml: Run) -> None:
     for path in sources(component):
         data = (component / path).read_bytes()
         (component / path).write_bytes(data.replace(b"\n", b"\r\n"))
@@ -208,25 +208,25 @@ def test_a_file_that_is_no_text_is_not_merged(component: Path, language: str, rc
     assert "RC6204" in result.stdout and "it is not UTF-8 text" in result.stdout
 
 
-def test_the_configuration_gets_what_it_lacks(component: Path, rcyaml: Run) -> None:
+def test_missing_settings_are_added_to_the_configuration(component: Path, rcyaml: Run) -> None:
     config = component / "etc/config"
     config.write_text(config.read_text().replace("tcp -p ", "tcp -h localhost -p "))
     write_tree(component, {"Mouth.idsl.yaml": SPEECH.replace("Speech", "Mouth")})
     document = component / "speech.cdsl.yaml"
     document.write_text(document.read_text().replace("[Speech]", "[Speech, Mouth]", 1) + "requires: [Mouth]\n")
     before = config.read_text()
-    assert [d["code"] for d in told(rcyaml)] == ["RC6206"]
+    assert [d["code"] for d in diagnostics(rcyaml)] == ["RC6206"]
     assert rcyaml("compile", "--merge").exit_code == 0
     assert config.read_text().startswith(before) and "\nMouthProxy=mouth:tcp" in config.read_text()
-    assert told(rcyaml) == []
+    assert diagnostics(rcyaml) == []
 
 
 @pytest.mark.parametrize("text", ["", "\n", "class SpecificWorker", "}{)(", "\x00"])
 def test_a_file_without_the_class(component: Path, language: str, rcyaml: Run, text: str) -> None:
     path = component / ("src/specificworker.py" if language == "python" else "src/specificworker.h")
     path.write_text(text)
-    assert [d["code"] for d in told(rcyaml)] == ["RC6205"]
-    assert {d["code"] for d in told(rcyaml, "--merge")} == {"RC6204"}
+    assert [d["code"] for d in diagnostics(rcyaml)] == ["RC6205"]
+    assert {d["code"] for d in diagnostics(rcyaml, "--merge")} == {"RC6204"}
     assert path.read_text() == text
 
 
@@ -236,5 +236,5 @@ def test_a_link_is_not_written_through(component: Path, language: str, rcyaml: R
     path.symlink_to("../elsewhere.txt")
     change(component, "      stop:\n", f"      stop:\n{SING}")
     before = read_tree(component / "src")
-    assert "RC6204" in {d["code"] for d in told(rcyaml, "--merge")}
+    assert "RC6204" in {d["code"] for d in diagnostics(rcyaml, "--merge")}
     assert path.is_symlink() and read_tree(component / "src") == before

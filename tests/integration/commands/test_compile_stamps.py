@@ -1,4 +1,4 @@
-"""A run of which nothing changed is not made again, whatever is wrong with its documents; any other is."""
+"""A compile is skipped if nothing changed, whatever is wrong with its documents; any other one is run."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ import pytest
 
 from conftest import write_tree
 from robocomp_yaml import api
-from robocomp_yaml.api import made_already
+from robocomp_yaml.api import compile_stamps
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import table
 from robocomp_yaml.diag.page import Files, Repeated
 
-# What cannot be read may become readable without any trace; whether programs are there is for `check` alone; of files
-# that a compile refuses to write, more is looked at than is remembered; why a plug-in fails, nobody knows.
+# Without a stamp: a file that cannot be read may become readable unnoticed; programs matter only for `check`; of a file
+# that a compile does not write, more is read than is in the stamp; the cause of a failing plug-in is unknown.
 NEVER = {"RC0001", "RC0081", "RC0082", "RC0083", "RC2010", "RC4403", "RC4404"}
 
 
@@ -46,11 +46,13 @@ def test_documents_with_errors(row: Code, tmp_path: Path, monkeypatch: pytest.Mo
     paths = _paths(row)
     _run(paths)
     again = _run(paths)
-    kept = made_already.outcome(paths, ())
-    assert kept is not None, "every run is made again"
+    kept = compile_stamps.earlier_outcome(compile_stamps.CompileArguments(paths, ()))
+    assert kept is not None, "the compile is run again"
     assert _told(kept) == _told(again)
     for name in {*row.wrong} - {*row.right}:
         if os.path.lexists(name):
             os.unlink(name) if not os.path.isdir(name) or os.path.islink(name) else os.rmdir(name)
     write_tree(tmp_path, {name: it for name, it in _plain(row.right).items() if row.wrong.get(name) != it})
-    assert made_already.outcome(paths, ()) is None, "an error stays though its cause has gone"
+    assert compile_stamps.earlier_outcome(compile_stamps.CompileArguments(paths, ())) is None, (
+        "the error is reported after its cause is removed"
+    )

@@ -1,4 +1,4 @@
-"""How a deployment is shown: what needs no process to be seen."""
+"""The output of deployments, without any process."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from click.testing import Result
 from networks import speaking
 from robocomp_yaml.commands._deploy_views import status_lines
 from robocomp_yaml.commands._progress import Progress
-from robocomp_yaml.deploy.carry_out import STARTING, Event
+from robocomp_yaml.deploy.carry_out import STARTING, ProcessEvent
 from robocomp_yaml.deploy.operations import Status
 
 
@@ -34,20 +34,23 @@ class Terminal(io.StringIO):
         return True
 
 
-def test_progress_takes_one_line_of_a_narrow_terminal_for_each(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_progress_has_one_line_for_each_process_on_a_narrow_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
     terminal = Terminal()
     monkeypatch.setattr(sys, "stdout", terminal)
     monkeypatch.setenv("COLUMNS", "12")
     name = "a-process-with-a-long-name"
 
     async def work() -> None:
-        Progress(True, False, [name]).report(Event(name, STARTING))
+        Progress(True, False, [name]).report(ProcessEvent(name, STARTING))
 
     asyncio.run(work())
     assert terminal.getvalue() == "a-process-…\n"
 
 
 @pytest.mark.parametrize("option", ["-v", "--quiet", "--color"])
-def test_an_option_of_all_commands_stands_before_them(rcyaml: Callable[..., Result], option: str) -> None:
-    told = rcyaml("deploy", "plan", ".", option)
-    assert told.exit_code == 2 and f"'{option}' stands before the command: rcyaml {option} …" in told.stderr
+def test_a_global_option_is_written_before_the_command(rcyaml: Callable[..., Result], option: str) -> None:
+    result = rcyaml("deploy", "plan", ".", option)
+    assert (
+        result.exit_code == 2
+        and f"'{option}' is an option of rcyaml: write it before the command, rcyaml {option} …" in result.stderr
+    )

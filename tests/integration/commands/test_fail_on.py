@@ -42,42 +42,42 @@ def warned(tmp_path: Path) -> Path:
         (("--fail-on", "error,note"), 1),
     ],
 )
-def test_what_fails(rcyaml: Rcyaml, warned: Path, command: str, args: tuple[str, ...], code: int) -> None:
+def test_exit_codes(rcyaml: Rcyaml, warned: Path, command: str, args: tuple[str, ...], code: int) -> None:
     first = rcyaml(command, *args)
     assert first.exit_code == code, first.output
-    assert ("this fails because of RC2103" in first.stderr) == bool(code)
+    assert ("exit code 1 because of RC2103" in first.stderr) == bool(code)
     assert rcyaml(command, *args).exit_code == code, "found to be made already"
 
 
 @pytest.mark.parametrize(
-    ("word", "said"),
+    ("word", "message"),
     [
         ("warnings", "did you mean 'warning'?"), ("eror", "did you mean 'error'?"), ("RC207", "did you mean 'RC"),
         ("RC9999", "is neither error, warning or note nor the code"), ("", "'' is neither"), ("RC2103,", "'' is neither"),
         ("quatsch", "`rcyaml explain` lists the codes"),
     ],
 )  # fmt: skip
-def test_a_word_that_is_none(rcyaml: Rcyaml, warned: Path, word: str, said: str) -> None:
+def test_wrong_words(rcyaml: Rcyaml, warned: Path, word: str, message: str) -> None:
     for command in ("check", "compile"):
-        told = rcyaml(command, "--fail-on", word)
-        assert told.exit_code == 2 and said in told.stderr
+        result = rcyaml(command, "--fail-on", word)
+        assert result.exit_code == 2 and message in result.stderr
 
 
-def test_json_is_as_without(rcyaml: Rcyaml, warned: Path) -> None:
+def test_json_does_not_change(rcyaml: Rcyaml, warned: Path) -> None:
     for form in ("json", "sarif"):
         plain, failing = (rcyaml("check", "--format", form, *more) for more in ((), ("--fail-on", "warning")))
         assert (plain.exit_code, failing.exit_code) == (0, 1) and plain.output == failing.output
         json.loads(failing.output)
 
 
-def test_what_failed_is_written_all_the_same(rcyaml: Rcyaml, warned: Path) -> None:
+def test_files_are_written_all_the_same(rcyaml: Rcyaml, warned: Path) -> None:
     assert rcyaml("compile", "--fail-on", "warning").exit_code == 1
     assert (warned / "src/specificworker.py").is_file()
     assert rcyaml("compile", "--check").exit_code == 0
     assert rcyaml("compile", "--check", "--fail-on", "RC2103").exit_code == 1
 
 
-def test_what_the_workspace_turns_off_does_not_fail(rcyaml: Rcyaml, warned: Path) -> None:
+def test_diagnostics_that_the_workspace_turns_off_do_not_count(rcyaml: Rcyaml, warned: Path) -> None:
     write_tree(warned, {"rcyaml.yaml": "lint: {RC2103: off}\n"})
     assert rcyaml("check", "--fail-on", "note").exit_code == 0
     write_tree(warned, {"rcyaml.yaml": "lint: {RC2103: note}\n"})

@@ -1,4 +1,4 @@
-"""`rcyaml check --fix`: what is mended, what is left, and that not a byte beside it changes."""
+"""`rcyaml check --fix`: what is fixed, what is left, and that no other byte changes."""
 
 from __future__ import annotations
 
@@ -62,8 +62,8 @@ SAFE = {
     "a key's case": (IDSL, "Module: M\n", "module: M\n"),
     "a key's case, quoted": (IDSL, "'MODULE': M\n", "'module': M\n"),
     "a language's case": (CDSL, "component: A\nlanguage: Python\n", "component: A\nlanguage: python\n"),
-    "an entry said twice": (IDSL, "module: M\ndoc: x\ndoc: x # y\n", "module: M\ndoc: x\n# y\n"),
-    "a block said twice": (
+    "a repeated entry": (IDSL, "module: M\ndoc: x\ndoc: x # y\n", "module: M\ndoc: x\n# y\n"),
+    "a repeated block": (
         IDSL,
         "module: M\ntypes:\n  A:\n    struct:\n      x: int\n  # both\n  A:\n    struct:\n      x: int\n# end\n",
         "module: M\ntypes:\n  A:\n    struct:\n      x: int\n  # both\n# end\n",
@@ -135,7 +135,7 @@ SAFE = {
 
 
 @pytest.mark.parametrize(("name", "before", "after"), SAFE.values(), ids=SAFE)
-def test_one_meaning(rcyaml: Run, tmp_path: Path, name: str, before: str, after: str) -> None:
+def test_safe_fixes(rcyaml: Run, tmp_path: Path, name: str, before: str, after: str) -> None:
     others = {
         "Laser.idsl.yaml": LASER,
         "CommonBehavior.idsl.yaml": "module: RoboCompCommonBehavior\ninterfaces: {CommonBehavior: {}}\n",
@@ -237,14 +237,14 @@ UNSAFE = {
 
 
 @pytest.mark.parametrize(("name", "before", "after"), UNSAFE.values(), ids=UNSAFE)
-def test_what_was_probably_meant(rcyaml: Run, tmp_path: Path, name: str, before: str, after: str) -> None:
+def test_unsafe_fixes(rcyaml: Run, tmp_path: Path, name: str, before: str, after: str) -> None:
     files = {"Laser.idsl.yaml": LASER, "speech.pdsl.yaml": PDSL, **BESIDE, name: before}
     assert fixed(rcyaml, tmp_path, files, name) == before  # not with --fix
     assert fixed(rcyaml, tmp_path, {}, name, "--unsafe-fixes") == after
 
 
-def test_what_a_safe_fix_shows_is_mended_in_turn(rcyaml: Run, tmp_path: Path) -> None:
-    """A document is understood only once its keys are right; what is wrong in it shows then."""
+def test_errors_that_a_safe_fix_reveals_are_fixed_too(rcyaml: Run, tmp_path: Path) -> None:
+    """A document is understood only when its keys are right; then its other errors are reported."""
     text = "Module: M\nImports: [Laser, Laser]\ntypes: {A: {sequence: strng, doc: 5}}\n"
     files = {"Laser.idsl.yaml": LASER, IDSL: text}
     after = 'module: M\nimports: [Laser]\ntypes: {A: {sequence: strng, doc: "5"}}\n'
@@ -253,8 +253,8 @@ def test_what_a_safe_fix_shows_is_mended_in_turn(rcyaml: Run, tmp_path: Path) ->
     assert rcyaml("check").exit_code == 0
 
 
-def test_a_guess_that_shows_more_than_can_be_mended_is_not_made(rcyaml: Run, tmp_path: Path) -> None:
-    """While the document has a wrong shape still, nobody knows whether the guess was right."""
+def test_a_guess_that_reveals_errors_without_fixes_is_not_applied(rcyaml: Run, tmp_path: Path) -> None:
+    """As long as the shape of the document is wrong, it is unknown whether the guess is right."""
     text = "module: M\nintefaces: {I: {qqqqqq: 5, wwwwww: 3}}\n"
     write_tree(tmp_path, {IDSL: text})
     result = rcyaml("check", "--unsafe-fixes")
@@ -262,17 +262,17 @@ def test_a_guess_that_shows_more_than_can_be_mended_is_not_made(rcyaml: Run, tmp
     assert "write 'interfaces' (RC0202): there would be 2 errors instead of 1" in result.stdout
 
 
-def test_a_guess_after_which_all_is_understood_is_made(rcyaml: Run, tmp_path: Path) -> None:
-    """A misspelled key hid what else is wrong: that is seen now."""
+def test_a_guess_after_which_the_document_is_understood_is_applied(rcyaml: Run, tmp_path: Path) -> None:
+    """A misspelled key hid another error, which is reported now."""
     text = "module: M\nintefaces: {I: {methods: {a: {in: {x: Quux, y: Zork}}}}}\n"
     write_tree(tmp_path, {IDSL: text})
     result = rcyaml("check", "--unsafe-fixes")
     assert (tmp_path / IDSL).read_text() == text.replace("intefaces", "interfaces") and result.exit_code == 1
-    assert "no type called 'Quux'" in result.stdout and "no type called 'Zork'" in result.stdout
+    assert "unknown type 'Quux'" in result.stdout and "unknown type 'Zork'" in result.stdout
 
 
 def test_one_error_hides_another(rcyaml: Run, tmp_path: Path) -> None:
-    """Of a text that is no YAML, only the first fault is seen."""
+    """In a text that is no YAML, only the first error is reported."""
     text = "module: M\ndoc: @home\nx-more: {a: 1}\nimports: [Laser, Laser]\nx-own: @there\nx-last:\n  - a\n  - `b`\n"
     after = text.replace("@home", '"@home"').replace("@there", '"@there"').replace("`b`", '"`b`"')
     files = {"Laser.idsl.yaml": LASER, IDSL: text}
@@ -284,7 +284,7 @@ def test_a_number_in_quotes_is_no_name(rcyaml: Run, tmp_path: Path) -> None:
     assert fixed(rcyaml, tmp_path, {IDSL: text}, IDSL, "--unsafe-fixes") == text
 
 
-def test_a_document_is_not_what_it_lacks_itself(rcyaml: Run, tmp_path: Path) -> None:
+def test_a_document_is_no_suggestion_for_itself(rcyaml: Run, tmp_path: Path) -> None:
     files = {
         **BESIDE,
         "speech.pdsl.yaml": PDSL,
@@ -300,7 +300,7 @@ def test_the_workspace_s_own_document(rcyaml: Run, tmp_path: Path, monkeypatch: 
     write_tree(tmp_path, files)
     monkeypatch.chdir(tmp_path / "a")
     rcyaml("check", "--unsafe-fixes", ".")
-    assert (tmp_path / "rcyaml.yaml").read_text() == files["rcyaml.yaml"]  # it was not asked for
+    assert (tmp_path / "rcyaml.yaml").read_text() == files["rcyaml.yaml"]  # it was not requested
     monkeypatch.chdir(tmp_path)
     rcyaml("check", "--fix")
     assert (tmp_path / "rcyaml.yaml").read_text() == "lint: {RC1104: off}\ninterface: [a]  # here\n"
@@ -308,8 +308,8 @@ def test_the_workspace_s_own_document(rcyaml: Run, tmp_path: Path, monkeypatch: 
     assert (tmp_path / "rcyaml.yaml").read_text() == "lint: {RC1104: off}\ninterfaces: [a]  # here\n"
 
 
-def test_a_guess_that_makes_errors_is_not_made(rcyaml: Run, tmp_path: Path) -> None:
-    """With the import, the names of its module are known, and that two of them are not there."""
+def test_a_guess_that_causes_errors_is_not_applied(rcyaml: Run, tmp_path: Path) -> None:
+    """With the import, the names of its module are known, and two of them are missing."""
     files = {
         "Arm.idsl.yaml": "module: RoboCompArm\n",
         IDSL: "module: M\nimports: [Armm]\ntypes: {A: {sequence: Armm.X}, B: {sequence: Armm.Y}}\n",
@@ -322,7 +322,7 @@ def test_a_guess_that_makes_errors_is_not_made(rcyaml: Run, tmp_path: Path) -> N
 
 @pytest.mark.parametrize("bom", [b"", b"\xef\xbb\xbf"])
 @pytest.mark.parametrize("end", [b"\n", b"\r\n", b"\r"])
-def test_everything_else_stays_byte_by_byte(rcyaml: Run, tmp_path: Path, bom: bytes, end: bytes) -> None:
+def test_everything_else_is_kept_byte_by_byte(rcyaml: Run, tmp_path: Path, bom: bytes, end: bytes) -> None:
     lines = [
         b"# caf\xc3\xa9 \xe2\x80\xa8 one line", b"", b"module:   M   # here", b"imports:", b"  - Laser\t# tab", b"  - Laser",
         b"doc: |", b"  kept  ", b"", b"types: { 'A':{sequence: &x strng} , \"B\": {sequence: *x}}  ", b"x-own: {b: 1,a: 2}", b"",
@@ -336,7 +336,7 @@ def test_everything_else_stays_byte_by_byte(rcyaml: Run, tmp_path: Path, bom: by
 
 
 def test_many_at_once(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Hundreds of fixes take a few looks, and those that cannot be made do not keep others from it."""
+    """Hundreds of fixes need a few checks, also if some of them cannot be applied."""
     looks = []
     real = fixing.Fixing._look
     monkeypatch.setattr(fixing.Fixing, "_look", lambda self, changed: looks.append(1) or real(self, changed))
@@ -363,11 +363,11 @@ def test_diff_shows_and_writes_nothing(rcyaml: Run, tmp_path: Path) -> None:
     assert rcyaml("check", "--diff", "--fail-on", "warning").exit_code == 0
 
 
-def test_json_says_what_was_fixed_and_what_remains(rcyaml: Run, tmp_path: Path) -> None:
+def test_json_has_what_was_fixed_and_what_remains(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"Laser.idsl.yaml": LASER, IDSL: "module: M\nimports: [Laser, Laser, Lasr]\n"})
-    told = json.loads(rcyaml("check", "--format", "json").stdout)["diagnostics"]
+    printed = json.loads(rcyaml("check", "--format", "json").stdout)["diagnostics"]
     place = {"file": IDSL, "line": 2, "column": 26, "end_line": 2, "end_column": 30}
-    assert told[1]["facts"] == {"meant": "Laser", "name": "Lasr"} or told[1]["facts"] == {"name": "Lasr"}
+    assert printed[1]["facts"] == {"meant": "Laser", "name": "Lasr"} or printed[1]["facts"] == {"name": "Lasr"}
     data = json.loads(rcyaml("check", "--fix", "--format", "json").stdout)
     assert [one["code"] for one in data["diagnostics"]] == ["RC1101"] and data["documents"] == 2
     assert data["fixed"] == [{
@@ -394,28 +394,28 @@ WRONG = "module: M\nimports: [Laser, Laser]\n"
 RIGHT = "module: M\nimports: [Laser]\n"
 
 
-def test_a_document_that_is_read_only_stays(rcyaml: Run, tmp_path: Path) -> None:
+def test_a_read_only_document_is_kept(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"Laser.idsl.yaml": LASER, IDSL: WRONG, "Other.idsl.yaml": WRONG})
     (tmp_path / IDSL).chmod(0o444)
     result = rcyaml("check", "--fix")
     assert (tmp_path / IDSL).read_text() == WRONG and (tmp_path / "Other.idsl.yaml").read_text() == RIGHT
     assert "left   Speech.idsl.yaml: it is read-only" in result.stdout
-    assert "Speech.idsl.yaml:2:18" in result.stdout and result.exit_code == 1  # it was asked for, and is not done
+    assert "Speech.idsl.yaml:2:18" in result.stdout and result.exit_code == 1  # it was requested, and is not fixed
 
 
-def test_a_document_that_changed_meanwhile_stays(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_document_that_has_changed_is_kept(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     write_tree(tmp_path, {"Laser.idsl.yaml": LASER, IDSL: WRONG})
-    real = fixing.mend
+    real = fixing.apply_fixes
 
     def meanwhile(*args: object, **options: bool) -> object:
         done = real(*args, **options)  # type: ignore[arg-type]
         (tmp_path / IDSL).write_text(WRONG + "# mine\n")
         return done
 
-    monkeypatch.setattr(fixing, "mend", meanwhile)
+    monkeypatch.setattr(fixing, "apply_fixes", meanwhile)
     result = rcyaml("check", "--fix")
     assert (tmp_path / IDSL).read_text() == WRONG + "# mine\n"
-    assert "it was changed meanwhile: check again" in result.stdout and result.exit_code == 1
+    assert "it has changed meanwhile: run the check again" in result.stdout and result.exit_code == 1
 
 
 def test_a_full_disk_loses_nothing(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -432,7 +432,7 @@ def test_a_full_disk_loses_nothing(rcyaml: Run, tmp_path: Path, monkeypatch: pyt
 
 
 def test_links(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """One that stays inside leads to the document that is written; one that leads out is left, unless it is named."""
+    """The target of a link inside the requested folders is written; one outside is left, unless it is named."""
     write_tree(tmp_path, {
         "robot/Laser.idsl.yaml": LASER, "robot/real/In.idsl.yaml": WRONG.replace("Laser", "../Laser"),
         "robot/In.idsl.yaml": "-> real/In.idsl.yaml", "Out.idsl.yaml": "module: M\nmodule: M\n",
@@ -440,7 +440,7 @@ def test_links(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
     })  # fmt: skip
     monkeypatch.chdir(tmp_path / "robot")
     result = rcyaml("check", "--fix")
-    assert f"a link leads out of what was asked for, to {tmp_path / 'Out.idsl.yaml'}" in result.stdout
+    assert f"a link leads to {tmp_path / 'Out.idsl.yaml'}" in result.stdout
     assert (tmp_path / "Out.idsl.yaml").read_text().count("module") == 2
     assert result.exit_code == 1
     rcyaml("check", "--fix", "Out.idsl.yaml")
@@ -448,21 +448,21 @@ def test_links(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
     assert (tmp_path / "robot/Out.idsl.yaml").is_symlink() and (tmp_path / "robot/In.idsl.yaml").is_symlink()
 
 
-def test_only_what_was_asked_for_changes(rcyaml: Run, tmp_path: Path) -> None:
+def test_only_requested_documents_change(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"Laser.idsl.yaml": "Module: M\n", IDSL: "module: S\nimports: [Laser, Laser]\n"})
     rcyaml("check", "--fix", IDSL)
     assert (tmp_path / "Laser.idsl.yaml").read_text() == "Module: M\n"
     assert (tmp_path / IDSL).read_text() == "module: S\nimports: [Laser]\n"
 
 
-def test_permissions_stay(rcyaml: Run, tmp_path: Path) -> None:
+def test_permissions_are_kept(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"Laser.idsl.yaml": LASER, IDSL: WRONG})
     (tmp_path / IDSL).chmod(0o640)
     rcyaml("check", "--fix")
     assert (tmp_path / IDSL).stat().st_mode & 0o777 == 0o640
 
 
-def test_a_secret_is_not_told_by_a_fix(rcyaml: Run, tmp_path: Path) -> None:
+def test_a_fix_does_not_show_a_secret(rcyaml: Run, tmp_path: Path) -> None:
     pdsl = PDSL + "  mode: {type: string, values: [red, green]}\n  password: {type: string, optional: true}\n"
     write_tree(tmp_path, {
         **BESIDE, "speech.pdsl.yaml": pdsl,
@@ -470,8 +470,8 @@ def test_a_secret_is_not_told_by_a_fix(rcyaml: Run, tmp_path: Path) -> None:
     })  # fmt: skip
     for format_ in ("text", "json", "sarif"):
         for options in ((), ("--fix", "--diff"), ("--unsafe-fixes", "--diff"), ("--unsafe-fixes",)):
-            told = rcyaml("check", *options, "--format", format_)
-            assert "hunter2" not in told.stdout + told.stderr
+            printed = rcyaml("check", *options, "--format", format_)
+            assert "hunter2" not in printed.stdout + printed.stderr
     assert (tmp_path / "etc/config.yaml").read_text().count("hunter2hunter2") == 1
 
 

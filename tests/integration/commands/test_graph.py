@@ -1,4 +1,4 @@
-"""`rcyaml graph`: deployments, folders, problems, and where the picture goes."""
+"""`rcyaml graph`: deployments, folders, problems, and output files."""
 
 from __future__ import annotations
 
@@ -63,14 +63,14 @@ def test_components_without_a_deployment(rcyaml: Run, tmp_path: Path) -> None:
     }  # fmt: skip
 
 
-def test_what_nothing_implements_is_shown(rcyaml: Run, tmp_path: Path) -> None:
+def test_interfaces_without_an_implementation_are_shown(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {name: text for name, text in FILES.items() if not name.startswith("mouth/")})
-    assert "-> Mouth of Mouth (nothing here implements it)" in rcyaml("graph").output
+    assert "-> Mouth of Mouth (no component here implements it)" in rcyaml("graph").output
 
 
 @pytest.mark.usefixtures("robot")
 @pytest.mark.parametrize("form", ["text", "dot", "mermaid", "json", "svg"])
-def test_it_goes_into_a_file(rcyaml: Run, tmp_path: Path, form: str) -> None:
+def test_output_to_a_file(rcyaml: Run, tmp_path: Path, form: str) -> None:
     result = rcyaml("graph", "head.ddsl.yaml", "--as", form, "-o", "picture")
     assert result.exit_code == 0 and result.output == ""
     text = (tmp_path / "picture").read_text(encoding="utf-8")
@@ -81,7 +81,7 @@ def test_it_goes_into_a_file(rcyaml: Run, tmp_path: Path, form: str) -> None:
 @pytest.mark.usefixtures("robot")
 def test_a_file_that_cannot_be_written(rcyaml: Run) -> None:
     result = rcyaml("graph", "head.ddsl.yaml", "-o", "no/such/folder/picture")
-    assert result.exit_code == 1 and "cannot be written: no such file or directory" in result.output
+    assert result.exit_code == 1 and "cannot write no/such/folder/picture: no such file or directory" in result.output
 
 
 def test_problems_are_red(rcyaml: Run, tmp_path: Path) -> None:
@@ -94,16 +94,16 @@ def test_problems_are_red(rcyaml: Run, tmp_path: Path) -> None:
     assert len(red) == 2
 
 
-def test_a_broken_document_is_told(rcyaml: Run, tmp_path: Path) -> None:
+def test_a_broken_document_is_reported(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"head.ddsl.yaml": "deployment: [\n"})
     result = rcyaml("graph", "head.ddsl.yaml")
     assert result.exit_code == 1 and "error[RC0" in result.output
 
 
 @pytest.mark.usefixtures("robot")
-def test_which_one_is_asked(rcyaml: Run, tmp_path: Path) -> None:
+def test_wrong_arguments(rcyaml: Run, tmp_path: Path) -> None:
     assert rcyaml("graph", "nowhere.ddsl.yaml").exit_code == 2
-    assert "no deployment document" in rcyaml("graph", "speech/speech.cdsl.yaml").output
+    assert "is neither a deployment document" in rcyaml("graph", "speech/speech.cdsl.yaml").output
     write_tree(tmp_path, {"other.ddsl.yaml": HEAD.replace("Head", "Other")})
     result = rcyaml("graph")
     assert result.exit_code == 2 and "head.ddsl.yaml, other.ddsl.yaml" in result.output

@@ -1,4 +1,4 @@
-"""No document, name or argument commands the terminal, whatever the command; data is unchanged in a pipe."""
+"""No document, name or argument can control the terminal, whatever the command; data is unchanged in a pipe."""
 
 from __future__ import annotations
 
@@ -82,9 +82,9 @@ OF_WRONG = [
 
 @pytest.mark.parametrize("args", OF_WRONG, ids=lambda args: ascii(" ".join(args))[:40])
 def test_words_are_escaped_on_a_terminal(args: tuple[str, ...], wrong: Path) -> None:
-    code, said = on_terminal(wrong, *args)
-    assert code in (0, 1, 2) and "Traceback" not in said
-    assert foreign(said) == []
+    code, output = on_terminal(wrong, *args)
+    assert code in (0, 1, 2) and "Traceback" not in output
+    assert foreign(output) == []
 
 
 @pytest.mark.parametrize("args", [("check",), ("compile",), (EVIL,)], ids=["check", "compile", "usage"])
@@ -102,9 +102,9 @@ def test_words_are_escaped_in_a_pipe_too(args: tuple[str, ...], wrong: Path) -> 
 
 
 def test_a_newline_in_a_name_forges_no_line(wrong: Path) -> None:
-    said = on_pipe(wrong, "check").stdout.decode()
-    assert r"\nerror[RC9999]: forged" in said
-    assert not re.search(r"^error\[RC9999\]", said, re.MULTILINE)
+    output = on_pipe(wrong, "check").stdout.decode()
+    assert r"\nerror[RC9999]: forged" in output
+    assert not re.search(r"^error\[RC9999\]", output, re.MULTILINE)
 
 
 OF_RIGHT = [
@@ -123,11 +123,11 @@ OF_RIGHT = [
 
 @pytest.mark.parametrize("args", OF_RIGHT, ids=lambda args: ascii(" ".join(args))[:60])
 def test_data_is_escaped_on_a_terminal(args: tuple[str, ...], right: Path) -> None:
-    code, said = on_terminal(right, *args)
-    assert code in (0, 1) and "Traceback" not in said, said
-    assert foreign(said) == []
+    code, output = on_terminal(right, *args)
+    assert code in (0, 1) and "Traceback" not in output, output
+    assert foreign(output) == []
     if "json" in args or "sarif" in args:
-        json.loads(said)
+        json.loads(output)
 
 
 def test_data_is_unchanged_in_a_pipe(right: Path) -> None:
@@ -156,5 +156,5 @@ def test_a_pipe_and_a_file_get_the_same_bytes_in_each_encoding(args: tuple[str, 
     with open(right / "out", "wb") as file:
         other = environment(PYTHONIOENCODING="latin-1", FORCE_COLOR="1")
         subprocess.run([*COMMAND, *args], cwd=right, stdout=file, timeout=60, env=other)
-    data = ours.stdout.partition(b"warning[")[0]  # behind the data of --diff there are words
+    data = ours.stdout.partition(b"warning[")[0]  # messages follow the data of --diff
     assert ours.returncode == 0 and (right / "out").read_bytes().startswith(data) and data

@@ -22,8 +22,8 @@ EXAMPLE = {"interfaces/Hello.idsl.yaml", "components/hellocomp/hellocomp.cdsl.ya
 
 
 def test_an_empty_folder_becomes_a_workspace_that_checks(rcyaml: Run, tmp_path: Path) -> None:
-    said = rcyaml("init")
-    assert said.exit_code == 0
+    result = rcyaml("init")
+    assert result.exit_code == 0
     assert set(read_tree(tmp_path)) == OWN_FILES | EXAMPLE
     checked = rcyaml("check")
     assert (checked.exit_code, checked.stdout) == (0, "2 documents: nothing wrong\n")
@@ -38,7 +38,7 @@ def test_the_workspace_compiles(rcyaml: Run, tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(not shutil.which("git"), reason="git is not installed")
-def test_what_is_built_is_ignored_and_what_is_started_is_not(rcyaml: Run, tmp_path: Path) -> None:
+def test_git_ignores_build_results_but_not_programs(rcyaml: Run, tmp_path: Path) -> None:
     rcyaml("init")
     rcyaml("new", "component", "Arm", "--language", "cpp", "--implements", "Hello")
     rcyaml("compile")
@@ -54,7 +54,7 @@ def test_what_is_built_is_ignored_and_what_is_started_is_not(rcyaml: Run, tmp_pa
     assert seen == {*(f"components/arm/{path}" for path in built), "components/hellocomp/src/__pycache__/x.pyc"}
 
 
-def test_the_next_step_can_be_typed(rcyaml: Run, tmp_path: Path) -> None:
+def test_the_next_command_works(rcyaml: Run, tmp_path: Path) -> None:
     assert rcyaml("init").stdout.splitlines()[-1].startswith("next: rcyaml check")
     assert rcyaml("init", "my robot").stdout.splitlines()[-1].startswith("next: cd 'my robot', then rcyaml check")
 
@@ -65,7 +65,7 @@ def test_another_folder_may_be_named(rcyaml: Run, tmp_path: Path) -> None:
     assert rcyaml("check").exit_code == 0
 
 
-def test_bare_leaves_the_example_out(rcyaml: Run, tmp_path: Path) -> None:
+def test_bare_writes_no_example(rcyaml: Run, tmp_path: Path) -> None:
     assert rcyaml("init", "--bare").exit_code == 0
     assert set(read_tree(tmp_path)) == OWN_FILES
     assert (tmp_path / "interfaces").is_dir() and (tmp_path / "components").is_dir()
@@ -80,26 +80,26 @@ def test_a_folder_with_documents_gets_no_example(rcyaml: Run, tmp_path: Path) ->
 def test_nothing_is_overwritten(rcyaml: Run, tmp_path: Path) -> None:
     mine = {"rcyaml.yaml": "# mine\n", ".gitignore": "mine\n", ".vscode/settings.json": '{"mine": true}'}
     write_tree(tmp_path, mine)
-    said = rcyaml("init")
+    result = rcyaml("init")
     tree = read_tree(tmp_path)
     assert (tree["rcyaml.yaml"], tree[".gitignore"]) == ("# mine\n", "mine\n")
     assert tree[".vscode/settings.json"].endswith(',"mine": true}')
-    assert "kept  rcyaml.yaml\n" in said.stdout
+    assert "kept  rcyaml.yaml\n" in result.stdout
 
 
 def test_a_second_time_changes_nothing(rcyaml: Run, tmp_path: Path) -> None:
     rcyaml("init")
     before = read_tree(tmp_path)
-    said = rcyaml("init")
-    assert said.exit_code == 0 and "wrote" not in said.stdout
+    result = rcyaml("init")
+    assert result.exit_code == 0 and "wrote" not in result.stdout
     assert read_tree(tmp_path) == before
 
 
 def test_settings_that_cannot_be_read_are_reported(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {".vscode/settings.json": "{ nonsense"})
-    said = rcyaml("init")
-    assert said.exit_code == 0
-    assert "note: .vscode/settings.json is left as it is, since it is not JSON" in said.stderr
+    result = rcyaml("init")
+    assert result.exit_code == 0
+    assert "note: .vscode/settings.json is not changed, because it is not JSON" in result.stderr
     assert read_tree(tmp_path)[".vscode/settings.json"] == "{ nonsense"
 
 
@@ -108,14 +108,16 @@ def test_a_file_is_no_workspace(rcyaml: Run, tmp_path: Path) -> None:
     assert rcyaml("init", "robot").exit_code == 2
 
 
-def test_what_cannot_be_written_is_said(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_file_that_cannot_be_written_is_reported(
+    rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     def refuse(path: Path, _: str) -> None:
         raise PermissionError(13, "Permission denied", str(path))
 
     monkeypatch.setattr(whole_file, "create", refuse)
-    said = rcyaml("init")
-    assert (said.exit_code, said.stderr) == (1, "Error: cannot write rcyaml.yaml: Permission denied\n")
+    result = rcyaml("init")
+    assert (result.exit_code, result.stderr) == (1, "Error: cannot write rcyaml.yaml: permission denied\n")
 
 
-def test_quiet_says_nothing(rcyaml: Run) -> None:
+def test_quiet_prints_nothing(rcyaml: Run) -> None:
     assert rcyaml("-q", "init").output == ""

@@ -1,4 +1,4 @@
-"""A word that is no command is told in one way at every level, with a command that can be typed."""
+"""An unknown command is reported in the same way at every level, with a command that works."""
 
 from __future__ import annotations
 
@@ -14,24 +14,24 @@ Rcyaml = Callable[..., Result]
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "message"),
     [
-        ("compil", "there is no command 'compil'; did you mean 'compile'?"),
-        ("deploy pln", "there is no command 'deploy pln'; did you mean 'deploy plan'?"),
-        ("deploy staus x.ddsl.yaml", "there is no command 'deploy staus'; did you mean 'deploy status'?"),
-        ("config sett a b", "there is no command 'config sett'; did you mean 'config set'?"),
-        ("new componnent", "there is no command 'new componnent'; did you mean 'new component'?"),
-        ("deploy xyzzy", "there is no command 'deploy xyzzy'\n"),
-        ("xyzzy", "there is no command 'xyzzy'\n"),
-        ("logs -f", "there is no command 'logs'; did you mean 'deploy logs'?"),
-        ("export", "there is no command 'export'; did you mean 'config export' or 'deploy export'?"),
-        ("interface Arm", "there is no command 'interface'; did you mean 'new interface'?"),
+        ("compil", "unknown command 'compil'; did you mean 'compile'?"),
+        ("deploy pln", "unknown command 'deploy pln'; did you mean 'deploy plan'?"),
+        ("deploy staus x.ddsl.yaml", "unknown command 'deploy staus'; did you mean 'deploy status'?"),
+        ("config sett a b", "unknown command 'config sett'; did you mean 'config set'?"),
+        ("new componnent", "unknown command 'new componnent'; did you mean 'new component'?"),
+        ("deploy xyzzy", "unknown command 'deploy xyzzy'\n"),
+        ("xyzzy", "unknown command 'xyzzy'\n"),
+        ("logs -f", "unknown command 'logs'; did you mean 'deploy logs'?"),
+        ("export", "unknown command 'export'; did you mean 'config export' or 'deploy export'?"),
+        ("interface Arm", "unknown command 'interface'; did you mean 'new interface'?"),
         ("deploy --pln", "No such option '--pln'"),
     ],
 )
-def test_a_word_that_is_no_command(words: str, said: str, rcyaml: Rcyaml) -> None:
+def test_unknown_commands(words: str, message: str, rcyaml: Rcyaml) -> None:
     result = rcyaml(*words.split())
-    assert result.exit_code == 2 and said in result.stderr, result.stderr
+    assert result.exit_code == 2 and message in result.stderr, result.stderr
 
 
 @pytest.mark.parametrize("name", ["robot_ddsl.yaml", "robotddsl.yaml", "robot.cdsl.yaml", "robot.ddsl.yml"])
@@ -39,4 +39,4 @@ def test_a_picture_is_of_a_deployment(name: str, rcyaml: Rcyaml, tmp_path: Path)
     write_tree(tmp_path, {name: "deployment: Robot\ncomponents: {base: {program: sh}}\n"})
     result = rcyaml("graph", name)
     assert result.exit_code == 2
-    assert f"'{name}' is no deployment document (NAME.ddsl.yaml), and no folder" in result.stderr
+    assert f"'{name}' is neither a deployment document (NAME.ddsl.yaml) nor a folder" in result.stderr

@@ -41,8 +41,8 @@ def test_a_new_interface_checks_and_compiles(rcyaml: Run, workspace: Path, name:
 @pytest.mark.parametrize("language", languages.table())
 def test_a_new_component_checks_and_compiles(rcyaml: Run, workspace: Path, language: str) -> None:
     uses = ("--implements", "Speech", "--publishes", "SpeechEvents", "--subscribes", "SpeechEvents")
-    said = rcyaml("new", "component", "TalkComp", "--language", language, *uses)
-    assert said.exit_code == 0
+    result = rcyaml("new", "component", "TalkComp", "--language", language, *uses)
+    assert result.exit_code == 0
     document = workspace / "components/talkcomp/talkcomp.cdsl.yaml"
     assert document.read_text().startswith("# yaml-language-server: $schema=../../.rcyaml/schemas/cdsl.schema.json\n")
     assert imports(document) == "[Speech]"
@@ -64,14 +64,14 @@ def test_without_a_workspace_this_folder_becomes_one(rcyaml: Run, tmp_path: Path
     assert rcyaml("check").stdout == "2 documents: nothing wrong\n"
 
 
-def test_it_works_from_a_folder_within(rcyaml: Run, workspace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_new_works_in_a_folder_of_the_workspace(rcyaml: Run, workspace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(workspace / "interfaces")
     assert "wrote ../interfaces/Mouth.idsl.yaml" in rcyaml("new", "interface", "Mouth").stdout
     rcyaml("new", "component", "TalkComp", "--requires", "Mouth")
     assert rcyaml("check", "..").stdout == "3 documents: nothing wrong\n"
 
 
-def test_the_workspaces_own_layout_is_kept(rcyaml: Run, tmp_path: Path) -> None:
+def test_the_layout_of_the_workspace_is_used(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"rcyaml.yaml": "interfaces: [idsl, more]\n", "idsl": None, "more": None})
     rcyaml("new", "interface", "Speech")
     assert (tmp_path / "idsl/Speech.idsl.yaml").is_file()
@@ -84,39 +84,39 @@ def test_an_interface_that_is_not_searched_is_imported_by_path(rcyaml: Run, work
     assert rcyaml("check", "components").exit_code == 0
 
 
-def test_an_interface_of_another_place_is_found_with_include(rcyaml: Run, workspace: Path, tmp_path: Path) -> None:
+def test_an_interface_of_another_folder_is_found_with_include(rcyaml: Run, workspace: Path, tmp_path: Path) -> None:
     elsewhere = tmp_path.parent / f"{tmp_path.name}-elsewhere"
     write_tree(elsewhere, {"Mouth.idsl.yaml": SPEECH.replace("Speech", "Mouth")})
     assert rcyaml("new", "component", "TalkComp", "--requires", "Mouth", "-I", str(elsewhere)).exit_code == 0
     assert rcyaml("check", "-I", str(elsewhere)).exit_code == 0
 
 
-def test_an_ambiguous_interface_wants_its_module(rcyaml: Run, workspace: Path) -> None:
+def test_an_ambiguous_interface_needs_its_module(rcyaml: Run, workspace: Path) -> None:
     other = SPEECH.replace("RoboCompSpeech", "RoboCompOther")
     write_tree(workspace, {"interfaces/Other.idsl.yaml": other})
-    said = rcyaml("new", "component", "TalkComp", "--requires", "Speech")
-    assert said.exit_code == 2
-    assert "say RoboCompOther.Speech or RoboCompSpeech.Speech" in said.stderr
+    result = rcyaml("new", "component", "TalkComp", "--requires", "Speech")
+    assert result.exit_code == 2
+    assert "write RoboCompOther.Speech or RoboCompSpeech.Speech" in result.stderr
     assert rcyaml("new", "component", "TalkComp", "--requires", "RoboCompOther.Speech").exit_code == 0
     assert imports(workspace / "components/talkcomp/talkcomp.cdsl.yaml") == "[Other]"
     assert rcyaml("check").stdout == "3 documents: nothing wrong\n"
 
 
 def components_of(root: Path) -> str:
-    """What stands under `components:` of the new deployment."""
+    """The text of `components:` in the new deployment."""
     text = (root / "deployments/head.ddsl.yaml").read_text()
     return text.partition("\ncomponents:\n")[2].partition("\n\n")[0]
 
 
-def errors(said: Result) -> list[str]:
-    return [line for line in said.stdout.splitlines() if line.startswith("error")]
+def errors(result: Result) -> list[str]:
+    return [line for line in result.stdout.splitlines() if line.startswith("error")]
 
 
 def test_a_new_deployment_has_the_workspaces_components(rcyaml: Run, workspace: Path) -> None:
     rcyaml("new", "component", "TalkComp", "--implements", "Speech", "--subscribes", "SpeechEvents")
     rcyaml("new", "component", "Listener", "--requires", "Speech", "--publishes", "SpeechEvents")
-    said = rcyaml("new", "deployment", "Head")
-    assert said.stdout.splitlines()[-1] == "next: rcyaml deploy plan deployments/head.ddsl.yaml"
+    result = rcyaml("new", "deployment", "Head")
+    assert result.stdout.splitlines()[-1] == "next: rcyaml deploy plan deployments/head.ddsl.yaml"
     assert components_of(workspace).splitlines() == [
         "  listener:",
         "    component: ../components/listener/listener.cdsl.yaml",
@@ -128,7 +128,7 @@ def test_a_new_deployment_has_the_workspaces_components(rcyaml: Run, workspace: 
     assert rcyaml("check").stdout == "4 documents: nothing wrong\n"
 
 
-def test_a_new_deployment_says_what_does_not_follow_by_itself(rcyaml: Run, workspace: Path) -> None:
+def test_a_new_deployment_has_the_connections_that_do_not_follow(rcyaml: Run, workspace: Path) -> None:
     for name in ("TalkComp", "Talk2", "talk"):
         rcyaml("new", "component", name, "--implements", "Speech")
     rcyaml("new", "component", "Listener", "--requires", "Speech")
@@ -137,14 +137,14 @@ def test_a_new_deployment_says_what_does_not_follow_by_itself(rcyaml: Run, works
     assert errors(rcyaml("check")) == []
 
 
-def test_a_new_deployment_asks_where_is_what_nobody_implements(rcyaml: Run, workspace: Path) -> None:
+def test_a_new_deployment_has_a_proxy_for_an_external_interface(rcyaml: Run, workspace: Path) -> None:
     rcyaml("new", "component", "Listener", "--requires", "Speech")
     rcyaml("new", "deployment", "Head")
     assert '      Speech: "speech:tcp -h localhost -p 10000"  # no component' in components_of(workspace)
     assert errors(rcyaml("check")) == []
 
 
-def test_a_new_deployment_gives_what_has_no_default(rcyaml: Run, workspace: Path) -> None:
+def test_a_new_deployment_sets_parameters_without_a_default(rcyaml: Run, workspace: Path) -> None:
     rcyaml("new", "component", "TalkComp")
     write_tree(workspace, {"components/talkcomp/talkcomp.pdsl.yaml": (
         "component: talkcomp.cdsl.yaml\nparameters:\n  device: string\n  speed: {type: int, default: 3}\n"
@@ -155,7 +155,7 @@ def test_a_new_deployment_gives_what_has_no_default(rcyaml: Run, workspace: Path
     assert errors(rcyaml("check")) == []
 
 
-def test_a_deployment_stands_for_its_components_to_the_compiler(rcyaml: Run, workspace: Path) -> None:
+def test_compiling_a_new_deployment_compiles_its_components(rcyaml: Run, workspace: Path) -> None:
     rcyaml("new", "component", "TalkComp", "--implements", "Speech")
     rcyaml("new", "deployment", "Head")
     rcyaml("new", "component", "OtherComp")
@@ -164,7 +164,7 @@ def test_a_deployment_stands_for_its_components_to_the_compiler(rcyaml: Run, wor
     assert not (workspace / "components/othercomp/bin").exists()
 
 
-def test_a_new_deployment_of_nothing_checks(rcyaml: Run, tmp_path: Path) -> None:
+def test_a_new_deployment_without_components_checks(rcyaml: Run, tmp_path: Path) -> None:
     assert rcyaml("new", "deployment", "Head").exit_code == 0
     assert rcyaml("check").stdout == "1 document: nothing wrong\n"
 
@@ -172,32 +172,32 @@ def test_a_new_deployment_of_nothing_checks(rcyaml: Run, tmp_path: Path) -> None
 @pytest.mark.parametrize(
     ("args", "reason"),
     [
-        (["deployment", "../Head"], "cannot be a name"),
-        (["interface", "../Speech"], "cannot be a name"),
-        (["interface", "a/b"], "cannot be a name"),
-        (["interface", "Sprache-1"], "cannot be a name"),
-        (["interface", "1st"], "cannot be a name"),
-        (["interface", "Señal"], "cannot be a name"),
-        (["interface", "Speech\n"], "cannot be a name"),
-        (["interface", ""], "cannot be a name"),
-        (["interface", "X" * 500], "longer than a name may be"),
+        (["deployment", "../Head"], "is not a name"),
+        (["interface", "../Speech"], "is not a name"),
+        (["interface", "a/b"], "is not a name"),
+        (["interface", "Sprache-1"], "is not a name"),
+        (["interface", "1st"], "is not a name"),
+        (["interface", "Señal"], "is not a name"),
+        (["interface", "Speech\n"], "is not a name"),
+        (["interface", ""], "is not a name"),
+        (["interface", "X" * 500], "is too long: a name has at most"),
         (["interface", "_1"], "'_1' cannot be an interface"),
         (["interface", "interface"], "a reserved word of Slice"),
-        (["interface", "Speech"], "interfaces/Speech.idsl.yaml is there already"),
-        (["component", "../../etc/passwd"], "cannot be a name"),
+        (["interface", "Speech"], "interfaces/Speech.idsl.yaml exists already"),
+        (["component", "../../etc/passwd"], "is not a name"),
         (["component", "Talk", "--language", "rust"], "'rust' is not one of"),
         (["component", "Talk", "--requires", "Spech"], "did you mean 'Speech'?"),
         (["component", "Talk", "--requires", "Qwerty"], "`rcyaml new interface NAME` writes one"),
-        (["component", "Talk", "--requires", "Speech", "--requires", "Speech"], "--requires Speech stands twice"),
+        (["component", "Talk", "--requires", "Speech", "--requires", "Speech"], "--requires Speech is repeated"),
         (["component"], "Missing argument 'NAME'"),
-        (["robot", "Shelly"], "there is no command 'new robot'"),
+        (["robot", "Shelly"], "unknown command 'new robot'"),
     ],
 )
-def test_wrong_usage_is_refused_and_writes_nothing(rcyaml: Run, workspace: Path, args: list[str], reason: str) -> None:
+def test_wrong_usage_is_rejected_and_writes_nothing(rcyaml: Run, workspace: Path, args: list[str], reason: str) -> None:
     before = read_tree(workspace)
-    said = rcyaml("new", *args)
-    assert said.exit_code == 2
-    assert reason in said.stderr.replace("\n", " ")
+    result = rcyaml("new", *args)
+    assert result.exit_code == 2
+    assert reason in result.stderr.replace("\n", " ")
     assert read_tree(workspace) == before
 
 
@@ -205,9 +205,9 @@ def test_wrong_usage_is_refused_and_writes_nothing(rcyaml: Run, workspace: Path,
 def test_parameters_of_a_misspelled_component(rcyaml: Run, workspace: Path, name: str, meant: str) -> None:
     rcyaml("new", "component", "ArmComp")
     before = read_tree(workspace)
-    said = rcyaml("new", "parameters", name)
-    assert (said.exit_code, read_tree(workspace)) == (2, before)
-    assert f"there is no component '{name}'; did you mean '{meant}'?" in " ".join(said.stderr.split())
+    result = rcyaml("new", "parameters", name)
+    assert (result.exit_code, read_tree(workspace)) == (2, before)
+    assert f"unknown component '{name}'; did you mean '{meant}'?" in " ".join(result.stderr.split())
 
 
 def test_parameters_may_come_before_their_component(rcyaml: Run, workspace: Path) -> None:
@@ -218,7 +218,7 @@ def test_parameters_may_come_before_their_component(rcyaml: Run, workspace: Path
     assert rcyaml("check").exit_code == 0
 
 
-def test_a_component_that_is_there_stays(rcyaml: Run, workspace: Path) -> None:
+def test_an_existing_component_is_kept(rcyaml: Run, workspace: Path) -> None:
     rcyaml("new", "component", "TalkComp")
     before = read_tree(workspace)
     assert rcyaml("new", "component", "talkcomp", "--language", "cpp").exit_code == 2
@@ -239,6 +239,6 @@ def test_interfaces_are_completed_in_the_shell(workspace: Path, monkeypatch: pyt
 @pytest.mark.parametrize(
     "args", [("interface", "1x"), ("interface", "class"), ("component", "C", "--implements", "Nobody")]
 )
-def test_what_is_refused_leaves_no_workspace_behind(args: tuple[str, ...], rcyaml: Run, tmp_path: Path) -> None:
+def test_rejected_documents_leave_no_workspace(args: tuple[str, ...], rcyaml: Run, tmp_path: Path) -> None:
     assert rcyaml("new", *args).exit_code == 2
     assert list(tmp_path.iterdir()) == []

@@ -1,4 +1,4 @@
-"""The deployment need not be named where there is only one, and several are told by name."""
+"""The deployment may be omitted if there is only one; several are listed."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from click.testing import Result
 
 from conftest import write_tree
 
-pytestmark = pytest.mark.processes  # a probe asks programs
+pytestmark = pytest.mark.processes  # a probe runs programs
 
 Rcyaml = Callable[..., Result]
 ROBOT = "deployment: Robot\ncomponents: {base: {program: /bin/true}, arm: {program: /bin/true}}\n"
@@ -23,7 +23,7 @@ def deploy(rcyaml: Rcyaml, what: str, *args: str) -> Result:
 
 @pytest.mark.parametrize("place", ["robot.ddsl.yaml", "deployments/robot.ddsl.yaml", "a/b/ddsl.yaml"])
 @pytest.mark.parametrize("what", READING)
-def test_the_only_one_is_taken(rcyaml: Rcyaml, tmp_path: Path, what: str, place: str) -> None:
+def test_the_only_deployment_is_used(rcyaml: Rcyaml, tmp_path: Path, what: str, place: str) -> None:
     write_tree(tmp_path, {place: ROBOT, "build/old.ddsl.yaml": ROBOT, "interfaces/Speech.idsl.yaml": "module: X\n"})
     named, taken = deploy(rcyaml, what, place), deploy(rcyaml, what)
     assert (taken.exit_code, taken.output) == (named.exit_code, named.output) and taken.exit_code == 0
@@ -39,7 +39,7 @@ def test_a_name_needs_no_document_before_it(rcyaml: Rcyaml, tmp_path: Path) -> N
 
 
 @pytest.mark.parametrize(
-    ("args", "said"),
+    ("args", "message"),
     [
         (("plan", "bsae"), "has no process or group 'bsae'; did you mean 'base'?"),
         (("plan", "robot.ddsl.yml"), "Path 'robot.ddsl.yml' does not exist"),
@@ -50,32 +50,34 @@ def test_a_name_needs_no_document_before_it(rcyaml: Rcyaml, tmp_path: Path) -> N
         (("export", "--as", "systemd", ".", "base", "arm"), "Got unexpected extra arguments (base arm)"),
     ],
 )
-def test_words_that_are_neither(rcyaml: Rcyaml, tmp_path: Path, args: tuple[str, ...], said: str) -> None:
+def test_words_that_are_neither_names_nor_documents(
+    rcyaml: Rcyaml, tmp_path: Path, args: tuple[str, ...], message: str
+) -> None:
     write_tree(tmp_path, {"deployments/robot.ddsl.yaml": ROBOT})
-    told = rcyaml("deploy", *args)
-    assert told.exit_code == 2 and said in told.stderr
+    result = rcyaml("deploy", *args)
+    assert result.exit_code == 2 and message in result.stderr
 
 
 @pytest.mark.parametrize("what", [*READING, "up", "restart"])
-def test_several_are_told(rcyaml: Rcyaml, tmp_path: Path, what: str) -> None:
+def test_several_deployments_are_listed(rcyaml: Rcyaml, tmp_path: Path, what: str) -> None:
     write_tree(tmp_path, {"d/robot.ddsl.yaml": ROBOT, "d/two.ddsl.yaml": ROBOT.replace("Robot", "Two")})
-    told = deploy(rcyaml, what)
-    assert told.exit_code == 2
-    assert (
-        "there are several deployments here, of which one is to be named: d/robot.ddsl.yaml, d/two.ddsl.yaml"
-        in told.stderr
-    )
-    assert rcyaml("graph").stderr.splitlines()[-1] == told.stderr.splitlines()[-1]
+    result = deploy(rcyaml, what)
+    assert result.exit_code == 2
+    assert "there are several deployments: d/robot.ddsl.yaml, d/two.ddsl.yaml; name one of them" in result.stderr
+    assert rcyaml("graph").stderr.splitlines()[-1] == result.stderr.splitlines()[-1]
 
 
-def test_none_is_told(rcyaml: Rcyaml, tmp_path: Path) -> None:
+def test_no_deployment_is_reported(rcyaml: Rcyaml, tmp_path: Path) -> None:
     write_tree(tmp_path, {"empty": None})
     for args in ((), (".",), ("empty",)):
-        told = deploy(rcyaml, "plan", *args)
-        assert told.exit_code == 2 and "it has none: `rcyaml new deployment NAME` writes one" in told.stderr
+        result = deploy(rcyaml, "plan", *args)
+        assert (
+            result.exit_code == 2
+            and "has no deployment document: `rcyaml new deployment NAME` writes one" in result.stderr
+        )
 
 
-def test_what_others_include_is_part_of_them(rcyaml: Rcyaml, tmp_path: Path) -> None:
+def test_included_deployments_do_not_count(rcyaml: Rcyaml, tmp_path: Path) -> None:
     write_tree(tmp_path, {
         "d/base.ddsl.yaml": ROBOT.replace("Robot", "Base"),
         "d/robot.ddsl.yaml": "deployment: Robot\ninclude: [base.ddsl.yaml]\n",
@@ -84,6 +86,6 @@ def test_what_others_include_is_part_of_them(rcyaml: Rcyaml, tmp_path: Path) -> 
     assert deploy(rcyaml, "plan", "d").output.endswith("2 to start\n")
 
 
-def test_the_nearest_is_meant(rcyaml: Rcyaml, tmp_path: Path) -> None:
+def test_the_nearest_deployment_is_used(rcyaml: Rcyaml, tmp_path: Path) -> None:
     write_tree(tmp_path, {"robot.ddsl.yaml": ROBOT, "tests/two.ddsl.yaml": ROBOT.replace("Robot", "Two")})
     assert deploy(rcyaml, "status").exit_code == 0 and rcyaml("graph").exit_code == 0

@@ -1,4 +1,4 @@
-"""Long runs show progress where someone watches, and only there."""
+"""Long runs show progress on a terminal only."""
 
 from __future__ import annotations
 

@@ -17,9 +17,9 @@ Run = Callable[..., Result]
 
 @pytest.mark.parametrize("kind", ["idsl", "cdsl", "pdsl", "ddsl", "config", "workspace", "mock"])
 def test_a_kind_is_printed(rcyaml: Run, kind: str) -> None:
-    said = rcyaml("schema", kind)
-    assert said.exit_code == 0
-    assert json.loads(said.stdout) == json.loads(schema_text(kind))
+    result = rcyaml("schema", kind)
+    assert result.exit_code == 0
+    assert json.loads(result.stdout) == json.loads(schema_text(kind))
 
 
 def test_the_kinds_are_listed(rcyaml: Run) -> None:
@@ -33,11 +33,11 @@ def test_the_kinds_are_listed(rcyaml: Run) -> None:
 def test_a_new_document_finds_its_schema(rcyaml: Run) -> None:
     rcyaml("init")
     assert rcyaml("schema", "interfaces/Hello.idsl.yaml").stdout == (
-        "interfaces/Hello.idsl.yaml has the schema 'idsl'\n"
+        "the schema of interfaces/Hello.idsl.yaml is 'idsl'\n"
         "editors find it by the first lines of the document: ../.rcyaml/schemas/idsl.schema.json\n"
     )
     assert rcyaml("schema", "rcyaml.yaml").stdout == (
-        "rcyaml.yaml has the schema 'workspace'\n"
+        "the schema of rcyaml.yaml is 'workspace'\n"
         "editors find it by the first lines of the document: .rcyaml/schemas/workspace.schema.json\n"
     )
 
@@ -45,18 +45,20 @@ def test_a_new_document_finds_its_schema(rcyaml: Run) -> None:
 def test_a_document_without_a_modeline_is_found_by_the_settings(rcyaml: Run, tmp_path: Path) -> None:
     rcyaml("init")
     write_tree(tmp_path, {"x/cdsl.yaml": "component: X\n"})
-    assert "by the workspace's settings: .rcyaml/schemas/cdsl.schema.json" in rcyaml("schema", "x/cdsl.yaml").stdout
+    assert (
+        "by the settings of the workspace: .rcyaml/schemas/cdsl.schema.json" in rcyaml("schema", "x/cdsl.yaml").stdout
+    )
 
 
-def test_a_document_outside_any_workspace_is_told_what_it_lacks(rcyaml: Run, tmp_path: Path) -> None:
+def test_a_document_outside_any_workspace_has_no_schema(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"idsl.yaml": "module: X\n"})
-    said = rcyaml("schema", "idsl.yaml").stdout
-    assert "editors do not find it" in said
-    assert said.endswith("# yaml-language-server: $schema=.rcyaml/schemas/idsl.schema.json\n")
+    result = rcyaml("schema", "idsl.yaml").stdout
+    assert "editors do not find it" in result
+    assert result.endswith("# yaml-language-server: $schema=.rcyaml/schemas/idsl.schema.json\n")
 
 
-@pytest.mark.parametrize(("content", "reason"), [(None, "is missing"), ("{}", "is not this version's schema")])
-def test_a_stale_schema_is_told(rcyaml: Run, tmp_path: Path, content: str | None, reason: str) -> None:
+@pytest.mark.parametrize(("content", "reason"), [(None, "is missing"), ("{}", "the file of the schema is outdated")])
+def test_a_stale_schema_is_reported(rcyaml: Run, tmp_path: Path, content: str | None, reason: str) -> None:
     rcyaml("init")
     schema = tmp_path / ".rcyaml/schemas/idsl.schema.json"
     schema.unlink()
@@ -69,11 +71,11 @@ def test_a_stale_schema_is_told(rcyaml: Run, tmp_path: Path, content: str | None
     ("argument", "reason"),
     [
         ("ids", "did you mean 'idsl'?"),
-        ("robot", "kinds are idsl, cdsl, pdsl, ddsl, config, workspace, mock"),
-        ("a.idsl.yaml", "there is no file"),
+        ("robot", "the kinds are idsl, cdsl, pdsl, ddsl, config, workspace, mock"),
+        ("a.idsl.yaml", "does not exist"),
     ],
 )
-def test_what_is_neither_kind_nor_document_is_refused(rcyaml: Run, argument: str, reason: str) -> None:
-    said = rcyaml("schema", argument)
-    assert said.exit_code == 2
-    assert reason in said.stderr
+def test_other_arguments_are_rejected(rcyaml: Run, argument: str, reason: str) -> None:
+    result = rcyaml("schema", argument)
+    assert result.exit_code == 2
+    assert reason in result.stderr

@@ -1,4 +1,4 @@
-"""A canary stands wherever a secret can stand, and sings in nothing that any command says to people."""
+"""A canary is in every value that can be secret, and no command prints it for people."""
 
 from __future__ import annotations
 
@@ -138,7 +138,7 @@ BROKEN = [
 
 @pytest.mark.parametrize("text", BROKEN)
 @pytest.mark.parametrize("form", ["text", "json", "sarif"])
-def test_nor_by_values_that_are_wrong(robot: Path, rcyaml: Callable[..., Any], text: str, form: str) -> None:
+def test_wrong_values_do_not_show_it(robot: Path, rcyaml: Callable[..., Any], text: str, form: str) -> None:
     (robot / CONFIG).write_text(f"component: ../speech.cdsl.yaml\n{text}", encoding="utf-8")
     for command in (("check", "--format", form), ("config", "check", CONFIG, "--format", form)):
         result = rcyaml(*command)
@@ -151,7 +151,7 @@ def test_nor_by_values_that_are_wrong(robot: Path, rcyaml: Callable[..., Any], t
     "{list: {type: string, values: [canaryA, canaryB]}}",
 ])  # fmt: skip
 @pytest.mark.parametrize("value", ["canaryX", "8", "[canaryX]", "{x: canaryX}", "true", "null"])
-def test_nor_what_a_secret_may_be(robot: Path, rcyaml: Callable[..., Any], type_: str, value: str) -> None:
+def test_limits_of_a_secret_are_not_shown(robot: Path, rcyaml: Callable[..., Any], type_: str, value: str) -> None:
     types = "types: {Kind: {enum: [canaryA, canaryB]}}\n" if "Kind" in type_ else ""
     write_tree(robot, {
         "speech/speech.pdsl.yaml": f"component: speech.cdsl.yaml\n{types}parameters: {{password: {type_}}}\n",
@@ -184,7 +184,7 @@ DEPLOYMENTS = [
 
 @pytest.mark.parametrize("text", DEPLOYMENTS)
 @pytest.mark.parametrize("command", ["check", "check --format json", "graph", "deploy plan robot.ddsl.yaml"])
-def test_nor_by_deployments_that_are_wrong(robot: Path, rcyaml: Callable[..., Any], text: str, command: str) -> None:
+def test_wrong_deployments_do_not_show_it(robot: Path, rcyaml: Callable[..., Any], text: str, command: str) -> None:
     (robot / "robot.ddsl.yaml").write_text(f"deployment: Robot\ncomponents:\n{text}", encoding="utf-8")
     result = rcyaml(*command.split())
     assert not sings(result.output)
@@ -205,7 +205,7 @@ def test_nor_by_deployments_that_are_wrong(robot: Path, rcyaml: Callable[..., An
     "parameters: {pin: {type: int, secret: true, values: [4711471, canaryA]}}\n",
     "parameters: {wifi: {enum: [canaryA, canaryB], secret: true, optinal: true}}\n",
 ])  # fmt: skip
-def test_nor_by_defaults_that_are_wrong(robot: Path, rcyaml: Callable[..., Any], text: str) -> None:
+def test_wrong_defaults_do_not_show_it(robot: Path, rcyaml: Callable[..., Any], text: str) -> None:
     (robot / "speech/speech.pdsl.yaml").write_text(f"component: speech.cdsl.yaml\n{text}", encoding="utf-8")
     for path in (CONFIG, "speech/etc/base.config.yaml", "robot.ddsl.yaml"):
         (robot / path).unlink()
@@ -216,22 +216,22 @@ def test_nor_by_defaults_that_are_wrong(robot: Path, rcyaml: Callable[..., Any],
 
 def test_programs_get_the_values(robot: Path, rcyaml: Callable[..., Any]) -> None:
     for form in ("ice", "toml"):
-        told = rcyaml("config", "export", CONFIG, "--as", form).output
-        assert "canaryWifi" in told and "canaryUrl" in told and "4711471" in told
+        printed = rcyaml("config", "export", CONFIG, "--as", form).output
+        assert "canaryWifi" in printed and "canaryUrl" in printed and "4711471" in printed
     assert "canaryWifi" in rcyaml("config", "show", CONFIG, "--reveal").output
     assert rcyaml("config", "get", CONFIG, "wifi", "--reveal").output == "canaryWifi\n"
     assert "canarySet" in rcyaml("deploy", "export", "robot.ddsl.yaml", "--as", "systemd").output
 
 
 @pytest.mark.parametrize("form", ["ice", "toml"])
-def test_a_terminal_does_not(robot: Path, form: str) -> None:
+def test_a_terminal_does_not_get_the_values(robot: Path, form: str) -> None:
     assert not sings(on_a_terminal("config", "export", CONFIG, "--as", form))
     assert sings(on_a_terminal("config", "export", CONFIG, "--as", form, "--reveal"))
 
 
 @pytest.mark.parametrize("more", [(), ("--format", "json")])
 @pytest.mark.parametrize("form", ["systemd", "compose", "icegrid", "rcmanager"])
-def test_nor_is_an_export_shown_on_one(robot: Path, form: str, more: tuple[str, ...]) -> None:
+def test_an_export_on_a_terminal_does_not_show_it(robot: Path, form: str, more: tuple[str, ...]) -> None:
     (robot / "etc").mkdir()
     (robot / "etc/flat.conf").write_text(FLAT)
     (robot / "own.json").write_text('{"db": {"password": "canaryJson",\n "user": "x"}}\n')
@@ -264,50 +264,49 @@ def test_a_configuration_that_is_no_document(robot: Path, rcyaml: Callable[..., 
     (robot / "robot.ddsl.yaml").write_text(
         "deployment: Robot\ncomponents:\n  speech{i}: {component: speech, instances: 2, config: flat.conf}\n"
     )
-    told = rcyaml("check", "robot.ddsl.yaml").output
-    assert told.count("RC4311") == (1 if line else 0), told
-    assert not sings(told)
+    printed = rcyaml("check", "robot.ddsl.yaml").output
+    assert printed.count("RC4311") == (1 if line else 0), printed
+    assert not sings(printed)
     if line:
-        assert f"speech/flat.conf holds a secret in line {line}, and others can read it" in told
-        assert "robot.ddsl.yaml:3:56" in told and "`chmod 600 speech/flat.conf`" in told
+        assert f"speech/flat.conf contains a secret in line {line}, and other users can read it" in printed
+        assert "robot.ddsl.yaml:3:56" in printed and "`chmod 600 speech/flat.conf`" in printed
     (robot / "speech/flat.conf").chmod(0o600)
     assert "RC4311" not in rcyaml("check", "robot.ddsl.yaml").output
 
 
-def test_keys_of_ones_own_are_no_hiding_place(robot: Path, rcyaml: Callable[..., Any]) -> None:
+def test_keys_of_the_user_do_not_show_it(robot: Path, rcyaml: Callable[..., Any]) -> None:
     entry = "{program: /bin/true, prot: 3, x-a: {up: 'run --password canaryA', token: [canaryB]}, x-secret: canaryC}"
     (robot / "robot.ddsl.yaml").write_text(f"deployment: Robot\ncomponents:\n  a: {entry}\n")
     (robot / "speech/speech.cdsl.yaml").write_text("{component: S, languag: python, x-a: {password: canaryD}}\n")
     for form in ("text", "json", "sarif"):
-        told = rcyaml("check", "--format", form).output
-        assert "prot" in told and "languag" in told
-        assert not sings(told)
+        printed = rcyaml("check", "--format", form).output
+        assert "prot" in printed and "languag" in printed
+        assert not sings(printed)
 
 
 def on_a_terminal(*words: str) -> str:
     ours, theirs = pty.openpty()
     with subprocess.Popen([sys.executable, "-m", "robocomp_yaml", *words], stdout=theirs, stderr=theirs) as running:
         os.close(theirs)
-        told = b""
+        printed = b""
         while True:
             try:
                 part = os.read(ours, 1 << 16)
             except OSError:
                 break
-            told += part
+            printed += part
         assert running.wait() == 0
     os.close(ours)
-    return told.decode()
+    return printed.decode()
 
 
-def test_what_stands_beside_them_is_shown(robot: Path, rcyaml: Callable[..., Any]) -> None:
-    """A mask that hides too much hides the mistake."""
+def test_other_values_are_shown(robot: Path, rcyaml: Callable[..., Any]) -> None:
+    """A message that hides too much hides the error."""
     (robot / CONFIG).write_text("component: ../speech.cdsl.yaml\nparameters: {wifi: canary, nam: 3, name: 7}\n")
-    told = rcyaml("check", CONFIG).output
-    assert "2 │ parameters: {wifi: ***, nam: 3, name: 7}\n  │                         ^^^ 'name' is there already" in (
-        told
-    )
-    assert "name must be text, and is 7" in told
+    printed = rcyaml("check", CONFIG).output
+    line = "2 │ parameters: {wifi: ***, nam: 3, name: 7}"
+    assert f"{line}\n  │                         ^^^ 'name' is already present" in printed
+    assert "name must be text, and is 7" in printed
 
 
 def test_generated_documents_and_schemas_have_none(robot: Path, rcyaml: Callable[..., Any]) -> None:
@@ -335,7 +334,7 @@ def umask() -> Any:
 
 @pytest.mark.usefixtures("umask")
 @pytest.mark.parametrize("closed", [CONFIG, "speech/etc/base.config.yaml", "speech/speech.pdsl.yaml"])
-def test_what_is_made_of_a_closed_file_is_closed(robot: Path, rcyaml: Callable[..., Any], closed: str) -> None:
+def test_files_generated_from_a_private_file_are_private(robot: Path, rcyaml: Callable[..., Any], closed: str) -> None:
     made = robot / "speech/etc/config"
     assert rcyaml("compile", "speech").exit_code == 0
     assert mode(made) == OPEN
@@ -361,7 +360,7 @@ def test_what_is_made_of_a_closed_file_is_closed(robot: Path, rcyaml: Callable[.
 
 
 @pytest.mark.usefixtures("umask")
-def test_what_groups_may_read_they_still_may(robot: Path, rcyaml: Callable[..., Any]) -> None:
+def test_groups_keep_read_access(robot: Path, rcyaml: Callable[..., Any]) -> None:
     (robot / CONFIG).chmod(0o640)
     assert rcyaml("compile", "speech").exit_code == 0
     assert mode(robot / "speech/etc/config") == 0o640
@@ -369,39 +368,39 @@ def test_what_groups_may_read_they_still_may(robot: Path, rcyaml: Callable[..., 
 
 
 @pytest.mark.usefixtures("umask")
-def test_a_warning_goes_with_its_cause(robot: Path, rcyaml: Callable[..., Any]) -> None:
+def test_the_warning_disappears_with_its_cause(robot: Path, rcyaml: Callable[..., Any]) -> None:
     for path in FILES:
         (robot / path).chmod(0o600)
     assert "RC3311" not in rcyaml("compile", "speech").output
     assert "RC4310" not in rcyaml("check").output
     (robot / CONFIG).chmod(OPEN)
     assert rcyaml("compile", "speech").output.count("RC3311") > 5
-    assert rcyaml("compile", "speech").output.count("RC3311") > 5, "told again, though nothing is to be done"
+    assert rcyaml("compile", "speech").output.count("RC3311") > 5, "reported again, although nothing is to be written"
 
 
 @pytest.mark.usefixtures("umask")
-def test_config_set_keeps_a_file_closed(robot: Path, rcyaml: Callable[..., Any]) -> None:
+def test_config_set_keeps_a_file_private(robot: Path, rcyaml: Callable[..., Any]) -> None:
     (robot / CONFIG).chmod(0o600)
     assert rcyaml("config", "set", CONFIG, "wifi", "canaryNew").output == "wifi = *** (was ***)\n"
     assert mode(robot / CONFIG) == 0o600
-    told = rcyaml("config", "set", CONFIG, "wifi", "{file: secrets/wifi}").output
-    assert told == "wifi = {file: secrets/wifi} (was ***)\n"
+    printed = rcyaml("config", "set", CONFIG, "wifi", "{file: secrets/wifi}").output
+    assert printed == "wifi = {file: secrets/wifi} (was ***)\n"
 
 
 @pytest.mark.usefixtures("umask")
-def test_what_migrate_makes_of_a_closed_file_is_closed(robot: Path, rcyaml: Callable[..., Any]) -> None:
+def test_documents_migrated_from_a_private_file_are_private(robot: Path, rcyaml: Callable[..., Any]) -> None:
     (robot / "old/etc").mkdir(parents=True)
     (robot / "old/old.cdsl").write_text("Component Old\n{\n\tlanguage Cpp11;\n};\n")
     (robot / "old/etc/config").write_text("mail.password=canaryOld\nEndpoints.X=tcp -p 1\n")
     (robot / "old/etc/config").chmod(0o600)
-    told = rcyaml("migrate", "old", "--diff")
-    assert not sings(told.output)
+    printed = rcyaml("migrate", "old", "--diff")
+    assert not sings(printed.output)
     made = [path for path in (robot / "old").rglob("*.yaml") if "canary" in path.read_text()]
     assert made and not [path for path in made if mode(path) & 0o077]
 
 
 @pytest.mark.usefixtures("umask")
-def test_exports_are_for_their_owner(robot: Path, rcyaml: Callable[..., Any]) -> None:
+def test_exports_are_readable_only_for_their_owner(robot: Path, rcyaml: Callable[..., Any]) -> None:
     assert rcyaml("deploy", "export", "robot.ddsl.yaml", "--as", "compose", "-o", "out").exit_code == 0
     made = [path for path in (robot / "out").rglob("*") if path.is_file() and "canary" in path.read_text()]
     assert made and not [path for path in made if mode(path) & 0o077]

@@ -1,4 +1,4 @@
-"""Ctrl-C is 130 everywhere, SIGTERM 143, a reader that had enough 141; no traceback, and no half of a file."""
+"""Exit codes: 130 after Ctrl-C, 143 after SIGTERM, 141 if the reader closes the pipe; no traceback, and no incomplete file."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import pytest
 from conftest import read_tree, write_tree
 from terminals import COMMAND, environment, on_terminal
 
-# Stops where an event of Python's comes whose arguments hold a text, says so, and waits.
+# Stops at an audit event of Python whose arguments contain a text, prints a line, and waits.
 STOPPER = """
 import os, sys, time
 event, text = os.environ["STOP_AT"].split(" ", 1)
@@ -35,7 +35,7 @@ PLACE = {
 
 
 def stopped(folder: Path, at: str, number: int, *args: str) -> tuple[int, bytes]:
-    """The exit code, and what a run says that is sent a signal at an event."""
+    """The exit code and the output of a run that gets a signal at an audit event."""
     (folder.parent / "hooks").mkdir(exist_ok=True)
     (folder.parent / "hooks/sitecustomize.py").write_text(STOPPER, encoding="utf-8")
     environ = environment(STOP_AT=at)
@@ -49,8 +49,8 @@ def stopped(folder: Path, at: str, number: int, *args: str) -> tuple[int, bytes]
     try:
         assert os.read(here, 4) == b"here", process.communicate(timeout=30)
         process.send_signal(number)
-        said, _ = process.communicate(timeout=30)
-        return process.returncode, said
+        output, _ = process.communicate(timeout=30)
+        return process.returncode, output
     finally:
         os.close(here)
         if process.poll() is None:
@@ -81,17 +81,17 @@ MOMENTS = [
 
 
 @pytest.mark.parametrize(("at", "args"), MOMENTS, ids=[f"{at} {args[0]}" for at, args in MOMENTS])
-def test_it_ends_at_any_moment(at: str, args: tuple[str, ...], place: Path) -> None:
+def test_ctrl_c_at_any_moment(at: str, args: tuple[str, ...], place: Path) -> None:
     before = read_tree(place)
-    code, said = stopped(place, at, signal.SIGINT, *args)
-    assert (code, said.strip()) == (130, b"")
+    code, output = stopped(place, at, signal.SIGINT, *args)
+    assert (code, output.strip()) == (130, b"")
     assert read_tree(place) == before
 
 
 @pytest.mark.parametrize(("at", "args"), [MOMENTS[1], MOMENTS[5], MOMENTS[10]])
-def test_it_can_be_terminated(at: str, args: tuple[str, ...], place: Path) -> None:
-    code, said = stopped(place, at, signal.SIGTERM, *args)
-    assert (code, b"Traceback" in said) == (143, False)
+def test_sigterm_at_any_moment(at: str, args: tuple[str, ...], place: Path) -> None:
+    code, output = stopped(place, at, signal.SIGTERM, *args)
+    assert (code, b"Traceback" in output) == (143, False)
 
 
 WRITING = [
@@ -108,15 +108,15 @@ WRITING = [
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 @pytest.mark.parametrize(("at", "args"), WRITING, ids=[" ".join(args) for _, args in WRITING])
-def test_no_half_of_a_file_is_left(at: str, args: tuple[str, ...], number: int, place: Path) -> None:
+def test_no_incomplete_file_is_left(at: str, args: tuple[str, ...], number: int, place: Path) -> None:
     (place / "deployments").mkdir()
     before = read_tree(place)
-    code, said = stopped(place, at, number, *args)
-    assert code == 128 + number and b"Traceback" not in said
+    code, output = stopped(place, at, number, *args)
+    assert code == 128 + number and b"Traceback" not in output
     assert read_tree(place) == before
 
 
-def test_a_question_is_ended_too(tmp_path: Path) -> None:
+def test_ctrl_c_ends_a_question(tmp_path: Path) -> None:
     failing = 'deployment: Robot\ncomponents: {hand: {program: sh, args: [-c, "exit 3"], restart: "no"}}\n'
     write_tree(tmp_path, {"robot.ddsl.yaml": failing})
 
@@ -124,8 +124,8 @@ def test_a_question_is_ended_too(tmp_path: Path) -> None:
         if seen.endswith(b"[stop]: "):
             process.send_signal(signal.SIGINT)
 
-    code, said = on_terminal(tmp_path, "deploy", "up", act=act)
-    assert code == 130 and "`rcyaml deploy down robot.ddsl.yaml` stops it" in said and "Traceback" not in said
+    code, output = on_terminal(tmp_path, "deploy", "up", act=act)
+    assert code == 130 and "`rcyaml deploy down robot.ddsl.yaml` stops them" in output and "Traceback" not in output
     subprocess.run([*COMMAND, "deploy", "down"], cwd=tmp_path, env=environment(), check=True)
 
 
@@ -138,7 +138,7 @@ def test_an_ignored_signal_stays_ignored(place: Path) -> None:
 @pytest.mark.parametrize(
     "args", ["explain", "explain --format json", "schema ddsl", "config export speech/values.config.yaml"]
 )
-def test_a_reader_may_have_enough(args: str, place: Path) -> None:
+def test_the_reader_may_close_the_pipe(args: str, place: Path) -> None:
     rcyaml = f"{sys.executable} -m robocomp_yaml {args}"
     done = subprocess.run(
         ["bash", "-c", f"{rcyaml} | true; echo ${{PIPESTATUS[0]}}"], cwd=place, env=environment(), capture_output=True

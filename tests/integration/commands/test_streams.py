@@ -1,4 +1,4 @@
-"""What goes to the standard streams arrives, or is told of: closed and full ones, old encodings, odd names."""
+"""Output to the standard streams arrives, or an error is reported: closed and full streams, old encodings, odd names."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ ODD = os.fsdecode(b"caf\xe9")  # a folder's name in Latin-1
 
 
 def run(folder: Path, command: str, **environ: str) -> subprocess.CompletedProcess[bytes]:
-    """Runs a shell command in which `rcyaml` is this one."""
+    """Runs a shell command in which `rcyaml` is the tested one."""
     shell = f'rcyaml() {{ "{sys.executable}" -m robocomp_yaml "$@"; }}; {command}'
     root = str(Path(__file__).parents[3])
     return subprocess.run(
@@ -35,7 +35,7 @@ def run(folder: Path, command: str, **environ: str) -> subprocess.CompletedProce
         ("rcyaml chek >&- 2>&-", 2),
     ],
 )
-def test_closed_streams_swallow_what_they_are_given(command: str, code: int, tmp_path: Path) -> None:
+def test_closed_streams_discard_their_output(command: str, code: int, tmp_path: Path) -> None:
     write_tree(tmp_path, {"Speech.idsl.yaml": FAULTY})
     done = run(tmp_path, command)
     assert (done.returncode, b"Traceback" in done.stderr) == (code, False)
@@ -43,11 +43,11 @@ def test_closed_streams_swallow_what_they_are_given(command: str, code: int, tmp
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="this system has no /dev/full")
 @pytest.mark.parametrize("command", ["check", "check --format sarif", "compile", "explain", "--help", "schema idsl"])
-def test_a_full_disk_behind_the_output_is_told(command: str, tmp_path: Path) -> None:
+def test_a_full_disk_behind_the_output_is_reported(command: str, tmp_path: Path) -> None:
     write_tree(tmp_path, {"Speech.idsl.yaml": FAULTY})
     done = run(tmp_path, f"rcyaml {command} > /dev/full")
     assert done.returncode == 1
-    assert done.stderr.decode() == "Error: cannot write what there is to say: no space left on device\n"
+    assert done.stderr.decode() == "Error: cannot write to standard output: no space left on device\n"
 
 
 def test_an_old_encoding_gets_question_marks(tmp_path: Path) -> None:
@@ -56,7 +56,7 @@ def test_an_old_encoding_gets_question_marks(tmp_path: Path) -> None:
     assert done.stdout.decode("latin-1").splitlines()[1] == "  ?? Speech.idsl.yaml:5:24"
 
 
-def test_a_name_that_is_no_text_is_shown_by_its_bytes(tmp_path: Path) -> None:
+def test_a_name_that_is_no_utf8_is_shown_by_its_bytes(tmp_path: Path) -> None:
     write_tree(tmp_path, {f"{ODD}/Speech.idsl.yaml": FAULTY})
     done = run(tmp_path, "rcyaml check", PYTHONIOENCODING="utf-8:strict")
     assert rb" caf\xe9/Speech.idsl.yaml:5:24" in done.stdout.splitlines()[1]

@@ -1,4 +1,4 @@
-"""A values document that comes after the first compile takes over what runs, and moves nothing."""
+"""A values document that is written after the first compile keeps the settings and ports of the component."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ def _proxy(folder: Path) -> str:
 
 
 @pytest.mark.parametrize("what", [".", "speech", "speech/s.cdsl.yaml"])
-def test_what_is_left_open_leads_to_the_port_that_is_served(rcyaml: Run, tmp_path: Path, what: str) -> None:
+def test_an_open_proxy_gets_the_served_port(rcyaml: Run, tmp_path: Path, what: str) -> None:
     write_tree(tmp_path, {**TREE, **WORKSPACE, "speech/etc/config.yaml": VALUES})
     for _ in range(3):
         assert rcyaml("compile", what).exit_code == 0
         assert _proxy(tmp_path) == "12321"
 
 
-def test_without_a_workspace_it_stays_where_it_was(rcyaml: Run, tmp_path: Path) -> None:
+def test_without_a_workspace_the_port_is_kept(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {**TREE, "speech/etc/config.yaml": VALUES})
     assert rcyaml("compile").exit_code == 0
     (tmp_path / "speech/s.pdsl.yaml").write_text(TREE["speech/s.pdsl.yaml"].replace("5", "6"))
@@ -46,20 +46,20 @@ def test_without_a_workspace_it_stays_where_it_was(rcyaml: Run, tmp_path: Path) 
     assert _proxy(tmp_path) == "12321"
 
 
-def test_it_follows_the_neighbour(rcyaml: Run, tmp_path: Path) -> None:
+def test_the_proxy_follows_the_neighbour(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {**TREE, **WORKSPACE, "speech/etc/config.yaml": VALUES})
     assert rcyaml("compile", "speech").exit_code == 0
     assert "0 files written" in rcyaml("compile", "speech").stdout
     write_tree(tmp_path, {"mouth/etc/config": "Mouth.Endpoints=tcp -p 12555\n"})
     assert rcyaml("compile", "speech").exit_code == 0
     assert _proxy(tmp_path) == "12555"
-    # Its values say more than its etc/config, which is older than they are.
+    # Its values replace its etc/config, which is older.
     write_tree(tmp_path, {"mouth/etc/config.yaml": "component: ../m.cdsl.yaml\nendpoints: {Mouth: tcp -p 12777}\n"})
     assert rcyaml("compile", "speech").exit_code == 0
     assert _proxy(tmp_path) == "12777"
 
 
-def test_what_a_merge_puts_in_leads_there_too(rcyaml: Run, tmp_path: Path) -> None:
+def test_a_merged_proxy_has_the_served_port(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(
         tmp_path,
         {**TREE, **WORKSPACE, "speech/s.cdsl.yaml": TREE["speech/s.cdsl.yaml"].replace("requires: [Mouth]\n", "")},
@@ -72,7 +72,7 @@ def test_what_a_merge_puts_in_leads_there_too(rcyaml: Run, tmp_path: Path) -> No
 
 
 @pytest.mark.parametrize("is_compiled", [True, False])
-def test_a_first_document_says_where_the_neighbour_is(rcyaml: Run, tmp_path: Path, is_compiled: bool) -> None:
+def test_a_first_document_has_the_port_of_the_neighbour(rcyaml: Run, tmp_path: Path, is_compiled: bool) -> None:
     write_tree(tmp_path, {**TREE, **WORKSPACE})
     if is_compiled:
         assert rcyaml("compile").exit_code == 0
@@ -83,7 +83,7 @@ def test_a_first_document_says_where_the_neighbour_is(rcyaml: Run, tmp_path: Pat
     assert not list(tmp_path.rglob("*.orig"))
 
 
-def test_a_first_document_takes_the_users_edits_over(rcyaml: Run, tmp_path: Path) -> None:
+def test_a_first_document_copies_the_edits_of_the_user(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {**TREE, **WORKSPACE})
     assert rcyaml("compile").exit_code == 0
     config = tmp_path / "speech/etc/config"
@@ -96,8 +96,8 @@ def test_a_first_document_takes_the_users_edits_over(rcyaml: Run, tmp_path: Path
     for line in ("  volume: 8\n", "    host: there\n", 'Trace.Slicing: "1"\n', '  Mine.Own: "7 # of"\n'):
         assert line in text
     assert "speed" not in text
-    told = rcyaml("compile")
-    assert told.exit_code == 0, told.output  # nothing of the user's would be lost
+    result = rcyaml("compile")
+    assert result.exit_code == 0, result.output  # nothing of the user's would be lost
     assert (tmp_path / "speech/etc/config.orig").read_text() == mine
     now = config.read_text()
     assert _proxy(tmp_path) == "10100"
@@ -107,23 +107,23 @@ def test_a_first_document_takes_the_users_edits_over(rcyaml: Run, tmp_path: Path
     assert "CommonBehavior.ThreadPool.Size=3\n" in now
 
 
-def test_an_edit_that_would_be_lost_is_named(rcyaml: Run, tmp_path: Path) -> None:
+def test_an_edit_that_would_be_lost_is_reported(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {**TREE, **WORKSPACE})
     assert rcyaml("compile").exit_code == 0
     config = tmp_path / "speech/etc/config"
     config.write_text(config.read_text().replace("period.compute=100", "period.compute=20"))
     write_tree(tmp_path, {"speech/etc/config.yaml": VALUES})
-    told = rcyaml("compile")
-    assert told.exit_code == 1
-    assert "RC6010" in told.stdout
-    assert "bring period.compute into speech/etc/config.yaml" in told.stdout
+    result = rcyaml("compile")
+    assert result.exit_code == 1
+    assert "RC6010" in result.stdout
+    assert "move period.compute to speech/etc/config.yaml" in result.stdout
     assert rcyaml("config", "set", "speech", "period.compute", "20").exit_code == 0
     assert rcyaml("compile").exit_code == 0
     assert "period.compute=20\n" in config.read_text()
     assert "period.compute=20\n" in (tmp_path / "speech/etc/config.orig").read_text()
 
 
-def test_the_newer_dialect_is_understood(rcyaml: Run, tmp_path: Path) -> None:
+def test_the_newer_dialect_is_read(rcyaml: Run, tmp_path: Path) -> None:
     config = 'Proxies.Mouth = "mouth:tcp -h there -p 10200"\nEndpoints.CommonBehavior = "tcp -p 10300"\nvolume = 9\n'
     write_tree(tmp_path, {**TREE, **WORKSPACE, "speech/etc/config": f'{config}Net.host = "robot"\nMine = "x"\n'})
     assert rcyaml("config", "new", "speech").exit_code == 0

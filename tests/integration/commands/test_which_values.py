@@ -1,4 +1,4 @@
-"""Commands about values take a document, a component's folder, its document, its name, or nothing where there is one."""
+"""Commands about values accept a document, a component's folder, document or name, or nothing if there is only one."""
 
 from __future__ import annotations
 
@@ -23,40 +23,40 @@ SAID = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize("said", [[], *([each] for each in SAID)])
-def test_new_is_written_for_it(rcyaml: Run, tmp_path: Path, said: list[str]) -> None:
+@pytest.mark.parametrize("arguments", [[], *([each] for each in SAID)])
+def test_new_accepts_all_forms(rcyaml: Run, tmp_path: Path, arguments: list[str]) -> None:
     write_tree(tmp_path, TREE)
-    result = rcyaml("config", "new", *said)
+    result = rcyaml("config", "new", *arguments)
     assert result.exit_code == 0, result.output
     assert (tmp_path / ARM).is_file()
-    assert rcyaml("config", "new", *said).exit_code == 2
+    assert rcyaml("config", "new", *arguments).exit_code == 2
 
 
-@pytest.mark.parametrize("said", [[], *([each] for each in SAID), [ARM]])
-def test_the_others_find_its_values(rcyaml: Run, tmp_path: Path, said: list[str]) -> None:
+@pytest.mark.parametrize("arguments", [[], *([each] for each in SAID), [ARM]])
+def test_the_other_commands_accept_all_forms(rcyaml: Run, tmp_path: Path, arguments: list[str]) -> None:
     write_tree(tmp_path, {**TREE, ARM: "component: ../arm.cdsl.yaml\nparameters: {force: 3}\n"})
-    assert rcyaml("config", "check", *said).exit_code == 0
-    assert "force = 3" in rcyaml("config", "show", *said).stdout
-    assert "force=3" in rcyaml("config", "export", *said).stdout
-    assert rcyaml("config", "get", *said, "force").stdout == "3\n"
-    assert rcyaml("config", "set", *said, "force", "4", "--format", "json").exit_code == 0
-    assert rcyaml("config", "get", "-I", ".", *said, "--format", "json", "force").exit_code == 0
-    assert rcyaml("config", "set", *said, "force", "-4").exit_code == 0
+    assert rcyaml("config", "check", *arguments).exit_code == 0
+    assert "force = 3" in rcyaml("config", "show", *arguments).stdout
+    assert "force=3" in rcyaml("config", "export", *arguments).stdout
+    assert rcyaml("config", "get", *arguments, "force").stdout == "3\n"
+    assert rcyaml("config", "set", *arguments, "force", "4", "--format", "json").exit_code == 0
+    assert rcyaml("config", "get", "-I", ".", *arguments, "--format", "json", "force").exit_code == 0
+    assert rcyaml("config", "set", *arguments, "force", "-4").exit_code == 0
     assert "force: -4" in (tmp_path / ARM).read_text()
 
 
 @pytest.mark.parametrize(("args", "problem"), [
-    (["new"], "there are several components here: components/arm/arm.cdsl.yaml, components/base/cdsl.yaml; name one of"),
+    (["new"], "this folder has several components: components/arm/arm.cdsl.yaml, components/base/cdsl.yaml; name one of"),
     (["show", "components"], "'components' has several components"),
-    (["new", "ArmCmp"], "there is no component 'ArmCmp'; did you mean 'ArmComp'?"),
-    (["check", "base"], "there is no components/base/etc/config.yaml yet: `rcyaml config new components/base/cdsl.yaml`"),
-    (["show", "x.config.yaml"], "there is no document x.config.yaml"),
-    (["new", "components/arm/a.cdsl.yaml"], "there is no document components/arm/a.cdsl.yaml"),
-    (["new", "rcyaml.yaml"], "'rcyaml.yaml' is no component's document"),
-    (["show", "empty"], "there is no component in 'empty'; `rcyaml new component NAME` writes one"),
-    (["get", "components/arm/arm.pdsl.yaml"], "there is no components/arm/etc/config.yaml yet"),
+    (["new", "ArmCmp"], "unknown component 'ArmCmp'; did you mean 'ArmComp'?"),
+    (["check", "base"], "components/base/etc/config.yaml does not exist yet: `rcyaml config new components/base/cdsl.yaml`"),
+    (["show", "x.config.yaml"], "'x.config.yaml' does not exist"),
+    (["new", "components/arm/a.cdsl.yaml"], "'components/arm/a.cdsl.yaml' does not exist"),
+    (["new", "rcyaml.yaml"], "'rcyaml.yaml' is not a document of a component"),
+    (["show", "empty"], "'empty' has no component; `rcyaml new component NAME` writes one"),
+    (["get", "components/arm/arm.pdsl.yaml"], "components/arm/etc/config.yaml does not exist yet"),
 ])  # fmt: skip
-def test_what_is_not_clear_is_asked_for(rcyaml: Run, tmp_path: Path, args: list[str], problem: str) -> None:
+def test_unclear_arguments_are_rejected(rcyaml: Run, tmp_path: Path, args: list[str], problem: str) -> None:
     write_tree(tmp_path, {**TREE, **BASE, "empty": None})
     result = rcyaml("config", *args)
     assert result.exit_code == 2, result.output

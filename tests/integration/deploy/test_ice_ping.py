@@ -1,4 +1,4 @@
-"""Pings of what is no Ice, or no good Ice: never an exception, never longer than asked. Those of real Ice are in
+"""Pings of servers that are not Ice, or wrong Ice: no exception, and never longer than the limit. Real Ice is in
 tests/deploy."""
 
 from __future__ import annotations
@@ -65,5 +65,5 @@ def test_what_answers(said: bytes, is_there: bool) -> None:
         ("", None),
     ],
 )
-def test_where_a_proxy_leads(proxy: str, address: tuple[str, str, int] | None) -> None:
+def test_the_address_of_a_proxy(proxy: str, address: tuple[str, str, int] | None) -> None:
     assert ice_ping.address_of(proxy) == address

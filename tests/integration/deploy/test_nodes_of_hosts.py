@@ -1,4 +1,4 @@
-"""How every host comes to its node: started here and over SSH at once, while those started by hand come back."""
+"""Start of the nodes of all hosts: local ones and those over SSH in parallel, while those started by hand reconnect."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from typing import Any
 import pytest
 
 from robocomp_yaml.deploy.icegrid import daemons, start_up
-from robocomp_yaml.deploy.icegrid.daemons import Start
-from robocomp_yaml.deploy.icegrid.places import Places, Registry
+from robocomp_yaml.deploy.icegrid.daemons import NodeStart
+from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.network.network import Host, Network
+from robocomp_yaml.network.network import Network, NetworkHost
 
-HOSTS = [Host("onboard", "localhost"), Host("head", "10.0.0.3"), Host("arm", "10.0.0.4")]
+HOSTS = [NetworkHost("onboard", "localhost"), NetworkHost("head", "10.0.0.3"), NetworkHost("arm", "10.0.0.4")]
 NETWORK = Network("Robot", "/robot.ddsl.yaml", "/robot")
 
 
 class Grid:
-    """A registry that nodes join: `joins` are the hosts whose nodes come when they have been asked for twice; where it
-    hears nothing, those that are started do not come."""
+    """A registry. `joins` are the hosts whose nodes connect after two requests. Unless `hears`, started nodes do not
+    connect."""
 
     def __init__(self, *joins: str, hears: bool = True) -> None:
         self.nodes: set[str] = set()
@@ -34,8 +34,8 @@ class Grid:
 
 
 @pytest.fixture
-def places(tmp_path: Path) -> Places:
-    made = Places(str(tmp_path))
+def files(tmp_path: Path) -> GridFiles:
+    made = GridFiles(str(tmp_path))
     Path(made.root).mkdir(parents=True)
     made.keep_registry(Registry("10.0.0.2", 4061))
     return made
@@ -45,53 +45,53 @@ Ensure = Callable[..., tuple[list[bool], dict[str, Diagnostic]]]
 
 
 @pytest.fixture
-def ensure(places: Places, monkeypatch: pytest.MonkeyPatch) -> Ensure:
-    """Ensures the nodes with what starts of nodes come to, by host; whether each thing that was waited for came, and
-    what is wrong with which host."""
+def ensure(files: GridFiles, monkeypatch: pytest.MonkeyPatch) -> Ensure:
+    """Ensures the nodes, with the results of starts by host. Returns whether each wait succeeded, and the diagnostics
+    by host."""
     waited: list[bool] = []
 
     def until(condition: Callable[[], bool], within: float) -> bool:
         waited.append(any(condition() for _ in range(5)))
         return waited[-1]
 
-    def run(grid: Grid, **starts: Start) -> tuple[list[bool], dict[str, Diagnostic]]:
-        def start(host: Host, script: str) -> Start:
+    def run(grid: Grid, **starts: NodeStart) -> tuple[list[bool], dict[str, Diagnostic]]:
+        def start(host: NetworkHost, script: str) -> NodeStart:
             if grid.hears and not starts[host.name].reason:
                 grid.nodes.add(host.name)
             return starts[host.name]
 
         monkeypatch.setattr(start_up, "_start", start)
-        monkeypatch.setattr(start_up, "_until", until)
-        monkeypatch.setattr(daemons, "write_script", lambda places, host, registry: f"/{host.name}.sh")
+        monkeypatch.setattr(start_up, "until", until)
+        monkeypatch.setattr(daemons, "write_script", lambda files, host, registry: f"/{host.name}.sh")
         any_grid: Any = grid
-        return waited, start_up.ensure_nodes(any_grid, places, NETWORK, HOSTS)
+        return waited, start_up.ensure_nodes(any_grid, files, NETWORK, HOSTS)
 
     return run
 
 
-FAILS = Start("ssh: no answer")
+FAILS = NodeStart("ssh: no answer")
 
 
-def test_who_was_started_by_hand_is_waited_for_and_nobody_else(places: Places, ensure: Ensure) -> None:
-    places.keep_nodes({"head": False})
-    waited, faults = ensure(Grid("head"), onboard=Start(), head=FAILS, arm=Start())
+def test_only_nodes_that_were_started_by_hand_are_waited_for(files: GridFiles, ensure: Ensure) -> None:
+    files.keep_nodes({"head": False})
+    waited, faults = ensure(Grid("head"), onboard=NodeStart(), head=FAILS, arm=NodeStart())
     assert all(waited) and not faults
-    assert places.nodes() == {"onboard": True, "head": False, "arm": True}
+    assert files.nodes() == {"onboard": True, "head": False, "arm": True}
 
 
-def test_what_ran_already_is_not_ours(places: Places, ensure: Ensure) -> None:
-    places.keep_nodes({"onboard": True})
-    ensure(Grid(), onboard=Start(was_there=True), head=Start(was_there=True), arm=Start())
-    assert places.nodes() == {"onboard": True, "head": False, "arm": True}
+def test_a_node_that_ran_before_is_not_ended_by_rcyaml(files: GridFiles, ensure: Ensure) -> None:
+    files.keep_nodes({"onboard": True})
+    ensure(Grid(), onboard=NodeStart(was_running=True), head=NodeStart(was_running=True), arm=NodeStart())
+    assert files.nodes() == {"onboard": True, "head": False, "arm": True}
 
 
-def test_all_that_fail_are_told(places: Places, ensure: Ensure) -> None:
-    _, told = ensure(Grid(), onboard=Start(), head=FAILS, arm=Start("ssh: permission denied"))
+def test_all_failures_are_reported(files: GridFiles, ensure: Ensure) -> None:
+    _, told = ensure(Grid(), onboard=NodeStart(), head=FAILS, arm=NodeStart("ssh: permission denied"))
     assert list(told) == ["head", "arm"] and "'arm'" in told["arm"].message
     assert told["arm"].hint == "start it by hand, then try again: ssh 10.0.0.4 bash -s < /arm.sh"
 
 
-def test_a_node_that_does_not_reach_the_registry(places: Places, ensure: Ensure) -> None:
-    _, faults = ensure(Grid(hears=False), onboard=FAILS, head=Start(), arm=FAILS)
+def test_a_node_that_does_not_reach_the_registry(files: GridFiles, ensure: Ensure) -> None:
+    _, faults = ensure(Grid(hears=False), onboard=FAILS, head=NodeStart(), arm=FAILS)
     told = faults["head"]
     assert "does not reach the registry at 10.0.0.2:4061" in told.message and "firewall" in told.hint

@@ -1,4 +1,4 @@
-"""What the supervisor of a deployment is made of: it stays for as long as the robot runs, and has to be small."""
+"""The imports of the supervisor: it runs as long as the robot, and must be small."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`{file: PATH}` as a variable of the environment: read where and when the process starts, by whatever starts it."""
+"""`{file: PATH}` as an environment variable: read on the host of the process, when it starts, by every engine."""
 
 from __future__ import annotations
 
@@ -13,9 +13,10 @@ from xml.etree import ElementTree
 import pytest
 from ruamel.yaml import YAML
 
-from robocomp_yaml.deploy.local.variables import LONGEST, from_files
+from robocomp_yaml.deploy.local.program import LONGEST
+from robocomp_yaml.deploy.local.program import variables as from_files
 from robocomp_yaml.emit.exports import Unwritable, export, noted
-from robocomp_yaml.network.network import LOOPBACK, PROGRAM, Host, Network, Process, Variable
+from robocomp_yaml.network.network import LOOPBACK, PROGRAM, EnvironmentVariable, Network, NetworkHost, Process
 
 SHOWN = "import os; print(ascii(os.fsencode(os.environ['TOKEN'])), os.environ.get('OTHER'))"
 ENDS = [(b"a b\n", b"a b"), (b"a\r\n", b"a"), (b"\n\n", b"\n"), (b"", b""), (b"a\r", b"a\r"), (b"$x `y` %s \\n '\"", None),
@@ -23,8 +24,8 @@ ENDS = [(b"a b\n", b"a b"), (b"a\r\n", b"a"), (b"\n\n", b"\n"), (b"", b""), (b"a
 
 
 def network_of(path: str, **more: Any) -> Network:
-    network = Network("One", "/one.ddsl.yaml", "/f", {LOOPBACK: Host(LOOPBACK)})
-    env = (Variable("TOKEN", file=path), Variable("OTHER", "plain"))
+    network = Network("One", "/one.ddsl.yaml", "/f", {LOOPBACK: NetworkHost(LOOPBACK)})
+    env = (EnvironmentVariable("TOKEN", file=path), EnvironmentVariable("OTHER", "plain"))
     network.processes["p"] = Process(
         "p", LOOPBACK, (sys.executable, "-c", SHOWN), "/", PROGRAM, env=env, is_ice=False, **more
     )  # fmt: skip
@@ -72,20 +73,20 @@ def test_an_export_reads_it_when_it_starts(tmp_path: Path, form: str) -> None:
 
 
 @pytest.mark.parametrize("form", FORMS)
-def test_no_export_holds_it(tmp_path: Path, form: str) -> None:
+def test_no_export_contains_it(tmp_path: Path, form: str) -> None:
     (tmp_path / "token").write_text("canary\n")
     assert "canary" not in "".join(export(network_of(str(tmp_path / "token")), form).values())
 
 
-def test_what_a_form_cannot_say() -> None:
+def test_a_form_without_files_of_variables() -> None:
     with pytest.raises(Unwritable, match="no home"):
         export(network_of("~/token"), "compose")
     with noted() as notes:
         export(network_of("/token"), "rcmanager")
-    assert [str(one) for one in notes] == ["RCManager gives its commands no variables: TOKEN, OTHER"]
+    assert [str(one) for one in notes] == ["RCManager sets no variables for its commands: TOKEN, OTHER"]
 
 
-def test_it_is_read_here_alike(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_local_engine_reads_it_alike(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "token"
     monkeypatch.setenv("HOME", str(tmp_path))
     for raw, meant in ENDS:
@@ -97,12 +98,12 @@ def test_it_is_read_here_alike(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 @pytest.mark.parametrize(
     ("make", "why"),
     [
-        (lambda path: None, "cannot be read: no such file"), (lambda path: path.mkdir(), "no regular file"),
+        (lambda path: None, "cannot be read: no such file"), (lambda path: path.mkdir(), "not a regular file"),
         (lambda path: path.write_bytes(b"a\0"), "a NUL"), (lambda path: path.write_bytes(b"a" * LONGEST), "longer"),
-        (lambda path: path.symlink_to("/dev/zero"), "no regular file"),
+        (lambda path: path.symlink_to("/dev/zero"), "not a regular file"),
     ],
 )  # fmt: skip
-def test_what_cannot_be_read_is_said(tmp_path: Path, make: Callable[[Path], Any], why: str) -> None:
+def test_an_unreadable_file_is_reported(tmp_path: Path, make: Callable[[Path], Any], why: str) -> None:
     make(tmp_path / "token")
     with pytest.raises(OSError, match=f"TOKEN is the text of .*token, which .*{why}"):
         from_files([("TOKEN", str(tmp_path / "token"))])
@@ -115,9 +116,9 @@ DDSL = "deployment: Robot\ncomponents:\n  a: {program: /bin/true, env: {TOKEN: V
     ("value", "place", "told"),
     [
         ("{file: secrets/token}", "", ""), ("{file: '~/a b'}", "", ""), ("{env: X, x-why: y}", "", ""),
-        ("{file: a, env: X}", "3:40", "from one place"), ("{file: secrets/}", "3:47", "the path of a file"),
-        ('{file: "a\\nb"}', "3:47", "one line"), ("{path: a}", "3:41", "{env: NAME} or by {file: PATH}"),
-        ("{}", "3:40", "{env: NAME} or by {file: PATH}"), ("{file: [a]}", "3:47", "file"),
+        ("{file: a, env: X}", "3:40", "has one source"), ("{file: secrets/}", "3:47", "the path of a file"),
+        ('{file: "a\\nb"}', "3:47", "one line"), ("{path: a}", "3:41", "{env: NAME} or {file: PATH}"),
+        ("{}", "3:40", "{env: NAME} or {file: PATH}"), ("{file: [a]}", "3:47", "file"),
     ],
 )  # fmt: skip
 def test_documents(
@@ -130,7 +131,7 @@ def test_documents(
     assert told in result.output and (not place or f"robot.ddsl.yaml:{place}" in result.output), result.output
 
 
-def test_paths_are_those_of_the_document_that_has_them(
+def test_paths_are_relative_to_the_document_that_contains_them(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, rcyaml: Callable[..., Any]
 ) -> None:
     monkeypatch.chdir(tmp_path)

@@ -112,7 +112,7 @@ def test_facts_are_values() -> None:
     one = idsl.ENUM_NUMBER.at(span, name="left", number=-1, largest=7)
     other = idsl.ENUM_NUMBER.at(span, largest=7, number=-1, name="left")
     assert one == other and len({one, other}) == 1
-    assert one.message == "the enumerator 'left' has the number -1, which is not from 0 to 7"
+    assert one.message == "the enumerator 'left' has the number -1, which is not between 0 and 7"
     assert dict(one.facts) == {"name": "left", "number": -1, "largest": 7}
     assert one.fact("number") == -1 and one.fact("colour") is None
     kept = json.loads(json.dumps(msgspec.to_builtins(one)))
@@ -130,11 +130,19 @@ def test_any_value_can_be_a_fact() -> None:
 @pytest.mark.parametrize(
     ("secret", "facts", "message"),
     [
-        ("hunter2345", {"name": "hunter2345", "kind": "type"}, f"no type can be called '{HIDDEN}', a reserved word"),
-        ("abc", {"name": "abc", "kind": "type"}, f"no type can be called '{HIDDEN}', a reserved word"),
-        ("12345", {"name": 12345, "kind": "type"}, f"no type can be called '{HIDDEN}', a reserved word"),
-        ("type", {"name": "x", "kind": ["type"]}, f"no ('{HIDDEN}',) can be called 'x', a reserved word"),
-        ("x', a", {"name": "x", "kind": "type"}, f"no type can be called '{HIDDEN}', a reserved word"),
+        (
+            "hunter2345",
+            {"name": "hunter2345", "kind": "type"},
+            f"no type can be called '{HIDDEN}': it is a reserved word of Slice",
+        ),
+        ("abc", {"name": "abc", "kind": "type"}, f"no type can be called '{HIDDEN}': it is a reserved word of Slice"),
+        ("12345", {"name": 12345, "kind": "type"}, f"no type can be called '{HIDDEN}': it is a reserved word of Slice"),
+        (
+            "type",
+            {"name": "x", "kind": ["type"]},
+            f"no ('{HIDDEN}',) can be called 'x': it is a reserved word of Slice",
+        ),
+        ("x': it", {"name": "x", "kind": "type"}, f"no type can be called '{HIDDEN}': it is a reserved word of Slice"),
     ],
 )
 def test_secrets_are_no_facts(secret: str, facts: dict[str, object], message: str) -> None:

@@ -1,4 +1,4 @@
-"""The C++ target: the files it plans, their names, and what stands in them."""
+"""The C++ target: the files that it plans, their names and contents."""
 
 from __future__ import annotations
 
@@ -22,18 +22,18 @@ Link = Callable[[Mapping[str, str]], LinkedComponent]
 
 
 def files(component: LinkedComponent) -> dict[str, str]:
-    """Its own, and in `generated/` those that are the same in all that stand alone; without the version of these."""
+    """The files of a standalone component, with the run time, in which the version is replaced."""
     version = runtime.version("cpp")
     return {file.path: file.text.replace(version, "VERSION") for file in of_language(component)}
 
 
 def is_runtime(path: str) -> bool:
-    """Whether a file of a component that stands alone is the same in all of them."""
+    """Whether a file of a standalone component is part of the run time."""
     return path.startswith(tuple(f"generated/{folder}/" for folder in ("cmake", "runtime", "slice")))
 
 
 def one_interface(module: str, text: str, lists: str = "implements: [A]", **keys: str) -> dict[str, str]:
-    """A module of these interfaces, and a component."""
+    """A module with these interfaces, and a component."""
     more = "".join(f"{key}: {value}\n" for key, value in keys.items())
     return {
         "X.idsl.yaml": f"module: {module}\n{text}",
@@ -59,8 +59,8 @@ def test_policies(link: Link) -> None:
     assert len(own) <= 10
 
 
-def test_the_run_time_of_a_component_that_stands_alone(link: Link) -> None:
-    """It is copied as it stands, but for the version, and has no part that the component cannot need."""
+def test_the_run_time_of_a_standalone_component(link: Link) -> None:
+    """It is copied unchanged except for the version, without the parts that the component cannot need."""
     got = {path: text for path, text in files(link(MOUTH)).items() if is_runtime(path)}
     assert {path.partition("/")[2] for path in got} == {
         *(f"{folder}/{path.name}" for folder in ("cmake", "runtime") for path in (TEMPLATES / folder).iterdir()),
@@ -74,7 +74,7 @@ def test_the_run_time_of_a_component_that_stands_alone(link: Link) -> None:
 
 
 def test_every_source_is_built(link: Link) -> None:
-    """component.cmake names each generated source, and none that is not there."""
+    """component.cmake names all generated sources, and no others."""
     for lists in ("implements: [A]", "publishes: [A]"):
         got = files(link(one_interface("X", "interfaces:\n  A: {methods: {f: {}}}\n", lists)))
         named = re.findall(r"[ /](\w+\.cpp)\b", got["generated/component.cmake"])
@@ -83,7 +83,7 @@ def test_every_source_is_built(link: Link) -> None:
         }
 
 
-def test_what_is_ours_says_so(link: Link) -> None:
+def test_generated_files_have_a_heading(link: Link) -> None:
     for path, text in files(link(MOUTH)).items():
         if path == "generated/slice/CommonBehavior.ice":
             continue
@@ -93,7 +93,7 @@ def test_what_is_ours_says_so(link: Link) -> None:
         assert "Do not edit" in first or first.startswith(f"{mark} This file is yours"), path
 
 
-def test_lines_that_a_person_would_write(link: Link) -> None:
+def test_lines_are_short_and_formatted(link: Link) -> None:
     for path, text in files(link(MOUTH)).items():
         assert max(map(len, text.splitlines()), default=0) <= 120, path
         assert not re.search(r"[ \t]$|\n\n\n", text, re.MULTILINE), path
@@ -101,7 +101,7 @@ def test_lines_that_a_person_would_write(link: Link) -> None:
 
 
 def test_a_component_without_ports(link: Link) -> None:
-    """It needs no IceStorm, nor the code that speaks with it."""
+    """It needs neither IceStorm nor the code for IceStorm."""
     got = files(link({"x.cdsl.yaml": "component: Idle\nlanguage: cpp\n"}))
     assert "IceStorm" not in got["generated/component.cmake"]
     assert "topics" not in got["generated/component.cmake"]
@@ -110,15 +110,15 @@ def test_a_component_without_ports(link: Link) -> None:
 
 
 @pytest.mark.parametrize("name", ["test", "all", "Install", "help"])
-def test_names_that_cmake_has_taken(link: Link, name: str) -> None:
-    """The program is called so all the same."""
+def test_names_that_cmake_reserves(link: Link, name: str) -> None:
+    """The program has this name nevertheless."""
     cmake = files(link({"x.cdsl.yaml": f"component: {name}\nlanguage: cpp\n"}))["generated/component.cmake"]
     assert f"add_executable({name}_component " in cmake
     assert f'OUTPUT_NAME "{name}"' in cmake
 
 
 def test_names_that_clash(link: Link) -> None:
-    """`A_b.c` with `A.b_c`, a method with an accessor, a method with a keyword, a servant's class with a method."""
+    """`A_b.c` with `A.b_c`, a method with an accessor, a method with a keyword, the class of a servant with a method."""
     text = (
         "interfaces:\n  A_b: {methods: {c: {returns: int}}}\n  A: {methods: {b_c: {returns: bool}, AServant: {}}}\n"
         "  speech: {methods: {proxy: {}, pubproxy: {}}}\n  static: {methods: {cast: {}}}\n"
@@ -135,7 +135,7 @@ def test_names_that_clash(link: Link) -> None:
 
 
 def test_names_of_parameters_that_clash(link: Link) -> None:
-    """With words of C++ and of Qt, and with each other behind the underscore that these get."""
+    """With words of C++ and of Qt, and with each other after an underscore is appended."""
     pdsl = """\
 component: x.cdsl.yaml
 types: {Mode: {enum: [class, class_, emit]}}
@@ -155,7 +155,7 @@ parameters:
         assert field in header
 
 
-def test_interfaces_of_one_name_from_two_modules(link: Link) -> None:
+def test_interfaces_with_one_name_in_two_modules(link: Link) -> None:
     documents = {
         "X.idsl.yaml": "module: X\ninterfaces:\n  A: {methods: {f: {in: {n: int}}}}\n",
         "Y.idsl.yaml": "module: Y\ninterfaces:\n  A: {methods: {f: {in: {n: int}}}}\n",
@@ -169,8 +169,8 @@ def test_interfaces_of_one_name_from_two_modules(link: Link) -> None:
     ]
 
 
-def test_its_own_common_behavior_is_used(link: Link) -> None:
-    """Whatever the file is called that defines RoboComp's module."""
+def test_a_common_behavior_of_the_workspace_is_used(link: Link) -> None:
+    """Whatever the name of the file that defines RoboComp's module."""
     module = (ROOT / "templates" / "slice" / "CommonBehavior.ice").read_text()
     assert "RoboCompCommonBehavior" in module
     documents = one_interface("RoboCompCommonBehavior", "interfaces:\n  A: {methods: {f: {}}}\n")
@@ -184,7 +184,7 @@ def test_its_own_common_behavior_is_used(link: Link) -> None:
     ["a backslash \\", "\\", "two\nlines \\\\", "*/ /* // */", "control \x07 \x00 and \u2028", "ñ 漢 🙂", "a\ttab", ""],
 )
 def test_docs_are_comments(link: Link, doc: str) -> None:
-    """Whatever they hold, no line of code is drawn into them, and none of them becomes code."""
+    """Whatever their text: no line of code becomes part of a comment, and no comment becomes code."""
     said = json.dumps(doc, ensure_ascii=False)
     text = (
         f"interfaces:\n  A: {{doc: {said}, methods: {{f: {{doc: {said}, in: {{x: {{type: int, doc: {said}}}}}}}}}}}\n"
@@ -202,7 +202,7 @@ def test_docs_are_comments(link: Link, doc: str) -> None:
     assert {path: code(text) for path, text in got.items()} == {path: code(text) for path, text in plain.items()}
 
 
-def test_stubs_give_the_plainest_values(link: Link) -> None:
+def test_stubs_return_default_values(link: Link) -> None:
     text = (
         "types:\n  E: {enum: {five: 5, six: 6}}\n  S: {struct: {a: int}}\n"
         "interfaces:\n  A: {methods: {f: {out: {log: int, e: E, s: S}, returns: E}}}\n"

@@ -1,4 +1,4 @@
-"""`check --environment`: what is told of libraries that are not installed."""
+"""`check --environment`: warnings about libraries that are not installed."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from click.testing import Result
 from conftest import write_tree
 from robocomp_yaml.emit import environment
 
-pytestmark = pytest.mark.processes  # asks cmake and pkg-config
+pytestmark = pytest.mark.processes  # runs cmake and pkg-config
 
 Run = Callable[..., Result]
 
 
-def told(rcyaml: Run, folder: Path, libraries: list[dict[str, str]], language: str = "cpp") -> list[str]:
+def warnings_of(rcyaml: Run, folder: Path, libraries: list[dict[str, str]], language: str = "cpp") -> list[str]:
     document = {"component": "A", "language": language, "uses": {"libraries": libraries}}
     write_tree(folder, {"a.cdsl.yaml": json.dumps(document)})
     result = rcyaml("check", "--environment", "--format", "json")
@@ -30,47 +30,49 @@ def told(rcyaml: Run, folder: Path, libraries: list[dict[str, str]], language: s
 def test_cmake_finds_packages_and_libraries(rcyaml: Run, tmp_path: Path) -> None:
     there = [{"cmake": "Threads"}, {"link": "m"}, {"link": "pthread"}]
     lost = [{"cmake": "LostPackage"}, {"link": "lostlibrary"}]
-    assert told(rcyaml, tmp_path, [*there, *lost]) == [
-        "the CMake package LostPackage is not installed here",
-        "the library lostlibrary is not installed here",
+    assert warnings_of(rcyaml, tmp_path, [*there, *lost]) == [
+        "the CMake package LostPackage is not installed on this machine",
+        "the library lostlibrary is not installed on this machine",
     ]
 
 
 @pytest.mark.skipif(not all(map(shutil.which, ("cmake", "g++"))), reason="CMake or g++ is not installed")
-def test_a_package_that_ends_cmake_keeps_no_other_from_being_found(
+def test_a_package_with_an_error_does_not_hide_others(
     rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     write_tree(tmp_path, {"lib/cmake/Bad/BadConfig.cmake": "message(FATAL_ERROR no)\n"})
     monkeypatch.setenv("CMAKE_PREFIX_PATH", str(tmp_path))
-    assert told(rcyaml, tmp_path, [{"cmake": "Bad"}, {"link": "m"}]) == ["the CMake package Bad is not installed here"]
+    assert warnings_of(rcyaml, tmp_path, [{"cmake": "Bad"}, {"link": "m"}]) == [
+        "the CMake package Bad is not installed on this machine"
+    ]
 
 
-def test_pkg_config_tells_versions(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_pkg_config_versions(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     if shutil.which("pkg-config") is None:
         pytest.skip("pkg-config is not installed")
     write_tree(tmp_path, {"own.pc": "Name: own\nDescription: mine\nVersion: 3.10.1\n"})
     monkeypatch.setenv("PKG_CONFIG_PATH", str(tmp_path))
     versions = (">=3.9, <4", "3.10", ">3.10.1", "==3.10.1.0")
     libraries = [{"pkg-config": "own", "version": version} for version in versions]
-    assert told(rcyaml, tmp_path, [*libraries, {"pkg-config": "lost-module"}]) == [
-        "the pkg-config module own >3.10.1 is not installed here: it is there as 3.10.1",
-        "the pkg-config module lost-module is not installed here",
+    assert warnings_of(rcyaml, tmp_path, [*libraries, {"pkg-config": "lost-module"}]) == [
+        "the pkg-config module own >3.10.1 is not installed on this machine: version 3.10.1 is installed",
+        "the pkg-config module lost-module is not installed on this machine",
     ]
 
 
 @pytest.mark.parametrize("language", ["python", "cpp"])
-def test_pip_tells_versions(rcyaml: Run, tmp_path: Path, language: str) -> None:
+def test_pip_versions(rcyaml: Run, tmp_path: Path, language: str) -> None:
     versions = [{"pip": "click", "version": version} for version in (">=2, !=7.0", "<2")]
     libraries = [{"pip": "Click"}, *versions, {"pip": "no-such-thing"}]
-    found = told(rcyaml, tmp_path, libraries, language)
+    found = warnings_of(rcyaml, tmp_path, libraries, language)
     assert len(found) == 2
-    assert found[0].startswith("the Python package click <2 is not installed here: it is there as ")
-    assert found[1] == "the Python package no-such-thing is not installed here"
+    assert found[0].startswith("the Python package click <2 is not installed on this machine: version ")
+    assert found[1] == "the Python package no-such-thing is not installed on this machine"
 
 
-def test_without_programs_it_says_so(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_missing_programs_are_reported(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(environment.shutil, "which", lambda name: None)
-    assert told(rcyaml, tmp_path, [{"cmake": "A"}, {"pkg-config": "b"}]) == [
-        "the CMake package A is not installed here: CMake, which would find it, is missing too",
-        "the pkg-config module b is not installed here: pkg-config, which would know it, is missing too",
+    assert warnings_of(rcyaml, tmp_path, [{"cmake": "A"}, {"pkg-config": "b"}]) == [
+        "the CMake package A is not installed on this machine: CMake, which would detect it, is missing, too",
+        "the pkg-config module b is not installed on this machine: pkg-config, which would detect it, is missing, too",
     ]

@@ -1,4 +1,4 @@
-"""Networks in the words of other tools, each read back by that tool or by one like it."""
+"""Exports of networks, each read by its tool or by a similar one."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from networks import large, speaking
 from rcmanager_facts import facts
 from robocomp_yaml.emit.exports import export, forms
 from robocomp_yaml.emit.exports.icegrid import _DROP_LAST, _MAKE_FOLDERS
-from robocomp_yaml.network.network import LOOPBACK, PROGRAM, Host, Network, Process
+from robocomp_yaml.network.network import LOOPBACK, PROGRAM, Network, NetworkHost, Process
 
 Golden = Callable[[str, Mapping[str, str]], None]
 ODD = ("a b", ";", "$HOME", "${x}", "100%", '"', "'", "\\", "\\n", "*", "", "&&", "ñ", "--", "%i", "#")
@@ -29,7 +29,7 @@ ODD = ("a b", ";", "$HOME", "${x}", "100%", '"', "'", "\\", "\\n", "*", "", "&&"
 
 def one(*arguments: str, program: str = "/bin/true", **more: Any) -> Network:
     """A network of one program."""
-    network = Network("One", "/one.ddsl.yaml", "/f", {LOOPBACK: Host(LOOPBACK)})
+    network = Network("One", "/one.ddsl.yaml", "/f", {LOOPBACK: NetworkHost(LOOPBACK)})
     network.processes["p"] = Process("p", LOOPBACK, (program, *arguments), "/", PROGRAM, is_ice=False, **more)
     return network
 
@@ -41,7 +41,7 @@ def test_golden(golden: Golden, form: str) -> None:
 
 def test_the_forms() -> None:
     assert forms() == ["compose", "icegrid", "rcmanager", "systemd"]
-    with pytest.raises(ValueError, match="no form 'helm'"):
+    with pytest.raises(ValueError, match="unknown form 'helm'"):
         export(speaking(), "helm")
 
 
@@ -50,8 +50,8 @@ def test_many_processes(form: str) -> None:
     assert len("".join(export(large(200), form).values())) > 200
 
 
-def test_a_node_appends_an_argument_that_is_taken_away() -> None:
-    """As IceGrid starts it: the descriptor's words, and an option behind them."""
+def test_the_argument_that_a_node_appends_is_removed() -> None:
+    """As IceGrid starts it: the words of the descriptor, then an option."""
     descriptor = ElementTree.fromstring(export(one(*ODD, program="printf"), "icegrid")["One.xml"])
     server = descriptor.find(".//server")
     assert server is not None and server.get("exe") == "/bin/sh"
@@ -62,7 +62,7 @@ def test_a_node_appends_an_argument_that_is_taken_away() -> None:
     assert done.stdout.split("\n")[:-1] == list(ODD)
 
 
-def test_folders_are_made_before_a_server_starts(tmp_path: Path) -> None:
+def test_folders_are_created_before_a_server_starts(tmp_path: Path) -> None:
     folders = [str(tmp_path / "a b" / "c"), str(tmp_path / "d")]
     done = subprocess.run(["/bin/sh", "-c", _MAKE_FOLDERS, "name", *folders, "--", "echo", "x y", "--z"],
                           capture_output=True, text=True, check=True)  # fmt: skip
@@ -77,7 +77,7 @@ def test_a_unit_keeps_every_word() -> None:
 
 
 def systemd_words(line: str) -> list[str]:
-    """As systemd splits a command: here every word is in quotes, but for a lone semicolon."""
+    """The words of a command, as systemd splits it: all are in quotes, except a single semicolon."""
     return [found[0] for found in re.finditer(r'"(?:[^"\\]|\\.)*"|\\;', line)]
 
 
@@ -90,7 +90,7 @@ def unescaped(word: str) -> str:
 
 @pytest.mark.skipif(shutil.which("systemd-analyze") is None, reason="systemd-analyze is not installed")
 @pytest.mark.parametrize("network", [speaking(), one(*ODD)], ids=["head", "odd"])
-def test_systemd_takes_the_units(tmp_path: Path, network: Network) -> None:
+def test_systemd_accepts_the_units(tmp_path: Path, network: Network) -> None:
     processes = {name: replace(process, command=("/bin/true", *process.command[1:]))
                  for name, process in network.processes.items()}  # fmt: skip
     network.processes = processes
@@ -117,7 +117,7 @@ def test_compose() -> None:
 
 
 @pytest.mark.parametrize("network", [speaking(), one(*ODD), large(50)], ids=["head", "odd", "large"])
-def test_compose_fits_the_specification(tmp_path: Path, network: Network) -> None:
+def test_compose_matches_the_specification(tmp_path: Path, network: Network) -> None:
     pytest.importorskip("check_jsonschema", reason="the schema of compose files comes with check-jsonschema")
     write_tree(tmp_path, export(network, "compose"))
     files = sorted(tmp_path.rglob("compose.yaml"))
@@ -128,7 +128,7 @@ def test_compose_fits_the_specification(tmp_path: Path, network: Network) -> Non
     assert subprocess.run([*judge, *files], capture_output=True).returncode == 1
 
 
-def test_a_secret_is_named_and_not_told(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_secret_is_named_but_not_shown(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ROBOT_TOKEN", "swordfish")
     for form in forms():
         assert "swordfish" not in "".join(export(speaking(), form).values())
@@ -144,7 +144,7 @@ def test_rcmanager() -> None:
                                     *speaking().processes["laser"].command]  # fmt: skip
 
 
-def test_what_the_manager_said_counts_while_it_is_true() -> None:
+def test_kept_commands_are_written_while_they_match() -> None:
     network = one("-f", "100", program="/opt/x")
     kept = {"upCommand": "rcremote localhost t / ./opt/x -f 100", "xpos": "1.50", "dependence": ["gone"]}
     network.processes["p"] = replace(network.processes["p"], extra=tuple(kept.items()))
@@ -158,14 +158,14 @@ def test_what_the_manager_said_counts_while_it_is_true() -> None:
     assert elements["upCommand"] == {"command": "rcremote localhost p / /opt/y"}
 
 
-def test_rcmanager_ends_what_it_started_and_nothing_else() -> None:
+def test_rcmanager_stops_only_its_own_process() -> None:
     made = element_of(export(one("600", "(a|b)"), "rcmanager")["One.xml"], "downCommand")
     program, option, pattern = shlex.split(made)
     assert (program, option) == ("pkill", "-f")
     assert re.search(pattern, "/bin/true 600 (a|b)") and re.search(pattern, "sh /bin/true 600 (a|b)")
     assert not re.search(pattern, "/bin/true 600 (a|b)c") and not re.search(pattern, "/bin/true 6")
     configured = export(speaking(), "rcmanager")["Head.xml"]
-    assert "config/mouth( |$)" in configured  # not also what has the configuration mouth2
+    assert "config/mouth( |$)" in configured  # and not the process with the configuration mouth2
 
 
 def element_of(text: str, name: str) -> str:

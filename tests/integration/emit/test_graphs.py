@@ -1,4 +1,4 @@
-"""Pictures of networks: what is in them, every form, and an SVG in which nothing overlaps."""
+"""Pictures of networks: their content, all forms, and an SVG in which nothing overlaps."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.graphs import picture as parts
 from robocomp_yaml.emit.graphs.forms import draw
-from robocomp_yaml.emit.graphs.geometry import LABEL, Block, Geometry, geometry_of
+from robocomp_yaml.emit.graphs.geometry import LABEL, Geometry, Rectangle, geometry_of
 from robocomp_yaml.emit.graphs.grid import layers
 from robocomp_yaml.emit.graphs.measure import shortened, width
 from robocomp_yaml.emit.graphs.of_network import picture_of
-from robocomp_yaml.emit.graphs.picture import Box, Line, Node, Picture
+from robocomp_yaml.emit.graphs.picture import Box, Picture, PictureLine, PictureNode
 from robocomp_yaml.network.network import Connection, Network, Process
 
 Golden = Callable[[str, Mapping[str, str]], None]
@@ -31,7 +31,7 @@ FORMS = {"text": "txt", "dot": "dot", "mermaid": "mmd", "json": "json", "svg": "
 
 
 def faulty() -> tuple[Network, list[Diagnostic]]:
-    """Two processes in a document, an error in the first, which the second shares, and one at a connection."""
+    """Two processes of a document, with an error that both have, and one at a connection."""
     network = Network("Two", "/two.ddsl.yaml", "/f", dict(large(1, 1).hosts))
     for line, name in ((3, "a"), (6, "b")):
         span = Span("two.ddsl.yaml", line, 3)
@@ -55,7 +55,7 @@ def test_golden(golden: Golden, form: str) -> None:
     })  # fmt: skip
 
 
-def test_problems_are_where_they_belong() -> None:
+def test_diagnostics_are_at_their_nodes_and_lines() -> None:
     made = picture_of(*faulty())
     codes = {name: [fault.code for fault in node.faults] for name, node in made.nodes.items()}
     assert codes == {"a": ["RC0101", "RC0105"], "b": ["RC0101"]}
@@ -65,7 +65,7 @@ def test_problems_are_where_they_belong() -> None:
     assert [fault.code for _, fault in made.all_faults()] == ["RC0101", "RC0105", "RC0204"]
 
 
-def test_a_topic_stands_between_those_who_use_it() -> None:
+def test_a_topic_is_between_publishers_and_subscribers() -> None:
     made = picture_of(speaking())
     topic = made.nodes["storm/robot1/SpeechEvents"]
     assert (topic.kind, topic.box) == (parts.TOPIC, "onboard")
@@ -75,14 +75,14 @@ def test_a_topic_stands_between_those_who_use_it() -> None:
     assert made.nodes["camera:tcp -h 10.0.0.9 -p 10100"].kind == parts.OUTSIDE
 
 
-def test_what_waits_without_a_connection_has_a_line() -> None:
+def test_a_dependence_without_a_connection_is_a_line() -> None:
     network = speaking()
     network.connections.clear()
     lines = {(line.source, line.target) for line in picture_of(network).lines if line.kind == parts.AFTER}
     assert lines == {("mouth", "motors"), ("mouth", "storm"), ("speech", "mouth"), ("speech", "storm")}
 
 
-def test_layers_go_down_and_circles_do_no_harm() -> None:
+def test_layers_with_and_without_cycles() -> None:
     assert layers("abcd", {"a": ["b"], "b": ["c"]}) == {"a": 0, "b": 1, "c": 2, "d": 2}
     found = layers("abc", {"a": ["b"], "b": ["c"], "c": ["a"]})
     assert sorted(found.values()) == [0, 1, 2]
@@ -115,13 +115,13 @@ def pictures(draw_: st.DrawFn) -> Picture:
         title = draw_(st.text(st.characters(codec="utf-8"), min_size=1, max_size=60))
         box = draw_(st.sampled_from(["", *(box.name for box in made.boxes)]))
         serves = tuple((f"Interface{i}", 10000 + i) for i in range(draw_(st.integers(0, 9))))
-        made.nodes[name] = Node(name, title, draw_(kinds), box, serves=serves)
+        made.nodes[name] = PictureNode(name, title, draw_(kinds), box, serves=serves)
     ends = st.tuples(st.sampled_from(names), st.sampled_from(names))
     labels, line_kinds = st.sampled_from(["", "Laser", "JointMotor: JointMotors"]), st.sampled_from([
         parts.USES, parts.PUBLISHES, parts.SUBSCRIBES, parts.AFTER,
     ])  # fmt: skip
     for source, target in draw_(st.lists(ends, max_size=50)):
-        made.lines.append(Line(source, target, draw_(labels), draw_(line_kinds)))
+        made.lines.append(PictureLine(source, target, draw_(labels), draw_(line_kinds)))
     return made
 
 
@@ -144,16 +144,18 @@ def check(made: Geometry) -> None:
         assert not overlap(one, other)
     for one, other in combinations(made.hosts.values(), 2):
         assert not overlap(one, other)
-    labels = [Block(x + 5, y - 6 - LABEL, width(net.label, LABEL), LABEL) for net, (x, y) in made.labels if net.label]
+    labels = [
+        Rectangle(x + 5, y - 6 - LABEL, width(net.label, LABEL), LABEL) for net, (x, y) in made.labels if net.label
+    ]
     for label in labels:
         assert not any(overlap(label, node) for node in nodes)
     for one, other in combinations(labels, 2):
         assert not overlap(one, other)
     used: dict[tuple[str, float], list[tuple[float, float, object]]] = {}
-    for way in made.ways:
+    for way in made.paths:
         for (x1, y1), (x2, y2) in zip(way.points, way.points[1:], strict=False):
             assert x1 == x2 or y1 == y2
-            segment = Block(min(x1, x2), min(y1, y2), abs(x1 - x2), abs(y1 - y2))
+            segment = Rectangle(min(x1, x2), min(y1, y2), abs(x1 - x2), abs(y1 - y2))
             assert not any(overlap(segment, node, 0.5) for node in nodes)
             assert segment.x >= 0 and segment.x + segment.width <= made.width
             assert segment.y >= 0 and segment.y + segment.height <= made.height
@@ -164,13 +166,13 @@ def check(made: Geometry) -> None:
             assert net is other or min(last, end) - max(first, begin) < 0.5
 
 
-def overlap(one: Block, other: Block, room: float = 0.0) -> bool:
+def overlap(one: Rectangle, other: Rectangle, room: float = 0.0) -> bool:
     return (one.x + one.width > other.x + room and other.x + other.width > one.x + room
             and one.y + one.height > other.y + room and other.y + other.height > one.y + room)  # fmt: skip
 
 
 @pytest.mark.skipif(shutil.which("dot") is None, reason="Graphviz is not installed")
 @pytest.mark.parametrize("network", [speaking(), large(30)], ids=["head", "large"])
-def test_graphviz_takes_it(network: Network) -> None:
+def test_graphviz_accepts_it(network: Network) -> None:
     done = subprocess.run(["dot", "-Tsvg"], input=draw(picture_of(network), "dot"), capture_output=True, text=True)
     assert done.returncode == 0 and not done.stderr, done.stderr

@@ -1,4 +1,4 @@
-"""Hostile texts in every field of a deployment: either `check` refuses them, or they change no artefact's structure.
+"""Hostile texts in every field of a deployment: `check` rejects them, or they change the structure of no artefact.
 
 The structure is what a reader of the artefact finds: elements and attributes of XML, keys of YAML, sections and
 directives of units, statements of graphs. That of a text counts which has nothing special in it.
@@ -36,7 +36,7 @@ HOSTILE = (
 )  # fmt: skip
 HARMLESS = "harmless"
 SHARE = 1 if "RCYAML_CASES" in os.environ else 4
-"""Every so many texts are tried in a field, others in the next."""
+"""A field is tested with every n-th text, and the next field with others."""
 
 IDSL = (
     "module: RoboCompSpeech\ninterfaces:\n  Speech:\n    methods:\n      say: {in: {text: string}}\n"
@@ -80,11 +80,11 @@ DEPLOYMENT: dict[str, Any] = {
 
 
 MEANT = {(" a ", "Speech"), ("{config}", 0)}
-"""A proxy that is looked up, and a configuration for a program: these say something else than other texts."""
+"""A proxy that is resolved, and a configuration for a program: these have another meaning than other texts."""
 
 
 def places(data: Any, path: tuple[str | int, ...] = ()) -> Iterator[tuple[tuple[str | int, ...], bool]]:
-    """Every text: values, and keys (True)."""
+    """The paths of all texts: values, and keys (True)."""
     for step, value in data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ():
         if isinstance(data, dict):
             yield (*path, step), True
@@ -114,7 +114,7 @@ def analysed(folder: Path, data: dict[str, Any]) -> Analysis:
 
 
 def artefacts(network: Network, analysis: Analysis) -> dict[str, Any]:
-    """The structure of all that is written of a network; '' for what a form cannot say."""
+    """The structure of all exports of a network; '' for what a form cannot express."""
     found: dict[str, Any] = {}
     for form in exports.forms():
         try:
@@ -139,7 +139,7 @@ def shape(data: Any) -> Any:
 
 
 def in_order(data: Any) -> Any:
-    """With names sorted that stand beside each other."""
+    """The same with sorted names."""
     if isinstance(data, dict):
         return {key: in_order(value) for key, value in data.items()}
     if isinstance(data, list):
@@ -148,8 +148,8 @@ def in_order(data: Any) -> Any:
 
 
 def of_xml(text: str) -> Any:
-    """Elements with the names of their attributes. A server that is started by a shell or env has more options, and
-    other variables."""
+    """Elements with the names of their attributes. A server that a shell or env starts has more options, and other
+    variables."""
     parts = ElementTree.fromstring(text).iter()
     return [(part.tag, sorted(part.attrib)) for part in parts if part.tag not in ("option", "env")]
 
@@ -163,7 +163,7 @@ def keys(data: Any) -> Any:
 
 
 def of_unit(text: str) -> Any:
-    """Sections and directives as systemd reads them: \\n, \\r and NUL end a line, which goes on behind a backslash."""
+    """Sections and directives as systemd reads them: \\n, \\r and NUL end a line, and a backslash continues it."""
     lines = re.split(r"[\n\r\0]", text)
     assert not any(line.endswith("\\") for line in lines)
     return [line.partition("=")[0] for line in lines if not line.startswith(("#", ";"))]

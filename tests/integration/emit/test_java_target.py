@@ -1,4 +1,4 @@
-"""What is generated in Java: texts of documents end up as texts, whatever they hold."""
+"""Generated Java: every text of a document stays a text."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from robocomp_yaml.source.yaml_text import flow
 from robocomp_yaml.transactions.plan import FilePlan
 
 SHARE = 1 if "RCYAML_CASES" in os.environ else 8
-"""Every so many texts are tried."""
+"""Every n-th text is tested."""
 TOKEN = re.compile(
     r'\s+|//[^\n\r]*|/\*.*?\*/|(?P<text>"(?:\\[btnfr"\'\\]|\\[0-7]{1,3}|[^"\\\n\r])*")|(?P<token>\w+|[^\w\s"])',
     re.DOTALL,
@@ -34,7 +34,7 @@ MADE = (
 
 
 def read(source: str) -> str:
-    """As Java reads a source before anything else: unicode escapes, behind an even number of backslashes."""
+    """The source after the first step of Java: unicode escapes behind an even number of backslashes are replaced."""
     return re.sub(r"(\\\\)|\\u+([0-9a-fA-F]{4})", lambda found: found[1] or chr(int(found[2], 16)), source)
 
 
@@ -86,8 +86,8 @@ def test_hostile_texts_change_no_structure(tmp_path: Path) -> None:
     assert compiled > 50 / SHARE
 
 
-def test_a_long_text_is_cut() -> None:
-    """A class file takes no longer literal than 65,535 bytes."""
+def test_a_long_text_is_split() -> None:
+    """A literal in a class file has at most 65,535 bytes."""
     made = literal("é" * 50_000)
     assert max(len(part.encode()) for part in re.findall(r'"[^"]*"', made)) < 65_000
     assert made.startswith('String.join("", "') and made.count("é") == 50_000

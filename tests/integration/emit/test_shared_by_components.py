@@ -1,4 +1,4 @@
-"""What the components of a workspace share, and which ones have all that they need in their own folders."""
+"""What the components of a workspace share, and which components are standalone."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def in_language(workspace: Path, language: str, more: str = "") -> None:
     ("language", "more"),
     [*((language, "") for language in LANGUAGES), ("cpp", ROBOCOMP), ("python", ROBOCOMP)],
 )
-def test_the_run_time_and_slice_stand_once(rcyaml: Run, workspace: Path, language: str, more: str) -> None:
+def test_run_time_and_slice_are_written_once(rcyaml: Run, workspace: Path, language: str, more: str) -> None:
     in_language(workspace, language, more)
     shared = workspace / LANGUAGES[language][0]
     assert rcyaml("-q", "compile", ".").exit_code == 0
@@ -71,7 +71,7 @@ def test_the_run_time_and_slice_stand_once(rcyaml: Run, workspace: Path, languag
     assert "slice/CommonBehavior.ice" in files(shared)
 
 
-def test_a_component_alone_brings_what_it_shares(rcyaml: Run, workspace: Path) -> None:
+def test_compiling_one_component_writes_what_it_shares(rcyaml: Run, workspace: Path) -> None:
     assert rcyaml("-q", "compile", "components/motor").exit_code == 0
     assert files(workspace / "slice") == {"Motor.ice", "Types.ice"}
     assert files(workspace / SHARED)
@@ -79,14 +79,14 @@ def test_a_component_alone_brings_what_it_shares(rcyaml: Run, workspace: Path) -
     assert files(workspace / "slice") == {"Motor.ice", "Types.ice", "Hand.ice"}
 
 
-def test_nothing_is_new_the_second_time(rcyaml: Run, workspace: Path) -> None:
+def test_the_second_compile_changes_nothing(rcyaml: Run, workspace: Path) -> None:
     rcyaml("-q", "compile", ".")
     assert rcyaml("-q", "compile", "--check", ".").exit_code == 0
     assert rcyaml("-q", "compile", "--check", "components/arm").exit_code == 0
     assert rcyaml("-q", "compile", "--check", "interfaces").exit_code == 0
 
 
-def test_a_module_that_nobody_has_any_more(rcyaml: Run, workspace: Path) -> None:
+def test_a_module_without_a_document(rcyaml: Run, workspace: Path) -> None:
     rcyaml("-q", "compile", ".")
     (workspace / "interfaces/Hand.idsl.yaml").unlink()
     (workspace / "components/arm/arm.cdsl.yaml").write_text("component: ArmComp\nlanguage: cpp\n")
@@ -94,7 +94,7 @@ def test_a_module_that_nobody_has_any_more(rcyaml: Run, workspace: Path) -> None
     assert files(workspace / "slice") == {"Motor.ice", "Types.ice"}
 
 
-def test_other_folders(rcyaml: Run, workspace: Path) -> None:
+def test_configured_folders(rcyaml: Run, workspace: Path) -> None:
     (workspace / "rcyaml.yaml").write_text(
         "interfaces: [interfaces]\noutput: {slice: made/ice, runtime: made/common}\n"
     )
@@ -106,7 +106,7 @@ def test_other_folders(rcyaml: Run, workspace: Path) -> None:
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_standalone_and_back(rcyaml: Run, workspace: Path, language: str) -> None:
-    """As a workspace is carried over that an earlier version made, where each component had its own."""
+    """As with a workspace of an earlier version, in which each component had its own run time."""
     in_language(workspace, language)
     code = {"cpp": "src/specificworker.cpp", "java": "src/SpecificWorker.java", "python": "src/specificworker.py"}[
         language
@@ -126,21 +126,21 @@ def test_standalone_and_back(rcyaml: Run, workspace: Path, language: str) -> Non
     assert rcyaml("-q", "compile", "--check", "--standalone", ".").exit_code == 1
 
 
-def test_outside_of_any_workspace_it_stands_alone(rcyaml: Run, workspace: Path) -> None:
+def test_outside_a_workspace_it_is_standalone(rcyaml: Run, workspace: Path) -> None:
     (workspace / "rcyaml.yaml").unlink()
     assert rcyaml("-q", "compile", "-I", "interfaces", ".").exit_code == 0
     assert {"slice/Hand.ice", "generated/runtime/log.cpp"} <= files(workspace / "components/arm")
     assert not (workspace / "runtime").exists()
 
 
-def test_another_folder_for_all_output_stands_alone(rcyaml: Run, workspace: Path) -> None:
+def test_with_an_output_folder_it_is_standalone(rcyaml: Run, workspace: Path) -> None:
     assert rcyaml("-q", "compile", ".", "-o", "out").exit_code == 0
     assert {"slice/Hand.ice", "generated/runtime/log.cpp"} <= files(workspace / "out/components/arm")
 
 
 @pytest.mark.parametrize("is_same", [True, False])
-def test_a_common_behavior_of_ones_own(rcyaml: Run, workspace: Path, is_same: bool) -> None:
-    """Only one that says the same as RoboComp's can be the run time's."""
+def test_a_common_behavior_of_the_workspace(rcyaml: Run, workspace: Path, is_same: bool) -> None:
+    """Only one with the meaning of RoboComp's can be replaced by that of the run time."""
     text = resources.text("templates/slice/CommonBehavior.ice")
     text = re.sub(r"/\*\*.*?\*/\s*", "", text) if is_same else text.replace("timeAwake", "awake")
     write_tree(workspace, {"CommonBehavior.ice": text})
@@ -155,7 +155,7 @@ def test_a_common_behavior_of_ones_own(rcyaml: Run, workspace: Path, is_same: bo
 
 
 def test_interfaces_of_another_workspace(rcyaml: Run, workspace: Path) -> None:
-    """Their Slice is in the component's folder, since nobody asked to write into the other workspace."""
+    """Their Slice is in the component's folder, because the other workspace is not requested."""
     write_tree(workspace / "other", {"rcyaml.yaml": "", "Eye.idsl.yaml": HAND.replace("Hand", "Eye")})
     home = workspace / "home"
     write_tree(home, {path: text for path, text in WORKSPACE.items() if "arm" not in path})
@@ -177,8 +177,8 @@ def test_an_edited_file_of_the_run_time_is_kept(rcyaml: Run, workspace: Path) ->
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_only_the_component_that_is_compiled_knows_of_a_change(rcyaml: Run, workspace: Path, language: str) -> None:
-    """The other shares the Slice that has changed under it, and is told to be compiled."""
+def test_only_the_compiled_component_has_a_change(rcyaml: Run, workspace: Path, language: str) -> None:
+    """The other one shares the changed Slice, and reports that it must be compiled."""
     in_language(workspace, language)
     (workspace / "lab.ddsl.yaml").write_text(
         "deployment: Lab\ncomponents:\n  motor: {component: components/motor/motor.cdsl.yaml}\n"
@@ -194,7 +194,7 @@ def test_only_the_component_that_is_compiled_knows_of_a_change(rcyaml: Run, work
 
 
 def test_an_interface_beside_a_component_that_hides_another(rcyaml: Run, workspace: Path) -> None:
-    """The Slice that the others share is that of the folder of interfaces."""
+    """The shared Slice is that of the folder of interfaces."""
     write_tree(workspace, {"components/arm/Hand.idsl.yaml": HAND.replace("grip", "open")})
     assert rcyaml("-q", "compile", "components/motor", "components/arm/arm.cdsl.yaml").exit_code == 0
     assert "void open" in (workspace / "components/arm/slice/Hand.ice").read_text()
@@ -206,7 +206,7 @@ def test_an_interface_beside_a_component_that_hides_another(rcyaml: Run, workspa
 def test_a_container_has_what_a_component_shares(
     rcyaml: Run, workspace: Path, monkeypatch: pytest.MonkeyPatch, language: str, is_read: bool
 ) -> None:
-    """Unless the program that was built has all of it."""
+    """Unless the program was built, and contains it."""
     monkeypatch.setattr(compose, "_SYSTEM", re.compile("$^"))  # these folders are below /tmp
     in_language(workspace, language)
     (workspace / "lab.ddsl.yaml").write_text(

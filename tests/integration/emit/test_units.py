@@ -1,4 +1,4 @@
-"""The one writer of systemd's lines: what is in a value is never a line of its own."""
+"""The writer of units for systemd: a value never becomes a second line."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from test_exports import one, systemd_words
 
 from conftest import write_tree
 from robocomp_yaml.emit.exports import Unwritable, export, noted
-from robocomp_yaml.emit.exports._units import Unit, folder, quoted
+from robocomp_yaml.emit.exports.systemd import UnitFile, folder, quoted
 from robocomp_yaml.emit.xml_text import element
 
 
 @pytest.mark.parametrize("value", ["a\nb", "a\rb", "a\0b", "\x1b[0m", "a\x85b", "a\u2029b", "a\tb", "a\\"])
-def test_a_line_is_one_line(value: str) -> None:
-    unit = Unit()
+def test_a_value_is_one_line(value: str) -> None:
+    unit = UnitFile()
     for write in (lambda: unit.put("Key", value), lambda: unit.comment(value), lambda: unit.put(value, "x\\")):
         with pytest.raises(Unwritable):
             write()
@@ -29,8 +29,8 @@ def test_a_line_is_one_line(value: str) -> None:
 
 
 @pytest.mark.parametrize("word", ["a\nb\r\t", "\x1b\x07\x7f", "\x85\u2028é", 'a "b" \\', "100%"])
-def test_a_word_in_quotes_says_the_same(word: str) -> None:
-    """By systemd's escapes, which are those of C."""
+def test_a_word_in_quotes_is_read_back(word: str) -> None:
+    """With the escapes of systemd, which are those of C."""
     text = quoted(word)
     assert text.isprintable()
     told = text[1:-1].replace("%%", "%").encode("latin-1", "backslashreplace").decode("unicode_escape")
@@ -44,7 +44,7 @@ def test_folders_whose_end_would_get_lost() -> None:
 
 
 @pytest.mark.parametrize("program", ["@sh", "-sh", "+sh", "!sh", ":sh", "/opt/$x/run"])
-def test_no_program_says_something_of_the_command(program: str) -> None:
+def test_a_program_never_becomes_a_prefix(program: str) -> None:
     unit = export(one("$HOME", program=program), "systemd")["One-p.service"]
     line = next(line for line in unit.splitlines() if line.startswith("ExecStart="))
     words = systemd_words(line.removeprefix("ExecStart="))
@@ -60,10 +60,12 @@ def test_no_name_breaks_an_element(name: str) -> None:
         (line,) = element(name, {name: "x\x1b"})
     made = ElementTree.fromstring(line)
     assert list(made.attrib.values()) == ["x\ufffd"] and len(notes) == 3
-    assert any("U+001B" in str(note) for note in notes) and any(f"called '{name}'" in str(note) for note in notes)
+    assert any("U+001B" in str(note) for note in notes) and any(
+        f"'{name}' is not a legal name" in str(note) for note in notes
+    )
 
 
-def test_what_a_form_cannot_say_is_told(rcyaml: Callable[..., Result], tmp_path: Path) -> None:
+def test_what_a_form_cannot_express_is_reported(rcyaml: Callable[..., Result], tmp_path: Path) -> None:
     rings = 'deployment: Robot\ncomponents:\n  arm: {program: sleep, args: ["\\a"]}\n'
     write_tree(tmp_path, {"robot.ddsl.yaml": rings})
     result = rcyaml("deploy", "export", "robot.ddsl.yaml", "--as", "icegrid", "-o", "out")
@@ -78,7 +80,7 @@ def test_what_a_form_cannot_say_is_told(rcyaml: Callable[..., Result], tmp_path:
 
 @pytest.mark.skipif(shutil.which("systemd-analyze") is None, reason="systemd-analyze is not installed")
 @pytest.mark.parametrize("cwd", ["/tmp/a\\", "/tmp/b ", "/tmp/%i"])
-def test_systemd_takes_odd_folders(tmp_path: Path, cwd: str) -> None:
+def test_systemd_accepts_odd_folders(tmp_path: Path, cwd: str) -> None:
     network = one("a\nb\x1b\u2028")
     network.processes["p"] = replace(network.processes["p"], cwd=cwd)
     files = export(network, "systemd")

@@ -1,4 +1,4 @@
-"""`uses:`: what the build and pip get of it, and what is refused."""
+"""`uses:`: the files for the build and for pip, and names that are rejected."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ import pytest
 from click.testing import Result
 
 from conftest import write_tree
+from robocomp_yaml.languages import language
 
 Run = Callable[..., Result]
 
@@ -28,12 +29,13 @@ def compiled(rcyaml: Run, folder: Path, text: str, *args: str) -> Path:
 
 
 def configured(root: Path) -> str:
-    """What CMake has to say of the libraries, without Ice."""
+    """The output of CMake about the libraries, without Ice."""
     lists = root / "CMakeLists.txt"
     lists.write_text(
         'cmake_minimum_required(VERSION 3.20)\nproject(X LANGUAGES C)\nset(component_root "${CMAKE_SOURCE_DIR}")\n'
         'file(WRITE "${CMAKE_BINARY_DIR}/x.c" "int main() {return 0;}")\nadd_executable(x "${CMAKE_BINARY_DIR}/x.c")\n'
-        "set(component_target x)\ninclude(generated/uses.cmake)\n"
+        f'set(component_target x)\nset(component_name x)\nset(component_runtime "{language("cpp").templates}")\n'
+        "include(generated/uses.cmake)\n"
         'get_target_property(found x SOURCES)\nmessage("sources ${found}")\n'
         'get_target_property(found x LINK_LIBRARIES)\nmessage("linked ${found}")\n'
     )
@@ -59,7 +61,7 @@ def test_pip_packages_become_requirements(rcyaml: Run, tmp_path: Path) -> None:
 
 @pytest.mark.skipif(shutil.which("cmake") is None or shutil.which("cc") is None, reason="CMake or cc is not installed")
 class TestCMake:
-    def test_what_is_there_is_found(self, rcyaml: Run, tmp_path: Path) -> None:
+    def test_installed_libraries_are_found(self, rcyaml: Run, tmp_path: Path) -> None:
         names = ("speech/own file.c", "shared/a.c", "shared/a.h", "classes/b/b.c")
         write_tree(tmp_path, {f"robot/{name}": "" for name in names})
         uses = "  sources: [own file.c, shared/a.c, shared/a.h]\n  classes: [b]\n  libraries: [{link: m}]\n"
@@ -68,24 +70,24 @@ class TestCMake:
         assert "/own file.c;" in said and "/shared/a.c;" in said and "/classes/b/b.c" in said and "a.h" not in said
         assert said.endswith("libm.so")
 
-    def test_all_that_is_missing_is_told_at_once(self, rcyaml: Run, tmp_path: Path) -> None:
+    def test_all_missing_libraries_are_reported_together(self, rcyaml: Run, tmp_path: Path) -> None:
         uses = (
             "  sources: [lost.cpp]\n  classes: [lostClass]\n"
             "  libraries: [{cmake: LostPackage}, {pkg-config: lost-module}, {link: lostlibrary}, {pip: numpy}]\n"
         )
         said = configured(compiled(rcyaml, tmp_path, CPP + uses))
-        assert said.startswith("exit 1 ") and "SpeechComp uses what is not there (speech.cdsl.yaml):" in said
+        assert said.startswith("exit 1 ") and "SpeechComp uses what is missing (speech.cdsl.yaml):" in said
         for name in ("lost.cpp", "lostClass", "LostPackage", "lost-module", "lostlibrary"):
             assert f" {name}: " in said
         assert "numpy" not in said
 
-    def test_below_another_folder_sources_are_still_those_of_the_document(self, rcyaml: Run, tmp_path: Path) -> None:
+    def test_with_an_output_folder_sources_are_those_of_the_document(self, rcyaml: Run, tmp_path: Path) -> None:
         write_tree(tmp_path, {"robot/speech/own.c": "", "robot/shared/a.c": ""})
         compiled(rcyaml, tmp_path, CPP + "  sources: [own.c, shared/a.c]\n", "-o", "out")
         said = configured(tmp_path / "out/speech")
         assert said.startswith("exit 0 ") and "/own.c;" in said and "/shared/a.c" in said
 
-    def test_a_version_that_will_not_do(self, rcyaml: Run, tmp_path: Path) -> None:
+    def test_a_version_that_is_not_accepted(self, rcyaml: Run, tmp_path: Path) -> None:
         version = "set(PACKAGE_VERSION 3.10.1)\n"
         write_tree(tmp_path, {"cmake/OldConfig.cmake": "", "cmake/OldConfigVersion.cmake": version})
         uses = '  libraries: [{cmake: Old, version: ">=3.9, <4"}, {cmake: Old, version: ">3.10.1"}]\n'
@@ -93,13 +95,13 @@ class TestCMake:
         path = root / "generated/uses.cmake"
         path.write_text(f'set(Old_DIR "{tmp_path}/cmake")\n{path.read_text()}')
         said = configured(root)
-        assert "the CMake package Old is there as version 3.10.1, and must be >3.10.1" in said
+        assert "the CMake package Old has version 3.10.1, and must be >3.10.1" in said
         assert ">=3.9" not in said and "<4" not in said
 
 
 @pytest.mark.parametrize("key", ["cmake", "pkg-config", "link", "pip", "classes", "sources", "version"])
 @pytest.mark.parametrize("name", HOSTILE)
-def test_what_means_something_to_a_shell_is_refused(name: str, key: str, rcyaml: Run, tmp_path: Path) -> None:
+def test_names_with_a_meaning_in_a_shell_are_rejected(name: str, key: str, rcyaml: Run, tmp_path: Path) -> None:
     harmless = {"sources": ("a b", "../a", "@A@")}
     if name in harmless.get(key, ()):
         return

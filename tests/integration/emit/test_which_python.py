@@ -1,4 +1,4 @@
-"""Which Python a component runs in: real interpreters and virtual environments, some with a module called Ice."""
+"""The Python that runs a component: real interpreters and virtual environments, some with a module Ice."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ FOR_ANOTHER = "import IcePy\n"
 
 
 class Place:
-    """A workspace with the component `arm`; `path` is the folder that the PATH begins with."""
+    """A workspace with the component `arm`; `path` is the first folder of PATH."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -48,7 +48,7 @@ class Place:
         self.python(folder / "front")
 
     def python(self, home: Path, ice: str = "") -> Path:
-        """A virtual environment, as `python -m venv` makes it but sooner; `ice` is its module."""
+        """A virtual environment as of `python -m venv`, made in less time; `ice` is its module."""
         (home / "bin").mkdir(parents=True)
         base = os.path.realpath(sys.executable)
         (home / "pyvenv.cfg").write_text(f"home = {os.path.dirname(base)}\ninclude-system-site-packages = false\n")
@@ -66,7 +66,7 @@ class Place:
         return subprocess.run(command, env=environment, cwd=self.folder, capture_output=True, text=True, timeout=60)
 
     def runs_in(self, **variables: str) -> Path:
-        """The Python, of which the folder is told."""
+        """The folder of the Python that runs the component."""
         done = self.start(**variables)
         assert done.returncode == 0 and not done.stderr, done.stderr
         return Path(done.stdout.strip()).parent.parent
@@ -94,7 +94,7 @@ def test_the_order(place: Place, tmp_path: Path) -> None:
     assert place.runs_in(RCYAML_PYTHON="python-of-arm", PATH=f"{place.path}:{own.parent}:/usr/bin:/bin").name == "own"
 
 
-def test_arguments_are_handed_on_and_nothing_else(place: Place, tmp_path: Path) -> None:
+def test_only_arguments_are_passed_on(place: Place, tmp_path: Path) -> None:
     place.python(tmp_path / "ws" / ".venv")
     python = place.python(place.debian.parent.parent, ICE).with_name("python3")
     done = place.start("etc/config", "--Text= a\n b", "")
@@ -109,7 +109,7 @@ def test_the_workspace_may_have_moved(place: Place, tmp_path: Path, name: str) -
     assert place.runs_in() == tmp_path / name / ".venv"
 
 
-def test_workspaces_in_each_other(place: Place, tmp_path: Path) -> None:
+def test_nested_workspaces(place: Place, tmp_path: Path) -> None:
     (tmp_path / "rcyaml.yaml").touch()
     place.python(tmp_path / ".venv", ICE)
     assert place.runs_in() == tmp_path / ".venv", "the inner one has none"
@@ -128,7 +128,7 @@ def test_a_link_to_the_program(place: Place, tmp_path: Path) -> None:
 
 
 def test_an_environment_that_sees_the_systems_modules(place: Place, tmp_path: Path) -> None:
-    """Of the same Python: told from it by its folder, though its program is a link to the same file."""
+    """Of the same Python: it is identified by its folder, because its program is a link to the same file."""
     with_ice = place.python(place.debian.parent.parent, ICE)
     environment = place.python(tmp_path / "ws" / ".venv")
     library = next((tmp_path / "ws" / ".venv" / "lib").glob("*/site-packages"))
@@ -144,7 +144,7 @@ def test_an_environment_that_sees_the_systems_modules(place: Place, tmp_path: Pa
         ('"{python}" "$@"; exit $?', ""),
     ],
 )
-def test_a_script_in_front(place: Place, tmp_path: Path, script: str, ice: str) -> None:
+def test_a_wrapper_script(place: Place, tmp_path: Path, script: str, ice: str) -> None:
     place.python(place.debian.parent.parent, ICE)
     python = place.python(tmp_path / "shimmed", ice).with_name("python3")
     (place.path / "python3").unlink()
@@ -153,7 +153,7 @@ def test_a_script_in_front(place: Place, tmp_path: Path, script: str, ice: str) 
     assert place.runs_in() == tmp_path / "debian"
 
 
-def test_a_python_that_is_called_comes_before_those_that_are_found(place: Place, tmp_path: Path) -> None:
+def test_the_calling_python_is_preferred(place: Place, tmp_path: Path) -> None:
     called = place.python(tmp_path / "called", ICE)
     place.python(place.debian.parent.parent, ICE)
     assert place.start(by=called).stdout.strip() == str(called)
@@ -161,7 +161,7 @@ def test_a_python_that_is_called_comes_before_those_that_are_found(place: Place,
     assert place.start(by=called).stdout.strip() == str(tmp_path / "ws/.venv/bin/python")
 
 
-def test_all_that_were_tried_are_named(place: Place, tmp_path: Path) -> None:
+def test_all_rejected_pythons_are_named(place: Place, tmp_path: Path) -> None:
     place.python(tmp_path / "ws" / ".venv", FOR_ANOTHER)
     place.debian.parent.mkdir(parents=True)
     place.debian.write_text("")
@@ -171,21 +171,21 @@ def test_all_that_were_tried_are_named(place: Place, tmp_path: Path) -> None:
     assert (
         done.stderr
         == f"""\
-Arm: no Python here has Ice 3.7, which it needs
-  {environment} (the workspace's) sees an Ice that was compiled for another Python (No module named 'IcePy')
+Arm: no Python on this machine has Ice 3.7, which the component needs
+  {environment} (the workspace's) has an Ice that was compiled for another Python (No module named 'IcePy')
   {place.path}/python3 (python3 on the path) has no Ice
   {place.debian} (Debian's) is not executable
 Install it for Debian's Python: sudo apt install python3-zeroc-ice
-Without such rights, it is compiled, which takes minutes: {environment} -m pip install 'zeroc-ice>=3.7.8,<3.8'
-Where another Python has it: RCYAML_PYTHON=/path/to/python
+Without root privileges, compile it, which takes minutes: {environment} -m pip install 'zeroc-ice>=3.7.8,<3.8'
+If another Python has it: RCYAML_PYTHON=/path/to/python
 """
     )
 
 
-def test_where_there_is_no_environment_the_hint_makes_one(place: Place, tmp_path: Path) -> None:
+def test_without_an_environment_the_hint_creates_one(place: Place, tmp_path: Path) -> None:
     said = place.start().stderr
     environment = tmp_path / "ws" / ".venv"
-    assert f"  {environment}/bin/python (the workspace's) is not there\n" in said
+    assert f"  {environment}/bin/python (the workspace's) does not exist\n" in said
     assert f"takes minutes: python3 -m venv {environment} && {environment}/bin/python -m pip install 'zero" in said
 
 
@@ -193,27 +193,27 @@ def test_where_there_is_no_environment_the_hint_makes_one(place: Place, tmp_path
     ("ice", "why"),
     [
         ("def intVersion(): return 30800\ndef stringVersion(): return '3.8.0'\n", "has Ice 3.8.0, not 3.7"),
-        ("import no_such\n", "sees an Ice that was compiled for another Python (No module named 'no_such')"),
+        ("import no_such\n", "has an Ice that was compiled for another Python (No module named 'no_such')"),
         ("raise ImportError('libIce.so.37: cannot open')\n", "cannot load its Ice (libIce.so.37: cannot open)"),
         ("syntax error\n", "cannot load its Ice (invalid syntax (Ice.py, line 1))"),
         ("raise SystemError('broken')\n", "cannot load its Ice (broken)"),
-        ("cold = True\n", "finds something else that is called Ice ("),
+        ("cold = True\n", "has another module named Ice ("),
     ],
 )
-def test_an_ice_that_will_not_do(place: Place, tmp_path: Path, ice: str, why: str) -> None:
+def test_an_ice_that_is_not_accepted(place: Place, tmp_path: Path, ice: str, why: str) -> None:
     place.python(tmp_path / "ws" / ".venv", ice)
     assert f"/.venv/bin/python (the workspace's) {why}" in place.start().stderr
     place.python(place.debian.parent.parent, ICE)
     assert place.runs_in() == tmp_path / "debian"
 
 
-def test_a_folder_of_the_component_is_no_ice(place: Place) -> None:
+def test_a_folder_of_the_component_is_not_ice(place: Place) -> None:
     (place.root / "src" / "Ice").mkdir(parents=True)
-    assert "(python3 on the path) finds something else that is called Ice (a folder)" in place.start().stderr
+    assert "(python3 on the path) has another module named Ice (a folder)" in place.start().stderr
 
 
 def broken(place: Place, how: str) -> str:
-    """A Python that cannot be used; its path."""
+    """The path of a Python that cannot be used."""
     path = place.folder / "broken"
     if how == "a link":
         path.symlink_to("/no/such/python")
@@ -226,42 +226,42 @@ def broken(place: Place, how: str) -> str:
 
 
 BROKEN = {
-    "nothing": "is not there",
-    "a link": "leads to /no/such/python, which is not there",
+    "nothing": "does not exist",
+    "a link": "is a link to /no/such/python, which does not exist",
     "a folder": "is a folder (did you mean {path}/bin/python?)",
     "not executable": "is not executable",
     "#!/no/such/interpreter\n": "cannot be started (No such file or directory)",
     "\x7fELF nonsense": "cannot be started (Exec format error)",
-    "#!/bin/sh\n": "is no Python that works (exit code 0)",
-    "#!/bin/sh\necho oh >&2; exit 3\n": "is no Python that works (oh)",
+    "#!/bin/sh\n": "does not work as Python (exit code 0)",
+    "#!/bin/sh\necho oh >&2; exit 3\n": "does not work as Python (oh)",
     "#!/bin/sh\necho Python 3 8\n": "is Python 3.8, older than 3.9",
 }
 
 
 @pytest.mark.parametrize("how", BROKEN, ids=range(len(BROKEN)))
-def test_what_is_set_and_cannot_be_used_is_an_error(place: Place, tmp_path: Path, how: str) -> None:
-    """Never passed over, though others could be used."""
+def test_a_configured_python_that_cannot_be_used_is_an_error(place: Place, tmp_path: Path, how: str) -> None:
+    """It is never skipped, even if others can be used."""
     place.python(tmp_path / "ws" / ".venv", ICE)
     path = broken(place, how)
     done = place.start(RCYAML_PYTHON=path)
     assert done.returncode == 1 and not done.stdout
     assert done.stderr == (
         f"Arm: RCYAML_PYTHON names {path}, which {BROKEN[how].format(path=path)}: "
-        "let it name a Python that has Ice 3.7, or unset it\n"
+        "set it to a Python that has Ice 3.7, or unset it\n"
     )
 
 
-def test_what_is_set_and_has_no_ice_is_an_error(place: Place, tmp_path: Path) -> None:
+def test_a_configured_python_without_ice_is_an_error(place: Place, tmp_path: Path) -> None:
     place.python(tmp_path / "ws" / ".venv", ICE)
     without = place.python(tmp_path / "without")
     for given, named in ((str(without), without), ("no-such-python", "no-such-python")):
         done = place.start(RCYAML_PYTHON=given)
         why = "has no Ice" if named == without else "is not on the path"
-        assert done.returncode == 1 and done.stderr.startswith(f"Arm: RCYAML_PYTHON names {named}, which {why}: let it")
+        assert done.returncode == 1 and done.stderr.startswith(f"Arm: RCYAML_PYTHON names {named}, which {why}: set it")
 
 
 @pytest.mark.parametrize("how", BROKEN, ids=range(len(BROKEN)))
-def test_what_is_found_and_cannot_be_used_is_passed_over(place: Place, tmp_path: Path, how: str) -> None:
+def test_a_detected_python_that_cannot_be_used_is_skipped(place: Place, tmp_path: Path, how: str) -> None:
     path = broken(place, how)
     (tmp_path / "ws" / ".venv" / "bin").mkdir(parents=True)
     (tmp_path / "ws" / ".venv" / "bin" / "python").symlink_to(path)
@@ -273,8 +273,8 @@ def test_what_is_found_and_cannot_be_used_is_passed_over(place: Place, tmp_path:
 
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root can make files of another user")
-def test_an_environment_of_somebody_else_is_not_run(place: Place, tmp_path: Path) -> None:
-    """A workspace may be found in a folder in which anybody may write."""
+def test_an_environment_of_another_user_is_not_run(place: Place, tmp_path: Path) -> None:
+    """A workspace may be in a folder that all users can write."""
     place.python(tmp_path / "ws" / ".venv", ICE)
     os.chown(tmp_path / "ws" / ".venv", 12345, -1)
     assert "(the workspace's) belongs to another user" in place.start().stderr
@@ -282,14 +282,14 @@ def test_an_environment_of_somebody_else_is_not_run(place: Place, tmp_path: Path
     assert place.runs_in() == tmp_path / "ws" / ".venv", "whose component it is, too"
 
 
-def test_what_was_handed_on_by_somebody_else_is_not_believed(place: Place, tmp_path: Path) -> None:
+def test_a_variable_of_another_user_is_ignored(place: Place, tmp_path: Path) -> None:
     place.python(tmp_path / "ws" / ".venv", ICE)
     for text in ("", "[", "1", "[[], 1]", "[[], [[1]]]", "null"):
         assert place.runs_in(_RCYAML_PYTHONS=text) == tmp_path / "ws" / ".venv"
 
 
-def test_none_is_started_in_vain(place: Place, tmp_path: Path) -> None:
-    """The one that has Ice begins once more where another began; where it is the first one, it just goes on."""
+def test_no_python_is_started_without_need(place: Place, tmp_path: Path) -> None:
+    """The Python with Ice is started by the first one; if it is the first one itself, it continues."""
     environment = place.python(tmp_path / "ws" / ".venv", ICE)
     starts = tmp_path / "starts"
     note = f"print(sys.executable, file=open({str(starts)!r}, 'a'))"
@@ -313,7 +313,7 @@ main()
 
 
 def old_python(place: Place) -> None:
-    """The first on the path says that it is Python 3.6; the launcher and its run time are as they are compiled."""
+    """The first Python of PATH reports version 3.6; the launcher and its run time are generated."""
     site = next((place.path.parent / "lib").glob("*/site-packages"))
     (site / "old.pth").write_text("import sys; sys.version_info = (3, 6, 9, 'final', 0)\n")
     place.program.write_text(LAUNCHER)
@@ -330,16 +330,16 @@ def test_a_python_that_cannot_read_the_run_time_starts_another(place: Place) -> 
     assert place.start("etc/config", "--x= a").stdout == f"{python} etc/config --x= a\n"
 
 
-def test_or_says_which_one_is_wanted(place: Place) -> None:
+def test_the_required_version_is_reported(place: Place) -> None:
     old_python(place)
     done = place.start()
     assert done.returncode == 1 and "Traceback" not in done.stderr
-    assert "Arm: no Python here has Ice 3.7" in done.stderr
+    assert "Arm: no Python on this machine has Ice 3.7" in done.stderr
     assert "(python3 on the path) is Python 3.6, older than 3.9\n" in done.stderr
 
 
 @pytest.mark.parametrize("name", ["__init__.py", "interpreter.py"])
-def test_it_is_spelled_for_old_pythons(name: str) -> None:
+def test_the_launcher_has_the_syntax_of_old_pythons(name: str) -> None:
     text = language("python").text(f"runtime/{name}")
     tree = ast.parse(text, feature_version=(3, 5))
     assert not [node for node in ast.walk(tree) if isinstance(node, ast.JoinedStr | ast.AnnAssign | ast.NamedExpr)]

@@ -1,4 +1,4 @@
-"""`rcyaml migrate`: what is written where, what never is, and how it is told."""
+"""`rcyaml migrate`: what it writes and where, what it never overwrites, and its output."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def test_a_folder_becomes_a_workspace(rcyaml: Run, tmp_path: Path) -> None:
         "interfaces/Speech.idsl.yaml": "# yaml-language-server: $schema=../.rcyaml/schemas/idsl.schema.json\n"
         + SPEECH_YAML,
         "rcyaml.yaml": "# yaml-language-server: $schema=.rcyaml/schemas/workspace.schema.json\n"
-        "interfaces: [interfaces]\n# Files that were not there to be migrated are named still.\n"
+        "interfaces: [interfaces]\n# Documents refer to files that were missing when they were migrated.\n"
         "lint:\n  RC1101: warning\n  RC2101: warning\n  RC2201: warning\n",
     }
     assert (tmp_path / "new/.rcyaml/schemas/idsl.schema.json").is_file()
@@ -48,7 +48,7 @@ def test_a_folder_becomes_a_workspace(rcyaml: Run, tmp_path: Path) -> None:
     assert rcyaml("check", "new").exit_code == 0
 
 
-def test_beside_the_source_and_into_the_workspace_above(rcyaml: Run, tmp_path: Path) -> None:
+def test_documents_are_in_the_folders_of_their_sources(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {**TREE, "rcyaml.yaml": "interfaces: [interfaces]\n"})
     assert rcyaml("migrate", "interfaces/Speech.idsl", "components").exit_code == 0
     texts = _documents(tmp_path)
@@ -96,7 +96,7 @@ def test_what_a_user_edited_is_kept(rcyaml: Run, tmp_path: Path, renewed: bool) 
 
 
 @pytest.mark.parametrize("options", [(), ("--force",)])
-def test_a_file_that_is_not_ours_is_never_overwritten(rcyaml: Run, tmp_path: Path, options: tuple[str, ...]) -> None:
+def test_a_file_of_the_user_is_never_overwritten(rcyaml: Run, tmp_path: Path, options: tuple[str, ...]) -> None:
     write_tree(tmp_path, {**TREE, "interfaces/Speech.idsl.yaml": "module: Mine\n"})
     result = rcyaml("migrate", ".", *options)
     assert result.exit_code == 1 and "RC5021" in result.stdout
@@ -126,7 +126,7 @@ def test_one_bad_file_does_not_stop_the_others(rcyaml: Run, tmp_path: Path) -> N
     ]  # fmt: skip
 
 
-def test_what_compile_wrote_is_not_migrated_back(rcyaml: Run, tmp_path: Path) -> None:
+def test_generated_configs_are_not_migrated_again(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, TREE)
     rcyaml("migrate", ".")
     assert rcyaml("compile").exit_code == 0
@@ -143,13 +143,13 @@ def test_a_report_overwrites_nothing_but_a_report(path: str, rcyaml: Run, tmp_pa
     write_tree(tmp_path, files)
     result = rcyaml("migrate", "Speech.idsl", "-o", "out", "--report", path)
     assert result.exit_code == 2
-    assert f"--report does not overwrite {path}, which is no report of an earlier run" in result.output
+    assert f"--report does not overwrite {path}, which is not an earlier report" in result.output
     assert read_tree(tmp_path) == files
     for _ in range(2):
         assert rcyaml("migrate", "Speech.idsl", "-o", "out", "--report", "ledger.json").exit_code == 0
 
 
-def test_a_report_on_standard_output_is_alone_there(rcyaml: Run, tmp_path: Path) -> None:
+def test_a_report_is_the_only_standard_output(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"Speech.idsl": SPEECH + "#endif\n"})
     result = rcyaml("-v", "migrate", ".", "--dry-run", "--diff", "--report", "-")
     assert json.loads(result.stdout)["totals"]["files"] == 1
@@ -192,7 +192,7 @@ def test_strict_fails_on_a_loss(rcyaml: Run, tmp_path: Path) -> None:
     assert rcyaml("migrate", "B.idsl", "--strict").exit_code == 0
 
 
-def test_slice_made_from_an_idsl_is_skipped(rcyaml: Run, tmp_path: Path) -> None:
+def test_slice_generated_from_an_idsl_is_skipped(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"Speech.idsl": SPEECH, "Speech.ice": SPEECH, "Other.ICE": "module Other { };\n"})
     result = rcyaml("migrate", ".", "--report", "ledger.json")
     assert result.exit_code == 0
@@ -223,7 +223,7 @@ def test_imports_by_name_by_path_and_in_another_case(rcyaml: Run, tmp_path: Path
     assert {(d["code"], d["severity"]) for d in said} == {("RC2101", "warning")}
 
 
-def test_parts_of_one_module_find_each_other(rcyaml: Run, tmp_path: Path) -> None:
+def test_parts_of_one_module_are_resolved(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(
         tmp_path,
         {
@@ -284,7 +284,7 @@ def test_a_full_disk_leaves_everything_as_it_was(rcyaml: Run, tmp_path: Path, mo
     assert rcyaml("migrate", str(tmp_path / "in"), "-o", str(tmp_path / "out")).exit_code == 0
 
 
-def test_names_with_blanks_and_letters_of_the_world(rcyaml: Run, tmp_path: Path) -> None:
+def test_names_with_blanks_and_letters_of_other_languages(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"mis señales/mi señal.idsl": "module Senal { };\n"})
     assert rcyaml("migrate", "mis señales").exit_code == 0
     assert (tmp_path / "mis señales/mi señal.idsl.yaml").is_file()
@@ -310,7 +310,7 @@ def test_an_empty_folder_is_an_error(rcyaml: Run, tmp_path: Path) -> None:
     assert read_tree(tmp_path) == {}
 
 
-def test_a_path_that_is_not_there_is_wrong_usage(rcyaml: Run) -> None:
+def test_a_missing_path_is_a_usage_error(rcyaml: Run) -> None:
     result = rcyaml("migrate", "no.idsl")
     assert result.exit_code == 2
     assert "'no.idsl' does not exist" in result.output

@@ -1,4 +1,4 @@
-"""SMDSL files as SCXML: whatever order the blocks are in, and what is wrong with some."""
+"""SMDSL files as SCXML: blocks in any order, and faults."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Run = Callable[..., Result]
 
 
 def converted(folder: Path, text: str) -> tuple[str, list[str]]:
-    """The document ('' where there is none), and what was said with line and column."""
+    """Return the document ('' without one), and the diagnostics with line and column."""
     (folder / "x.smdsl").write_text(text, encoding="utf-8")
     result = convert(str(folder / "x.smdsl"))
     said = [f"{d.span.line}:{d.span.column} {d.message}" for d in result.diagnostics]
@@ -30,7 +30,7 @@ OPEN = '<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0" name="{}" i
 
 
 def test_nested_parallel_and_in_any_order(tmp_path: Path) -> None:
-    """A block's parent may be a state of another block, before or behind it."""
+    """A block's parent may be a state of another block, before or after it."""
     text, said = converted(tmp_path, """
         // The game.
         game {
@@ -43,7 +43,7 @@ def test_nested_parallel_and_in_any_order(tmp_path: Path) -> None:
         :round PARALLEL { STATES player, board; };
         :board { states clean; initial_state clean; end_state broken; };
     """)  # fmt: skip
-    assert said == ["11:25 'clean' is named as the first or last state already, and need not be listed"]
+    assert said == ["11:25 'clean' is the first or last state, and need not be listed"]
     assert (
         text
         == HEAD
@@ -78,16 +78,16 @@ def test_nested_parallel_and_in_any_order(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("text", "said"), [
-    ("m { initial_state a; transition { a => a; }; };", ["1:22 'transition' is called 'transitions'"]),
+    ("m { initial_state a; transition { a => a; }; };", ["1:22 'transition' is spelled 'transitions'"]),
     ("m { states b, b; initial_state a; };", ["1:15 'b' is listed already"]),
-    ("m { initial_state a; transitions { a => a; a => a; }; };", ["1:49 this transition to 'a' is there already"]),
+    ("m { initial_state a; transitions { a => a; a => a; }; };", ["1:49 this transition to 'a' is repeated"]),
     ("m { initial_state a };", ["1:19 a ';' is missing here"]),
-    ("m { initial_state a; states b,; };", ["1:30 the last ',' of this list is followed by nothing"]),
-    ("m { initial_state a; };;", ["1:24 a ';' too many is left out"]),
+    ("m { initial_state a; states b,; };", ["1:30 nothing follows the last ',' of this list"]),
+    ("m { initial_state a; };;", ["1:24 a superfluous ';' is omitted"]),
     ("m { initial_state a; end_state b; transitions { b => a; }; };",
-     ["1:49 nothing leads out of the end state 'b': the transition is left out"]),
+     ["1:49 an end state cannot have transitions, so that this one of 'b' is omitted"]),
     ("m { initial_state a; };\n:a parallel { states b; initial_state c; };",
-     ["2:39 all states of a parallel block are active at once: 'c' is one of them, and neither first nor last"]),
+     ["2:39 all states of a parallel block are active at once, so that 'c' is neither first nor last"]),
 ])  # fmt: skip
 def test_repairs_and_losses(tmp_path: Path, text: str, said: list[str]) -> None:
     document, told = converted(tmp_path, text)
@@ -98,19 +98,19 @@ def test_repairs_and_losses(tmp_path: Path, text: str, said: list[str]) -> None:
 @pytest.mark.parametrize(("text", "said"), [
     ("m { states a; };", ["1:1 'm' has no 'initial_state'"]),
     ("m { };", ["1:1 'm' has no state"]),
-    ("m { initial_state a; transitions { a => b; }; };", ["1:41 there is no state 'b': list it under 'states'"]),
-    ("m { initial_state a; initial_state b; };", ["1:22 'initial_state' is said twice"]),
-    ("m { initial_state a; };\n:b { initial_state c; };", ["2:2 there is no state 'b' to stand in"]),
-    ("m { initial_state a; };\n:a { initial_state a; };", ["2:20 there are two states 'a'"]),
+    ("m { initial_state a; transitions { a => b; }; };", ["1:41 unknown state 'b': list it under 'states'"]),
+    ("m { initial_state a; initial_state b; };", ["1:22 'initial_state' is set twice"]),
+    ("m { initial_state a; };\n:b { initial_state c; };", ["2:2 unknown parent state 'b'"]),
+    ("m { initial_state a; };\n:a { initial_state a; };", ["2:20 the state 'a' is defined twice"]),
     ("m { initial_state a; };\n:a { initial_state b; };\n:a { initial_state c; };",
-     ["3:2 the states inside of 'a' are said already"]),
+     ["3:2 the states inside of 'a' are defined twice"]),
     ("m { initial_state a; };\n:b { initial_state c; };\n:c { initial_state b; };",
-     ["2:2 'b' stands inside of itself", "3:2 'c' stands inside of itself"]),
-    ("m { initial_state a; end_state b; };\n:b { initial_state c; };", ["2:2 'b' is an end state: it has no states"]),
-    ("m { initial_state ä; };", ["1:19 'ä' cannot be a name"]),
-    ("m { [states a;] };", ["1:5 '[' cannot stand here"]),
+     ["2:2 'b' contains itself", "3:2 'c' contains itself"]),
+    ("m { initial_state a; end_state b; };\n:b { initial_state c; };", ["2:2 'b' is an end state, which cannot contain states"]),
+    ("m { initial_state ä; };", ["1:19 'ä' is not a legal name"]),
+    ("m { [states a;] };", ["1:5 '[' is not allowed here"]),
 ])  # fmt: skip
-def test_refusals(tmp_path: Path, text: str, said: list[str]) -> None:
+def test_rejections(tmp_path: Path, text: str, said: list[str]) -> None:
     document, told = converted(tmp_path, text)
     assert document == ""
     assert told[: len(said)] == said
@@ -120,7 +120,7 @@ CDSL = 'Component C\n{{\n    Communications\n    {{\n    }};\n    language pytho
 SMDSL = "m { initial_state a; end_state b; transitions { a => b; }; };\n"
 
 
-def test_a_component_refers_to_what_its_machine_became(rcyaml: Run, tmp_path: Path) -> None:
+def test_a_component_refers_to_its_migrated_machine(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"old/c/c.cdsl": CDSL.format("sm/Door.SMDSL"), "old/c/sm/Door.SMDSL": SMDSL})
     result = rcyaml("migrate", "old", "-o", "new", "--report", "ledger.json")
     assert result.exit_code == 0, result.output
@@ -138,7 +138,7 @@ def test_a_component_refers_to_what_its_machine_became(rcyaml: Run, tmp_path: Pa
 @pytest.mark.parametrize(("named", "there", "warned"), [
     ("c.smdsl", "c.scxml", False), ("c.scxml", "c.scxml", False), ("c.smdsl", "", True), ("c.scxml", "", True),
 ])  # fmt: skip
-def test_a_machine_that_is_not_migrated_has_to_be_there(
+def test_a_machine_that_is_not_migrated_must_exist(
     rcyaml: Run, tmp_path: Path, named: str, there: str, warned: bool
 ) -> None:
     write_tree(tmp_path, {"c.cdsl": CDSL.format(named), **({there: "<scxml/>"} if there else {})})
@@ -149,7 +149,7 @@ def test_a_machine_that_is_not_migrated_has_to_be_there(
 
 @pytest.mark.parametrize("goes", [lambda n: "s0 => " + ", ".join(f"s{i}" for i in range(n)),
                                   lambda n: "; ".join(f"s{i} => s{i + 1}" for i in range(n - 1))])  # fmt: skip
-def test_many_states_are_converted_in_a_moment(rcyaml: Run, tmp_path: Path, goes: Callable[[int], str]) -> None:
+def test_many_states_are_converted_quickly(rcyaml: Run, tmp_path: Path, goes: Callable[[int], str]) -> None:
     count = 20_000
     states = ", ".join(f"s{i}" for i in range(count))
     write_tree(

@@ -1,4 +1,4 @@
-"""What a document is, and what it belongs to, is known by its parsed content: by every command in the same way."""
+"""The parsed content of a document decides its kind and its component, for all commands alike."""
 
 from __future__ import annotations
 
@@ -43,18 +43,18 @@ FAULTS = {
 }
 
 
-def _told(run: Run, *args: str) -> list[tuple[str, str]]:
+def _reported(run: Run, *args: str) -> list[tuple[str, str]]:
     found = json.loads(run(*args, "--format", "json").stdout)["diagnostics"]
     return sorted((each["code"], each["hint"]) for each in found if each["severity"] == "error")
 
 
 @pytest.mark.parametrize("name", ["speech.pdsl.yaml", "other.pdsl.yaml", "pdsl.yaml"])
 @pytest.mark.parametrize("text", SPELLINGS.values(), ids=SPELLINGS)
-def test_parameters_belong_to_what_they_name(rcyaml: Run, tmp_path: Path, text: str, name: str) -> None:
+def test_parameters_belong_to_the_component_that_they_name(rcyaml: Run, tmp_path: Path, text: str, name: str) -> None:
     write_tree(tmp_path, {**TREE, f"speech/{name}": text})
     document = "speech/speech.cdsl.yaml"
     for args in (("check", "."), ("check", document), ("check", "head.ddsl.yaml"), ("compile", document)):
-        assert _told(rcyaml, *args) == []
+        assert _reported(rcyaml, *args) == []
     assert "device" in (tmp_path / "speech/generated/parameters.md").read_text()
     assert rcyaml("deploy", "plan", "head.ddsl.yaml").exit_code == 0  # `set:` knows the parameter
     assert rcyaml("graph", "head.ddsl.yaml").exit_code == 0
@@ -62,19 +62,19 @@ def test_parameters_belong_to_what_they_name(rcyaml: Run, tmp_path: Path, text: 
     assert "device = x " in rcyaml("config", "show", "speech/etc/config.yaml").stdout
 
 
-@pytest.mark.parametrize(("said", "wanted"), FAULTS.items())
-def test_what_leads_to_no_component_is_told_everywhere(
-    rcyaml: Run, tmp_path: Path, said: str, wanted: tuple[str, str]
+@pytest.mark.parametrize(("given_name", "expected"), FAULTS.items())
+def test_an_unknown_component_is_reported_by_all_commands(
+    rcyaml: Run, tmp_path: Path, given_name: str, expected: tuple[str, str]
 ) -> None:
-    write_tree(tmp_path, {**TREE, "speech/speech.pdsl.yaml": f"component: {said}\n{PARAMETERS}"})
+    write_tree(tmp_path, {**TREE, "speech/speech.pdsl.yaml": f"component: {given_name}\n{PARAMETERS}"})
     document = "speech/speech.cdsl.yaml"
     for args in (("check", "."), ("check", document), ("check", "head.ddsl.yaml"), ("compile", document)):
-        assert _told(rcyaml, *args) == [wanted], args
+        assert _reported(rcyaml, *args) == [expected], args
     assert not (tmp_path / "speech/generated").exists(), "it is not compiled without its parameters"
     assert rcyaml("config", "new", document).exit_code == 1
 
 
-@pytest.mark.parametrize(("said", "wanted"), [
+@pytest.mark.parametrize(("given_name", "expected"), [
     ("SpeechComp", ("RC3204", "write `component: ../speech.cdsl.yaml`")),
     ("speech.cdsl.yaml", ("RC3201", "write `component: ../speech.cdsl.yaml`")),
     ("../speech.cdsl", ("RC3201", "write `component: ../speech.cdsl.yaml`")),
@@ -82,8 +82,8 @@ def test_what_leads_to_no_component_is_told_everywhere(
     ("../../head.ddsl.yaml", ("RC3201", "that is a document of a deployment")),
     ("../../other/other.cdsl.yaml", ("RC3207", "write `component: ../speech.cdsl.yaml`")),
 ])  # fmt: skip
-def test_values_name_a_document_too(rcyaml: Run, tmp_path: Path, said: str, wanted: tuple[str, str]) -> None:
-    values = f"component: {said}\nparameters: {{}}\n"
+def test_values_name_a_document_too(rcyaml: Run, tmp_path: Path, given_name: str, expected: tuple[str, str]) -> None:
+    values = f"component: {given_name}\nparameters: {{}}\n"
     other = {"other/other.cdsl.yaml": "component: OtherComp\nlanguage: python\n"}
     write_tree(
         tmp_path,
@@ -95,7 +95,7 @@ def test_values_name_a_document_too(rcyaml: Run, tmp_path: Path, said: str, want
         },
     )
     for args in (("check", "."), ("check", "speech/speech.cdsl.yaml"), ("config", "check", "speech/etc/config.yaml")):
-        assert wanted in _told(rcyaml, *args), args
+        assert expected in _reported(rcyaml, *args), args
 
 
 def test_the_hint_can_be_typed(rcyaml: Run, tmp_path: Path) -> None:
@@ -104,20 +104,20 @@ def test_the_hint_can_be_typed(rcyaml: Run, tmp_path: Path) -> None:
         tmp_path,
         {"rcyaml.yaml": "", f"{folder}/speech.cdsl.yaml": CDSL, "conf/x.config.yaml": "component: SpeechComp\n"},
     )
-    [(_, hint)] = _told(rcyaml, "check", "conf")
+    [(_, hint)] = _reported(rcyaml, "check", "conf")
     (tmp_path / "conf/x.config.yaml").write_text(hint.removeprefix("write `").removesuffix("`") + "\n")
-    assert _told(rcyaml, "check", "conf") == []
+    assert _reported(rcyaml, "check", "conf") == []
 
 
-def test_a_plain_name_stands_for_a_component_without_document(rcyaml: Run, tmp_path: Path) -> None:
+def test_a_plain_name_is_that_of_a_component_without_document(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"rcyaml.yaml": "", "a/ArmComp.pdsl.yaml": f"component: ArmComp\n{PARAMETERS}"})
-    assert _told(rcyaml, "check", ".") == []
+    assert _reported(rcyaml, "check", ".") == []
     write_tree(tmp_path, {"b/arm.cdsl.yaml": "component: ArmComp\nlanguage: cpp\n"})
-    assert _told(rcyaml, "check", ".") == []
+    assert _reported(rcyaml, "check", ".") == []
     told = rcyaml("check", ".").stdout
     assert "warning[RC3204]" in told and "write `component: ../b/arm.cdsl.yaml`" in told
     write_tree(tmp_path, {"a/arm.cdsl.yaml": "component: ArmComp\nlanguage: python\n"})
-    assert [code for code, _ in _told(rcyaml, "check", ".")] == ["RC3204"]
+    assert [code for code, _ in _reported(rcyaml, "check", ".")] == ["RC3204"]
 
 
 def test_values_of_a_component_need_not_name_it(rcyaml: Run, tmp_path: Path) -> None:
@@ -130,7 +130,9 @@ def test_values_of_a_component_need_not_name_it(rcyaml: Run, tmp_path: Path) -> 
     assert "device=mine\n" in (tmp_path / "speech/etc/config").read_text()
 
 
-def test_values_that_name_shared_parameters_are_those_of_their_folder(rcyaml: Run, tmp_path: Path) -> None:
+def test_values_that_name_shared_parameters_belong_to_the_component_of_their_folder(
+    rcyaml: Run, tmp_path: Path
+) -> None:
     files = {"p.pdsl.yaml": PARAMETERS}
     for name in ("a", "b"):
         files[f"{name}/{name}.cdsl.yaml"] = f"component: {name.upper()}\nlanguage: python\nparameters: ../p.pdsl.yaml\n"
@@ -150,12 +152,14 @@ def test_values_that_name_shared_parameters_are_those_of_their_folder(rcyaml: Ru
     ({"speech/p.pdsl.yaml": f"component: speech.cdsl.yaml\n{PARAMETERS}",
       "speech/q.pdsl.yaml": f"'component' : speech.cdsl.yaml\n{PARAMETERS}"}, "RC3203"),
 ])  # fmt: skip
-def test_what_does_not_belong_together(rcyaml: Run, tmp_path: Path, files: Tree, code: str) -> None:
+def test_documents_that_do_not_belong_together(rcyaml: Run, tmp_path: Path, files: Tree, code: str) -> None:
     write_tree(tmp_path, {**TREE, "head.ddsl.yaml": "deployment: Head\ncomponents: {}\n", **files})
-    assert [found for found, _ in _told(rcyaml, "check", ".")] == [code]
+    assert [found for found, _ in _reported(rcyaml, "check", ".")] == [code]
 
 
-def test_parameters_that_name_nobody_are_told_beside_a_component_without(rcyaml: Run, tmp_path: Path) -> None:
+def test_parameters_without_component_are_reported_beside_a_component_without_parameters(
+    rcyaml: Run, tmp_path: Path
+) -> None:
     write_tree(tmp_path, {"speech/speech.cdsl.yaml": CDSL, "speech/speech.pdsl.yaml": PARAMETERS})
     told = rcyaml("check", "speech/speech.cdsl.yaml")
     assert told.exit_code == 0
@@ -163,7 +167,7 @@ def test_parameters_that_name_nobody_are_told_beside_a_component_without(rcyaml:
     assert "write `component: speech.cdsl.yaml`" in told.stdout
 
 
-def test_one_file_compiled_keeps_what_the_folder_wrote(rcyaml: Run, tmp_path: Path) -> None:
+def test_compiling_one_file_keeps_the_other_generated_files(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {
         "c.cdsl.yaml": CDSL, "p.pdsl.yaml": f"component: c.cdsl.yaml\n{PARAMETERS}",
         "etc/side.config.yaml": "component: ../c.cdsl.yaml\nparameters: {device: y}\nlegacy: {file: side}\n",
@@ -175,10 +179,10 @@ def test_one_file_compiled_keeps_what_the_folder_wrote(rcyaml: Run, tmp_path: Pa
 
 
 @pytest.mark.parametrize("head", ["\ufeff", "# mine\n\n", "%YAML 1.2\n---\n", "\r\n"])
-def test_a_config_is_known_by_its_modeline_wherever_that_stands(rcyaml: Run, tmp_path: Path, head: str) -> None:
+def test_the_modeline_of_a_config_may_be_at_any_line(rcyaml: Run, tmp_path: Path, head: str) -> None:
     modeline = "# yaml-language-server: $schema=../generated/config.schema.json"
     write_tree(tmp_path, {
         **TREE, "speech/p.pdsl.yaml": f"component: speech.cdsl.yaml\n{PARAMETERS}",
         "conf/config.yaml": f"{head}{modeline}\ncomponent: ../speech/speech.cdsl.yaml\nparameters: {{device: 3}}\n",
     })  # fmt: skip
-    assert [code for code, _ in _told(rcyaml, "check", "conf")] == ["RC3302"]
+    assert [code for code, _ in _reported(rcyaml, "check", "conf")] == ["RC3302"]

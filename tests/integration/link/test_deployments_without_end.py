@@ -1,4 +1,4 @@
-"""Deployments that include each other so that they would become larger than any robot."""
+"""Deployments that become too large because they include each other."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from robocomp_yaml.pipeline import analyse
     ],
     ids=["by two", "one by one"],
 )
-def test_includes_that_grow_without_end_are_refused(tmp_path: Path, documents: dict[str, str]) -> None:
+def test_includes_that_grow_without_end_are_rejected(tmp_path: Path, documents: dict[str, str]) -> None:
     last = "deployment: Last\ncomponents:\n  x{i}: {program: sleep, instances: 3}\n"
     files = {f"{name}.ddsl.yaml": text for name, text in documents.items()}
     write_tree(tmp_path, {**files, f"l{len(documents)}.ddsl.yaml": last})

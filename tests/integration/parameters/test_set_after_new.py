@@ -81,7 +81,7 @@ def test_an_entry_of_a_list_that_is_left_out(rcyaml: Run, document: Path, path: 
     was = document.read_text()
     told = rcyaml("config", "set", "etc/config.yaml", path, "3")
     assert told.exit_code == 2
-    assert "give the whole list" in told.stderr
+    assert "set the whole list" in told.stderr
     assert document.read_text() == was
     assert rcyaml("config", "set", "etc/config.yaml", "gains", "[3, 2]").exit_code == 0
     assert document.read_text() == was.replace("  # gains: [1, 2]\n", "  gains: [3, 2]\n")

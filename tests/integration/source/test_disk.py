@@ -33,7 +33,7 @@ def _facts(analysis: Analysis) -> object:
     # Who may read a text that is not saved yet is not known.
     told = [one for one in analysis.diagnostics if one.code not in ("RC3311", "RC4310", "RC4311")]
     networks = [(network.name, sorted(network.processes)) for network in analysis.networks.values()]
-    return told, analysis.found.documents, analysis.program.documents, networks
+    return told, analysis.discovered.documents, analysis.program.documents, networks
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.id)

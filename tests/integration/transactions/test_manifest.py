@@ -1,4 +1,4 @@
-"""The manifest's text: one line a file, in order, read back as it was."""
+"""The text of the manifest: one line for each file, in order; reading it returns the same manifest."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from robocomp_yaml.transactions import manifest
-from robocomp_yaml.transactions.manifest import Entry, Manifest
+from robocomp_yaml.transactions.manifest import Manifest, ManifestEntry
 
-entries = st.builds(Entry, st.text(), st.lists(st.text()).map(tuple), st.booleans())
+entries = st.builds(ManifestEntry, st.text(), st.lists(st.text()).map(tuple), st.booleans())
 
 
-def test_it_reads_well_and_compares_well() -> None:
+def test_the_text_has_one_line_for_each_file() -> None:
     held = Manifest(
         {
-            "src/é.py": Entry("ab", ("speech.cdsl.yaml",), once=True),
-            "generated/main.py": Entry("cd", ("../x/a.idsl.yaml", "b.idsl.yaml")),
+            "src/é.py": ManifestEntry("ab", ("speech.cdsl.yaml",), once=True),
+            "generated/main.py": ManifestEntry("cd", ("../x/a.idsl.yaml", "b.idsl.yaml")),
         }
     )
     assert (
@@ -34,14 +34,14 @@ def test_it_reads_well_and_compares_well() -> None:
 
 
 @given(st.dictionaries(st.text(st.characters(exclude_categories=["Cs"])), entries))
-def test_it_is_read_back_as_it_was(files: dict[str, Entry]) -> None:
+def test_reading_returns_what_was_written(files: dict[str, ManifestEntry]) -> None:
     assert manifest.read(Manifest(files).text().encode("utf-8", "surrogatepass")) == Manifest(files)
 
 
-def test_there_may_be_none() -> None:
+def test_no_manifest() -> None:
     assert manifest.read(None) == Manifest()
 
 
-def test_what_it_does_not_know_is_left_alone() -> None:
-    with pytest.raises(manifest.Unusable, match="newer"):
+def test_an_unknown_manifest_is_rejected() -> None:
+    with pytest.raises(manifest.Unusable, match="later version"):
         manifest.read(b'{"version": 7, "shape": "unknown"}')

@@ -1,4 +1,4 @@
-"""A stamp is current as long as the run would read, find and leave the same; after anything else it is not."""
+"""A stamp is up to date as long as the run would read and write the same; any other change makes it stale."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ def _in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
     monkeypatch.chdir(tmp_path)
 
 
-def run() -> stamp.Stamp | None:
-    """A run that read two documents, one through a link, looked for a third, and wrote a program and a once-file."""
+def run() -> stamp.RunStamp | None:
+    """A run that read two documents, one of them by a link, looked for a third, and wrote a program and a once file."""
     Path("docs/far").mkdir(parents=True)
     Path("docs/a.idsl.yaml").write_text("a")
     Path("docs/far/real.idsl.yaml").write_text("b")
@@ -34,7 +34,7 @@ def run() -> stamp.Stamp | None:
     Path("out/bin/run").write_text("#!")
     Path("out/bin/run").chmod(0o755)
     Path("out/mine").write_text("mine")
-    return stamp.take(
+    return stamp.create(
         inputs={"docs/a.idsl.yaml": b"a", "docs/b.idsl.yaml": b"b", "docs/far/real.idsl.yaml": b"b"},
         states={"docs/c.idsl.yaml": NOTHING, "elsewhere/c.idsl.yaml": NOTHING, "docs": FOLDER},
         listed={"docs/far": ["real.idsl.yaml"], "nowhere": []},
@@ -51,7 +51,7 @@ def current() -> bool:
     return kept is not None and stamp.is_current(kept)
 
 
-def test_an_untouched_tree_is_current() -> None:
+def test_an_unchanged_tree_is_up_to_date() -> None:
     taken = run()
     assert taken is not None
     stamp.save("out", KEY, taken)
@@ -100,7 +100,7 @@ def relink(path: str, target: str) -> None:
         lambda: Path("out/.rcyaml/stamps/00000000.json").write_text("[" * 100_000),
     ],
 )
-def test_any_change_that_counts_makes_it_stale(change: Callable[[], object]) -> None:
+def test_a_change_makes_it_stale(change: Callable[[], object]) -> None:
     taken = run()
     assert taken is not None
     stamp.save("out", KEY, taken)
@@ -119,7 +119,7 @@ def test_another_rcyaml_makes_it_stale(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder in which rcyaml is installed."""
+    """A folder with an installed rcyaml."""
     place = write_tree(tmp_path / "site-packages", {
         "robocomp_yaml/__init__.py": "", "robocomp_yaml/emit/build.py": "pass",
         "robocomp_yaml/_data/templates/a.j2": "a",
@@ -131,7 +131,7 @@ def installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def rewritten(path: Path, text: str) -> None:
-    """Another text of the same length, with the same date."""
+    """Writes another text of the same length, with the same date."""
     before = path.stat()
     assert before.st_size == len(text)
     path.write_text(text)
@@ -165,7 +165,7 @@ def test_another_build_of_the_same_version_makes_it_stale(installed: Path, chang
         lambda at: write_tree(at, {"other-1.dist-info/RECORD": "more", "another/__init__.py": ""}),
     ],
 )
-def test_what_is_not_rcyaml_does_not_count(installed: Path, change: Callable[[Path], object]) -> None:
+def test_other_files_do_not_make_it_stale(installed: Path, change: Callable[[Path], object]) -> None:
     before = stamp.tool()
     change(installed)
     assert stamp.tool() == before
@@ -178,18 +178,18 @@ def test_a_distribution_without_records(installed: Path) -> None:
     assert stamp.tool() != before
 
 
-def test_what_was_read_counts_not_what_stands_there_now() -> None:
+def test_the_stamp_has_what_was_read_not_what_is_there_now() -> None:
     """The user saved a document while rcyaml was compiling its former text."""
     taken = run()
     assert taken is not None
     Path("docs/a.idsl.yaml").write_text("a changed")
-    late = stamp.take(
+    late = stamp.create(
         inputs={"docs/a.idsl.yaml": b"a"}, states={}, listed={}, names={}, walked={}, outputs={}, present=[], replay={}
     )
     assert late is not None and not stamp.is_current(late)
 
 
-def test_runs_of_another_kind_have_another_key(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_different_runs_have_different_keys(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     keys = {stamp.key([]), stamp.key(["-o", "x"]), stamp.key(["-ox"])}
     monkeypatch.setenv("RCYAML_PATH", "/somewhere")
     keys.add(stamp.key([]))
@@ -199,7 +199,7 @@ def test_runs_of_another_kind_have_another_key(tmp_path: Path, monkeypatch: pyte
     assert len(keys) == 5
 
 
-def test_a_stamp_that_cannot_be_kept_is_no_error() -> None:
+def test_a_stamp_that_cannot_be_saved_is_no_error() -> None:
     taken = run()
     assert taken is not None
     Path("blocked").write_text("a file")
@@ -207,7 +207,7 @@ def test_a_stamp_that_cannot_be_kept_is_no_error() -> None:
     assert stamp.load("blocked", KEY) is None
 
 
-def test_old_stamps_go() -> None:
+def test_old_stamps_are_removed() -> None:
     taken = run()
     assert taken is not None
     for number in range(40):

@@ -1,4 +1,4 @@
-"""A commit that fails, at each of its calls in turn, leaves everything as it was; one that is killed is put back."""
+"""A commit that fails changes nothing, and a commit that is killed is rolled back: for each of its calls."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from robocomp_yaml.transactions.plan import RootPlan
 
 
 def before(tmp_path: Path) -> None:
-    """Two roots that compile knows, with an edited file."""
+    """Two compiled roots, with an edited file."""
     for name in ("one", "two"):
         carry_out(
             plan(
@@ -34,7 +34,7 @@ def before(tmp_path: Path) -> None:
 
 
 def plans(tmp_path: Path) -> list[RootPlan]:
-    """Each kind of change: an edited file, a removal with its folder, new files in new folders, a new root."""
+    """All kinds of changes: an edited file, a deletion with its folder, new files in new folders, a new root."""
     changing = (
         always("generated/a", "2\n"),
         always("generated/same", "1\n"),
@@ -61,7 +61,7 @@ def calls_of_a_commit(tmp_path: Path) -> list[str]:
     return disk.calls
 
 
-def test_a_failure_at_any_call_leaves_everything_as_it_was(tmp_path: Path) -> None:
+def test_a_failure_at_any_call_changes_nothing(tmp_path: Path) -> None:
     count = len(calls_of_a_commit(tmp_path / "counted"))
     assert count > 50
     root = tmp_path / "root"
@@ -75,14 +75,14 @@ def test_a_failure_at_any_call_leaves_everything_as_it_was(tmp_path: Path) -> No
         with Disk(number, error).seen_by_commits() as disk:
             said = commit(changes)
         if disk.calls[number - 1] == "unlink" and not said:
-            break  # only remnants were left to remove: the new state counted already
+            break  # the commit was complete, and only temporary files remained
         counted += 1
         assert codes(said) == ["RC6005"] and "the disk says no" in said[0].message
         assert (tree(root, state=True), stamps(root)) == (was, when), f"call {number}, {disk.calls[number - 1]}"
     assert counted > count / 2
 
 
-def test_ctrl_c_at_any_call_leaves_everything_as_it_was(tmp_path: Path) -> None:
+def test_ctrl_c_at_any_call_changes_nothing(tmp_path: Path) -> None:
     count = len(calls_of_a_commit(tmp_path / "counted"))
     root = tmp_path / "root"
     before(root)
@@ -95,7 +95,7 @@ def test_ctrl_c_at_any_call_leaves_everything_as_it_was(tmp_path: Path) -> None:
         assert tree(root, state=True) == was, number
 
 
-def test_a_kill_at_any_call_is_put_right_by_the_next_run(tmp_path: Path) -> None:
+def test_the_next_run_recovers_from_a_kill_at_any_call(tmp_path: Path) -> None:
     count = len(calls_of_a_commit(tmp_path / "counted"))
     after = tree(tmp_path / "counted", state=True)
     for number in range(1, count + 1):
@@ -118,8 +118,8 @@ def test_a_kill_at_any_call_is_put_right_by_the_next_run(tmp_path: Path) -> None
         assert tree(root, state=True) == after, number
 
 
-def test_what_was_edited_after_a_kill_is_kept(tmp_path: Path) -> None:
-    """The file had been replaced already; then the user wrote to it, before rcyaml ran again."""
+def test_edits_after_a_kill_are_kept(tmp_path: Path) -> None:
+    """The file was replaced; then the user edited it, before rcyaml ran again."""
     root = tmp_path
     carry_out(plan(root, always("a", "1\n"), always("b", "1\n")))
     planned = plan(root, always("a", "2\n"), always("b", "2\n"), always("new", "2\n"))
@@ -140,7 +140,7 @@ def test_what_was_edited_after_a_kill_is_kept(tmp_path: Path) -> None:
     assert held["a"] == "mine a\n" and held["new"] == "mine new\n" and held["b"] == "1\n"
 
 
-def test_a_dry_run_tells_of_an_interrupted_one_and_leaves_it(tmp_path: Path) -> None:
+def test_a_dry_run_reports_an_interrupted_one_and_changes_nothing(tmp_path: Path) -> None:
     planned = plan(tmp_path, always("a", "1\n"))
     changes = writer.prepare([planned])
     with killed_in(8):
@@ -152,7 +152,7 @@ def test_a_dry_run_tells_of_an_interrupted_one_and_leaves_it(tmp_path: Path) -> 
 
 
 def test_a_disk_without_links(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A FAT stick has no hard links: copies do as well."""
+    """A FAT file system has no hard links: copies are used."""
     before(tmp_path)
 
     def no_links(*_: object, **__: object) -> None:
@@ -169,17 +169,17 @@ def test_a_disk_without_links(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -
     assert (tree(tmp_path, state=True), stamps(tmp_path)) == (was, when)
 
 
-def test_a_file_that_changes_between_look_and_write(tmp_path: Path) -> None:
+def test_a_file_that_changes_before_it_is_written(tmp_path: Path) -> None:
     carry_out(plan(tmp_path, always("a", "1\n")))
     changes = writer.prepare([plan(tmp_path, always("a", "2\n"), always("b", "2\n"))])
     (tmp_path / "a").write_text("mine\n")
     done = writer.commit(changes)
-    assert codes(done.diagnostics) == ["RC6005"] and "run it again" in done.diagnostics[0].message
+    assert codes(done.diagnostics) == ["RC6005"] and "run the command again" in done.diagnostics[0].message
     assert [change.action for change in done] == ["refused", "refused"]
     assert tree(tmp_path) == {OWNER: "", "a": "mine\n"}
 
 
-def test_a_folder_that_becomes_a_link_between_look_and_write(tmp_path: Path) -> None:
+def test_a_folder_that_becomes_a_link_before_it_is_written(tmp_path: Path) -> None:
     root, outside = tmp_path / "root", tmp_path / "outside"
     outside.mkdir()
     changes = writer.prepare([plan(root, always("generated/a", "2\n"))])
@@ -188,7 +188,7 @@ def test_a_folder_that_becomes_a_link_between_look_and_write(tmp_path: Path) -> 
     assert not list(outside.iterdir())
 
 
-def test_two_at_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_two_processes_at_the_same_time(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     planned = plan(tmp_path, always("a", "1\n"))
     monkeypatch.setattr(atomic, "PATIENCE", 0.1)
     (tmp_path / ".rcyaml").mkdir()
@@ -214,7 +214,7 @@ for _ in range(50):
 
 
 def test_a_real_kill(tmp_path: Path) -> None:
-    """Two processes that disagree, one of them killed: afterwards the root is as one compile leaves it."""
+    """Two processes with different plans, one of them killed: the root then has the files of one plan."""
     (tmp_path / "o").touch()
     command = [sys.executable, "-c", _COMPILE, str(tmp_path)]
     one = subprocess.Popen([*command, "one\n"], stdout=subprocess.PIPE)

@@ -1,4 +1,4 @@
-"""Whether a program is what it is made of."""
+"""Whether a program is up to date."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ FILES = {
 
 @pytest.fixture
 def arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Unit:
-    """A component whose program is younger than all else."""
+    """A component whose program is younger than its inputs."""
     monkeypatch.chdir(write_tree(tmp_path, FILES))
     for path in FILES:
         os.utime(path, (1000, 1000))
@@ -33,7 +33,7 @@ def arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Unit:
 
 
 def changed(unit: Unit) -> tuple[str, ...]:
-    return stamps.look(unit, Inputs()).changed
+    return stamps.inspect(unit, Inputs()).changed
 
 
 def built(unit: Unit, *more: str) -> None:
@@ -64,27 +64,27 @@ def test_what_changed_since_the_build(arm: Unit, path: str) -> None:
 
 
 @pytest.mark.parametrize("path", COUNTS)
-def test_what_is_younger_than_a_program_that_somebody_else_built(arm: Unit, path: str) -> None:
+def test_inputs_younger_than_a_program_without_a_stamp(arm: Unit, path: str) -> None:
     assert changed(arm) == ()
     os.utime(path, (3000, 3000))
     assert changed(arm) == (path,)
 
 
 @pytest.mark.parametrize("path", ["arm/generated/parameters.md", "arm/src/notes.txt"])
-def test_what_is_not_compiled_does_not_count(arm: Unit, path: str) -> None:
+def test_other_files_do_not_count(arm: Unit, path: str) -> None:
     built(arm)
     write(path)
     assert changed(arm) == ()
 
 
 @pytest.mark.parametrize("touch", [lambda path: os.utime(path), lambda path: write(path, FILES[path])])
-def test_a_file_that_was_only_touched(arm: Unit, touch: Callable[[str], object]) -> None:
+def test_a_touched_file(arm: Unit, touch: Callable[[str], object]) -> None:
     built(arm)
     touch("arm/src/worker.cpp")
     assert changed(arm) == ()
 
 
-def test_files_come_and_go(arm: Unit) -> None:
+def test_added_and_removed_files(arm: Unit) -> None:
     built(arm)
     os.unlink("arm/src/worker.h")
     write("arm/src/more.cpp")
@@ -92,8 +92,8 @@ def test_files_come_and_go(arm: Unit) -> None:
     assert changed(arm) == ("arm/src/more.cpp", "arm/src/worker.h")
 
 
-def test_what_only_the_build_knew(arm: Unit) -> None:
-    """Such as a header beside the component, which its own CMake names."""
+def test_inputs_that_only_the_build_knows(arm: Unit) -> None:
+    """Such as a header beside the component, which its own CMake file names."""
     built(arm, "bin/old")
     assert changed(arm) == ()
     write("bin/old")
@@ -102,11 +102,11 @@ def test_what_only_the_build_knew(arm: Unit) -> None:
     assert changed(arm) == ("bin/old",)
 
 
-def test_another_program_is_judged_by_time(arm: Unit) -> None:
-    """The stamp does not know it, though it says how the last one was built."""
+def test_another_program_is_compared_by_time(arm: Unit) -> None:
+    """It is not the program of the stamp, which only has the last build type."""
     built(arm)
     write("arm/bin/ArmComp")
-    found = stamps.look(arm, Inputs())
+    found = stamps.inspect(arm, Inputs())
     assert (found.is_known, found.type, found.changed) == (False, "Debug", ())
     os.utime("arm/bin/ArmComp", (500, 500))
     assert "arm/src/worker.cpp" in changed(arm)
@@ -115,22 +115,22 @@ def test_another_program_is_judged_by_time(arm: Unit) -> None:
 def test_no_program(arm: Unit) -> None:
     built(arm)
     os.unlink("arm/bin/ArmComp")
-    assert not stamps.look(arm, Inputs()).is_there
+    assert not stamps.inspect(arm, Inputs()).is_there
 
 
 @pytest.mark.parametrize("text", ["", "{", "[]", '{"type": 1}'])
-def test_a_stamp_that_is_broken_is_none(arm: Unit, text: str) -> None:
+def test_a_broken_stamp_is_ignored(arm: Unit, text: str) -> None:
     built(arm)
     write("arm/.rcyaml/builds/stamp.json", text)
     assert stamps.load(arm) is None and changed(arm) == ()
 
 
-def test_no_repository_holds_it(arm: Unit) -> None:
+def test_the_stamp_is_not_under_version_control(arm: Unit) -> None:
     built(arm)
     assert Path("arm/.rcyaml/builds/.gitignore").read_text() == "*\n"
 
 
-def test_a_link_that_leads_away_is_not_followed(arm: Unit, tmp_path: Path) -> None:
+def test_a_link_to_another_folder_is_not_followed(arm: Unit, tmp_path: Path) -> None:
     (tmp_path / "away").mkdir()
     Path("arm/.rcyaml").symlink_to(tmp_path / "away")
     inside = Unit("ArmComp", arm.language, arm.document, "arm", ".")
@@ -138,7 +138,7 @@ def test_a_link_that_leads_away_is_not_followed(arm: Unit, tmp_path: Path) -> No
     assert os.listdir(tmp_path / "away") == []
 
 
-def test_it_holds_from_any_folder(arm: Unit, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_stamp_holds_from_any_folder(arm: Unit, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     built(arm)
     monkeypatch.chdir("arm")
     here = Unit("ArmComp", arm.language, "arm.cdsl.yaml", ".", "..", runtime="../runtime/cpp", slices=("../slice/Arm.ice",),

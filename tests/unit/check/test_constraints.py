@@ -1,4 +1,4 @@
-"""Constraints: what holds for which values, what has no meaning, and where and in which words that is said."""
+"""Constraints: their results for values, wrong constraints, and the locations and words of their diagnostics."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ PARAMETERS = (
     "first: {type: Motor, default: {name: a, max: 2}}, g: {group: {low: {type: int, default: 1}}}"
 )
 TYPES = "Mode: {enum: [slow, fast]}, Motor: {struct: {name: string, max: float}}"
-LISTED = "comparisons, arithmetic, and, or, not, in, and functions may stand here; docs/pdsl.md lists them"
+LISTED = "use comparisons, arithmetic, and, or, not, in, and the functions that docs/pdsl.md lists"
 
 
 def constrained(constraint: str, parameters: str = PARAMETERS, types: str = TYPES) -> dict[str, str]:
@@ -24,11 +24,11 @@ def constrained(constraint: str, parameters: str = PARAMETERS, types: str = TYPE
 @pytest.mark.parametrize(
     ("constraint", "rest", "message", "hint"),
     [
-        ('n', 'n', 'a constraint is true or false, and this is a number', 'compare it: … > 0'),
-        ('ls', 'ls', 'a constraint is true or false, and this is a list', 'compare it: … > 0'),
-        ('first', 'first', 'a constraint is true or false, and this is a Motor', 'compare it: … > 0'),
-        ('g', 'g', 'a constraint is true or false, and this is a group', 'compare it: … > 0'),
-        ('mode', 'mode', 'a constraint is true or false, and this is one of Mode', 'compare it: … > 0'),
+        ('n', 'n', 'a constraint must be true or false, and this is a number', 'compare it: … > 0'),
+        ('ls', 'ls', 'a constraint must be true or false, and this is a list', 'compare it: … > 0'),
+        ('first', 'first', 'a constraint must be true or false, and this is a Motor', 'compare it: … > 0'),
+        ('g', 'g', 'a constraint must be true or false, and this is a group', 'compare it: … > 0'),
+        ('mode', 'mode', 'a constraint must be true or false, and this is one of Mode', 'compare it: … > 0'),
         ('t + 1 == 2', 't + 1 == 2', "'+' needs a number here, and this is text", ''),
         ('on + 1 == 2', 'on + 1 == 2', "'+' needs a number here, and this is true or false", ''),
         ('1 - ls == 2', 'ls == 2', "'-' needs a number here, and this is a list", ''),
@@ -43,12 +43,12 @@ def constrained(constraint: str, parameters: str = PARAMETERS, types: str = TYPE
         ('ls == 1', '1', "'==' cannot compare a list with a number", ''),
         ('ls == ls', 'ls', "'==' cannot compare a list with a list", ''),
         ('mode == 1', '1', "'==' cannot compare one of Mode with a number", ''),
-        ('mode == "slo"', '"slo"', "there is no enumerator of Mode 'slo'", "did you mean 'slow'?"),
-        ('"turbo" == mode', '"turbo" == mode', "there is no enumerator of Mode 'turbo'", 'there are: slow, fast'),
-        ('mode in ["slow", "fsat"]', '"fsat"]', "there is no enumerator of Mode 'fsat'", "did you mean 'fast'?"),
-        ('mode in ["slow", 1]', '1]', 'a number stands beside text', ''),
-        ('n in [1, "a"]', '"a"]', 'text stands beside a number', ''),
-        ('n in []', '[]', 'an empty list holds nothing to compare with', ''),
+        ('mode == "slo"', '"slo"', "unknown enumerator 'slo' of Mode", "did you mean 'slow'?"),
+        ('"turbo" == mode', '"turbo" == mode', "unknown enumerator 'turbo' of Mode", 'there are: slow, fast'),
+        ('mode in ["slow", "fsat"]', '"fsat"]', "unknown enumerator 'fsat' of Mode", "did you mean 'fast'?"),
+        ('mode in ["slow", 1]', '1]', 'a list cannot contain both text and a number', ''),
+        ('n in [1, "a"]', '"a"]', 'a list cannot contain both a number and text', ''),
+        ('n in []', '[]', 'an empty list contains nothing to compare with', ''),
         ('n in 3', '3', "'in' needs a list or a map here, and this is a number", ''),
         ('n not in t', 't', "'not in' needs a list or a map here, and this is text", ''),
         ('t in m and 1 in m', 'm', "'in' cannot compare a number with text", ''),
@@ -59,14 +59,14 @@ def constrained(constraint: str, parameters: str = PARAMETERS, types: str = TYPE
         ('on < on', 'on < on', "'<' compares numbers, and this is true or false", ''),
         ('1 < n < t', 't', "'<' cannot compare a number with text", ''),
         ('n.low == 1', 'low == 1', "a number has no members, so no 'low'", ''),
-        ('g.lo == 1', 'lo == 1', "there is no member 'lo'", "did you mean 'low'?"),
-        ('first.mxa > 1', 'mxa > 1', "there is no member 'mxa'", "did you mean 'max'?"),
-        ('motors.max > 1', 'max > 1', "a list has no members, so no 'max'", "take an entry with [0], or go through them with 'for'"),
+        ('g.lo == 1', 'lo == 1', "unknown member 'lo'", "did you mean 'low'?"),
+        ('first.mxa > 1', 'mxa > 1', "unknown member 'mxa'", "did you mean 'max'?"),
+        ('motors.max > 1', 'max > 1', "a list has no members, so no 'max'", "select an entry with [0], or loop over the entries with 'for'"),
         ('m.max > 1', 'max > 1', "a map has no members, so no 'max'", ''),
         ('t.max > 1', 'max > 1', "text has no members, so no 'max'", ''),
-        ('ls["a"] == 1', '"a"] == 1', 'an entry of a list is taken by its number, from 0', ''),
-        ('ls[x] == 1', 'x] == 1', 'an entry of a list is taken by its number, from 0', ''),
-        ('ls[-1] == 1', '-1] == 1', 'an entry of a list is taken by its number, from 0', ''),
+        ('ls["a"] == 1', '"a"] == 1', 'an entry of a list is selected by its number, counted from 0', ''),
+        ('ls[x] == 1', 'x] == 1', 'an entry of a list is selected by its number, counted from 0', ''),
+        ('ls[-1] == 1', '-1] == 1', 'an entry of a list is selected by its number, counted from 0', ''),
         ('m[1] > 0', '1] > 0', "'[]' needs text here, and this is a number", ''),
         ('n[0] == 1', 'n[0] == 1', 'a number has no entries', ''),
         ('g[0] == 1', 'g[0] == 1', 'a group has no entries', ''),
@@ -78,78 +78,78 @@ def constrained(constraint: str, parameters: str = PARAMETERS, types: str = TYPE
         ('values(n) == 1', 'n) == 1', 'values() needs a map here, and this is a number', ''),
         ('keys(m) == 1', '1', "'==' cannot compare a list with a number", ''),
         ('min(t) > 1', 't) > 1', 'min() needs a list here, and this is text', ''),
-        ('min(motors) > 1', 'motors) > 1', 'min() needs numbers, and this is a Motor', ''),
+        ('min(motors) > 1', 'motors) > 1', 'min() needs numbers here, and this is a Motor', ''),
         ('min(n, t) > 1', 't) > 1', "'min()' needs a number here, and this is text", ''),
         ('max(n, on) > 1', 'on) > 1', "'max()' needs a number here, and this is true or false", ''),
         ('sum(t) > 1', 't) > 1', 'sum() needs a list here, and this is text', ''),
-        ('sum(o.name for o in motors) > 1', 'name for o in motors) > 1', 'sum() needs numbers, and this is text', ''),
+        ('sum(o.name for o in motors) > 1', 'name for o in motors) > 1', 'sum() needs numbers here, and this is text', ''),
         ('all(ls)', 'ls)', 'all() needs true or false here, and this is a number', ''),
         ('any(o.max for o in motors)', 'max for o in motors)', 'any() needs true or false here, and this is a number', ''),
         ('all(n)', 'n)', 'all() needs a list here, and this is a number', ''),
-        ('unique(motors)', 'motors)', 'unique() needs plain values, and this is a Motor', ''),
+        ('unique(motors)', 'motors)', 'unique() needs plain values here, and this is a Motor', ''),
         ('unique(n)', 'n)', 'unique() needs a list here, and this is a number', ''),
-        ('unique(o for o in motors)', 'o for o in motors)', 'unique() needs plain values, and this is a Motor', ''),
-        ('has(1)', 'has(1)', 'has() asks whether a parameter has a value', ''),
-        ('has(n + 1)', 'has(n + 1)', 'has() asks whether a parameter has a value', ''),
-        ('has(nn)', 'nn)', "there is no parameter 'nn'", "did you mean 'n'?"),
-        ('has(g.lo)', 'lo)', "there is no member 'lo'", "did you mean 'low'?"),
-        ('all(o > 1 for o in m)', 'm)', "a 'for' goes through a list", 'write keys(…) or values(…) of a map'),
-        ('all(o > 1 for o in n)', 'n)', "a 'for' goes through a list, and this is a number", ''),
+        ('unique(o for o in motors)', 'o for o in motors)', 'unique() needs plain values here, and this is a Motor', ''),
+        ('has(1)', 'has(1)', 'has() needs the name of a parameter, member or entry', ''),
+        ('has(n + 1)', 'has(n + 1)', 'has() needs the name of a parameter, member or entry', ''),
+        ('has(nn)', 'nn)', "unknown parameter 'nn'", "did you mean 'n'?"),
+        ('has(g.lo)', 'lo)', "unknown member 'lo'", "did you mean 'low'?"),
+        ('all(o > 1 for o in m)', 'm)', "'for' needs a list here, and this is a map", 'use keys(…) or values(…) of the map'),
+        ('all(o > 1 for o in n)', 'n)', "'for' needs a list here, and this is a number", ''),
         ('all(o > 1 for o in ls if o)', 'o)', "'if' needs true or false here, and this is a number", ''),
-        ('all(p > 1 for o in ls)', 'p > 1 for o in ls)', "there is no parameter 'p'", 'there are: o, n, x, on, t, mode, ls, m, motors, first, g, period'),
-        ('all(o.mxa > 1 for o in motors)', 'mxa > 1 for o in motors)', "there is no member 'mxa'", "did you mean 'max'?"),
-        ('nn > 1', 'nn > 1', "there is no parameter 'nn'", "did you mean 'n'?"),
-        ('N > 1', 'N > 1', "there is no parameter 'N'", "did you mean 'n'?"),
-        ('n ** 2 > 1', 'n ** 2 > 1', 'powers cannot stand here', LISTED),
-        ('n // 2 > 1', 'n // 2 > 1', "'//' cannot stand here", LISTED),
-        ('n is 1', 'is 1', 'this is no expression', ''),
-        ('n > None', 'None', "there is no parameter 'None'", "did you mean 'on'?"),
-        ('n > 1j', '1j', 'this value cannot stand here', LISTED),
-        ('foo(n) > 1', 'foo(n) > 1', "there is no function 'foo'", 'there are: len, min, max, abs, sum, all, any, unique, has, keys, values'),
-        ('mni(ls) > 1', 'mni(ls) > 1', "there is no function 'mni'", "did you mean 'min'?"),
-        ('len() > 1', 'len() > 1', 'len() takes one argument', ''),
-        ('len(ls, ls) > 1', 'len(ls, ls) > 1', 'len() takes one argument', ''),
-        ('abs(n, n) > 1', 'abs(n, n) > 1', 'abs() takes one argument', ''),
-        ('min(n, o for o in ls) > 1', 'o for o in ls) > 1', 'this is no expression', ''),
-        ('len(o for o in ls) > 1', '(o for o in ls) > 1', "len() takes no 'for'", 'min, max, sum, all, any, unique do'),
-        ('all(o > 1 for o in ls if o > 0 if o > 2)', '(o > 1 for o in ls if o > 0 if o > 2)', "one 'for' and one 'if' may stand here", 'nest a second all() or any()'),
-        ('all(o > p for o in ls for p in ls)', '(o > p for o in ls for p in ls)', "one 'for' and one 'if' may stand here", 'nest a second all() or any()'),
-        ('all(o > p for o, p in ls)', 'o, p in ls)', "a 'for' has one variable", ''),
-        ('(o > 1 for o in ls)', '(o > 1 for o in ls)', "a 'for' can only stand inside of all(), any(), sum(), min(), max() or unique()", LISTED),
-        ('[o > 1 for o in ls]', '[o > 1 for o in ls]', "a 'for' can only stand inside of all(), any(), sum(), min(), max() or unique()", LISTED),
-        ('n if on else x', 'n if on else x', 'this is no expression', ''),
-        ('ls[0:1] == 1', 'ls[0:1] == 1', 'only one entry can be taken from a list or map', LISTED),
-        ('ls[0, 1] == 1', 'ls[0, 1] == 1', 'only one entry can be taken from a list or map', LISTED),
-        ('g.low() > 1', 'g.low() > 1', "only the language's own functions can be called", LISTED),
-        ('t.upper() == "A"', 't.upper() == "A"', "only the language's own functions can be called", LISTED),
-        ('lambda: 1', ': 1', 'this is no expression', ''),
-        ('n > 1 && on', '&& on', "'&&' means nothing here", "write 'and'"),
-        ('n > 1 || on', '|| on', "'||' means nothing here", "write 'or'"),
-        ('!on', '!on', "'!' means nothing here", "write 'not'"),
-        ('n = 1', '= 1', "'=' means nothing here", "write '=='"),
-        ('n >', 'n >', 'this is no expression', ''),
-        ('(n > 1', '(n > 1', 'this is no expression', ''),
-        ('n > 1)', ')', 'this is no expression', ''),
-        ('"a = b', '= b', "'=' means nothing here", "write '=='"),
-        ('t == "x = y" && on', '&& on', "'&&' means nothing here", "write 'and'"),
-        ('n >> 1', 'n >> 1', 'this cannot stand in a constraint', LISTED),
-        ('{n}', '{n}', 'this cannot stand in a constraint', LISTED),
-        ('f"{n}" == t', 'f"{n}" == t', 'this cannot stand in a constraint', LISTED),
-        ('len(ls, key=1) > 1', 'len(ls, key=1) > 1', "only the language's own functions can be called", LISTED),
-        ('ls[*ls] == 1', 'ls[*ls] == 1', 'only one entry can be taken from a list or map', LISTED),
-        ('n <> 1', '<> 1', 'this is no expression', ''),
+        ('all(p > 1 for o in ls)', 'p > 1 for o in ls)', "unknown parameter 'p'", 'there are: o, n, x, on, t, mode, ls, m, motors, first, g, period'),
+        ('all(o.mxa > 1 for o in motors)', 'mxa > 1 for o in motors)', "unknown member 'mxa'", "did you mean 'max'?"),
+        ('nn > 1', 'nn > 1', "unknown parameter 'nn'", "did you mean 'n'?"),
+        ('N > 1', 'N > 1', "unknown parameter 'N'", "did you mean 'n'?"),
+        ('n ** 2 > 1', 'n ** 2 > 1', 'powers are not supported', LISTED),
+        ('n // 2 > 1', 'n // 2 > 1', "'//' is not supported", LISTED),
+        ('n is 1', 'is 1', 'this is not an expression', ''),
+        ('n > None', 'None', "unknown parameter 'None'", "did you mean 'on'?"),
+        ('n > 1j', '1j', 'this value is not supported', LISTED),
+        ('foo(n) > 1', 'foo(n) > 1', "unknown function 'foo'", 'there are: len, min, max, abs, sum, all, any, unique, has, keys, values'),
+        ('mni(ls) > 1', 'mni(ls) > 1', "unknown function 'mni'", "did you mean 'min'?"),
+        ('len() > 1', 'len() > 1', 'len() needs one argument', ''),
+        ('len(ls, ls) > 1', 'len(ls, ls) > 1', 'len() needs one argument', ''),
+        ('abs(n, n) > 1', 'abs(n, n) > 1', 'abs() needs one argument', ''),
+        ('min(n, o for o in ls) > 1', 'o for o in ls) > 1', 'this is not an expression', ''),
+        ('len(o for o in ls) > 1', '(o for o in ls) > 1', "len() does not accept 'for'", 'min, max, sum, all, any, unique do'),
+        ('all(o > 1 for o in ls if o > 0 if o > 2)', '(o > 1 for o in ls if o > 0 if o > 2)', "only one 'for' and one 'if' are supported here", 'nest a second all() or any()'),
+        ('all(o > p for o in ls for p in ls)', '(o > p for o in ls for p in ls)', "only one 'for' and one 'if' are supported here", 'nest a second all() or any()'),
+        ('all(o > p for o, p in ls)', 'o, p in ls)', "'for' needs one variable", ''),
+        ('(o > 1 for o in ls)', '(o > 1 for o in ls)', "'for' is supported only inside all(), any(), sum(), min(), max() and unique()", LISTED),
+        ('[o > 1 for o in ls]', '[o > 1 for o in ls]', "'for' is supported only inside all(), any(), sum(), min(), max() and unique()", LISTED),
+        ('n if on else x', 'n if on else x', 'this is not an expression', ''),
+        ('ls[0:1] == 1', 'ls[0:1] == 1', 'only one entry of a list or map can be selected', LISTED),
+        ('ls[0, 1] == 1', 'ls[0, 1] == 1', 'only one entry of a list or map can be selected', LISTED),
+        ('g.low() > 1', 'g.low() > 1', "only the functions of constraints can be called", LISTED),
+        ('t.upper() == "A"', 't.upper() == "A"', "only the functions of constraints can be called", LISTED),
+        ('lambda: 1', ': 1', 'this is not an expression', ''),
+        ('n > 1 && on', '&& on', "'&&' is not an operator", "write 'and'"),
+        ('n > 1 || on', '|| on', "'||' is not an operator", "write 'or'"),
+        ('!on', '!on', "'!' is not an operator", "write 'not'"),
+        ('n = 1', '= 1', "'=' is not an operator", "write '=='"),
+        ('n >', 'n >', 'this is not an expression', ''),
+        ('(n > 1', '(n > 1', 'this is not an expression', ''),
+        ('n > 1)', ')', 'this is not an expression', ''),
+        ('"a = b', '= b', "'=' is not an operator", "write '=='"),
+        ('t == "x = y" && on', '&& on', "'&&' is not an operator", "write 'and'"),
+        ('n >> 1', 'n >> 1', 'this is not supported in a constraint', LISTED),
+        ('{n}', '{n}', 'this is not supported in a constraint', LISTED),
+        ('f"{n}" == t', 'f"{n}" == t', 'this is not supported in a constraint', LISTED),
+        ('len(ls, key=1) > 1', 'len(ls, key=1) > 1', "only the functions of constraints can be called", LISTED),
+        ('ls[*ls] == 1', 'ls[*ls] == 1', 'only one entry of a list or map can be selected', LISTED),
+        ('n <> 1', '<> 1', 'this is not an expression', ''),
     ],
 )  # fmt: skip
-def test_what_has_no_meaning_is_refused_where_it_begins(constraint: str, rest: str, message: str, hint: str) -> None:
+def test_a_wrong_part_is_rejected_at_its_start(constraint: str, rest: str, message: str, hint: str) -> None:
     (found,) = analysed(constrained(constraint), "c.pdsl.yaml").diagnostics
     begins = found.span.column - 1 - len("constraints: ['")
     assert (found.code, constraint[begins:], found.message, str(found.hint)) == ("RC3119", rest, message, hint)
 
 
-def test_it_is_refused_where_it_is_too_long_or_too_deep() -> None:
+def test_a_constraint_that_is_too_long_or_too_deep_is_rejected() -> None:
     for constraint, message in (
         ("n > 1" + " " * 2000, "an expression has at most 2000 characters"),
-        ("-" * 60 + "n > 1", "this expression is nested too deep"),
+        ("-" * 60 + "n > 1", "this expression is nested too deeply"),
     ):
         (found,) = analysed(constrained(constraint), "c.pdsl.yaml").diagnostics
         assert found.message == message
@@ -157,7 +157,7 @@ def test_it_is_refused_where_it_is_too_long_or_too_deep() -> None:
     assert not analysed(constrained("n > 0" + " " * (2000 - len("n > 0"))), "c.pdsl.yaml").diagnostics
 
 
-def test_other_letters_move_no_place() -> None:
+def test_locations_after_letters_that_are_not_ascii() -> None:
     (found,) = analysed(constrained('t == "ñandú" and nn > 1'), "c.pdsl.yaml").diagnostics
     assert found.span.column - 1 - len("constraints: ['") == len('t == "ñandú" and ')
 
@@ -190,8 +190,8 @@ GIVEN = "low: 2, high: 5, part: 0.5, on: true, name: arm, mode: fast, ls: [3, 1,
         "not has(note) and low == 2", "is + low == 5", "period.compute == 50 * low",
     ],
 )  # fmt: skip
-def test_what_holds(constraint: str) -> None:
-    """And where it does not hold, it is said."""
+def test_constraints_that_hold(constraint: str) -> None:
+    """The negation of each is reported."""
     documents = constrained(constraint, VALUES, TYPES)
     assert refused(documents, GIVEN) == []
     denied = constrained(f"not ({constraint})", VALUES, TYPES)
@@ -208,20 +208,20 @@ def test_what_holds(constraint: str) -> None:
         ("", True),
     ],
 )
-def test_a_constraint_is_about_all_values_given_or_not(values: str, holds: bool) -> None:
+def test_a_constraint_is_about_set_values_and_defaults(values: str, holds: bool) -> None:
     parameters = "low: {type: int, default: 1}, high: {type: int, default: 2}"
     more = "constraints: [{that: low < high, else: low must be below high}]\n"
     assert refused(pdsl(parameters, more=more), values) == ([] if holds else ["low must be below high"])
 
 
-def test_defaults_that_break_a_constraint_are_the_documents_fault() -> None:
+def test_defaults_that_violate_a_constraint() -> None:
     documents = pdsl("low: {type: int, default: 3}, high: {type: int, default: 2}", more="constraints: [low < high]\n")
     (found,) = analysed(documents, "c.pdsl.yaml").diagnostics
     assert (found.code, found.message) == ("RC3120", "the defaults break this constraint: this must hold: low < high")
 
 
 @pytest.mark.parametrize("constraint", ["high / low > 1", "high % low == 0", "ls[5] == 1", 'm["z"] > 0', "min(ls) > 0"])
-def test_what_cannot_be_worked_out_does_not_hold(constraint: str) -> None:
+def test_a_constraint_that_cannot_be_computed_does_not_hold(constraint: str) -> None:
     documents = constrained(constraint, "low: int, high: int, ls: {list: int}, m: {map: int}", "")
     assert len(refused(documents, "low: 0, high: 4, ls: [], m: {}")) == 1
 
@@ -229,15 +229,15 @@ def test_what_cannot_be_worked_out_does_not_hold(constraint: str) -> None:
 @pytest.mark.parametrize(
     "constraint", ["all(one > 9 for one in ls)", "not any(one > 0 for one in ls)", "unique(ls)", "sum(ls) == 0"]
 )
-def test_of_nothing_all_holds_and_none(constraint: str) -> None:
+def test_quantifiers_over_nothing(constraint: str) -> None:
     assert refused(constrained(constraint, "ls: {list: int}", ""), "ls: []") == []
 
 
 @pytest.mark.parametrize(
     ("values", "holds"), [("", True), ("note: x", False), ("note: {env: NOTE}", True), ("note: x, names: [x]", True)]
 )
-def test_a_constraint_can_ask_whether_there_is_a_value(values: str, holds: bool) -> None:
-    """What a reference stands for is known only where the component runs."""
+def test_a_constraint_on_whether_a_value_is_set(values: str, holds: bool) -> None:
+    """The value of a reference is known only when the component runs."""
     parameters = "note: {type: string, optional: true}, names: {list: string, default: []}"
     documents = pdsl(
         parameters, more="constraints: [{that: not has(note) or note in names, else: a note has a name}]\n"
@@ -245,7 +245,7 @@ def test_a_constraint_can_ask_whether_there_is_a_value(values: str, holds: bool)
     assert refused(documents, values) == ([] if holds else ["a note has a name"])
 
 
-def test_a_constraint_goes_by_names_in_code() -> None:
+def test_a_constraint_uses_names_in_code() -> None:
     documents = pdsl(
         "from: {type: int, as: start, default: 1}, g: {group: {a-b: {type: int, as: ab, default: 2}}}",
         more="constraints: [start < g.ab]\n",
@@ -278,9 +278,7 @@ T = "T: {struct: {x: int, tag: {type: string, optional: true}}}"
         ("has(need.x)", "", True),
     ],
 )
-def test_what_a_reference_stands_for_is_there_and_so_is_what_has_to_be_given(
-    constraint: str, values: str, holds: bool
-) -> None:
+def test_references_and_required_values_count_as_set(constraint: str, values: str, holds: bool) -> None:
     documents = pdsl(OPTIONAL, T, f"constraints: [{constraint!r}]\n")
     given = ", ".join(each for each in ("low: 1, r: [1], need: {x: 1}", values) if each)
     assert refused(documents, given) == ([] if holds else [f"this must hold: {constraint}"])
@@ -301,7 +299,7 @@ def test_what_a_reference_stands_for_is_there_and_so_is_what_has_to_be_given(
         "unique(n)",
     ],
 )
-def test_what_has_no_meaning_is_said_once_and_harms_no_values(constraint: str) -> None:
+def test_a_wrong_constraint_is_reported_once_and_affects_no_values(constraint: str) -> None:
     documents = pdsl("n: int, t: string", more=f"constraints: [{constraint!r}, n > 0]\n")
     text = "component: c.cdsl.yaml\nparameters: {n: 1, t: a}\n"
     assert [one.code for one in said({**documents, "c.config.yaml": text})] == ["RC3119"]

@@ -1,4 +1,4 @@
-"""Deployments checked: ports of one machine, addresses, executables, and what includes and instances repeat."""
+"""Checks of deployments: ports of one machine, addresses, executables, and repetitions by includes and instances."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ BUILT = {f"{name}/bin/{name.title()}Comp": "-> /bin/true" for name in ("speech",
 
 @pytest.fixture
 def found(diagnostics: Check) -> Callable[[Tree], list[tuple[object, ...]]]:
-    """(code, severity, file, line, column) of all that is wrong with a tree whose components are built."""
+    """(code, severity, file, line, column) of all diagnostics of a tree whose components are built."""
 
     def check(files: Tree, *args: str) -> list[tuple[object, ...]]:
         missing = {path: content for path, content in BUILT.items() if not Path(path).exists()}
@@ -43,7 +43,7 @@ def two(first: str, second: str, before: str = "") -> Tree:
         ('{program: sh, endpoints: {Laser: "tcp -h 127.0.0.1 -p 10001"}}', 39),
     ],
 )
-def test_two_on_one_port(found: Check, second: str, column: int) -> None:
+def test_two_processes_on_one_port(found: Check, second: str, column: int) -> None:
     assert found(two("port: 10001", second)) == [("RC4303", "error", "robot.ddsl.yaml", 4, column)]
 
 
@@ -56,7 +56,7 @@ def test_two_on_one_port(found: Check, second: str, column: int) -> None:
         "{component: mouth, port: 10001, enabled: false}",
     ],
 )
-def test_what_does_not_meet(found: Check, second: str) -> None:
+def test_processes_without_a_port_conflict(found: Check, second: str) -> None:
     assert not found(two("port: 10001", second))
 
 
@@ -79,7 +79,7 @@ def test_a_port_of_icestorm(found: Check) -> None:
     assert fault == ("RC4303", "error", "robot.ddsl.yaml", 3, 42)
 
 
-def test_instances_that_count_into_another(found: Check) -> None:
+def test_instances_whose_ports_reach_that_of_another_process(found: Check) -> None:
     files = deployed(
         'components:\n  "a{i}": {component: mouth, instances: 3, port: 10001}\n  b: {component: mouth, port: 10003}\n'
     )
@@ -93,13 +93,13 @@ def test_a_loopback_address_among_hosts(found: Check, address: str) -> None:
     assert found(files) == [("RC4304", "error", "robot.ddsl.yaml", 3, 19)]
 
 
-def test_one_machine_may_play_several(found: Check) -> None:
+def test_one_machine_may_be_several_hosts(found: Check) -> None:
     hosts = "hosts: {here: 127.0.0.2, there: 127.0.0.3}\n"
     assert not found(two("host: here, port: 10001", "{component: mouth, host: there, port: 10001}", hosts))
 
 
 @pytest.mark.parametrize("address", ["10.0.0.256", "10.0.0", "0.0.0.0", "224.0.0.1", "fe80::zz", "a..b", "a-.b"])
-def test_what_is_no_address(found: Check, address: str) -> None:
+def test_wrong_addresses(found: Check, address: str) -> None:
     assert found(deployed(f'hosts: {{a: "{address}"}}\ncomponents: {{m: {{component: mouth, host: a}}}}\n')) == [
         ("RC4305", "error", "robot.ddsl.yaml", 2, 12)
     ]
@@ -110,7 +110,7 @@ def test_addresses(found: Check, address: str) -> None:
     assert not found(deployed(f'hosts: {{a: "{address}"}}\ncomponents: {{m: {{component: mouth, host: a}}}}\n'))
 
 
-def test_a_name_is_resolved_only_when_asked_for(rcyaml: Run, tmp_path: Path) -> None:
+def test_a_host_name_is_resolved_only_on_request(rcyaml: Run, tmp_path: Path) -> None:
     files = deployed("hosts: {a: no-such-host.invalid}\ncomponents: {m: {component: mouth, host: a}}\n")
     write_tree(tmp_path, files)
     assert "RC4306" not in rcyaml("check", "robot.ddsl.yaml").output
@@ -123,13 +123,13 @@ def check(rcyaml: Run, tmp_path: Path, files: Tree, *args: str) -> str:
     return rcyaml("check", "robot.ddsl.yaml", *args).output
 
 
-def test_what_is_not_compiled_yet(rcyaml: Run, tmp_path: Path) -> None:
+def test_a_component_that_is_not_compiled(rcyaml: Run, tmp_path: Path) -> None:
     output = check(rcyaml, tmp_path, deployed("components: {m: {component: mouth}}\n"))
-    assert "warning[RC4403]: 'm' has no executable: there is no mouth/bin/MouthComp" in output
+    assert "warning[RC4403]: 'm' has no executable: mouth/bin/MouthComp is missing" in output
     assert "`rcyaml compile mouth/mouth.cdsl.yaml` writes it" in output
 
 
-def test_an_executable_of_another_name_is_not_what_compile_writes(rcyaml: Run, tmp_path: Path) -> None:
+def test_an_executable_that_compile_does_not_write(rcyaml: Run, tmp_path: Path) -> None:
     output = check(rcyaml, tmp_path, deployed("components: {m: {component: mouth, executable: bin/mouth}}\n"))
     assert "build it, or correct `executable: bin/mouth`" in output
 
@@ -137,11 +137,11 @@ def test_an_executable_of_another_name_is_not_what_compile_writes(rcyaml: Run, t
 def test_instances_of_a_program_with_one_port(rcyaml: Run, tmp_path: Path) -> None:
     entry = 'components:\n  watch{i}: {program: sh, instances: 2, endpoints: {Laser: "tcp -p 14000"}}\n'
     output = check(rcyaml, tmp_path, deployed(entry))
-    assert "give each one of its own; {i} counts instances: `-p 1400{i}`" in output
+    assert "use {i}, the number of the instance, in the port: `-p 1400{i}`" in output
     assert "RC4303" not in check(rcyaml, tmp_path, deployed(entry.replace("14000", "1400{i}")))
 
 
-def test_what_is_not_built_yet(rcyaml: Run, tmp_path: Path) -> None:
+def test_a_component_that_is_not_built(rcyaml: Run, tmp_path: Path) -> None:
     files = deployed("components: {m: {component: mouth}}\n")
     cpp = str(files["mouth/mouth.cdsl.yaml"]).replace("python", "cpp")
     output = check(rcyaml, tmp_path, {**files, "mouth/mouth.cdsl.yaml": cpp})
@@ -157,23 +157,23 @@ def test_what_is_not_built_yet(rcyaml: Run, tmp_path: Path) -> None:
         ("{program: sh, cwd: nowhere}", "there is no folder nowhere to run in"),
     ],
 )
-def test_what_cannot_be_started(rcyaml: Run, tmp_path: Path, entry: str, problem: str) -> None:
+def test_programs_that_cannot_be_started(rcyaml: Run, tmp_path: Path, entry: str, problem: str) -> None:
     files = {**deployed(f"components: {{m: {entry}}}\n"), "mouth/bin/text": ""}
     assert f"warning[RC4404]: 'm' cannot be started: {problem}\n" in check(rcyaml, tmp_path, files)
 
 
-def test_what_path_should_find_is_looked_for_only_when_asked_for(rcyaml: Run, tmp_path: Path) -> None:
+def test_programs_are_looked_up_in_path_only_on_request(rcyaml: Run, tmp_path: Path) -> None:
     files = deployed("components: {m: {program: no-such-program}}\n")
     assert "RC4404" not in check(rcyaml, tmp_path, files)
     assert "PATH finds no 'no-such-program'" in check(rcyaml, tmp_path, files, "--environment")
 
 
-def test_another_machines_files_are_not_judged(rcyaml: Run, tmp_path: Path) -> None:
+def test_files_of_other_machines_are_not_checked(rcyaml: Run, tmp_path: Path) -> None:
     files = deployed("hosts: {far: 192.0.2.7}\ncomponents: {m: {component: mouth, host: far}}\n")
     assert check(rcyaml, tmp_path, files) == "3 documents: nothing wrong\n"
 
 
-def test_an_include_is_judged_as_part_of_what_includes_it(found: Check) -> None:
+def test_an_include_is_checked_as_part_of_the_including_deployment(found: Check) -> None:
     arm = "deployment: Arm\ncomponents:\n  speech: {component: speech, port: 10001}\n"
     files = deployed(
         "components: {mouth: {component: mouth, port: 10002}}\ninclude: [arm.ddsl.yaml]\n", **{"arm.ddsl.yaml": arm}
@@ -181,14 +181,14 @@ def test_an_include_is_judged_as_part_of_what_includes_it(found: Check) -> None:
     assert not found(files, ".")
 
 
-def test_what_several_includes_repeat_is_reported_once(found: Check) -> None:
+def test_repetitions_by_several_includes_are_reported_once(found: Check) -> None:
     arm = "deployment: Arm\ncomponents:\n  mouth: {component: mouth, port: 10001, set: {period.compute: 0}}\n"
     files = deployed("include: {left: arm.ddsl.yaml, right: arm.ddsl.yaml}\n", **{"arm.ddsl.yaml": arm})
     codes = [fault[0] for fault in found(files, ".")]
     assert sorted(codes) == ["RC3303", "RC4303"]
 
 
-def test_lint_may_lower_it(found: Check) -> None:
+def test_lint_may_lower_the_severity(found: Check) -> None:
     files = deployed("components: {speech: {component: speech}}\n")
     assert [fault[0] for fault in found(files)] == ["RC4201"]
     assert not found({**files, "rcyaml.yaml": "lint: {RC4201: 'off'}\n"})

@@ -1,4 +1,4 @@
-"""The form of a window, right and wrong and hostile."""
+"""Forms of windows: right, wrong and hostile ones."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from robocomp_yaml import pipeline
-from robocomp_yaml.diag.codes import forms as codes
+from robocomp_yaml.diag.codes import cdsl as codes
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
 from robocomp_yaml.emit.windows import text
 
@@ -24,12 +24,12 @@ def check(folder: Path, form: bytes | None, base: str = "QWidget") -> list[Diagn
 
 
 @pytest.mark.parametrize("base", BASES)
-def test_what_we_write_is_right(tmp_path: Path, base: str) -> None:
+def test_generated_forms_are_right(tmp_path: Path, base: str) -> None:
     assert check(tmp_path, text(base, "Any").encode(), base) == []
 
 
 @pytest.mark.parametrize("base", BASES)
-def test_a_plain_widget_fits_everywhere(tmp_path: Path, base: str) -> None:
+def test_a_plain_widget_fits_all_bases(tmp_path: Path, base: str) -> None:
     assert check(tmp_path, text("QWidget", "Any").encode(), base) == []
 
 
@@ -53,8 +53,8 @@ OUTSIDE = b'<!DOCTYPE ui [<!ENTITY a SYSTEM "file:///etc/passwd">]><ui><class>&a
         (b'<ui><widget class="QWidget"/></ui>', codes.NO_DIALOG),
         (b'<ui><class>Form</class><widget class="QWidget"/></ui>', codes.NO_DIALOG),
         (b'<ui><class>guiDlg</class><widget class="QDialog"/></ui>', codes.OTHER_BASE),
-        (LAUGHS, codes.REFUSED),
-        (OUTSIDE, codes.REFUSED),
+        (LAUGHS, codes.FORM_WITH_ENTITIES),
+        (OUTSIDE, codes.FORM_WITH_ENTITIES),
         (b"<ui><class>&none;</class></ui>", codes.NOT_A_FORM),
         (b"<ui>" + b"<a>" * 200_000, codes.NOT_A_FORM),
     ],
@@ -67,6 +67,6 @@ def test_each_fault_is_one_error(tmp_path: Path, form: bytes, code: codes.Code) 
     assert time.monotonic() - begin < 10
 
 
-def test_a_folder_in_its_place(tmp_path: Path) -> None:
+def test_a_folder_instead_of_the_form(tmp_path: Path) -> None:
     (tmp_path / "src" / "mainUI.ui").mkdir(parents=True)
     assert [said.code for said in check(tmp_path, None)] == [codes.NOT_A_FORM.id]

@@ -1,4 +1,4 @@
-"""What Slice's compilers refuse and IDSL can say is refused before, where it stands in the document.
+"""Documents that IDSL allows but the Slice compilers reject: rcyaml rejects them first, with a location in the document.
 
 The names are those of the tests of Ice's own error detection, where there is one.
 """
@@ -56,7 +56,7 @@ FAULTS = [
     Fault("NameCanNotBeUsed", "RC1005", "7:7", "the method 'Map'", METHODS + "      Map:\n"),
     Fault("name of the module", "RC1005", "3:3", "the sequence 'RobocompMap'",
           TYPES + "  RobocompMap: {sequence: int}\n"),
-    Fault("Undefined", "RC1010", "3:17", "no type called 'Pose'", TYPES + "  A: {sequence: Pose}\n"),
+    Fault("Undefined", "RC1010", "3:17", "unknown type 'Pose'", TYPES + "  A: {sequence: Pose}\n"),
     Fault("Undefined case", "RC1010", "3:17", "did you mean 'B'", TYPES + "  A: {sequence: b}\n  B: {sequence: int}\n"),
     Fault("Undefined foreign", "RC1010", "3:17", "did you mean 'float'", TYPES + "  A: {sequence: float32}\n"),
     Fault("Undefined void", "RC1010", "7:20", "returns nothing has no `returns`",
@@ -90,7 +90,7 @@ FAULTS = [
 
 
 @pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: fault.name)
-def test_a_fault_is_told_once_and_where_it_is(fault: Fault, diagnostics: Callable[..., list[dict]]) -> None:
+def test_a_fault_is_reported_once_at_its_location(fault: Fault, diagnostics: Callable[..., list[dict]]) -> None:
     said = diagnostics({"Map.idsl.yaml": fault.text})
     assert [(d["code"], f"{d['line']}:{d['column']}") for d in said] == [(fault.code, fault.place)], said
     assert fault.says in said[0]["message"] + said[0]["hint"], said
@@ -146,7 +146,7 @@ def test_a_value_that_fits(type_: str, value: str, diagnostics: Callable[..., li
     assert diagnostics({"Map.idsl.yaml": SIDE + text}) == []
 
 
-def test_what_other_languages_reserve_is_allowed(diagnostics: Callable[..., list[dict]]) -> None:
+def test_reserved_words_of_other_languages_are_allowed(diagnostics: Callable[..., list[dict]]) -> None:
     words = ["lambda", "self", "None", "current", "c", "namespace", "template", "delete", "Struct", "object", "array"]
     members = ", ".join(f"{word}: int" for word in words)
     assert diagnostics({"Map.idsl.yaml": TYPES + f"  S: {{struct: {{{members}}}}}\n"}) == []
@@ -165,7 +165,9 @@ def test_a_sequence_as_a_key_is_a_warning(diagnostics: Callable[..., list[dict]]
         (METHODS + "      Busy: {throws: [Busy]}\n", "call it 'busy'"),
     ],
 )
-def test_what_ice_cannot_say_in_cpp_is_a_warning(text: str, hint: str, diagnostics: Callable[..., list[dict]]) -> None:
+def test_names_that_do_not_compile_in_cpp_are_a_warning(
+    text: str, hint: str, diagnostics: Callable[..., list[dict]]
+) -> None:
     said = diagnostics({"Map.idsl.yaml": text})
     assert [(d["code"], d["severity"], d["hint"]) for d in said] == [("RC1026", "warning", hint)]
 
@@ -173,8 +175,8 @@ def test_what_ice_cannot_say_in_cpp_is_a_warning(text: str, hint: str, diagnosti
 @pytest.mark.parametrize(
     ("type_", "value", "hint"),
     [
-        ("double", "3.141592653589793", "let the programs"),
-        ("float", "3.14159265", "let the programs"),
+        ("double", "3.141592653589793", "in the programs"),
+        ("float", "3.14159265", "in the programs"),
         ("float", "1e-7", "use double"),
         ("float", "1e20", "use double"),
     ],
@@ -191,11 +193,11 @@ def test_a_number_that_ice_changes_is_a_warning(
     ("type_", "value"),
     [("double", "1e-7"), ("float", "1.5e-7"), ("float", ".1"), ("double", "1234567.0"), ("float", "1e6")],
 )
-def test_a_number_that_arrives(type_: str, value: str, diagnostics: Callable[..., list[dict]]) -> None:
+def test_a_number_that_ice_keeps(type_: str, value: str, diagnostics: Callable[..., list[dict]]) -> None:
     assert diagnostics({"Map.idsl.yaml": f"module: M\nconstants: {{c: {{type: {type_}, value: {value}}}}}\n"}) == []
 
 
-def test_two_knots_of_types_are_told_apart(diagnostics: Callable[..., list[dict]]) -> None:
+def test_two_circles_of_types_are_two_errors(diagnostics: Callable[..., list[dict]]) -> None:
     text = TYPES + (
         "  A: {struct: {b: B, a: A}}\n  B: {struct: {a: A, d: D}}\n  C: {sequence: D}\n  D: {struct: {c: C}}\n"
         "  Fine: {struct: {a: A, d: D}}\n"

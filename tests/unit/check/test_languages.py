@@ -1,4 +1,4 @@
-"""What a language does not have is refused where a document says it; what it has is not."""
+"""Keys that a language does not have are rejected; those that it has are not."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ OTHERS = {
 }
 
 
-def said(rcyaml: Rcyaml, folder: Path, language: Any, keys: dict[str, Any]) -> list[tuple[str, str, int]]:
+def reported(rcyaml: Rcyaml, folder: Path, language: Any, keys: dict[str, Any]) -> list[tuple[str, str, int]]:
     document = {"component": "ClockComp", "language": language, "imports": ["Clock"], **keys}
     text = "\n".join(f"{key}: {json.dumps(value)}" for key, value in document.items())
     write_tree(folder, {"c.cdsl.yaml": f"{text}\n", **OTHERS})
@@ -40,53 +40,51 @@ def said(rcyaml: Rcyaml, folder: Path, language: Any, keys: dict[str, Any]) -> l
     return [(one["code"], one["message"], one["line"]) for one in found if one["code"] in ("RC2060", "RC2303")]
 
 
-def told(language: TargetLanguage, key: str, line: int) -> list[tuple[str, str, int]]:
+def expected(language: TargetLanguage, key: str, line: int) -> list[tuple[str, str, int]]:
     if key in language.ignored:
-        message = f"a component in {language.title} does not build anything: `{key}` has no effect"
+        message = f"`{key}` has no effect: a component in {language.title} is not compiled"
         return [("RC2303", message, line)]
     return [] if key in language.has else [("RC2060", f"`{key}:` is not available in {language.title}", line)]
 
 
-def test_every_key_of_a_capability_is_tried() -> None:
+def test_every_key_of_a_capability_has_an_example() -> None:
     assert {*SAID, "standard", MERGING} == {*CAPABILITIES}
 
 
 @pytest.mark.parametrize("key", SAID)
 @pytest.mark.parametrize("name", languages.table())
-def test_a_key_is_refused_where_its_language_does_not_have_it(
-    rcyaml: Rcyaml, tmp_path: Path, name: str, key: str
-) -> None:
-    assert said(rcyaml, tmp_path, name, SAID[key]) == told(languages.language(name), key, 4)
+def test_a_key_that_the_language_does_not_have_is_rejected(rcyaml: Rcyaml, tmp_path: Path, name: str, key: str) -> None:
+    assert reported(rcyaml, tmp_path, name, SAID[key]) == expected(languages.language(name), key, 4)
 
 
 @pytest.mark.parametrize("name", languages.table())
 def test_a_standard(rcyaml: Rcyaml, tmp_path: Path, name: str) -> None:
     language = {"name": name, "standard": 20}
-    assert said(rcyaml, tmp_path, language, {}) == told(languages.language(name), "standard", 2)
+    assert reported(rcyaml, tmp_path, language, {}) == expected(languages.language(name), "standard", 2)
 
 
 @pytest.mark.parametrize("name", languages.table())
-def test_what_says_nothing_asks_for_nothing(rcyaml: Rcyaml, tmp_path: Path, name: str) -> None:
-    assert said(rcyaml, tmp_path, name, {"implements": [], "uses": {"libraries": []}}) == []
+def test_empty_keys_are_allowed(rcyaml: Rcyaml, tmp_path: Path, name: str) -> None:
+    assert reported(rcyaml, tmp_path, name, {"implements": [], "uses": {"libraries": []}}) == []
 
 
-def test_the_hint_says_what_there_is(rcyaml: Rcyaml, tmp_path: Path) -> None:
+def test_the_hint_lists_the_keys_of_the_language(rcyaml: Rcyaml, tmp_path: Path) -> None:
     lacking = [
         (one, key) for one in languages.table().values() for key in ("statemachine", "gui") if key not in one.has
     ]
     for language, key in lacking:
-        said(rcyaml, tmp_path, language.name, SAID[key])
+        reported(rcyaml, tmp_path, language.name, SAID[key])
         output = rcyaml("check").output
-        assert f"leave it out, or write the component in Python or C++; {language.title} has implements, " in output
+        assert f"remove it, or write the component in Python or C++; {language.title} has implements, " in output
         compiled = rcyaml("compile")
         assert compiled.exit_code == 1 and not (tmp_path / "src").exists(), compiled.output
 
 
 def test_one_key_is_one_error(rcyaml: Rcyaml, tmp_path: Path) -> None:
-    """A machine that its language does not have is not looked into as well."""
+    """A machine that the language does not have is not checked too."""
     machine = {"statemachine": {"initial": "nowhere", "datamodel": "python", "states": {"a": {}}}}
     for language in languages.table().values():
         if "statemachine" not in language.has:
-            said(rcyaml, tmp_path, language.name, machine)
+            reported(rcyaml, tmp_path, language.name, machine)
             found = json.loads(rcyaml("check", "--format", "json").stdout)["diagnostics"]
             assert "RC2216" not in [one["code"] for one in found]

@@ -1,4 +1,4 @@
-"""Names across modules, and modules that meet."""
+"""Names across modules, and modules that are imported together."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ POSE = "module: RoboCompTypes\ntypes: {Pose: {struct: {x: float}}}\nexceptions: 
 Check = Callable[..., list[dict]]
 
 
-def _one(said: list[dict]) -> tuple[str, str, int, str]:
-    assert len(said) == 1, said
-    return said[0]["code"], said[0]["file"], said[0]["line"], said[0]["hint"]
+def _one(diagnosed: list[dict]) -> tuple[str, str, int, str]:
+    assert len(diagnosed) == 1, diagnosed
+    return diagnosed[0]["code"], diagnosed[0]["file"], diagnosed[0]["line"], diagnosed[0]["hint"]
 
 
 @pytest.mark.parametrize("name", ["Types.Pose", "RoboCompTypes.Pose"])
-def test_a_type_of_an_import_stands_behind_its_module(name: str, diagnostics: Check) -> None:
+def test_a_type_of_an_import_needs_the_modules_name(name: str, diagnostics: Check) -> None:
     text = f"module: RoboCompMap\nimports: [Types]\ntypes:\n  Path: {{sequence: {name}}}\n"
     assert diagnostics({"Map.idsl.yaml": text, "Types.idsl.yaml": POSE}) == []
 
@@ -24,27 +24,27 @@ def test_a_type_of_an_import_stands_behind_its_module(name: str, diagnostics: Ch
 @pytest.mark.parametrize(
     ("imports", "name", "hint"),
     [
-        ("[Types]", "Pose", "write 'Types.Pose': a name of another module stands behind that module's"),
+        ("[Types]", "Pose", "write 'Types.Pose': names of other modules need the module's name"),
         ("[]", "Pose", "add Types to `imports`, and write 'Types.Pose'"),
         ("[]", "RoboCompTypes.Pose", "add Types to `imports`, and write 'Types.Pose'"),
         ("[Types]", "Types.Posse", "did you mean 'Types.Pose'?"),
         ("[Types]", "Typos.Pose", "did you mean 'Types.Pose'?"),
-        ("[Types]", "Nothing.AtAll", "define it, or import the module that does"),
+        ("[Types]", "Nothing.AtAll", "define it, or import the module that defines it"),
     ],
 )
-def test_the_hint_says_how_to_reach_a_type(imports: str, name: str, hint: str, diagnostics: Check) -> None:
+def test_the_hint_at_a_type_of_another_module(imports: str, name: str, hint: str, diagnostics: Check) -> None:
     text = f"module: RoboCompMap\nimports: {imports}\ntypes:\n  Path: {{sequence: {name}}}\n"
-    said = diagnostics({"Map.idsl.yaml": text, "Types.idsl.yaml": POSE})
-    assert _one(said) == ("RC1010", "Map.idsl.yaml", 4, hint)
+    diagnosed = diagnostics({"Map.idsl.yaml": text, "Types.idsl.yaml": POSE})
+    assert _one(diagnosed) == ("RC1010", "Map.idsl.yaml", 4, hint)
 
 
-def test_the_hint_says_how_to_reach_an_exception(diagnostics: Check) -> None:
+def test_the_hint_at_an_exception_of_another_module(diagnostics: Check) -> None:
     text = "module: RoboCompMap\ninterfaces: {Map: {methods: {go: {throws: [Lost]}}}}\n"
-    said = diagnostics({"Map.idsl.yaml": text, "Types.idsl.yaml": POSE})
-    assert _one(said) == ("RC1011", "Map.idsl.yaml", 2, "add Types to `imports`, and write 'Types.Lost'")
+    diagnosed = diagnostics({"Map.idsl.yaml": text, "Types.idsl.yaml": POSE})
+    assert _one(diagnosed) == ("RC1011", "Map.idsl.yaml", 2, "add Types to `imports`, and write 'Types.Lost'")
 
 
-def test_what_a_missing_import_might_define_is_not_reported_again(diagnostics: Check) -> None:
+def test_types_of_a_missing_import_are_not_reported(diagnostics: Check) -> None:
     text = (
         "module: RoboCompMap\nimports: [Gone]\ntypes:\n  A: {sequence: Gone.Pose}\n  B: {sequence: RoboCompGone.Pose}\n"
         "  C: {map: {key: Gone.Key, value: int}}\n  D: {struct: {s: {type: Gone.Side, default: left}}}\n"
@@ -53,49 +53,49 @@ def test_what_a_missing_import_might_define_is_not_reported_again(diagnostics: C
     assert _one(diagnostics({"Map.idsl.yaml": text}))[0] == "RC1101"
 
 
-def test_a_fault_is_told_of_the_module_that_has_it(diagnostics: Check) -> None:
-    """Not of those that import it."""
+def test_a_fault_is_reported_for_its_module_only(diagnostics: Check) -> None:
+    """It is not reported for modules that import the module."""
     bad = "module: RoboCompTypes\ntypes: {Pose: {struct: {x: flaot}}}\n"
     text = "module: RoboCompMap\nimports: [Types]\ntypes:\n  Path: {sequence: Types.Pose}\n"
-    said = diagnostics({"Map.idsl.yaml": text, "Types.idsl.yaml": bad})
-    assert _one(said) == ("RC1010", "Types.idsl.yaml", 2, "did you mean 'float'?")
+    diagnosed = diagnostics({"Map.idsl.yaml": text, "Types.idsl.yaml": bad})
+    assert _one(diagnosed) == ("RC1010", "Types.idsl.yaml", 2, "did you mean 'float'?")
 
 
 TWINS = {"Types.idsl.yaml": POSE, "Types2.idsl.yaml": POSE, "A.idsl.yaml": "module: A\nimports: [Types]\n"}
 
 
-def test_twins_that_nobody_joins_are_allowed(diagnostics: Check) -> None:
+def test_modules_of_one_name_that_are_not_imported_together(diagnostics: Check) -> None:
     assert diagnostics({**TWINS, "B.idsl.yaml": "module: B\nimports: [Types2]\n"}) == []
 
 
-def test_twins_are_told_of_where_they_first_meet(diagnostics: Check) -> None:
-    """In B, through A; not again in C, which imports B."""
+def test_modules_of_one_name_are_reported_at_the_first_common_importer(diagnostics: Check) -> None:
+    """B imports both, one through A. C, which imports B, is not reported."""
     both = {"B.idsl.yaml": "module: B\nimports: [A, Types2]\n", "C.idsl.yaml": "module: C\nimports: [B]\n"}
-    said = diagnostics({**TWINS, **both})
-    assert _one(said) == ("RC1105", "B.idsl.yaml", 2, "import only one of them")
-    assert "'Pose' of module RoboCompTypes" in said[0]["message"]
+    diagnosed = diagnostics({**TWINS, **both})
+    assert _one(diagnosed) == ("RC1105", "B.idsl.yaml", 2, "import only one of them")
+    assert "'Pose' of module RoboCompTypes" in diagnosed[0]["message"]
 
 
-def test_twins_meet_in_a_component_too(diagnostics: Check) -> None:
+def test_a_component_that_imports_two_modules_of_one_name(diagnostics: Check) -> None:
     text = "component: C\nlanguage: python\nimports: [A, Types2]\n"
-    said = diagnostics({**TWINS, "c.cdsl.yaml": text})
-    assert _one(said)[:2] == ("RC1105", "c.cdsl.yaml")
+    diagnosed = diagnostics({**TWINS, "c.cdsl.yaml": text})
+    assert _one(diagnosed)[:2] == ("RC1105", "c.cdsl.yaml")
 
 
-def test_a_module_in_two_documents_with_names_of_their_own(diagnostics: Check) -> None:
+def test_a_module_in_two_documents_without_common_names(diagnostics: Check) -> None:
     more = "module: RoboCompTypes\nimports: [Types]\ntypes: {Path: {sequence: Types.Pose}}\n"
     assert diagnostics({"Types.idsl.yaml": POSE, "More.idsl.yaml": more}) == []
 
 
 @pytest.mark.parametrize("folder_and_name", ["old/Types", "types", "Ty_pes"])
-def test_documents_that_become_the_same_file(folder_and_name: str, diagnostics: Check) -> None:
+def test_documents_with_the_same_slice_file(folder_and_name: str, diagnostics: Check) -> None:
     first = "Ty-pes" if folder_and_name == "Ty_pes" else "Types"
-    said = diagnostics(
+    diagnosed = diagnostics(
         {
             f"{first}.idsl.yaml": POSE,
             f"{folder_and_name}.idsl.yaml": "module: RoboCompOther\n",
             "Map.idsl.yaml": f"module: RoboCompMap\nimports: [{first}, {folder_and_name}]\n",
         }
     )
-    assert "RC1107" in [d["code"] for d in said if d["severity"] == "error"]
-    assert {d["code"] for d in said if d["severity"] == "error"} == {"RC1107"}
+    assert "RC1107" in [d["code"] for d in diagnosed if d["severity"] == "error"]
+    assert {d["code"] for d in diagnosed if d["severity"] == "error"} == {"RC1107"}

@@ -1,5 +1,5 @@
-"""Names that C++ cannot have: an error where a component in C++ needs the module, a warning elsewhere. What the
-compiler says of them is asked in tests/ice/test_cpp_words.py."""
+"""Names that C++ cannot have: an error if a component in C++ needs the module, else a warning. Real compilers are tried
+in tests/ice/test_cpp_words.py."""
 
 from __future__ import annotations
 
@@ -37,28 +37,28 @@ def component(language: str, keys: str = "") -> dict[str, str]:
     return {"c.cdsl.yaml": f"component: C\nlanguage: {language}\n{keys}imports: [Map]\nrequires: [Map]\n"}
 
 
-def told(diagnostics: Check, text: str, **more: str) -> list[tuple[str, str, str]]:
+def reported(diagnostics: Check, text: str, **more: str) -> list[tuple[str, str, str]]:
     found = diagnostics({"Map.idsl.yaml": HEAD + text, **more})
     return [(f"{d['line']}:{d['column']}", d["code"], d["severity"]) for d in found]
 
 
 @pytest.mark.parametrize("word", ["ERANGE", "L_tmpnam", "offsetof", "be32toh", "HUGE_VAL", "SEEK_SET"])
-def test_a_macro_is_told_at_each_name(diagnostics: Check, word: str) -> None:
+def test_a_macro_is_reported_at_each_name(diagnostics: Check, word: str) -> None:
     text = EVERYWHERE.format(word)
     places = [
         f"{line}:{found.start() + 1}" for line, shown in enumerate((HEAD + text).splitlines(), 1)
         for found in re.finditer(rf"\b{word}\b", shown)
     ]  # fmt: skip
     assert len(places) == 7
-    assert told(diagnostics, text) == [(place, "RC1027", "warning") for place in places]
+    assert reported(diagnostics, text) == [(place, "RC1027", "warning") for place in places]
 
 
 @pytest.mark.parametrize("word", ["Erange", "erange", "EOFs", "nullptr", "stderr", "major", "linux", "lambda"])
-def test_what_only_resembles_one(diagnostics: Check, word: str) -> None:
-    assert told(diagnostics, EVERYWHERE.format(word)) == []
+def test_names_similar_to_a_macro(diagnostics: Check, word: str) -> None:
+    assert reported(diagnostics, EVERYWHERE.format(word)) == []
 
 
-def test_a_module_of_such_a_name(diagnostics: Check) -> None:
+def test_a_module_named_like_a_macro(diagnostics: Check) -> None:
     assert [d["code"] for d in diagnostics({"Map.idsl.yaml": "module: BUFSIZ\n"})] == ["RC1027"]
 
 
@@ -66,7 +66,7 @@ def test_a_module_of_such_a_name(diagnostics: Check) -> None:
     ("log", "cpp", "error"), ("select", "python", "warning"), ("Parameters", "cpp", "error"), ("int8_t", "cpp", "error"),
     ("Log", "cpp", ""), ("runtime", "cpp", ""), ("linux", "cpp", ""),
 ])  # fmt: skip
-def test_a_module_beside_the_system(diagnostics: Check, module: str, language: str, severity: str) -> None:
+def test_a_module_named_like_a_system_function(diagnostics: Check, module: str, language: str, severity: str) -> None:
     text = f"module: {module}\ninterfaces: {{Map: {{methods: {{time: {{in: {{index: int}}}}}}}}}}\n"
     found = diagnostics({"Map.idsl.yaml": text, **component(language)})
     expected = [("RC1028", severity, f"call it 'RoboComp{module[0].upper()}{module[1:]}'")] if severity else []
@@ -82,7 +82,9 @@ def test_a_module_beside_the_system(diagnostics: Check, module: str, language: s
     ("slots", "cpp", "gui: {toolkit: qt, base: QDialog}\n", "error"),
     ("slots", "cpp", "compatibility: robocomp\n", "error"),
 ])  # fmt: skip
-def test_an_error_where_cpp_needs_it(diagnostics: Check, word: str, language: str, keys: str, severity: str) -> None:
+def test_an_error_if_a_component_in_cpp_needs_the_module(
+    diagnostics: Check, word: str, language: str, keys: str, severity: str
+) -> None:
     text = f"interfaces: {{Map: {{methods: {{go: {{in: {{{word}: int}}}}}}}}}}\n"
     found = diagnostics({"Map.idsl.yaml": HEAD + text, **component(language, keys)})
     assert [(d["code"], d["severity"]) for d in found] == [("RC1027", severity)]
@@ -91,8 +93,8 @@ def test_an_error_where_cpp_needs_it(diagnostics: Check, word: str, language: st
     )
 
 
-def test_what_another_module_brings_along_counts(diagnostics: Check) -> None:
-    """All that a component's modules import is compiled with it, used or not."""
+def test_names_of_indirectly_imported_modules(diagnostics: Check) -> None:
+    """All imports of a component's modules are compiled with it, even unused ones."""
     files = {
         "Base.idsl.yaml": "module: RoboCompBase\ntypes: {Kind: {enum: [ENOENT]}}\n",
         "Map.idsl.yaml": HEAD + "imports: [Base]\ninterfaces: {Map: {}}\n",
@@ -101,8 +103,8 @@ def test_what_another_module_brings_along_counts(diagnostics: Check) -> None:
     assert [(d["file"], d["severity"]) for d in diagnostics(files)] == [("Base.idsl.yaml", "error")]
 
 
-def test_a_migrated_document_is_not_refused(diagnostics: Check) -> None:
-    """Its names are those of programs elsewhere; so in a folder below the one that was migrated."""
+def test_a_migrated_document_is_not_rejected(diagnostics: Check) -> None:
+    """Other programs use its names. The same is true in a folder below the migrated one."""
     files = {
         "in/Map.idsl.yaml": HEAD + "types: {Kind: {enum: [ENOENT]}}\n"
         "interfaces: {Map: {methods: {Kind: {returns: Kind}}}}\n",
@@ -128,8 +130,8 @@ TAKEN = {
 
 
 @pytest.mark.parametrize("name", TAKEN)
-def test_a_document_says_itself_that_it_was_migrated(name: str, rcyaml: Callable[..., Any], tmp_path: Path) -> None:
-    """So it counts in a clone of the repository that lacks what `migrate` remembers."""
+def test_a_document_contains_that_it_was_migrated(name: str, rcyaml: Callable[..., Any], tmp_path: Path) -> None:
+    """So it is also known in a clone without the records of `migrate`."""
     write_tree(tmp_path, {
         "Map.idsl": f"/* A map. */\nmodule RoboCompMap {{ {TAKEN[name]} }};\n",
         "Fine.idsl": "module RoboCompFine { interface Fine { void f(int x); }; };\n",
@@ -159,15 +161,15 @@ def test_hints_can_be_typed(diagnostics: Check) -> None:
 
 
 def test_parts_of_a_machine_in_cpp(diagnostics: Check) -> None:
-    """Guards and actions are methods; in Python they may be called so."""
+    """Guards and actions are methods; in Python these names are allowed."""
     machine = "  initial: a\n  transitions: {{a: {{to: a, event: EOF, if: ERANGE}}}}\n"
     text = f"component: C\nlanguage: {{}}\nstatemachine:\n{machine}"
     assert [d["code"] for d in diagnostics({"c.cdsl.yaml": text.format("cpp")})] == ["RC2237"]
     assert diagnostics({"c.cdsl.yaml": text.format("python")}) == []
 
 
-def test_what_is_ours_to_name_gets_an_underscore() -> None:
-    """Accessors of parameters, events of machines: no error, since the code is generated from the same document."""
+def test_generated_names_get_an_underscore() -> None:
+    """Accessors of parameters and events of machines: no error, because the code is generated from the same document."""
     assert [language("cpp").in_code(name) for name in ("ERANGE", "be32toh", "slots", "INT_MAX", "erange")] == [
         "ERANGE_", "be32toh_", "slots_", "INT_MAX_", "erange",
     ]  # fmt: skip

@@ -1,4 +1,4 @@
-"""One cause is one diagnostic: what depends on something that is wrong is not judged, and nothing else is said."""
+"""One cause gives one diagnostic: parts that depend on a wrong one are not checked."""
 
 from __future__ import annotations
 
@@ -237,12 +237,12 @@ CASES: dict[str, tuple[tuple[str, str, str], dict[str, str]]] = {
 
 
 @pytest.mark.parametrize("cause", CASES)
-def test_one_cause_is_told_once(cause: str) -> None:
+def test_one_cause_is_reported_once(cause: str) -> None:
     expected, documents = CASES[cause]
     assert [(one.code, one.file, one.at) for one in said(documents)] == [expected]
 
 
-def test_two_that_run_on_unknown_hosts_have_no_port_in_common() -> None:
+def test_processes_on_unknown_hosts_have_no_port_conflict() -> None:
     documents = dep(
         "hosts: {onboard: 10.0.0.1, head: 10.0.0.2}\ncomponents:\n  one: {program: sh, host: onbord, endpoints: {A: tcp -p 7}}\n"
         "  two: {program: sh, host: haed, endpoints: {B: tcp -p 7}}\n"

@@ -1,25 +1,25 @@
-"""What a plan tells of changes, without the secrets in them."""
+"""The differences in a plan, without secrets."""
 
 from __future__ import annotations
 
 from robocomp_yaml.deploy.differences import differences
-from robocomp_yaml.deploy.spec import Spec
-from robocomp_yaml.network.network import ConfigFile, Process, Readiness, Variable
+from robocomp_yaml.deploy.spec import ProcessSpec
+from robocomp_yaml.network.network import ConfigFile, EnvironmentVariable, Process, Readiness
 
 
-def spec(secret: str) -> Spec:
+def spec(secret: str) -> ProcessSpec:
     command = ("/bin/x", f"--wifi={secret}", "--password", secret, f"http://bob:{secret}@host", "--name=x")
     process = Process(
-        "x", "here", command, "/", env=(Variable("TOKEN", secret), Variable("DB", f"x://u:{secret}@h")),
+        "x", "here", command, "/", env=(EnvironmentVariable("TOKEN", secret), EnvironmentVariable("DB", f"x://u:{secret}@h")),
         config=ConfigFile(
             "config/x", f"wifi={secret}\nlock={secret}\nmail.password={secret}\nname={len(secret)}\n", ("lock",)
         ),
         ready=Readiness(command=("ask", f"--api-key={secret}")), secrets=("wifi",),
     )  # fmt: skip
-    return Spec(process, "", command, "/config/x")
+    return ProcessSpec(process, "", command, "/config/x")
 
 
-def test_no_secret_is_told() -> None:
+def test_secrets_are_hidden() -> None:
     told = [str(one) for one in differences(spec("canary"), spec("canaryNew"))]
     assert not [line for line in told if "canary" in line]
     hidden = "/bin/x --wifi=*** --password *** http://bob:***@host --name=x"

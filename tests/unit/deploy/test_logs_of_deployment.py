@@ -1,4 +1,4 @@
-"""Logs of processes: written in files of limited size, read back in order, followed across rotations."""
+"""Logs of processes: written to files of limited size, read in order, followed across rotations."""
 
 from __future__ import annotations
 
@@ -24,24 +24,24 @@ def texts(lines: object) -> list[str]:
     return [line.text for line in lines]  # type: ignore[attr-defined]
 
 
-def test_lines_are_written_when_they_are_whole(logs: Path) -> None:
+def test_a_line_is_written_when_it_is_complete(logs: Path) -> None:
     reader, log = LogReader(str(logs), "a"), LogFile(f"{logs}/logs/a.log")
-    log.take(b"one\ntw")
+    log.write(b"one\ntw")
     assert texts(reader.new()) == ["one"]
-    log.take(b"o\r\n\nthree")
+    log.write(b"o\r\n\nthree")
     assert texts(reader.new()) == ["two", ""]
-    log.say("ended")
+    log.note("ended")
     assert texts(reader.new()) == ["three", "rcyaml: ended"]
     assert texts(LogReader(str(logs), "a").last(2)) == ["three", "rcyaml: ended"]
     assert LogReader(str(logs), "a").last(0) == [] and LogReader(str(logs), "b").last(5) == []
     log.close()
 
 
-def test_a_line_without_end_is_broken(logs: Path) -> None:
+def test_a_line_without_end_is_split(logs: Path) -> None:
     log = LogFile(f"{logs}/logs/a.log")
     for _ in range(4):
-        log.take(b"x" * (log_file.LONGEST // 2 + 1))
-    log.take(b"x\n")
+        log.write(b"x" * (log_file.LONGEST // 2 + 1))
+    log.write(b"x\n")
     assert [len(text) for text in texts(LogReader(str(logs), "a").last(9))] == [log_file.LONGEST] * 2 + [5]
     log.close()
 
@@ -50,8 +50,8 @@ def test_a_follower_misses_nothing_across_rotations(logs: Path) -> None:
     reader, log = LogReader(str(logs), "a"), LogFile(f"{logs}/logs/a.log", limit=400)
     seen = []
     for number in range(100):
-        log.take(f"line {number}\n".encode())
-        if number % 5 == 0:  # more than one look in each file
+        log.write(f"line {number}\n".encode())
+        if number % 5 == 0:  # more than one read of each file
             seen += texts(reader.new())
     seen += texts(reader.new())
     assert seen == [f"line {number}" for number in range(100)]
@@ -60,16 +60,16 @@ def test_a_follower_misses_nothing_across_rotations(logs: Path) -> None:
     log.close()
 
 
-def test_bytes_that_are_no_text_are_shown(logs: Path) -> None:
+def test_bytes_that_are_not_text_are_shown(logs: Path) -> None:
     log = LogFile(f"{logs}/logs/a.log")
-    log.take(b"caf\xe9 \xff\x00\n")
+    log.write(b"caf\xe9 \xff\x00\n")
     assert texts(LogReader(str(logs), "a").last(1)) == ["caf\ufffd \ufffd\x00"]
     log.close()
 
 
-def test_a_full_disk_loses_lines_and_says_how_many(logs: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_full_disk_loses_lines_and_reports_their_number(logs: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     log = LogFile(f"{logs}/logs/a.log")
-    log.take(b"before\n")
+    log.write(b"before\n")
     write = os.write
 
     def half(file: int, data: bytes) -> int:
@@ -80,9 +80,9 @@ def test_a_full_disk_loses_lines_and_says_how_many(logs: Path, monkeypatch: pyte
 
     for full in (half, none):
         monkeypatch.setattr(log_file.os, "write", full)
-        log.take(b"lost\nlost too\n")
+        log.write(b"lost\nlost too\n")
     monkeypatch.undo()
-    log.take(b"after\n")
+    log.write(b"after\n")
     assert texts(LogReader(str(logs), "a").last(9)) == [
         "before", "rcyaml: 4 lines are missing here: they could not be written", "after",
     ]  # fmt: skip

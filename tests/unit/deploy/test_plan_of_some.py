@@ -1,4 +1,4 @@
-"""What `up` would do: with names, with disabled processes, with what follows a restart; and why, in words."""
+"""Plans with names, disabled processes and processes that follow a restart; and their reasons."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from robocomp_yaml.deploy.plan import (
     with_dependences,
     with_dependents,
 )
-from robocomp_yaml.network.network import Restart
+from robocomp_yaml.network.network import RestartRule
 
 MOTORS, BASE, ARM = process("motors"), process("base", "motors"), process("arm", "base")
 CAMERA = process("camera")
@@ -45,11 +45,11 @@ def actions(made: Plan) -> dict[str, str]:
         (("nothing",), ""),
     ],
 )
-def test_up_with_names_takes_these_and_all_that_they_need(names: tuple[str, ...], taken: str) -> None:
+def test_up_with_names_includes_dependences(names: tuple[str, ...], taken: str) -> None:
     assert list(plan(ROBOT, {}, names).steps) == taken.split()
 
 
-def test_up_with_names_leaves_disabled_processes_alone() -> None:
+def test_up_with_names_ignores_disabled_processes() -> None:
     wanted = network(replace(MOTORS, enabled=False), BASE, ARM)
     assert actions(plan(wanted, {}, ["arm"])) == {"base": START, "arm": START}
     assert with_dependences(wanted, ["motors", "arm"]) == {"base", "arm"}
@@ -63,7 +63,7 @@ def test_up_with_names_leaves_disabled_processes_alone() -> None:
         (network(MOTORS, replace(CAMERA, enabled=False)), "it is disabled"),
     ],
 )
-def test_what_is_not_wanted_any_more_stops_first(wanted: object, reason: str) -> None:
+def test_processes_that_are_not_desired_stop_first(wanted: object, reason: str) -> None:
     now = {"camera": running(CAMERA), "motors": running(MOTORS)}
     made = plan(wanted, now)  # type: ignore[arg-type]
     assert actions(made) == {"camera": STOP, "motors": KEEP} and next(iter(made.steps)) == "camera"
@@ -71,7 +71,7 @@ def test_what_is_not_wanted_any_more_stops_first(wanted: object, reason: str) ->
     assert (stopping.reason, stopping.spec, stopping.before) == (reason, None, now["camera"].spec)
 
 
-def test_with_names_nothing_else_stops() -> None:
+def test_with_names_no_other_process_stops() -> None:
     assert actions(plan(network(MOTORS), {"camera": running(CAMERA)}, ["motors"])) == {"motors": START}
 
 
@@ -87,30 +87,30 @@ def test_with_names_nothing_else_stops() -> None:
         (STOPPED, "SIGTERM", START, "it was stopped"),
     ],
 )
-def test_what_happens_to_one_as_it_is_now(state: str, last_exit: str, action: str, reason: str) -> None:
+def test_the_action_for_each_state(state: str, last_exit: str, action: str, reason: str) -> None:
     now = {"motors": running(MOTORS, state, last_exit=last_exit)}
     step = plan(network(MOTORS), now).steps["motors"]
     assert (step.action, step.reason, step.running) == (action, reason, now["motors"])
     assert step.spec is not None and step.spec.process == MOTORS
 
 
-def test_one_that_never_ran_starts() -> None:
+def test_a_process_that_never_ran_starts() -> None:
     step = plan(network(MOTORS), {}).steps["motors"]
     assert (step.action, step.reason, step.before) == (START, "it does not run yet", None)
     assert step.spec and step.spec.process == MOTORS
 
 
-def test_a_forced_one_says_who_wanted_it_and_what_changed_besides() -> None:
+def test_a_forced_restart_has_its_reason_and_the_changes() -> None:
     changed = replace(MOTORS, cwd="/tmp")
     step = plan(network(changed), {"motors": running(MOTORS)}, forced=["motors"]).steps["motors"]
     assert (step.action, step.reason, [str(one) for one in step.changes]) == (
-        RESTART, "you asked for it", ["cwd: / → /tmp"],
+        RESTART, "its restart was requested", ["cwd: / → /tmp"],
     )  # fmt: skip
     assert actions(plan(network(MOTORS), {"motors": running(MOTORS, STOPPED)}, forced=["motors"])) == {"motors": START}
 
 
-def test_the_reason_is_the_change_that_needs_a_restart_and_how_many_there_are_besides() -> None:
-    changed = replace(MOTORS, restart=Restart(tries=9), aliases=("m",), cwd="/tmp")
+def test_the_reason_is_the_change_that_needs_a_restart_and_the_number_of_others() -> None:
+    changed = replace(MOTORS, restart=RestartRule(tries=9), aliases=("m",), cwd="/tmp")
     step = plan(network(changed), {"motors": running(MOTORS)}).steps["motors"]
     assert (step.action, step.reason) == (RESTART, "cwd: / → /tmp, and 2 more")
     step = plan(network(replace(MOTORS, aliases=("m",))), {"motors": running(MOTORS)}).steps["motors"]
@@ -124,19 +124,19 @@ PLAIN = replace(BASE, is_ice=False)
     ("follower", "state", "action"),
     [(PLAIN, RUNNING, RESTART), (PLAIN, ENDED, KEEP), (PLAIN, STOPPED, START), (BASE, RUNNING, KEEP)],
 )
-def test_a_program_that_knows_no_ice_follows_what_it_is_after(follower: object, state: str, action: str) -> None:
+def test_a_program_without_ice_restarts_with_those_that_it_is_after(follower: object, state: str, action: str) -> None:
     now = {"motors": running(MOTORS), "base": running(follower, state)}  # type: ignore[arg-type]
     wanted = network(replace(MOTORS, cwd="/tmp"), follower)  # type: ignore[arg-type]
     assert actions(plan(wanted, now)) == {"motors": RESTART, "base": action}
     assert "base" in plan(wanted, now, ["motors"]).steps or follower is BASE
 
 
-def test_one_that_does_not_run_follows_nobody_who_is_named() -> None:
+def test_a_stopped_process_does_not_follow_a_restart() -> None:
     made = plan(network(replace(MOTORS, cwd="/tmp"), PLAIN), {"motors": running(MOTORS)}, ["motors"])
     assert actions(made) == {"motors": RESTART}
 
 
-def test_it_follows_only_a_restart_and_says_whose() -> None:
+def test_only_a_restart_is_followed_and_is_the_reason() -> None:
     now = {"motors": running(MOTORS), "base": running(PLAIN), "camera": running(CAMERA)}
     several = replace(PLAIN, after=("camera", "motors"))
     now["base"] = running(several)
@@ -147,7 +147,7 @@ def test_it_follows_only_a_restart_and_says_whose() -> None:
     assert plan(network(MOTORS, CAMERA, several), stopped).steps["base"].action == KEEP
 
 
-def test_what_is_gone_and_what_is_new_are_listed() -> None:
+def test_removed_and_added_names_are_listed() -> None:
     before = replace(MOTORS, aliases=("a", "b", "c"), groups=("g",))
     after = replace(MOTORS, aliases=("c", "d", "e"), groups=("g",))
     step = plan(network(after), {"motors": running(before)}).steps["motors"]
@@ -166,7 +166,7 @@ def test_a_plan_that_changes_nothing_is_empty() -> None:
     assert [step.name for step in made.of(START, STOP)] == ["camera"]
 
 
-def test_who_is_after_some_directly_or_not() -> None:
+def test_dependents_direct_or_not() -> None:
     after = {"motors": (), "base": ("motors",), "arm": ("base",), "camera": ()}
     assert with_dependents(after, ["base"]) == {"base", "arm"}
     assert with_dependents(after, ["arm", "camera"]) == {"arm", "camera"}
@@ -182,11 +182,11 @@ def test_who_is_after_some_directly_or_not() -> None:
         ({"a": ["b"], "b": ["a"], "c": ["a"]}, "b a c"),
     ],
 )
-def test_each_is_ordered_behind_what_it_is_after(after: dict[str, list[str]], order: str) -> None:
+def test_each_name_is_ordered_after_those_before_it(after: dict[str, list[str]], order: str) -> None:
     assert in_order(after) == order.split()
 
 
-def test_one_that_another_version_started_is_not_compared() -> None:
+def test_a_process_of_another_version_is_not_compared() -> None:
     step = plan(network(MOTORS), {"motors": Running("motors", None, "", RUNNING)}).steps["motors"]
     assert (step.action, step.changes, step.before) == (RESTART, (), None)
     assert step.spec is not None
@@ -213,7 +213,7 @@ def test_a_watched_file_that_changes_is_a_reason_to_restart(before: str, now: st
     assert (step.action, step.reason) == (action, reason)
 
 
-def test_a_file_that_is_watched_from_now_on_is_no_reason() -> None:
+def test_a_newly_watched_file_is_no_reason() -> None:
     watching = replace(MOTORS, watched=("/no/such/file",))
     assert actions(plan(network(watching), {"motors": running(MOTORS)})) == {"motors": KEEP}
     assert actions(plan(network(MOTORS), {"motors": running(watching)})) == {"motors": KEEP}

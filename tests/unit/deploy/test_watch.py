@@ -1,4 +1,4 @@
-"""What an engine sees, shared by many who wait: one looks at a time, for all, and whoever no longer waits spoils nothing."""
+"""Observations of an engine are shared by all tasks: one at a time, and a cancelled task does not cancel it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from robocomp_yaml.diag.span import Span
 
 
 class Slow:
-    """An engine that takes a moment to look; counts the looks, and those at once. `state` is that of its process."""
+    """A slow engine that counts its observations, and those in parallel. `state` is the state of its process."""
 
     def __init__(self) -> None:
         self.state, self.looks, self.at_once, self.most = STOPPED, 0, 0, 0
@@ -37,7 +37,7 @@ def watch(engine: Slow) -> Watch:
     return Watch(cast("Engine", engine))
 
 
-def test_one_look_is_for_all() -> None:
+def test_one_observation_serves_all() -> None:
     async def look() -> None:
         of_a, now = watch(engine).of("a"), time.monotonic()
         found = await asyncio.gather(*(of_a(now) for _ in range(50)))
@@ -48,7 +48,7 @@ def test_one_look_is_for_all() -> None:
     assert engine.looks == 1
 
 
-def test_who_no_longer_waits_spoils_it_for_nobody() -> None:
+def test_a_cancelled_task_does_not_cancel_the_observation() -> None:
     async def look() -> None:
         of_a, now = watch(engine).of("a"), time.monotonic()
         first, second = asyncio.ensure_future(of_a(now)), asyncio.ensure_future(of_a(now))
@@ -62,7 +62,7 @@ def test_who_no_longer_waits_spoils_it_for_nobody() -> None:
     assert (engine.looks, engine.most) == (1, 1)
 
 
-def test_a_look_that_began_before_is_not_enough() -> None:
+def test_an_observation_that_began_before_is_too_old() -> None:
     async def look() -> None:
         of_a = watch(engine).of("a")
         early = asyncio.ensure_future(of_a(time.monotonic()))
@@ -78,7 +78,7 @@ def test_a_look_that_began_before_is_not_enough() -> None:
     assert (engine.looks, engine.most) == (2, 1)
 
 
-def test_all_who_wait_are_told_that_it_fails_and_the_next_look_is_a_new_one() -> None:
+def test_a_failure_reaches_all_tasks_and_the_next_observation_is_new() -> None:
     async def look() -> None:
         one, now = watch(engine), time.monotonic()
         engine.fails = True
@@ -93,7 +93,7 @@ def test_all_who_wait_are_told_that_it_fails_and_the_next_look_is_a_new_one() ->
     assert engine.looks == 2
 
 
-def test_the_end_waits_for_no_look(capfd: pytest.CaptureFixture[str]) -> None:
+def test_close_cancels_the_observation(capfd: pytest.CaptureFixture[str]) -> None:
     async def look() -> None:
         one = watch(engine)
         waiting = asyncio.ensure_future(one.of("a")(time.monotonic()))

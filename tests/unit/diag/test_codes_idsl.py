@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from robocomp_yaml.check.idsl.enums import LARGEST
+from robocomp_yaml.check.idsl.definitions import LARGEST
 from robocomp_yaml.check.idsl.names import RESERVED, RESERVED_SUFFIXES, UNESCAPED_IN_PYTHON
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import idsl

@@ -28,7 +28,7 @@ def values(linked: dict[str, LinkedComponent], folder: str) -> dict[str, str]:
     return properties.read(text(linked, folder)).values
 
 
-def test_what_a_config_holds() -> None:
+def test_the_content_of_a_config() -> None:
     linked = workspace(
         {
             "speech": component(
@@ -44,24 +44,24 @@ def test_what_a_config_holds() -> None:
     assert (
         plan.text
         == f"""\
-# Configuration of SpeechComp: one KEY=VALUE a line, as Ice reads it. rcyaml wrote it once; it is yours now.
+# Configuration of SpeechComp: one KEY=VALUE per line, as Ice reads it. rcyaml wrote it once; it is yours.
 # The command line overrides it: bin/SpeechComp --period.compute=50 --Ice.Trace.Network=1
 
-# What it offers: where it listens.
+# The addresses on which this component listens.
 # Speech: Says things,
 # aloud.
 Speech.Endpoints=tcp -p {speech}
 # CommonBehavior: State, period, properties and orderly stop of every component.
 CommonBehavior.Endpoints=tcp -p {behavior}
 
-# What it needs: where the others listen.
+# The addresses of the components that it requires.
 # Implemented by MouthComp (../mouth/mouth.cdsl.yaml).
 MouthProxy=mouth:tcp -h localhost -p {mouth}
 
 # Topics: IceStorm carries them, and its topic manager must be running.
 TopicManager.Proxy=IceStorm/TopicManager:default -p 9999
 # Heard: What was heard.
-# Port 0: any free one; only IceStorm needs to know it.
+# Port 0: any free port, which only IceStorm has to know.
 HeardTopic.Endpoints=tcp -p 0
 
 # Milliseconds from one call of compute() to the next.
@@ -70,24 +70,24 @@ period.compute=50
 # Ice, the middleware.
 # 1: warn when a connection is lost.
 Ice.Warn.Connections=0
-# 1 to 3: say when connections open and close, and more.
+# 1 to 3: log opened and closed connections, and more.
 Ice.Trace.Network=0
-# 1: show every message.
+# 1: log every message.
 Ice.Trace.Protocol=0
-# The largest message, in KiB.
+# The size limit of messages, in KiB.
 Ice.MessageSizeMax=20004800
 """
     )
 
 
-def test_a_component_that_talks_to_nobody() -> None:
+def test_a_component_without_ports() -> None:
     linked = workspace({"alone": component("Alone")})
     held = values(linked, "alone")
     assert [key for key in held if not key.startswith("Ice.")] == ["CommonBehavior.Endpoints", "period.compute"]
     assert held["period.compute"] == "100"
 
 
-def test_a_proxy_follows_the_port_that_stands_in_the_others_config() -> None:
+def test_a_proxy_has_the_port_of_the_other_config() -> None:
     documents = {"a": component("A", requires="[Mouth]"), "b": component("B", implements="[Mouth]")}
     linked = workspace(documents, b='Endpoints.Mouth = "tcp -h 10.0.0.7 -p 12345"\n')
     assert values(linked, "a")["MouthProxy"] == "mouth:tcp -h 10.0.0.7 -p 12345"
@@ -97,7 +97,7 @@ def test_a_proxy_follows_the_port_that_stands_in_the_others_config() -> None:
     assert values(linked, "a")["MouthProxy"] == f"mouth:tcp -h localhost -p {ports.default_port('B', 'Mouth')}"
 
 
-def test_an_interface_that_nobody_implements() -> None:
+def test_an_interface_without_implementation() -> None:
     linked = workspace({"a": component("A", requires="[Mouth]", implements="[Speech]")})
     assert "No component of this workspace implements it" in text(linked, "a")
     assert f"MouthProxy=mouth:tcp -h localhost -p {ports.default_port('', 'Mouth')}\n" in text(linked, "a")
@@ -117,7 +117,7 @@ def test_two_proxies_go_to_two_components() -> None:
     assert "Implemented by B (../b/b.cdsl.yaml), also by C." in text(linked, "a")
 
 
-def test_the_configs_of_a_workspace_fit_together_in_any_order() -> None:
+def test_the_configs_of_a_workspace_match_in_any_order() -> None:
     linked = workspace(
         {
             "a": component("A", requires="[Mouth]"),
@@ -130,8 +130,8 @@ def test_the_configs_of_a_workspace_fit_together_in_any_order() -> None:
     assert {name: text(backwards, name) for name in linked} == {name: text(linked, name) for name in linked}
 
 
-def test_a_component_may_be_given_twice(tmp_path: Path) -> None:
-    """As one of this run, and as one of its workspace, under another spelling of its path."""
+def test_a_component_may_be_passed_twice(tmp_path: Path) -> None:
+    """As a component of this run, and as one of its workspace, with another spelling of its path."""
     linked = workspace({"a": component("A", requires="[Mouth]", implements="[Mouth]")})
     again = {"again": analyse([str(tmp_path)]).program.components.popitem()[1]}
     assert text({**linked, **again}, "a") == text({**again, **linked}, "a") == text(linked, "a")

@@ -1,4 +1,4 @@
-"""Default ports: stable, apart from each other, and what the user wrote compared."""
+"""Default ports are stable and different; ports that users set are compared."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def _in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
     monkeypatch.chdir(tmp_path)
 
 
-def numbers(linked: dict[str, LinkedComponent], assigned: ports.Ports) -> dict[str, int]:
+def numbers(linked: dict[str, LinkedComponent], assigned: ports.PortTable) -> dict[str, int]:
     return {
         f"{folder}.{name}": assigned.endpoint(one, name).port
         for folder, one in linked.items()
@@ -26,18 +26,18 @@ def numbers(linked: dict[str, LinkedComponent], assigned: ports.Ports) -> dict[s
     }
 
 
-def test_the_hash_is_the_same_for_ever() -> None:
+def test_default_ports_never_change() -> None:
     assert ports.default_port("SpeechComp", "Speech") == 14740
     assert ports.default_port("SpeechComp", "CommonBehavior") == 29956
 
 
-def test_the_range_keeps_clear_of_icestorm_and_the_ephemeral_ports() -> None:
+def test_the_range_avoids_icestorm_and_ephemeral_ports() -> None:
     found = [ports.default_port(f"Comp{number}", "CommonBehavior") for number in range(5000)]
     assert min(found) >= 10000 and max(found) < 32768
     assert len(set(found)) > 4000
 
 
-def test_the_later_name_moves_on(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_later_name_gets_the_next_port(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(ports, "default_port", lambda component, interface: 11310)
     linked = workspace({"z": component("A", implements="[Mouth, Speech]"), "a": component("B", implements="[Mouth]")})
     for order in (list(linked.values()), list(linked.values())[::-1]):
@@ -56,7 +56,7 @@ def test_the_range_is_a_ring(monkeypatch: pytest.MonkeyPatch) -> None:
     assert [e.port for e in ports.assign(linked.values(), Disk()).endpoints.values()] == [29999, 10000]
 
 
-def test_a_port_in_a_config_is_taken() -> None:
+def test_a_port_in_a_config_is_reserved() -> None:
     port = ports.default_port("A", "Mouth")
     linked = workspace(
         {"a": component("A", implements="[Mouth]"), "b": component("B", implements="[Speech]")},
@@ -88,7 +88,7 @@ def test_endpoints(value: str, expected: IceEndpoint | None) -> None:
     assert ports.parse_endpoint(value) == expected
 
 
-def test_clashes_are_told_at_their_line() -> None:
+def test_clashes_are_reported_at_their_line() -> None:
     linked = workspace(
         {"a": component("A", implements="[Mouth]"), "b": component("B", implements="[Mouth]")},
         a="Mouth.Endpoints=tcp -p 12000\nX.Endpoints=udp -p 12000\n",
@@ -97,11 +97,11 @@ def test_clashes_are_told_at_their_line() -> None:
     (said,) = ports.clashes(linked.values(), Disk())
     assert (said.code, said.severity) == ("RC6008", "warning")
     assert (said.span.file, said.span.line, said.span.column, said.span.end_column) == ("b/etc/config", 3, 3, 18)
-    assert said.message == "port 12000 of B's Mouth is that of A's Mouth, too"
+    assert said.message == "port 12000 of B's Mouth is also the port of A's Mouth"
     assert (said.related[0].span.file, said.related[0].span.line) == ("a/etc/config", 1)
 
 
-def test_hosts_that_differ_do_not_clash() -> None:
+def test_different_hosts_do_not_clash() -> None:
     documents = {"a": component("A", implements="[Mouth]"), "b": component("B", implements="[Mouth]")}
     linked = workspace(documents, a="Mouth.Endpoints=tcp -h x -p 1\n", b="Mouth.Endpoints=tcp -h y -p 1\n")
     assert not ports.clashes(linked.values(), Disk())
@@ -109,7 +109,7 @@ def test_hosts_that_differ_do_not_clash() -> None:
     assert len(ports.clashes(linked.values(), Disk())) == 1
 
 
-def test_a_config_that_cannot_be_read_is_none(tmp_path: Path) -> None:
+def test_a_config_that_cannot_be_read_is_ignored(tmp_path: Path) -> None:
     linked = workspace({"a": component("A")})
     (tmp_path / "a/etc/config").mkdir(parents=True)
     assert not ports.clashes(linked.values(), Disk())

@@ -1,4 +1,4 @@
-"""Generated Python accessors: reading, setting, refusing, telling; and what their source looks like."""
+"""Generated Python accessors: reading, setting, rejecting, notifying; and their source."""
 
 from __future__ import annotations
 
@@ -74,8 +74,8 @@ def started(text: str, properties: Mapping[str, str], overrides: Mapping[str, st
     return accessors.live(parameters(text)[0], dict(properties), dict(overrides or {}))
 
 
-def test_members_called_like_types() -> None:
-    """In the body of a class, its members hide the types around it."""
+def test_members_named_like_types() -> None:
+    """In the body of a class, members hide types of the module."""
     text = """\
 types:
   Point: {struct: {x: {type: int, default: 1}}}
@@ -130,14 +130,14 @@ def test_setting(arm: Any) -> None:
         ("baudRate", 1, "baudRate is 1, and must be one of 9600, 115200"),
         ("handler", "Faul", "handler is 'Faul', and must be one of Dunkermotoren, Faulhaber"),
         ("motors[0].vel", 7, "motors[0].vel is 7 rad/s, and must be from 0 to 2 rad/s"),
-        ("motors", [], "motors has 0 entries, and must have from 1 to 3"),
+        ("motors", [], "motors has 0 entries, and must have 1 to 3"),
         ("gains", [[1, 2]], "gains[0] has 2 entries, and must have exactly 3"),
-        ("ids", [1, 2, 1], "ids holds 1 twice"),
+        ("ids", [1, 2, 1], "ids contains 1 twice"),
         ("offsets", {"a b": "x"}, "offsets[\"a b\"] must be a number, and is 'x'"),
         ("motors[0]", {"name": "x"}, "motors[0].id has no value, and no default"),
-        ("motors[7].vel", 1, "there is no parameter 'motors[7].vel'"),
-        ("speed", 1, "there is no parameter 'speed'"),
-        ("motors[0].speed", 1, "there is no parameter 'motors[0].speed'"),
+        ("motors[7].vel", 1, "unknown parameter 'motors[7].vel'"),
+        ("speed", 1, "unknown parameter 'speed'"),
+        ("motors[0].speed", 1, "unknown parameter 'motors[0].speed'"),
         ("low", 2, "this must hold: low < high"),
         ("motors[0].max", -3.15, "a motor's min must be below its max"),
         ("class", "y", "class cannot be changed while the component runs: it is not editable"),
@@ -150,7 +150,7 @@ def test_a_bad_value_changes_nothing(arm: Any, path: str, value: object, message
     assert arm.now is before and arm.basicPeriod == 220
 
 
-def test_an_error_says_what_and_where(arm: Any) -> None:
+def test_an_error_names_value_and_parameter(arm: Any) -> None:
     from generated.runtime.semantics.problems import ParameterError
 
     with pytest.raises(ParameterError) as error:
@@ -162,10 +162,10 @@ def test_an_error_says_what_and_where(arm: Any) -> None:
     assert isinstance(error.value, ValueError)
 
 
-def test_what_cannot_be_written(arm: Any) -> None:
-    with pytest.raises(AttributeError, match="there is no parameter 'basicperiod'"):
+def test_attributes_that_cannot_be_set(arm: Any) -> None:
+    with pytest.raises(AttributeError, match="unknown parameter 'basicperiod'"):
         arm.basicperiod = 3
-    with pytest.raises(AttributeError, match="change through set"):
+    with pytest.raises(AttributeError, match="use set"):
         arm.motors[0].vel = 1.0
     with pytest.raises(AttributeError):
         arm.now.basicPeriod = 3
@@ -173,7 +173,7 @@ def test_what_cannot_be_written(arm: Any) -> None:
         arm.offsets["a"] = 1.0
 
 
-def test_listeners_are_told_in_order(arm: Any) -> None:
+def test_listeners_are_notified_in_order(arm: Any) -> None:
     told: list[Any] = []
 
     def follow(change: Any) -> None:
@@ -193,8 +193,8 @@ def test_listeners_are_told_in_order(arm: Any) -> None:
     assert told[0].concerns("motors") and not told[1].concerns("low")
 
 
-def test_no_half_of_a_change_is_seen(arm: Any) -> None:
-    """Two parameters that always change together, read while they do."""
+def test_changes_are_atomic(arm: Any) -> None:
+    """Two parameters that always change together are read while they change."""
     stop = threading.Event()
 
     def keep_changing() -> None:
@@ -211,7 +211,7 @@ def test_no_half_of_a_change_is_seen(arm: Any) -> None:
     assert all(high == low + 1 for low, high in seen)
 
 
-def test_the_command_line_wins_even_over_rows() -> None:
+def test_the_command_line_overrides_rows() -> None:
     arm = started(ARM, CONFIG, {"motors.0.vel": "1", "Arm.Device": "/dev/x", "low": "-7"})
     assert (arm.motors[0].vel, arm.motors[1].vel, arm.low) == (1.0, 1.0, -7)
     assert refused(lambda: started(ARM, CONFIG, {"motors.0.vel": "9"})) == [
@@ -219,7 +219,7 @@ def test_the_command_line_wins_even_over_rows() -> None:
     ]
 
 
-def test_all_that_is_wrong_at_the_start_is_said_at_once() -> None:
+def test_all_errors_at_the_start_are_reported_together() -> None:
     config = {**CONFIG, "Arm.M0": "a,A", "basicPeriod": "0x10", "handler": "", "threshold": "1e0", "2d": "yes"}
     assert refused(lambda: started(ARM, config)) == [
         "handler is '', and must be one of Dunkermotoren, Faulhaber",
@@ -231,7 +231,7 @@ def test_all_that_is_wrong_at_the_start_is_said_at_once() -> None:
 
 
 def test_references_to_the_environment(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Resolved at the start; shown as references, even in errors."""
+    """References are resolved at the start, and shown as references, even in errors."""
     monkeypatch.setenv("ARM_TOKEN", "s3cret")
     monkeypatch.setenv("ARM_PERIOD", "33")
     config = {**CONFIG, "token": "${env:ARM_TOKEN}", "basicPeriod": "${env:ARM_PERIOD}"}
@@ -251,27 +251,27 @@ def test_references_to_the_environment(monkeypatch: pytest.MonkeyPatch) -> None:
     ]
 
 
-def test_texts_of_all_values_read_back(arm: Any) -> None:
-    """What getParameterList shows can be given to setParameterList as it is, or with changes."""
+def test_texts_of_all_values_can_be_read_back(arm: Any) -> None:
+    """The result of getParameterList can be passed to setParameterList, unchanged or changed."""
     store = arm.__store__
     store.change_texts({key: entry.text for key, entry in store.entries().items()})
     store.change_texts({"motors.size": "1", "offsets.keys": "a%2Eb %", "offsets.a%2Eb": "1", "offsets.%": "2"})
     assert len(arm.motors) == 1 and dict(arm.offsets) == {"a.b": 1.0, "": 2.0}
-    assert refused(lambda: store.change_texts({"low": "x", "nothing": "1"}))[0] == "there is no parameter 'nothing'"
+    assert refused(lambda: store.change_texts({"low": "x", "nothing": "1"}))[0] == "unknown parameter 'nothing'"
 
 
 @pytest.mark.parametrize("that", CONSTRAINTS)
-def test_constraints_mean_what_the_checker_says(that: str) -> None:
-    """Whatever is left out, or divided by zero."""
+def test_constraints_agree_with_check(that: str) -> None:
+    """Even with missing values, and with divisions by zero."""
     made, faults = parameters(subject(that))
     assert not faults
     table = accessors.python(made).TABLE
     from generated.runtime.semantics import composite  # type: ignore[import-not-found]
-    from generated.runtime.semantics.plain import Taking  # type: ignore[import-not-found]
+    from generated.runtime.semantics.plain import Conversion  # type: ignore[import-not-found]
 
-    kind = composite.Recording(table.values)
+    kind = composite.RecordKind(table.values)
     for data in CASES:
-        values = kind.take(data, (), Taking())
+        values = kind.convert(data, (), Conversion())
         (constraint,) = table.constraints
         assert constraint.holds(values) == evaluate.holds(made.constraints[0].expression, data), data
 

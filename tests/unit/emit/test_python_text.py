@@ -1,4 +1,4 @@
-"""Docstrings: whatever a document's author writes, the text stays inside of its quotes."""
+"""Docstrings: every text of a document stays inside its quotes."""
 
 from __future__ import annotations
 
@@ -20,5 +20,5 @@ def test_it_is_one_text(text: str) -> None:
 
 
 @pytest.mark.parametrize("text", ["Says things.", 'Says "things"', "C:\\temp"])
-def test_it_says_the_text(text: str) -> None:
+def test_it_has_the_text(text: str) -> None:
     assert ast.literal_eval(docstring(text, "")) == text

@@ -1,4 +1,4 @@
-"""Rendering, its cache, and the rule that templates are thin."""
+"""Rendering, its cache, and the rule that templates have no logic."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ ALLOWED = (
 
 
 class View(msgspec.Struct, frozen=True):
-    """What the templates of these tests show."""
+    """The view of the templates in these tests."""
 
     name: str
     items: tuple[str, ...] = ()
@@ -53,7 +53,7 @@ def templates(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]
 
 
 @pytest.mark.parametrize("path", TEMPLATES, ids=lambda path: f"{path.parent.name}/{path.name}")
-def test_a_template_is_thin(path: Path) -> None:
+def test_a_template_has_no_logic(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
     assert text.count("\n") <= 80
     tree = Environment().parse(text)
@@ -63,24 +63,24 @@ def test_a_template_is_thin(path: Path) -> None:
         assert isinstance(flag, (nodes.Name, nodes.Getattr)), f"line {branch.lineno}: the view knows, not the template"
 
 
-def test_fields_are_names(templates: Path) -> None:
+def test_fields_are_variables(templates: Path) -> None:
     (templates / "list.j2").write_text("{{ name }}:\n{% for item in items %}\n  - {{ item }}\n{% endfor %}\n")
     assert render.render("list.j2", View("é", ("<a>", "b"))) == "é:\n  - <a>\n  - b\n"
 
 
-def test_a_name_that_the_view_lacks(templates: Path) -> None:
+def test_a_variable_that_the_view_lacks(templates: Path) -> None:
     (templates / "wrong.j2").write_text("{{ nme }}")
     with pytest.raises(UndefinedError, match="nme"):
         render.render("wrong.j2", View("x"))
 
 
 def again(templates: Path) -> str:
-    """As the next run would render it."""
+    """The text that the next run renders."""
     render._environment.cache_clear()
     return render.render("a.j2", View("x"))
 
 
-def test_the_cache_is_private_and_sees_edits(templates: Path, tmp_path: Path) -> None:
+def test_the_cache_is_private_and_detects_edits(templates: Path, tmp_path: Path) -> None:
     (templates / "a.j2").write_text("one {{ name }}")
     assert again(templates) == "one x"
     cache = tmp_path / "cache" / "rcyaml" / "templates"
@@ -93,7 +93,7 @@ def test_the_cache_is_private_and_sees_edits(templates: Path, tmp_path: Path) ->
     assert again(templates) == "two x"
 
 
-def test_a_cache_that_others_could_write_is_not_used(templates: Path, tmp_path: Path) -> None:
+def test_a_cache_that_others_can_write_is_not_used(templates: Path, tmp_path: Path) -> None:
     cache = tmp_path / "cache" / "rcyaml" / "templates"
     cache.mkdir(parents=True)
     cache.chmod(0o777)
@@ -103,7 +103,7 @@ def test_a_cache_that_others_could_write_is_not_used(templates: Path, tmp_path: 
 
 
 def test_without_a_cache(templates: Path, tmp_path: Path) -> None:
-    """A file is where the folder should be; then the disk is full."""
+    """A file is at the path of the folder; then the disk is full."""
     (tmp_path / "cache").write_text("")
     (templates / "a.j2").write_text("{{ name }}")
     assert again(templates) == "x"

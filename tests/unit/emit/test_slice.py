@@ -1,4 +1,4 @@
-"""The Slice target's text."""
+"""The text of the Slice target."""
 
 from __future__ import annotations
 
@@ -109,7 +109,7 @@ def test_the_text_does_not_depend_on_the_order_of_files(tmp_path: Path) -> None:
     assert all(one == seen[0] for one in seen)
 
 
-def test_definitions_follow_what_they_use_and_else_their_author(tmp_path: Path) -> None:
+def test_definitions_follow_what_they_use_else_the_authors_order(tmp_path: Path) -> None:
     types = "types: {A: {sequence: C}, B: {sequence: int}, C: {struct: {d: D}}, D: {enum: [x]}, E: {sequence: B}}\n"
     lines = body(tmp_path, types)
     starts = [line for line in lines if line.startswith(("  s", "  e"))]
@@ -123,8 +123,8 @@ def test_a_deep_chain_of_types(tmp_path: Path) -> None:
     assert [line for line in lines if line][:2] == [f"  sequence<int> T{depth};", f"  sequence<T{depth}> T{depth - 1};"]
 
 
-def test_a_method_called_as_its_type_names_the_type_from_the_root(tmp_path: Path) -> None:
-    """Else Slice says that the name has changed its meaning."""
+def test_the_type_of_a_method_with_the_same_name_is_absolute(tmp_path: Path) -> None:
+    """Else Slice reports that the name changed its meaning."""
     text = (
         "imports: [Types]\ntypes: {Pose: {struct: {x: int}}, RoboCompTypes: {struct: {pose: Types.Pose}}}\n"
         "interfaces: {I: {methods: {pose: {in: {p: Pose}, returns: Pose}}}}\n"
@@ -134,7 +134,7 @@ def test_a_method_called_as_its_type_names_the_type_from_the_root(tmp_path: Path
     assert "    ::RoboCompTypes::Pose pose;" in lines
 
 
-def test_underscores_are_declared_where_they_are(tmp_path: Path) -> None:
+def test_underscores_are_declared_if_used(tmp_path: Path) -> None:
     plain = texts(tmp_path, {"M.idsl.yaml": "module: M\ntypes: {A: {struct: {b: int}}}\n"})["M.ice"]
     assert "underscore" not in plain
     for number, text in enumerate(
@@ -158,7 +158,7 @@ def test_a_guard_is_no_identifier(tmp_path: Path) -> None:
     assert text.splitlines()[1:3] == ["#ifndef ROBOCOMPMY_MAP_V2_ICE_", "#define ROBOCOMPMY_MAP_V2_ICE_"]
 
 
-def test_slice_knows_nothing_of_legacy_names(tmp_path: Path) -> None:
+def test_slice_has_no_legacy_names(tmp_path: Path) -> None:
     lines = body(tmp_path, "interfaces: {I: {methods: {f: , f_2: {in: {a: int}, x-legacy-name: f}}}}\n")
     assert "    void f_2(int a);" in lines
 
@@ -173,8 +173,8 @@ def test_keys_of_other_tools_are_no_names(tmp_path: Path) -> None:
     assert lines == ["  struct S", "    int a;", "  enum E { a = 2 };", "  interface I", "    void f(int a);"]
 
 
-def test_the_order_of_a_broken_module_ends() -> None:
-    """The emitter is not asked for one, but must not hang on it."""
+def test_the_order_of_a_cyclic_module_terminates() -> None:
+    """The emitter is never called for such a module, but must not hang."""
     from robocomp_yaml.link.program import LinkedModule
     from robocomp_yaml.model.interface import Member, TypeRef
 

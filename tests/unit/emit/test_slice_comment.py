@@ -9,7 +9,7 @@ from robocomp_yaml.emit.slice_comment import WIDTH, comment
 from robocomp_yaml.model.interface import Literal
 
 
-def test_nothing_to_say() -> None:
+def test_no_text() -> None:
     assert comment("") == comment(" \n ") == comment("", tags=[("@return", "")]) == []
 
 
@@ -35,7 +35,7 @@ def test_paragraphs_lists_and_tags() -> None:
     assert lines == ["/**", " * First.", " *", " * - one", " *   more", " *", " * @param a How far.", " */"]
 
 
-def test_a_list_item_goes_on_below_its_text() -> None:
+def test_a_list_item_continues_below_its_text() -> None:
     lines = comment("10. " + "word " * 40)
     assert [line[:8] for line in lines[1:3]] == [" * 10. w", " *     w"]
 
@@ -47,7 +47,7 @@ def test_long_lines_are_broken_between_words() -> None:
     assert all(line.startswith("     *   word") for line in lines[1:-1])
 
 
-def test_a_word_that_would_burst_the_preprocessor_is_cut() -> None:
+def test_a_word_too_long_for_the_preprocessor_is_split() -> None:
     lines = comment("x" * 100_000)
     assert max(len(line) for line in lines) < 20_000
     assert sum(line.count("x") for line in lines) == 100_000
@@ -66,7 +66,7 @@ def test_a_word_that_would_burst_the_preprocessor_is_cut() -> None:
         ("\ud800é", "é"),
     ],
 )
-def test_what_would_harm_a_compiler_is_made_harmless(doc: str, text: str) -> None:
+def test_harmful_sequences_are_replaced(doc: str, text: str) -> None:
     assert comment(doc) == [f"/** {text} */"]
 
 

@@ -1,4 +1,4 @@
-"""What a state machine adds to a component, in each language."""
+"""The files of a state machine in a component, for each language."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import pytest
 
 from conftest import write_tree
 from robocomp_yaml.emit.component import of_language
-from robocomp_yaml.languages.cpp.machine_text import string as cpp_string
+from robocomp_yaml.languages.cpp.text import literal as cpp_literal
 from robocomp_yaml.languages.python.statemachine import text as python
 from robocomp_yaml.pipeline import analyse
 from robocomp_yaml.transactions.plan import FilePlan
@@ -53,7 +53,7 @@ def test_golden(language: str, tmp_path: Path, golden: Callable[[str, Mapping[st
 
 
 @pytest.mark.parametrize("language", ["python", "cpp"])
-def test_a_component_without_a_machine_has_nothing_of_it(language: str, tmp_path: Path) -> None:
+def test_a_component_without_a_machine_has_no_such_files(language: str, tmp_path: Path) -> None:
     with_machine, without = planned(tmp_path / "a", DOOR, language), planned(tmp_path / "b", PLAIN, language)
     more = {path for path in with_machine if path not in without}
     assert more == {path for path in with_machine if "/machine/" in path or "/statemachine." in path}
@@ -64,7 +64,7 @@ def test_a_component_without_a_machine_has_nothing_of_it(language: str, tmp_path
     )
 
 
-def test_the_part_that_evaluates_is_there_only_where_it_is_asked_for(tmp_path: Path) -> None:
+def test_only_machines_with_scripts_have_the_evaluator(tmp_path: Path) -> None:
     scxml = '<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0" datamodel="{}"><final id="a"/></scxml>\n'
     document = PLAIN + "statemachine: door.scxml\n"
     for datamodel in ("null", "python"):
@@ -94,5 +94,5 @@ def test_robocomps_machine_has_the_name_of_its_file(name: str, member: str, lang
 @pytest.mark.parametrize("text", ['"', "\\", "'''", "\n", "??/", "é\0", '*/ #include "x"', "{{ x }}", "\x1b[0m"])
 def test_texts_stay_texts(text: str) -> None:
     assert eval(python(text)) == text
-    literal = cpp_string(text)
+    literal = cpp_literal(text)
     assert "\n" not in literal and '"' not in literal[1:-1].replace('\\"', "").replace("\\042", "")

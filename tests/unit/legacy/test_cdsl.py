@@ -59,7 +59,7 @@ def test_every_clause(tmp_path: Path) -> None:
     """)
 
 
-def test_comments_stay_where_they_stood(tmp_path: Path) -> None:
+def test_comments_keep_their_position(tmp_path: Path) -> None:
     assert migrated(
         tmp_path,
         """
@@ -121,16 +121,16 @@ def test_lists_keep_order_and_multiplicity(tmp_path: Path, listed: str, written:
 @pytest.mark.parametrize(("source", "said"), [
     ("Component C { Communications { requires A\n implements B; }; language cpp; };", ["1:41 a ';' is missing here"]),
     ("Component C { Communications { requires A,\n }; language cpp; };",
-     ["1:42 the last ',' of this list is followed by nothing", "1:42 a ';' is missing here"]),
-    ("Component C { language cpp; };\nnvidia", ["2:1 'nvidia' stands after the component; it is kept as a comment"]),
+     ["1:42 nothing follows the last ',' of this list", "1:42 a ';' is missing here"]),
+    ("Component C { language cpp; };\nnvidia", ["2:1 'nvidia' follows the component, and is kept as a comment"]),
     ("Component C { language Cpp//Cpp11//python;\n };", ["1:26 a ';' is missing here"]),
     ("Component C { gui Qt(QWidget//QDialog);\n language cpp; };",
      ["1:28 a ')' is missing here", "1:28 a ';' is missing here"]),
     ("Component C { language cpp; useQt qt4; };",
-     ["1:29 'qt4' means nothing any more; it is kept as `x-legacy-use-qt`"]),
+     ["1:29 'qt4' has no effect any more; it is kept as `x-legacy-use-qt`"]),
     ("Component C { Communications { requires A(ros); }; language cpp; };",
-     ["1:41 'A' is to speak ROS, but components speak Ice; kept as `x-middleware: ros`"]),
-    ("Component C { language cpp; ; };", ["1:29 a ';' too many is left out"]),
+     ["1:41 'A' uses ROS, but components use Ice; kept as `x-middleware: ros`"]),
+    ("Component C { language cpp; ; };", ["1:29 a superfluous ';' is omitted"]),
 ])  # fmt: skip
 def test_faults_of_real_files_are_repaired(tmp_path: Path, source: str, said: list[str]) -> None:
     assert migrated(tmp_path, source, "c.cdsl").startswith("component: C\nlanguage: cpp")
@@ -141,7 +141,7 @@ OURS = "from generated.genericworker import GenericWorker\n"
 
 
 @pytest.mark.parametrize(
-    ("file", "code", "is_theirs"),
+    ("file", "code", "is_for_robocomp"),
     [
         ("specificworker.py", "import sys\nfrom genericworker import *\n", True),
         ("specificworker.py", OURS, False),
@@ -153,8 +153,8 @@ OURS = "from generated.genericworker import GenericWorker\n"
         ("specificworker.cpp", '#include "specificworker.h"\n', False),
     ],
 )
-def test_code_of_robocomps_own_tool(tmp_path: Path, file: str, code: str | bytes, is_theirs: bool) -> None:
+def test_code_for_robocomps_own_generator(tmp_path: Path, file: str, code: str | bytes, is_for_robocomp: bool) -> None:
     (tmp_path / "src").mkdir()
     (tmp_path / "src" / file).write_bytes(code if isinstance(code, bytes) else code.encode())
     document = migrated(tmp_path, "Component A { Communications {}; language python; };", "a.cdsl")
-    assert ("compatibility: robocomp" in document) == is_theirs
+    assert ("compatibility: robocomp" in document) == is_for_robocomp

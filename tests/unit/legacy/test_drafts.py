@@ -1,4 +1,4 @@
-"""What each kind of legacy file becomes: a type that has what this kind of file has, and nothing else."""
+"""Each kind of legacy file has a draft of its own type."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ FILES = {
 
 
 @pytest.mark.parametrize("name", FILES)
-def test_a_file_becomes_what_it_is(tmp_path: Path, name: str) -> None:
+def test_each_format_has_its_draft(tmp_path: Path, name: str) -> None:
     text, type_ = FILES[name]
     (tmp_path / name).write_text(text, encoding="utf-8")
     result = convert(str(tmp_path / name))

@@ -1,4 +1,4 @@
-"""IDSL and Slice files as documents: the text that comes out, comments included."""
+"""IDSL and Slice files as documents: the text with all comments."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from robocomp_yaml.legacy.draft import ComponentDraft, ModuleDraft
 
 
 def migrated(folder: Path, text: str, name: str = "X.idsl") -> str:
-    """The document of a legacy text, without its first line."""
+    """Return the document of a legacy text, without its first line."""
     path = folder / name
     path.write_text(textwrap.dedent(text).lstrip("\n"), encoding="utf-8")
     result = convert(str(path))
@@ -82,7 +82,7 @@ def test_every_construct(tmp_path: Path) -> None:
     """)
 
 
-def test_comments_stay_where_they_stood(tmp_path: Path) -> None:
+def test_comments_keep_their_position(tmp_path: Path) -> None:
     assert migrated(
         tmp_path,
         """
@@ -224,7 +224,7 @@ def test_doc_comments_become_doc(tmp_path: Path) -> None:
     """)
 
 
-def test_long_methods_stand_in_blocks(tmp_path: Path) -> None:
+def test_long_methods_are_in_block_style(tmp_path: Path) -> None:
     text = migrated(
         tmp_path,
         """
@@ -243,7 +243,7 @@ def test_long_methods_stand_in_blocks(tmp_path: Path) -> None:
     assert max(map(len, text.splitlines())) <= 120
 
 
-def test_an_overload_gets_a_name_of_its_own(tmp_path: Path) -> None:
+def test_an_overload_is_renamed(tmp_path: Path) -> None:
     source = """
         module M { interface I {
             void f(int a);
@@ -256,8 +256,8 @@ def test_an_overload_gets_a_name_of_its_own(tmp_path: Path) -> None:
     assert "      f_3: {x-legacy-name: f, in: {a: string}}\n" in text
     assert "      f_4: {x-legacy-name: f, in: {a: float}}\n" in text
     assert warnings(tmp_path, source) == [
-        "3:10 the second method 'f' is now called 'f_3'",
-        "5:10 the second method 'f' is now called 'f_4'",
+        "3:10 the second method 'f' is renamed to 'f_3'",
+        "5:10 the second method 'f' is renamed to 'f_4'",
     ]
 
 
@@ -272,15 +272,15 @@ def test_defaults_keep_their_spelling(tmp_path: Path, literal: str, written: str
 
 
 @pytest.mark.parametrize(("source", "said"), [
-    ("module M {\n struct S { i\n\tint y; };\n};", "2:13 the word 'i' before the type means nothing and is left out"),
-    ("module M { };\n#endif\n", "2:1 '#endif' closes nothing and is left out"),
-    ("module M { struct S { int a;; }; };", "1:29 a ';' too many is left out"),
-    ("module M { interface I; };", "1:12 the announcement of interface 'I' is left out, since order is free in YAML"),
+    ("module M {\n struct S { i\n\tint y; };\n};", "2:13 the word 'i' before the type has no meaning and is omitted"),
+    ("module M { };\n#endif\n", "2:1 '#endif' has no matching directive and is omitted"),
+    ("module M { struct S { int a;; }; };", "1:29 a superfluous ';' is omitted"),
+    ("module M { interface I; };", "1:12 the forward declaration of interface 'I' is omitted, because the order in YAML is free"),
     ('import "A.idsl";\nimport "b/A.ice";\nmodule M { };', "2:8 'A' is imported already"),
     ("module M { interface I { void f(out int a, int b); }; };",
-     "1:31 the 'out' parameters of 'f' now stand after the others, as Slice wants it"),
-    ('module M { ["cpp:const"] struct S { int a; }; };', "1:12 the metadata [\"cpp:const\"] has no place in IDSL"),
-    ("#if 1\nmodule M { };\n#endif\n", "1:1 the condition '#if 1' has no place in IDSL; what it encloses is taken"),
+     "1:31 the 'out' parameters of 'f' are moved behind the others, as Slice requires"),
+    ('module M { ["cpp:const"] struct S { int a; }; };', "1:12 IDSL has no metadata, so that [\"cpp:const\"] is lost"),
+    ("#if 1\nmodule M { };\n#endif\n", "1:1 IDSL has no conditions, so that '#if 1' is lost; its content is kept"),
 ])  # fmt: skip
 def test_faults_of_real_files_are_repaired(tmp_path: Path, source: str, said: str) -> None:
     assert migrated(tmp_path, source).startswith("module: M\n")
@@ -309,8 +309,8 @@ def test_guards_and_includes_of_slice_files(tmp_path: Path) -> None:
     assert warnings(tmp_path, source, "M.ice") == []
 
 
-def test_the_format_is_told_by_the_content(tmp_path: Path) -> None:
+def test_the_content_decides_the_format(tmp_path: Path) -> None:
     assert migrated(tmp_path, "module M { };", "noSuffix") == "module: M\n"
     assert migrated(tmp_path, "Component C { language cpp; };", "c.idsl").startswith("component: C\n")
     said = warnings(tmp_path, "Component C { language cpp; };", "c.idsl")
-    assert said == ["1:1 the name says IDSL, but this is CDSL"]
+    assert said == ["1:1 the suffix is of the format IDSL, but the content is CDSL"]

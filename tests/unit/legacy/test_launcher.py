@@ -1,4 +1,4 @@
-"""Launchers as deployments: order, comments, and what is none."""
+"""Launchers as deployments: order, comments, and files that are not launchers."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ components:
     )
 
 
-def test_home_is_found(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_home_folder_is_resolved(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("HOME", str(tmp_path / "me"))
     write_tree(tmp_path, {"sub.toml": SUB, "me/robocomp/bridge/bin/Bridge": "x"})
     rcyaml("migrate", "sub.toml")
@@ -66,7 +66,7 @@ def test_home_is_found(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPa
     assert "/opt/lidar/bin/lidar.py" in said and "no " + str(tmp_path / "me/robocomp/bridge/bin/Bridge") not in said
 
 
-def test_the_content_says_what_a_toml_file_is(rcyaml: Run, tmp_path: Path) -> None:
+def test_the_content_decides_the_kind_of_a_toml_file(rcyaml: Run, tmp_path: Path) -> None:
     config = "[Endpoints]\nLaser = 'tcp'\n"
     other = "[a]\nb = 1\n"
     write_tree(tmp_path, {"etc/config.toml": config, "etc/sub.toml": SUB, "config2.toml": SUB, "x.toml": other})
@@ -83,7 +83,7 @@ def test_the_content_says_what_a_toml_file_is(rcyaml: Run, tmp_path: Path) -> No
     (SUB + "[[components]]\nname = 'a'\ncolour = 'red'\n", "RC5004"),
     (SUB + "[[components]]\nname = 'a'\nname = 'b'\n", "RC5003"),
 ])  # fmt: skip
-def test_what_is_refused(rcyaml: Run, tmp_path: Path, text: str, code: str) -> None:
+def test_rejected_files(rcyaml: Run, tmp_path: Path, text: str, code: str) -> None:
     write_tree(tmp_path, {"sub.toml": text})
     result = rcyaml("migrate", "sub.toml")
     assert result.exit_code == 1 and f"error[{code}]" in result.output, result.output
@@ -104,7 +104,7 @@ def test_what_is_refused(rcyaml: Run, tmp_path: Path, text: str, code: str) -> N
     ],
 )
 @pytest.mark.parametrize("name", ["lamp", "l" * 300])
-def test_what_is_written_of_odd_texts_is_right(rcyaml: Run, tmp_path: Path, name: str, lines: str) -> None:
+def test_odd_texts_become_valid_documents(rcyaml: Run, tmp_path: Path, name: str, lines: str) -> None:
     (tmp_path / "robot.toml").write_text(f'[[component]]\nname = "{name}"\n{lines}\n', encoding="utf-8")
     assert rcyaml("migrate", "robot.toml").exit_code == 0
     result = rcyaml("check", "--format", "json", ".")

@@ -1,4 +1,4 @@
-"""Flat configs: sections, types, records and lists, comments where they stood, and the parameters that they imply."""
+"""Flat configs: sections, types, records and lists, comments, and the parameters that they imply."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from click.testing import Result
 
 from conftest import write_tree
 from robocomp_yaml.legacy.formats import recognize
-from robocomp_yaml.legacy.reading import Source
+from robocomp_yaml.legacy.reading import SourceText
 
 Run = Callable[..., Result]
 
@@ -25,7 +25,8 @@ PARAMETERS = "speech/SpeechComp.pdsl.yaml"
 
 
 def migrated(rcyaml: Run, folder: Path, *arguments: str, code: int = 0, **configs: str) -> Callable[[str], str]:
-    """Migrates a component with configs in its `etc/`; gives the text of a document without its modeline."""
+    """Migrate a component with configs in its `etc/`, and return a function for the text of a document without
+    modeline."""
     write_tree(folder, {**REPOSITORY, **{f"speech/etc/{name}": text for name, text in configs.items()}})
     result = rcyaml("migrate", ".", "--report", "ledger.json", *arguments)
     assert result.exit_code == code, result.output
@@ -35,7 +36,7 @@ def migrated(rcyaml: Run, folder: Path, *arguments: str, code: int = 0, **config
     return lambda name: (folder / name).read_text(encoding="utf-8").split("\n", 1)[1]
 
 
-def test_each_setting_stands_in_its_section(rcyaml: Run, tmp_path: Path) -> None:
+def test_each_setting_is_in_its_section(rcyaml: Run, tmp_path: Path) -> None:
     text = migrated(
         rcyaml,
         tmp_path,
@@ -108,7 +109,7 @@ parameters:
     )
 
 
-def test_flat_toml_is_told_by_its_keys_and_keeps_its_quotes(rcyaml: Run, tmp_path: Path) -> None:
+def test_flat_toml_is_detected_by_its_keys_and_keeps_its_quotes(rcyaml: Run, tmp_path: Path) -> None:
     text = migrated(
         rcyaml,
         tmp_path,
@@ -187,7 +188,7 @@ legacy: {file: config}
     assert _codes(tmp_path) == {"RC5028"}
 
 
-def test_blanks_in_rows_are_kept_only_if_asked_for(rcyaml: Run, tmp_path: Path) -> None:
+def test_blanks_in_rows_are_kept_only_on_request(rcyaml: Run, tmp_path: Path) -> None:
     config = "# name, id\nM0 = a,1\nM1 = b,2\nM2 = c,\t3\n"
     text = migrated(rcyaml, tmp_path, config=config)
     assert text("speech/etc/config.yaml").endswith("legacy: {file: config}\n")
@@ -211,14 +212,14 @@ def test_the_user_names_columns_and_types(rcyaml: Run, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("arguments", "problem"), [
-    (["--names", "Joint"], "--names takes KEY=a,b,c, not 'Joint'"),
-    (["--names", "Joint=a,b c"], "needs a list of names"),
-    (["--names", "Joint=a,a"], "has a name twice"),
-    (["--rules", "bad.yaml"], "bad.yaml has the key 'name'; there are names, types and text"),
-    (["--rules", "worse.yaml"], "worse.yaml: Volume cannot be 'number'"),
-    (["--rules", "worst.yaml"], "worst.yaml is no YAML mapping"),
+    (["--names", "Joint"], "--names requires KEY=a,b,c, not 'Joint'"),
+    (["--names", "Joint=a,b c"], "must be a list of names"),
+    (["--names", "Joint=a,a"], "has the same name twice"),
+    (["--rules", "bad.yaml"], "bad.yaml has the unknown key 'name'; the keys are names, types and text"),
+    (["--rules", "worse.yaml"], "worse.yaml: Volume cannot have the type 'number'"),
+    (["--rules", "worst.yaml"], "worst.yaml is not a YAML mapping"),
 ])  # fmt: skip
-def test_wrong_corrections_are_wrong_usage(rcyaml: Run, tmp_path: Path, arguments: list[str], problem: str) -> None:
+def test_invalid_corrections_are_usage_errors(rcyaml: Run, tmp_path: Path, arguments: list[str], problem: str) -> None:
     write_tree(tmp_path, {
         "bad.yaml": "name: {a: b}\n", "worse.yaml": "types: {Volume: number}\n", "worst.yaml": "- {\n", "config": "a=1\n",
     })  # fmt: skip
@@ -257,7 +258,7 @@ Path = /a b/c,d,e
     assert 'Pairs: {key: Pairs, separators: [;, ","], trailing: true}' in text(PARAMETERS)
 
 
-def test_what_counts_for_nothing_is_kept_as_a_comment(rcyaml: Run, tmp_path: Path) -> None:
+def test_lines_without_effect_are_kept_as_comments(rcyaml: Run, tmp_path: Path) -> None:
     text = migrated(
         rcyaml,
         tmp_path,
@@ -312,7 +313,7 @@ parameters:
     assert "component: ../speech.cdsl.yaml\n" in text("speech/etc/real.config.yaml")
 
 
-def test_a_pair_of_configs_stays_two_documents(rcyaml: Run, tmp_path: Path) -> None:
+def test_a_pair_of_configs_becomes_two_documents(rcyaml: Run, tmp_path: Path) -> None:
     text = migrated(
         rcyaml,
         tmp_path,
@@ -325,7 +326,7 @@ def test_a_pair_of_configs_stays_two_documents(rcyaml: Run, tmp_path: Path) -> N
     assert "Speech.Endpoints=tcp -p 1\n" in exported and "Volume=2\n" in exported
 
 
-def test_without_a_component_a_config_is_one_of_its_own(rcyaml: Run, tmp_path: Path) -> None:
+def test_a_config_without_a_component_becomes_a_component(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"a/side.conf": "Volume = 1\n", "a/config": "Name = x\n"})
     assert rcyaml("migrate", "a", "--report", "ledger.json").exit_code == 0
     assert _codes(tmp_path) == {"RC5027"}
@@ -335,7 +336,7 @@ def test_without_a_component_a_config_is_one_of_its_own(rcyaml: Run, tmp_path: P
     assert rcyaml("check", "a").exit_code == 0
 
 
-def test_parameters_that_the_user_declared_stay(rcyaml: Run, tmp_path: Path) -> None:
+def test_parameters_that_the_user_declared_are_kept(rcyaml: Run, tmp_path: Path) -> None:
     own = "component: speech.cdsl.yaml\nparameters:\n  Volume: {type: float, default: 1}\n"
     write_tree(tmp_path, {"speech/own.pdsl.yaml": own})
     text = migrated(rcyaml, tmp_path, config="Volume = 3\nOther = x\n")
@@ -359,14 +360,14 @@ def test_a_second_run_changes_nothing_and_edits_are_kept(rcyaml: Run, tmp_path: 
     "cd ~/a\nsrc/x.py etc/config\nx = 1\n", "/usr/local/lib\n/opt/lib\n", "listener 1883\nallow_anonymous true\n",
     "export A=b\n", "f = deg2rad(57.0);\n", "# nothing\n", "",
 ])  # fmt: skip
-def test_what_is_no_config_is_refused(rcyaml: Run, tmp_path: Path, text: str) -> None:
+def test_files_that_are_not_configs_are_rejected(rcyaml: Run, tmp_path: Path, text: str) -> None:
     write_tree(tmp_path, {"x.conf": text, "good.conf": "Volume = 1\n"})
     result = rcyaml("migrate", ".")
     assert result.exit_code == 1 and "x.conf" in result.output
     assert not (tmp_path / "x.config.yaml").exists() and (tmp_path / "good.config.yaml").exists()
 
 
-def test_other_files_of_a_folder_are_left_alone(rcyaml: Run, tmp_path: Path) -> None:
+def test_other_files_of_a_folder_are_skipped(rcyaml: Run, tmp_path: Path) -> None:
     others = {"config.h": "#define A\n", "config.yaml": "a: 1\n", "tsconfig.json": "{}\n", "etc/readme": "hello\n",
               "etc/pyproject.toml": "[project]\nname = 'x'\n", "a.xml": "<a/>\n", "b.toml": "[a]\n"}  # fmt: skip
     write_tree(tmp_path, {**others, "etc/robot": "Volume = 1\n"})
@@ -375,6 +376,6 @@ def test_other_files_of_a_folder_are_left_alone(rcyaml: Run, tmp_path: Path) -> 
     assert [file["source"] for file in files] == ["etc/robot"]
 
 
-def test_a_name_that_is_no_text_is_refused() -> None:
-    rules, (told,) = recognize(Source("config_\udce9", "A = 1\n"))
+def test_a_file_name_that_is_not_valid_text_is_rejected() -> None:
+    rules, (told,) = recognize(SourceText("config_\udce9", "A = 1\n"))
     assert rules is None and told.code == "RC5004" and "rename the file" in told.message

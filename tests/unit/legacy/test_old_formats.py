@@ -74,7 +74,7 @@ x-legacy-modules: '["x"]'
     ('"Cpp11"', '"N++"', "RC5015"), ('"imports": [', '"imports": ', "RC5003"), ('["Speech.idsl"]', "[3]", "RC5003"),
     ('"gui": ["Qt"', '"gui": ["Gtk"', "RC5015"), ('["x"]', "[" * 300 + "]" * 300, "RC5003"),
 ])  # fmt: skip
-def test_json_that_is_no_component(rcyaml: Run, tmp_path: Path, old: str, new: str, code: str) -> None:
+def test_json_that_is_not_a_component(rcyaml: Run, tmp_path: Path, old: str, new: str, code: str) -> None:
     assert old in JCDSL
     write_tree(tmp_path, {"speech.jcdsl": JCDSL.replace(old, new)})
     result = rcyaml("migrate", "speech.jcdsl")
@@ -116,7 +116,7 @@ parameters:
     assert rcyaml("check", ".").exit_code == 0
 
 
-def test_a_default_outside_of_its_range_is_left_out(rcyaml: Run, tmp_path: Path) -> None:
+def test_a_default_outside_of_its_range_is_omitted(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"laser.pdsl": PDSL.replace("169 0:1000", "2000 0:1000").replace('""', "5")})
     result = rcyaml("migrate", "laser.pdsl")
     assert result.exit_code == 0 and result.output.count("RC5005") == 2, result.output
@@ -124,7 +124,7 @@ def test_a_default_outside_of_its_range_is_left_out(rcyaml: Run, tmp_path: Path)
     assert rcyaml("check", ".").exit_code == 0
 
 
-def test_parameters_of_2011_belong_to_the_component_beside_them(rcyaml: Run, tmp_path: Path) -> None:
+def test_parameters_of_2011_belong_to_the_component_in_their_folder(rcyaml: Run, tmp_path: Path) -> None:
     component = "Component Laser { Communications { }; language python; };\n"
     write_tree(tmp_path, {"laser.cdsl": component, "laser.pdsl": PDSL, "etc/config": "start = 5\n"})
     assert rcyaml("migrate", ".").exit_code == 0

@@ -1,4 +1,4 @@
-"""RCManager's XML as deployments: commands, endpoints, second names, components; and what is refused."""
+"""RCManager's XML as deployments: commands, endpoints, second names, components; and rejected files."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ UP = '<upCommand command="rcremote localhost tab /opt/laser ./bin/laser"/>'
 
 @pytest.fixture
 def migrated(rcyaml: Run, tmp_path: Path) -> Callable[..., tuple[Any, list[str]]]:
-    """The document that becomes of the elements of a manager, and the codes of what was said."""
+    """Return the document of a manager with these elements, and the codes of the diagnostics."""
 
     def migrate(*elements: str) -> tuple[Any, list[str]]:
         text = "\n".join(["<rcmanager>", *elements, "</rcmanager>"])
@@ -60,7 +60,7 @@ def test_nothing_to_run(text: str) -> None:
 
 def test_endpoints() -> None:
     found = endpoint.parse("acpi: tcp -p 10025")
-    assert found == endpoint.Endpoint("acpi", "tcp", 10025) and found.text == "tcp -p 10025"
+    assert found == endpoint.NodeEndpoint("acpi", "tcp", 10025) and found.text == "tcp -p 10025"
     found = endpoint.parse("laser:tcp -t 500 -h robot.local -p 10003 -z")
     assert found is not None and (found.host, found.text) == ("robot.local", "tcp -p 10003 -t 500 -z")
     storm = endpoint.parse("IceStorm/TopicManager:default -p 9999")
@@ -97,7 +97,7 @@ def test_hosts_have_names_addresses_and_users(migrated: Callable[..., tuple[Any,
         "localhost": {"address": "localhost"},
     }  # fmt: skip
     assert [entry["host"] for entry in document["components"].values()] == ["host1", "robot", "localhost"]
-    assert said == ["RC5039"]  # the others do not reach what is on 'localhost'
+    assert said == ["RC5039"]  # other hosts cannot connect to 'localhost'
 
 
 def test_icestorm_is_a_service(migrated: Callable[..., tuple[Any, list[str]]]) -> None:
@@ -134,7 +134,7 @@ def test_a_second_name_waits_with_the_first(migrated: Callable[..., tuple[Any, l
     (LASER.format('<upCommand command="a & b"/>'), "RC5005"),
     ("<?php echo ?>" + LASER.format(UP), "RC5006"),
 ])  # fmt: skip
-def test_what_is_odd_is_said(migrated: Callable[..., tuple[Any, list[str]]], element: str, code: str) -> None:
+def test_problems_are_reported(migrated: Callable[..., tuple[Any, list[str]]], element: str, code: str) -> None:
     document, said = migrated(element)
     assert document is not None and code in said
 
@@ -152,20 +152,20 @@ def test_what_is_odd_is_said(migrated: Callable[..., tuple[Any, list[str]]], ele
     ("<a>" * 500, "RC5003"),
     ("<a>" * 500 + "</a>" * 500, "RC5003"),
 ])  # fmt: skip
-def test_what_is_refused(migrated: Callable[..., tuple[Any, list[str]]], element: str, code: str) -> None:
+def test_rejected_files(migrated: Callable[..., tuple[Any, list[str]]], element: str, code: str) -> None:
     document, said = migrated(element)
     assert document is None and code in said
     assert code != "RC5013" or said == [code]
 
 
-def test_no_document_type_is_read(rcyaml: Run, tmp_path: Path) -> None:
+def test_a_document_type_is_rejected(rcyaml: Run, tmp_path: Path) -> None:
     laughs = '<!DOCTYPE r [<!ENTITY a "ha"><!ENTITY b "&a;&a;">]><rcmanager><node alias="&b;" endpoint=""/></rcmanager>'
     write_tree(tmp_path, {"robot.xml": laughs})
     result = rcyaml("migrate", "robot.xml")
     assert result.exit_code == 1 and "document type" in result.output and not (tmp_path / "robot.ddsl.yaml").exists()
 
 
-def test_other_xml_is_left_alone(rcyaml: Run, tmp_path: Path) -> None:
+def test_other_xml_is_skipped(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"world.xml": "<innerModel/>", "robot.xml": f"<rcmanager>{LASER.format(UP)}</rcmanager>"})
     assert rcyaml("migrate", ".", "--report", "ledger.json").exit_code == 0
     files = json.loads((tmp_path / "ledger.json").read_text(encoding="utf-8"))["files"]
@@ -173,7 +173,7 @@ def test_other_xml_is_left_alone(rcyaml: Run, tmp_path: Path) -> None:
     assert "RC5001" in rcyaml("migrate", "world.xml").output
 
 
-def test_comments_stay_where_they_stood(rcyaml: Run, tmp_path: Path) -> None:
+def test_comments_keep_their_position(rcyaml: Run, tmp_path: Path) -> None:
     manager = f"""<?xml version="1.0" encoding="UTF-8"?>
 <!-- The robot. -->
 <rcmanager>
@@ -225,7 +225,7 @@ CDSL = (
 IDSL = "module RoboComp{0}\n{{\n    interface {0}\n    {{\n        void go();\n    }};\n}};\n"
 
 
-def test_components_of_the_repository_are_found(rcyaml: Run, tmp_path: Path) -> None:
+def test_components_of_the_repository_are_discovered(rcyaml: Run, tmp_path: Path) -> None:
     node = (
         '<node alias="{0}" endpoint="{1}:tcp -h localhost -p {2}">{3}'
         '<upCommand command="rcremote localhost {0} /home/me/repo/{4}"/></node>'
@@ -261,7 +261,7 @@ def test_components_of_the_repository_are_found(rcyaml: Run, tmp_path: Path) -> 
     assert "error" not in result.output and result.exit_code == 0, result.output
 
 
-def test_components_that_are_there_already_are_found(rcyaml: Run, tmp_path: Path) -> None:
+def test_existing_components_are_discovered(rcyaml: Run, tmp_path: Path) -> None:
     component = "component: Laser\nlanguage: python\nimports: [Laser]\nimplements: [Laser]\n"
     write_tree(tmp_path, {
         "rcyaml.yaml": "interfaces: [.]\n", "Laser.idsl.yaml": "module: M\ninterfaces:\n  Laser: {}\n",

@@ -1,4 +1,4 @@
-"""Legacy files as bytes: encodings, line ends, and what is no text."""
+"""Legacy files as bytes: encodings, line ends, and binary files."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def _convert(folder: Path, raw: bytes) -> Converted:
 @pytest.mark.parametrize("raw", [
     TEXT.encode(), b"\xef\xbb\xbf" + TEXT.encode(), TEXT.replace("\n", "\r\n").encode(), TEXT.rstrip("\n").encode(),
 ], ids=["plain", "byte order mark", "CRLF", "no last line end"])  # fmt: skip
-def test_text_is_text(tmp_path: Path, raw: bytes) -> None:
+def test_text_is_decoded(tmp_path: Path, raw: bytes) -> None:
     result = _convert(tmp_path, raw)
     assert not result.diagnostics and isinstance(result.draft, ModuleDraft) and result.source is not None
     assert result.draft.around.head == ["Se\xf1al"]
@@ -41,12 +41,12 @@ def test_latin_1_is_read_with_a_warning(tmp_path: Path, encoding: str) -> None:
     (b"", "RC5002"), (b"\xef\xbb\xbf", "RC5002"), (b"module M {\0};", "RC0003"), (bytes(range(256)), "RC0003"),
     (b"module M { stru", "RC5003"), (b"module M { struct S { int a; // cut in the mid", "RC5003"),
 ])  # fmt: skip
-def test_what_is_broken_is_refused(tmp_path: Path, raw: bytes, code: str) -> None:
+def test_broken_files_are_rejected(tmp_path: Path, raw: bytes, code: str) -> None:
     result = _convert(tmp_path, raw)
     assert result.refused and result.diagnostics[-1].code == code
 
 
-def test_a_huge_file_is_refused_before_it_is_read(tmp_path: Path) -> None:
+def test_a_huge_file_is_rejected_before_it_is_read(tmp_path: Path) -> None:
     path = tmp_path / "M.idsl"
     with path.open("wb") as file:
         file.truncate(100 << 20)
@@ -58,7 +58,7 @@ def test_a_huge_file_is_refused_before_it_is_read(tmp_path: Path) -> None:
     lambda path: path.mkdir(), lambda path: path.symlink_to("nowhere"), lambda path: os.mkfifo(path),
     lambda path: path.symlink_to(path.name),
 ], ids=["folder", "dangling link", "pipe", "link to itself"])  # fmt: skip
-def test_what_is_no_file_is_refused(tmp_path: Path, make: object) -> None:
+def test_what_is_not_a_file_is_rejected(tmp_path: Path, make: object) -> None:
     make(tmp_path / "M.idsl")  # type: ignore[operator]
     (error,) = convert(str(tmp_path / "M.idsl")).diagnostics
     assert error.code == "RC0001"
@@ -71,8 +71,8 @@ def test_control_characters_in_comments_are_escaped(tmp_path: Path) -> None:
     assert [d.code for d in result.diagnostics] == ["RC5005"]
 
 
-def test_places_in_a_text() -> None:
-    source = reading.Source("x", "ab\ncd\n\nñe")
+def test_locations_in_a_text() -> None:
+    source = reading.SourceText("x", "ab\ncd\n\nñe")
     assert source.lines == 4
     assert [source.line(at) for at in range(9)] == [1, 1, 1, 2, 2, 2, 3, 4, 4]
     span = source.span(4, 7)

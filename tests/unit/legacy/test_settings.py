@@ -1,4 +1,4 @@
-"""Flat configs as documents of parameters and values: each case is one rule, with what is written for it."""
+"""Flat configs as documents of parameters and values: each case is one rule, with the documents that it implies."""
 
 from __future__ import annotations
 
@@ -24,70 +24,70 @@ CASES: dict[str, tuple[str, ...]] = {
         "M0 = a,1,true\nM1 = b,2,false\nJoint_1 = x, 0.5\nJoint_2 = y, 1.5\nJoint_3 = z, 2\n",
     ),
     "rows whose numbers have gaps carry their number": ("Cam3 = front,640\nCam17 = back,320\nOther = 1\n",),
-    "numbers with gaps are no rows where another key begins alike": ("Cam3 = front,640\nCam17 = back,320\nCamera = 1\n",),
-    "a key with a zero in front keeps it": ("M00 = a,1\nM01 = b,2\n",),
+    "numbers with gaps are not rows if another key starts the same": ("Cam3 = front,640\nCam17 = back,320\nCamera = 1\n",),
+    "a leading zero of a key is kept": ("M00 = a,1\nM01 = b,2\n",),
     "rows of different lengths are texts": ("Row0 = a,1\nRow1 = b,2,3\n",),
     "a longer row in another config has optional columns": ("M0 = a,1\nM1 = b,2\n", "M0 = a,1,5\n"),
     "configs that disagree about columns keep texts": ("# name,most\nM0 = a,1\n", "# most,title,third\nM0 = 1,b,c\n"),
-    "columns are called by the comment above": ("# name (its name),min angle (rad),max\nM0 = a,1,2\nM1 = b,1,2\n",),
-    "columns are called by a comment with a label": ("# Motors: name, id, speed\nMotor0 = a,1,2.5\nMotor1 = b,2,3\n",),
-    "rows that everybody knows are called as ever": ("Motor0 = a,1,1,0,1,0,2.5\nMotor1 = b,2,-1,0,1,0,2.5\n",),
+    "the comment above names the columns": ("# name (its name),min angle (rad),max\nM0 = a,1,2\nM1 = b,1,2\n",),
+    "a comment with a label names the columns": ("# Motors: name, id, speed\nMotor0 = a,1,2.5\nMotor1 = b,2,3\n",),
+    "well-known rows have their usual columns": ("Motor0 = a,1,1,0,1,0,2.5\nMotor1 = b,2,-1,0,1,0,2.5\n",),
     "prose above rows names no columns": ("# this is for the two\nM0 = a,1,2,3,4\nM1 = b,1,2,3,4\n",),
     "a comment far above names nothing": ("# name,most\n" + "\n" * 30 + "M0 = a,1\nM1 = b,2\n",),
     "a column that is named twice gets a number": ("# x,y,x\nM0 = 1,2,3\nM1 = 1,2,3\n",),
-    "blanks behind commas stay": ("M0 = a, 1, 2\nM1 = b, 3, 4\nN0 = a,1\nN1 = b,2\n",),
+    "blanks behind commas are kept": ("M0 = a, 1, 2\nM1 = b, 3, 4\nN0 = a,1\nN1 = b,2\n",),
     "ranges": ("ID:0-10 = 100 # size\nID:11-20 = 200 # size\nOther:1-2 = 5\n",),
-    "a range with commas is none": ("ID:0-10 = 100,5\n",),
-    "fields that count alike are one list": ("rx_0 = 1\nry_0 = 2\nrx_1 = 3.5\nry_1 = 4\n",),
-    "fields with a count beside them are called by it": ("num_cameras = 1\nname_0 = front\nwidth_0 = 640\n",),
-    "many fields are called by the first three": (
+    "a range with commas is not a range": ("ID:0-10 = 100,5\n",),
+    "fields with the same numbers are one list": ("rx_0 = 1\nry_0 = 2\nrx_1 = 3.5\nry_1 = 4\n",),
+    "a count names the list of fields": ("num_cameras = 1\nname_0 = front\nwidth_0 = 640\n",),
+    "the first three of many fields name the list": (
         "a0 = 1\nb0 = 2\nc0 = 3\nd0 = 4\na1 = 1\nb1 = 2\nc1 = 3\nd1 = 4\n",
     ),
-    "a count counts in its own group": (
+    "a count is for its own group": (
         "num_cams = 1\ncam.name0 = a\ncam.size0 = 1\ncam.num_eyes = 1\n", "num_cams = 1\ncam.name0 = a\ncam.size0 = 2\n",
     ),
-    "comments stand above the first field of a record": (
+    "comments above the first field belong to the record": (
         "# the first\nx0 = 1 # ahead\ny0 = 2\n# the second\nx1 = 1\n# its y\ny1 = 2\n",
     ),
-    "commas in brackets part no names": ("# name (short, please), size (m, cm)\nM0 = a,1\nM1 = b,2\n",),
-    "records of one shape share a struct only under one name": (
+    "commas in brackets do not separate names": ("# name (short, please), size (m, cm)\nM0 = a,1\nM1 = b,2\n",),
+    "records of the same shape share a struct only with the same name": (
         "Left0 = a,1\nLeft1 = b,2\nRight0 = a,1\nRight1 = b,2\ng.Left0 = a,1\ng.Left1 = b,1\n",
     ),
-    "a list here and a text there": ("A = a,b,c\nM0 = a,1\nM1 = b,2\n", "A = {x}\nM0 = x\n"),
-    "one field alone is no list of records": ("name_0 = front\nwidth = 640\n",),
-    "fields in groups stay there": ("cams.x0 = 1\ncams.y0 = 2\ncams.x1 = 3\ncams.y1 = 4\n",),
+    "a list in one config and a text in another": ("A = a,b,c\nM0 = a,1\nM1 = b,2\n", "A = {x}\nM0 = x\n"),
+    "a single field is not a list of records": ("name_0 = front\nwidth = 640\n",),
+    "fields in groups remain in them": ("cams.x0 = 1\ncams.y0 = 2\ncams.x1 = 3\ncams.y1 = 4\n",),
     "lists": (
         "Names = a,b,c\nPairs = a,1;b,2\nEnded = a;b;\nTwo = a,b\nComma = 0,5\nPath = /a b, c\nUrl = http://a,b,c\n"
         "Empty = ,\nSpaced = a, b, c\n",
     ),
-    "a list in one config is one in all": ("Names = a,b,c\n", "Names = a\n", "Names =\n"),
+    "a list in one config is a list in all": ("Names = a,b,c\n", "Names = a\n", "Names =\n"),
     "plain values": (
         "Ba = true\nBb = False\nBc = on\nIa = 0\nIb = -5\nIc = 2147483647\nId = 2147483648\nIe = 9223372036854775808\n"
         "Fa = 1.\nFb = .5\nFc = 1e5\nFd = 1e39\nFe = 1e400\nZa = 007\nZb = -0\nZc = +3\nTa = 1.2.3\nTb = 0x1F\n",
     ),
-    "the least type that fits all configs": (
+    "the smallest type that fits all configs": (
         "A = 1\nB = 1\nC = true\nD = 3000000000\nE = 1\nF = x\n", "A = 1.5\nB = x\nC = 1\nD = 0.5\nE = 3000000000\nF = y\n",
     ),
-    "what one config lacks is optional": ("A = 1\nB = x\nC =\n", "A = 2\n", "A = 3\nB = \n"),
-    "names that code cannot have": ("a-b = 1\na.b-c = 2\n2d = 3\nclass = 4\na_b = 5\n",),
-    "a parameter and a group of one name": ("a = 1\na.b = 2\na.c = 3\n",),
+    "a parameter that is missing in one config is optional": ("A = 1\nB = x\nC =\n", "A = 2\n", "A = 3\nB = \n"),
+    "names that are not legal in code": ("a-b = 1\na.b-c = 2\n2d = 3\nclass = 4\na_b = 5\n",),
+    "a parameter and a group with the same name": ("a = 1\na.b = 2\na.c = 3\n",),
     "groups": ("Arm.Left.x = 1\nArm.Left.y = 2\nArm.name = a\n",),
     "periods": ("Period = 50\nPeriod.Compute = 20\nx = 1\n",),
-    "connections and what Ice has": (
+    "connections and properties of Ice": (
         "Speech.Endpoints = tcp -p 10001\nSpeechProxy = speech:tcp -h localhost -p 10002\nCamProxy = cam:tcp -p 3\n"
         "viewer = viewer:tcp -p 4\nTopicManager.Proxy = IceStorm/TopicManager:default -p 9999\nNews = News\n"
         "NewsTopic = Daily\nIce.Warn.Connections = 0\nIceStorm.Trace = 1\n"
         "InnerModelPath = a.xml\nSpeech = other\n",
     ),
-    "flat TOML is told by its keys": (
+    "flat TOML is detected by its keys": (
         "Endpoints.Speech = tcp -p 10001\nProxies.Speech = speech:tcp -p 2\nProxies.SpeechPrefix = robot1\n"
         "Proxies.TopicManager = IceStorm/TopicManager:default -p 9999\nIce.Warn.Connections = 0\nArm.n = 1\nx = a b\n",
     ),
-    "settings that the documents would refuse stay properties": (
+    "settings that are not valid in documents remain properties": (
         "Speech.Endpoints = nothing\nSpeech.Endpoints.x = 1\nIce = 1\nIce. = 2\n.Endpoints = tcp\nProxy = a:tcp -p 1\n"
         "a..b = 1\n.c = 2\nd. = 3\nx y = 4\nImplicit.x = \n" + "a" + ".b" * 30 + " = 5\nk{i} = 6\nsize = 7\nm.size = 8\nm.0 = 9\n",
     ),
-    "references stay as they are": ("key = ${env:KEY}\nother = ${file:a}\n",),
+    "references are kept": ("key = ${env:KEY}\nother = ${file:a}\n",),
 }  # fmt: skip
 
 
@@ -100,7 +100,7 @@ def test_flat_configs(rule: str, rcyaml: Run, tmp_path: Path, golden: Golden) ->
 
 
 def migrated(rcyaml: Run, folder: Path, *arguments: str) -> dict[str, str]:
-    """What is written of parameters and values, behind what is said."""
+    """Return the documents of parameters and values, and the output."""
     result = rcyaml("migrate", ".", *arguments)
     told = "".join(line + "\n" for line in result.output.splitlines() if "config" in line or "guessed" in line)
     written = [path for path in sorted(folder.rglob("*.yaml")) if path.name.endswith(("pdsl.yaml", "config.yaml"))]
@@ -141,7 +141,7 @@ def test_a_config_in_toml(rcyaml: Run, tmp_path: Path, golden: Golden) -> None:
 RULES = "names: {M: [name, most]}\ntypes: {A: float, B.c: string}\ntext: [Zip]\n"
 
 
-def test_what_the_user_knows_better(rcyaml: Run, tmp_path: Path, golden: Golden) -> None:
+def test_corrections_of_the_user(rcyaml: Run, tmp_path: Path, golden: Golden) -> None:
     config = "M0 = a,1\nM1 = b,2\nN0 = a,1\nN1 = b,2\nA = 1\nB.c = 5\nZip = 1,2,3\n"
     files = {"speech/etc/config": config, "rules.yaml": RULES}
     write_tree(tmp_path, {"interfaces/Speech.idsl": SPEECH, "speech/speech.cdsl": CDSL, **files})
@@ -151,31 +151,29 @@ def test_what_the_user_knows_better(rcyaml: Run, tmp_path: Path, golden: Golden)
 @pytest.mark.parametrize(
     ("names", "rules", "problem"),
     [
-        ("M", None, "--names takes KEY=a,b,c, not 'M'"),
-        ("=a,b", None, "--names takes KEY=a,b,c, not '=a,b'"),
-        ("M=a,2d", None, "--names M needs a list of names, of letters, digits and underscores"),
-        ("M=a,,b", None, "--names M needs a list of names, of letters, digits and underscores"),
-        ("M=a,b,a", None, "--names M has a name twice"),
-        ("", "- a\n", "rules.yaml is no YAML mapping of names, types and text"),
-        ("", "a: [\n", "rules.yaml is no YAML mapping of names, types and text: "),
-        ("", "nmes: {}\n", "rules.yaml has the key 'nmes'; there are names, types and text"),
-        ("", "names: [a]\n", "rules.yaml: names is a mapping of keys"),
-        ("", "names: {M: a}\n", "rules.yaml: M needs a list of names, of letters, digits and underscores"),
-        ("", "names: {M: [a, a]}\n", "rules.yaml: M has a name twice"),
-        ("", "types: {A: integer}\n", "rules.yaml: A cannot be 'integer'; the types are bool, int, long, float, double, string"),
-        ("", "text: Zip\n", "rules.yaml: text is a list of keys"),
+        ("M", None, "--names requires KEY=a,b,c, not 'M'"),
+        ("=a,b", None, "--names requires KEY=a,b,c, not '=a,b'"),
+        ("M=a,2d", None, "--names M must be a list of names, which consist of letters, digits and underscores"),
+        ("M=a,,b", None, "--names M must be a list of names, which consist of letters, digits and underscores"),
+        ("M=a,b,a", None, "--names M has the same name twice"),
+        ("", "- a\n", "rules.yaml is not a YAML mapping with the keys names, types and text"),
+        ("", "a: [\n", "rules.yaml is not a YAML mapping with the keys names, types and text: "),
+        ("", "nmes: {}\n", "rules.yaml has the unknown key 'nmes'; the keys are names, types and text"),
+        ("", "names: [a]\n", "rules.yaml: names must be a mapping of keys"),
+        ("", "names: {M: a}\n", "rules.yaml: M must be a list of names, which consist of letters, digits and underscores"),
+        ("", "names: {M: [a, a]}\n", "rules.yaml: M has the same name twice"),
+        ("", "types: {A: integer}\n", "rules.yaml: A cannot have the type 'integer'; the types are bool, int, long, float, double, string"),
+        ("", "text: Zip\n", "rules.yaml: text must be a list of keys"),
     ],
 )  # fmt: skip
-def test_corrections_that_cannot_be_meant(
-    rcyaml: Run, tmp_path: Path, names: str, rules: str | None, problem: str
-) -> None:
+def test_invalid_corrections(rcyaml: Run, tmp_path: Path, names: str, rules: str | None, problem: str) -> None:
     write_tree(tmp_path, {"speech/etc/config": "M0 = a,1\n", "rules.yaml": rules or ""})
     given = ["--names", names] if names else ["--rules", "rules.yaml"]
     result = rcyaml("migrate", ".", *given)
     assert result.exit_code == 2 and problem in " ".join(result.output.split()), result.output
 
 
-def test_parameters_that_somebody_declared_are_taken_as_they_are(rcyaml: Run, tmp_path: Path, golden: Golden) -> None:
+def test_declared_parameters_are_used_as_they_are(rcyaml: Run, tmp_path: Path, golden: Golden) -> None:
     declared = "component: speech.cdsl.yaml\nparameters:\n  A: float\n  B: {group: {c: {type: string}}}\n  L: {list: int, default: []}\n"
     config = "A = 1\nB.c = 5\nD = 7\nM0 = a,1\nM1 = b,2\nL = 1,2,3\n"
     cdsl = "component: SpeechComp\nlanguage: python\n"
@@ -185,7 +183,7 @@ def test_parameters_that_somebody_declared_are_taken_as_they_are(rcyaml: Run, tm
     golden("settings/declared", migrated(rcyaml, tmp_path))
 
 
-def test_configs_without_a_component_have_parameters_of_their_own(rcyaml: Run, tmp_path: Path, golden: Golden) -> None:
+def test_configs_without_a_component_have_separate_parameters(rcyaml: Run, tmp_path: Path, golden: Golden) -> None:
     files = {"a/side.conf": "A = 1\n", "a/config.new": "B = 2\n", "a/side": "C = 3\n", "b/etc/config": "D = 4\n"}
     write_tree(tmp_path, files)
     rcyaml("migrate", ".")
@@ -194,7 +192,7 @@ def test_configs_without_a_component_have_parameters_of_their_own(rcyaml: Run, t
     golden("settings/alone", texts)
 
 
-def test_names_that_are_too_few_are_not_taken(rcyaml: Run, tmp_path: Path) -> None:
+def test_too_few_names_are_ignored(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"speech/etc/config": "M0 = a,1\nM1 = b,2\n"})
     said = " ".join(rcyaml("migrate", ".", "--names", "M=name").output.split())
-    assert "M… has 2 columns, and --names gives 1; they are called f1, f2" in said
+    assert "M… has 2 columns, but --names has 1; the columns are named f1, f2" in said

@@ -1,4 +1,4 @@
-"""TOML configs: their tables, and values that come back as `tomllib` reads them."""
+"""TOML configs: their tables, and values that equal those of `tomllib`."""
 
 from __future__ import annotations
 
@@ -129,21 +129,21 @@ legacy: {file: config.toml, dialect: toml}
     ("a = " + "[" * 400 + "]" * 400 + "\n", "RC5003"),
     ("[project]\nname = 'x'\n", "RC5004"), ("# nothing\n", "RC5002"),
 ])  # fmt: skip
-def test_what_is_no_config_is_refused(rcyaml: Run, tmp_path: Path, text: str, code: str) -> None:
+def test_files_that_are_not_configs_are_rejected(rcyaml: Run, tmp_path: Path, text: str, code: str) -> None:
     write_tree(tmp_path, {"config.toml": text})
     result = rcyaml("migrate", "config.toml")
     assert result.exit_code == 1 and f"error[{code}]" in result.output, result.output
     assert [path.name for path in tmp_path.rglob("*.yaml")] == []
 
 
-def test_a_number_among_texts_is_told(rcyaml: Run, tmp_path: Path) -> None:
+def test_a_number_among_texts_is_reported(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"config.toml": "[T]\nmixed = [1, 'a']\n"})
     result = rcyaml("migrate", "config.toml")
     assert result.exit_code == 0 and "RC5028" in result.output
     assert 'mixed: ["1", a]\n' in (tmp_path / "config.toml.config.yaml").read_text()
 
 
-def test_dates_and_infinities_are_told(rcyaml: Run, tmp_path: Path) -> None:
+def test_dates_and_infinities_are_reported(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"config.toml": "[T]\nday = 2024-01-31\nmost = inf\n"})
     result = rcyaml("migrate", "config.toml")
     assert result.exit_code == 0 and result.output.count("RC5005") == 2

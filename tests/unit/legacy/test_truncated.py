@@ -1,4 +1,4 @@
-"""Files of every format that end in the middle: converted or refused, each line accounted for, never a traceback."""
+"""Truncated files of every format: converted or rejected, each line in the ledger, never a traceback."""
 
 from __future__ import annotations
 
@@ -42,11 +42,11 @@ def test_a_truncated_file(name: str, rcyaml: Callable[..., Result], tmp_path: Pa
         assert file["outputs"] or file["diagnostics"] or file["status"] == "skipped", file
 
 
-def test_a_list_of_nothing_is_lost_and_told(rcyaml: Callable[..., Result], tmp_path: Path) -> None:
-    """No type follows from a table that is empty everywhere, and a property cannot hold it."""
+def test_an_empty_list_is_lost_and_reported(rcyaml: Callable[..., Result], tmp_path: Path) -> None:
+    """A table that is always empty implies no type, and cannot be a property."""
     (tmp_path / "etc").mkdir()
     (tmp_path / "etc/config.toml").write_text("a = 1\n[[rows]]\n", encoding="utf-8")
     result = rcyaml("migrate", ".", "--strict")
     assert result.exit_code == 1
-    assert "only texts and numbers can stand here, so 'rows' is left out" in result.output
+    assert "only texts and numbers can be properties, so that 'rows' is omitted" in result.output
     assert "1 line is lost" in result.output

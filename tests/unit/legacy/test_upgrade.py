@@ -1,4 +1,4 @@
-"""Older documents of ours: brought up to date in their place, and nothing else in them changes."""
+"""Documents of earlier versions are upgraded in place, and nothing else in them changes."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import pytest
 from click.testing import Result
 
 from conftest import read_tree, write_tree
-from robocomp_yaml.legacy.upgrade import Change, changes, upgraded
+from robocomp_yaml.legacy.upgrade import KeyRename, key_renames, upgraded
 
 Run = Callable[..., Result]
 
@@ -21,7 +21,7 @@ NEWER = OLDER.replace("'subscribesTo'", "'subscribes'")
 SPEECH = "module: RoboCompSpeech\ninterfaces:\n  Speech:\n    methods:\n      say: {in: {text: string}}\n"
 
 
-def test_a_document_is_brought_up_to_date(rcyaml: Run, tmp_path: Path) -> None:
+def test_a_document_is_upgraded(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"speech.cdsl.yaml": OLDER, "Speech.idsl.yaml": SPEECH})
     assert rcyaml("check", ".").exit_code == 1
     looked = rcyaml("migrate", ".", "--dry-run", "--diff")
@@ -44,7 +44,7 @@ def test_one_document_alone_with_its_byte_order_mark_and_line_ends(rcyaml: Run, 
     assert (tmp_path / "other.cdsl.yaml").read_text() == OLDER
 
 
-def test_of_two_names_nobody_knows_which_one_holds(rcyaml: Run, tmp_path: Path) -> None:
+def test_the_old_and_the_new_key_are_a_conflict(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"speech.cdsl.yaml": OLDER + "subscribes: []\n"})
     result = rcyaml("migrate", ".")
     assert result.exit_code == 1 and "RC5032" in result.output
@@ -52,14 +52,14 @@ def test_of_two_names_nobody_knows_which_one_holds(rcyaml: Run, tmp_path: Path) 
 
 
 @pytest.mark.parametrize("text", ["subscribesTo: [\n", "- subscribesTo\n", "subscribesTo", "", "a: &x {b: *x}\n"])
-def test_what_is_no_document_is_left_alone(rcyaml: Run, tmp_path: Path, text: str) -> None:
+def test_what_is_not_a_document_is_skipped(rcyaml: Run, tmp_path: Path, text: str) -> None:
     write_tree(tmp_path, {"speech.cdsl.yaml": text})
     rcyaml("migrate", ".")
     assert (tmp_path / "speech.cdsl.yaml").read_text() == text
 
 
 def test_keys_at_any_depth() -> None:
-    change = Change("pdsl", ("parameters", "*"), "least", "from", "it says more")
+    change = KeyRename("pdsl", ("parameters", "*"), "least", "from", "it says more")
     text = "parameters:\n  a: {least: 1}  # least\n  b:\n    least: 2\nleast: 3\n"
     made = upgraded("x.pdsl.yaml", "pdsl", text, [change])
     assert made.text == "parameters:\n  a: {from: 1}  # least\n  b:\n    from: 2\nleast: 3\n"
@@ -67,5 +67,5 @@ def test_keys_at_any_depth() -> None:
     assert upgraded("x.cdsl.yaml", "cdsl", text, [change]).text == text
 
 
-def test_the_changes_are_those_of_the_file() -> None:
-    assert ("cdsl", "subscribesTo", "subscribes") in {(change.kind, change.old, change.new) for change in changes()}
+def test_the_renames_are_those_of_the_file() -> None:
+    assert ("cdsl", "subscribesTo", "subscribes") in {(change.kind, change.old, change.new) for change in key_renames()}

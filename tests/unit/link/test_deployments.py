@@ -1,4 +1,4 @@
-"""Deployments linked: instances, values, hosts, includes, names and groups."""
+"""Linked deployments: instances, values, hosts, includes, names and groups."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ Link = Callable[..., LinkedDeployment]
 
 @pytest.fixture
 def link(tmp_path: Path) -> Link:
-    """Writes a deployment beside the components, and links it; nothing may be wrong with it."""
+    """Writes a deployment beside the components, and links it without diagnostics."""
 
     def of(text: str, **others: str) -> LinkedDeployment:
         more = {f"{name}.ddsl.yaml": other for name, other in others.items()}
@@ -59,9 +59,7 @@ def test_a_component_has_its_document_values_and_folder(link: Link, tmp_path: Pa
     assert mouth.host is None and linked.hosts == {}
 
 
-def test_a_configuration_is_looked_for_in_the_components_folder_then_beside_the_document(
-    link: Link, tmp_path: Path
-) -> None:
+def test_a_configuration_is_in_the_components_folder_or_beside_the_deployment(link: Link, tmp_path: Path) -> None:
     write_tree(
         tmp_path,
         {
@@ -85,7 +83,7 @@ def test_a_configuration_is_looked_for_in_the_components_folder_then_beside_the_
     assert linked.instances["c"].flat == str(tmp_path / "flat")
 
 
-def test_instances_are_counted_out_in_every_text(link: Link) -> None:
+def test_the_number_of_an_instance_is_in_every_text(link: Link) -> None:
     linked = link(
         'components:\n  mouth{i}:\n    component: mouth\n    instances: 3\n    args: ["--n={i}"]\n'
         '    env: {N: "{i}"}\n    set: {number: {i}, id: "{i}", "lips[0]": {i}}\n'
@@ -103,7 +101,7 @@ def test_instances_are_counted_out_in_every_text(link: Link) -> None:
     assert [member.name for member in linked.groups["mouths"].members] == ["mouth0", "mouth1", "mouth2"]
 
 
-def test_a_list_of_includes_counts_as_if_it_stood_here(link: Link) -> None:
+def test_entries_of_an_unnamed_include_are_the_documents_own(link: Link) -> None:
     linked = link(
         "components:\n  voice: {component: speech, after: [hand, arm]}\n"
         "groups: {arm: {components: [elbow]}}\ninclude: [arm.ddsl.yaml]\n",
@@ -114,7 +112,7 @@ def test_a_list_of_includes_counts_as_if_it_stood_here(link: Link) -> None:
     assert [document.name for document in linked.documents] == ["Head", "Arm"]
 
 
-def test_an_include_with_a_name_is_a_group_with_names_of_its_own(link: Link) -> None:
+def test_a_named_include_is_a_group_with_a_scope(link: Link) -> None:
     linked = link(
         "components:\n  elbow: {component: mouth}\n  voice: {component: speech, connect: {Mouth: elbow}, "
         "after: [left.hand, right]}\ninclude: {left: arm.ddsl.yaml, right: arm.ddsl.yaml}\n",
@@ -137,7 +135,7 @@ def test_includes_of_includes(link: Link) -> None:
     assert linked.find("arm.elbow", "body.") == ((linked.instances["body.arm.elbow"],), "")
 
 
-def test_the_one_host_is_everybodys(link: Link) -> None:
+def test_a_single_host_is_the_default(link: Link) -> None:
     linked = link(
         "hosts: {onboard: 10.0.0.2}\nservices: {storm: {icestorm: }}\ncomponents:\n  m: {component: mouth}\n"
         "include: {arm: arm.ddsl.yaml}\n",
@@ -147,7 +145,7 @@ def test_the_one_host_is_everybodys(link: Link) -> None:
     assert linked.storms["storm"].host is linked.hosts["onboard"]
 
 
-def test_a_group_names_the_host_of_what_it_includes(link: Link) -> None:
+def test_the_host_of_a_group_is_that_of_its_include(link: Link) -> None:
     linked = link(
         "hosts: {a: 10.0.0.2, b: {address: 10.0.0.3, user: me}}\n"
         "groups: {left: {include: arm.ddsl.yaml, host: a}, right: {include: arm.ddsl.yaml, host: b}}\n",
@@ -161,7 +159,7 @@ def test_a_group_names_the_host_of_what_it_includes(link: Link) -> None:
     }
 
 
-def test_a_second_name_is_that_of_the_process(link: Link) -> None:
+def test_a_second_name_refers_to_the_process(link: Link) -> None:
     linked = link(
         "components:\n  base: {process: laser, endpoints: {Base: tcp -p 10004}}\n"
         "  laser: {program: sleep, args: [1], endpoints: {Laser: tcp -p 10003}}\n"
@@ -191,7 +189,7 @@ def test_expose_chooses_and_renames(link: Link) -> None:
     assert served(linked, "face") == [("Lips", "other", "Mouth"), ("Mouth", "mouth", "Mouth")]
 
 
-def test_a_group_without_interfaces_of_its_own_is_open(link: Link) -> None:
+def test_a_group_that_exposes_nothing_is_open(link: Link) -> None:
     linked = link(TWO + "groups: {face: {components: [speech, mouth]}}\n")
     assert not linked.groups["face"].is_closed
     assert [(s.name, s.instance.name) for s in linked.groups["face"].offers()] == [
@@ -200,7 +198,7 @@ def test_a_group_without_interfaces_of_its_own_is_open(link: Link) -> None:
     ]
 
 
-def test_groups_hold_groups(link: Link) -> None:
+def test_groups_contain_groups(link: Link) -> None:
     linked = link(TWO + "groups: {face: {components: [speech]}, head: {components: [face, mouth]}}\n")
     assert {m.name for m in linked.groups["head"].members} == {"speech", "mouth"}
     assert {g.name for g in linked.instances["speech"].groups} == {"face", "head"}
@@ -211,14 +209,14 @@ def test_an_included_group_exposes_its_members_by_their_own_names(link: Link) ->
     assert served(linked, "arm") == [("Mouth", "arm.elbow", "Mouth")]
 
 
-def test_who_is_outside_reaches_a_closed_group_only_as_a_whole(link: Link) -> None:
+def test_outside_processes_connect_to_a_closed_group_only_as_a_whole(link: Link) -> None:
     linked = link(
         TWO + "  watch: {program: sleep, args: [1]}\ngroups: {face: {components: [speech, mouth], as: speech}}\n"
     )
     watch, speech = linked.instances["watch"], linked.instances["speech"]
     face, mouth = linked.groups["face"], linked.instances["mouth"]
-    assert linked.closed_around(mouth, watch) == [face]
-    assert linked.closed_around(mouth, speech) == [] == linked.closed_around(face, watch)
+    assert linked.closed_groups_of(mouth, watch) == [face]
+    assert linked.closed_groups_of(mouth, speech) == [] == linked.closed_groups_of(face, watch)
 
 
 @pytest.mark.parametrize(
@@ -231,20 +229,20 @@ def test_who_is_outside_reaches_a_closed_group_only_as_a_whole(link: Link) -> No
         ("elbow", None),
     ],
 )
-def test_names_are_found_in_their_scope(link: Link, text: str, found: str | None) -> None:
+def test_names_are_resolved_in_their_scope(link: Link, text: str, found: str | None) -> None:
     linked = link("components:\n  speech: {component: speech}\ninclude: {arm: arm.ddsl.yaml}\n", arm=ARM)
     targets, behind = linked.find(text, "")
     names = [target.name for target in targets if isinstance(target, LinkedInstance) and not behind]
     assert names == ([found] if found else [])
 
 
-def test_what_is_included_is_marked(link: Link, tmp_path: Path) -> None:
+def test_included_deployments_are_marked(link: Link, tmp_path: Path) -> None:
     link("include: {arm: arm.ddsl.yaml}\n", arm=ARM)
     program = analyse([str(tmp_path)]).program
     assert {d.deployment.name: d.is_included for d in program.deployments.values()} == {"Head": False, "Arm": True}
 
 
-def test_what_an_include_would_get_is_not_missed_where_its_name_is_taken(tmp_path: Path) -> None:
+def test_requirements_of_an_include_with_a_duplicate_name_are_not_reported(tmp_path: Path) -> None:
     write_tree(
         tmp_path,
         {
@@ -258,7 +256,7 @@ def test_what_an_include_would_get_is_not_missed_where_its_name_is_taken(tmp_pat
     assert [found.code for found in analyse([str(tmp_path / "head.ddsl.yaml")]).diagnostics] == ["RC4001"]
 
 
-def test_values_that_name_no_component_are_good_for_several(link: Link, tmp_path: Path) -> None:
+def test_values_without_a_component_are_for_several_components(link: Link, tmp_path: Path) -> None:
     write_tree(tmp_path, {
         "other/other.cdsl.yaml": "component: OtherComp\nlanguage: python\nparameters: other.pdsl.yaml\n",
         "other/other.pdsl.yaml": "parameters:\n  number: {type: int, default: 1}\n",
@@ -274,7 +272,7 @@ def test_values_that_name_no_component_are_good_for_several(link: Link, tmp_path
         assert instance.values.parameters is instance.component.parameters
 
 
-def test_what_is_set_completes_a_configuration(link: Link, tmp_path: Path) -> None:
+def test_set_completes_a_configuration(link: Link, tmp_path: Path) -> None:
     write_tree(tmp_path, {
         "other/other.cdsl.yaml": "component: OtherComp\nlanguage: python\nparameters: other.pdsl.yaml\n",
         "other/other.pdsl.yaml": "parameters: {number: int, id: string}\n", "other/bin/OtherComp": "-> /bin/true",

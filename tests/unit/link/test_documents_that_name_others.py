@@ -1,4 +1,4 @@
-"""Documents that name each other: what is said where one is not there, is another, or does not name it back."""
+"""Documents that name each other: diagnostics if one is missing, is of another kind, or does not name the other."""
 
 from __future__ import annotations
 
@@ -193,7 +193,7 @@ CASES: dict[str, dict[str, str]] = {
 }
 
 
-def test_what_is_said(golden: Callable[[str, Mapping[str, str]], None]) -> None:
+def test_the_diagnostics_of_references(golden: Callable[[str, Mapping[str, str]], None]) -> None:
     golden("named", {"said.txt": "\n".join(_shown(name, documents) for name, documents in CASES.items())})
 
 

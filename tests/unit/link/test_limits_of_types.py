@@ -1,4 +1,4 @@
-"""Limits of parameters: which values they leave, how those of a type and of a parameter join, and which say nothing."""
+"""Limits of parameters: allowed values, limits of a type and a parameter together, and limits without effect."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ TYPES = {
 
 
 def fitting(spec: str, candidates: str, types: str = "") -> str:
-    """Those of the candidates that a parameter can have."""
+    """The candidates that a parameter can have."""
     documents = pdsl(f"a: {spec}", types)
     assert wrong(f"a: {spec}", types) == []
     return ", ".join(one for one in candidates.split(", ") if not refused(documents, f"a: {one}"))
@@ -39,7 +39,7 @@ def fitting(spec: str, candidates: str, types: str = "") -> str:
         ("{type: int, values: [1, 5]}", "1, 5"),
         ("{type: double, values: [1, 5]}", "1, 5"),
         ("{type: int, range: [2, 5], values: [5, 2]}", "2, 5"),
-        # A type's own limits and those of the place that names it hold together.
+        # The limits of a type and those of the parameter hold together.
         ("{type: Few, range: [3, 9]}", "3, 4"),
         ("{type: Few, range: [0, 2]}", "2"),
         ("{type: Few, range: [0, 9]}", "2, 3, 4"),
@@ -157,69 +157,69 @@ MISFIT, EMPTY, UNREACHABLE = "RC3108", "RC3109", "RC3110"
 @pytest.mark.parametrize(
     ("spec", "types", "code", "at", "message"),
     [
-        # Limits that leave nothing
+        # Limits that no value fulfils
         ("{type: int, range: [3, 2]}", "", EMPTY, "[3, 2]", "no number is from 3 to 2"),
         ("{type: int, range: {above: 3, below: 4}}", "", EMPTY, "{above: 3, below: 4}", "no number is above 3 and below 4"),
         ("{type: float, range: {above: 3, to: 3}}", "", EMPTY, "{above: 3, to: 3}", "no number is above 3 and at most 3"),
         ("{type: float, range: {from: 3, below: 3}}", "", EMPTY, "{from: 3, below: 3}", "no number is at least 3 and below 3"),
-        ("{type: T, range: [0, 3]}", "T: {type: int, range: [4, 9]}", EMPTY, "[0, 3]", "no number is from 0 to 3 and from 4 to 9, as its type says"),
-        ("{type: T, range: {above: 3}}", "T: {type: int, range: {below: 4}}", EMPTY, "{above: 3}", "no number is above 3 and below 4, as its type says"),
-        ("{type: T, range: [4, 5]}", "T: {type: int, values: [2, 3]}", EMPTY, "[4, 5]", "none of the values of its type is from 4 to 5"),
-        ("{type: E, range: [c, a]}", "E: {enum: [a, b, c]}", EMPTY, "[c, a]", "no enumerator of E lies in this range"),
-        ("{type: E, range: {above: c}}", "E: {enum: [a, b, c]}", EMPTY, "{above: c}", "no enumerator of E lies in this range"),
-        ("{type: E, range: {below: a}}", "E: {enum: [a, b, c]}", EMPTY, "{below: a}", "no enumerator of E lies in this range"),
+        ("{type: T, range: [0, 3]}", "T: {type: int, range: [4, 9]}", EMPTY, "[0, 3]", "no number is from 0 to 3 and, as its type requires, from 4 to 9"),
+        ("{type: T, range: {above: 3}}", "T: {type: int, range: {below: 4}}", EMPTY, "{above: 3}", "no number is above 3 and, as its type requires, below 4"),
+        ("{type: T, range: [4, 5]}", "T: {type: int, values: [2, 3]}", EMPTY, "[4, 5]", "no value of its type is from 4 to 5"),
+        ("{type: E, range: [c, a]}", "E: {enum: [a, b, c]}", EMPTY, "[c, a]", "no enumerator of E is in this range"),
+        ("{type: E, range: {above: c}}", "E: {enum: [a, b, c]}", EMPTY, "{above: c}", "no enumerator of E is in this range"),
+        ("{type: E, range: {below: a}}", "E: {enum: [a, b, c]}", EMPTY, "{below: a}", "no enumerator of E is in this range"),
         ("{list: int, size: [3, 2]}", "", EMPTY, "[3, 2]", "at least 3 and at most 2 entries"),
         ("{map: int, size: {from: 3, to: 2}}", "", EMPTY, "{from: 3, to: 2}", "at least 3 and at most 2 entries"),
         ("{type: T, size: 2}", "T: {list: int, size: [3, 4]}", EMPTY, "2", "at least 3 and at most 2 entries"),
         ("{type: T, size: 5}", "T: {list: int, size: [3, 4]}", EMPTY, "5", "at least 5 and at most 4 entries"),
-        ("{list: {type: int, values: [1, 2]}, size: 3, unique: true}", "", EMPTY, "true", "3 entries, all different, of only 2 values"),
-        ("{list: bool, size: {from: 3}, unique: true}", "", EMPTY, "true", "3 entries, all different, of only 2 values"),
-        ("{list: E, size: 4, unique: true}", "E: {enum: [a, b, c]}", EMPTY, "true", "4 entries, all different, of only 3 values"),
+        ("{list: {type: int, values: [1, 2]}, size: 3, unique: true}", "", EMPTY, "true", "3 different entries need more than 2 values"),
+        ("{list: bool, size: {from: 3}, unique: true}", "", EMPTY, "true", "3 different entries need more than 2 values"),
+        ("{list: E, size: 4, unique: true}", "E: {enum: [a, b, c]}", EMPTY, "true", "4 different entries need more than 3 values"),
         # Limits of which a part is never reached
-        ("{type: int, range: [0, 1e10]}", "", UNREACHABLE, "1e10", "1e10 cannot be reached: int goes from -2147483648 to 2147483647"),
-        ("{type: int, range: {from: -2147483649}}", "", UNREACHABLE, "-2147483649", "-2147483649 cannot be reached: int goes from -2147483648 to 2147483647"),
-        ("{type: int, values: [2147483648]}", "", UNREACHABLE, "2147483648", "2147483648 cannot be reached: int goes from -2147483648 to 2147483647"),
-        ("{type: int, values: [1, 1]}", "", UNREACHABLE, "1", "'1' stands twice"),
+        ("{type: int, range: [0, 1e10]}", "", UNREACHABLE, "1e10", "1e10 is out of range: int is from -2147483648 to 2147483647"),
+        ("{type: int, range: {from: -2147483649}}", "", UNREACHABLE, "-2147483649", "-2147483649 is out of range: int is from -2147483648 to 2147483647"),
+        ("{type: int, values: [2147483648]}", "", UNREACHABLE, "2147483648", "2147483648 is out of range: int is from -2147483648 to 2147483647"),
+        ("{type: int, values: [1, 1]}", "", UNREACHABLE, "1", "'1' appears twice"),
         ("{type: int, values: [1, 1.5]}", "", UNREACHABLE, "1.5", "'1.5' is not a whole number"),
         ("{type: int, values: [1, x]}", "", UNREACHABLE, "x", "'x' is not a whole number"),
         ("{type: float, values: [1, x]}", "", UNREACHABLE, "x", "'x' is not a number"),
         ("{type: string, values: [x, 1]}", "", UNREACHABLE, "1", "'1' is not text"),
-        ("{type: int, range: [2, 3], values: [2, 4]}", "", UNREACHABLE, "4", "4 cannot be reached: the range goes from 2 to 3"),
-        ("{type: T, values: [1, 2]}", "T: {type: int, range: [2, 3]}", UNREACHABLE, "1", "1 cannot be reached: the range goes from 2 to 3"),
-        ("{type: T, values: [1, 2]}", "T: {type: int, values: [2, 3]}", UNREACHABLE, "1", "'1' is none of the values of its type"),
+        ("{type: int, range: [2, 3], values: [2, 4]}", "", UNREACHABLE, "4", "4 is out of range: it must be from 2 to 3"),
+        ("{type: T, values: [1, 2]}", "T: {type: int, range: [2, 3]}", UNREACHABLE, "1", "1 is out of range: it must be from 2 to 3"),
+        ("{type: T, values: [1, 2]}", "T: {type: int, values: [2, 3]}", UNREACHABLE, "1", "'1' is not a value of its type"),
         ("{type: T, values: [x, 7]}", "T: {type: string, pattern: x}", UNREACHABLE, "7", "'7' is not text"),
         ("{type: T, values: [x, y]}", "T: {type: string, pattern: x}", UNREACHABLE, "y", "'y' does not match the pattern"),
         ("{type: T, pattern: x}", "T: {type: string, values: [x, y]}", UNREACHABLE, "y", "'y' does not match the pattern"),
-        ("{type: E, range: [a, b], values: [a, c]}", "E: {enum: [a, b, c]}", UNREACHABLE, "c", "'c' lies outside of the range"),
+        ("{type: E, range: [a, b], values: [a, c]}", "E: {enum: [a, b, c]}", UNREACHABLE, "c", "'c' is outside the range"),
         # Limits that say nothing
-        ("{type: bool, range: [0, 1]}", "", MISFIT, "[0, 1]", "'range' says nothing about a value that is true or false"),
-        ("{type: string, range: [0, 1]}", "", MISFIT, "[0, 1]", "'range' says nothing about a value that is text"),
-        ("{list: int, range: [0, 1]}", "", MISFIT, "[0, 1]", "'range' says nothing about a value that is a list"),
-        ("{type: bool, values: [1]}", "", MISFIT, "[1]", "'values' says nothing about a value that is true or false"),
-        ("{map: int, values: [1]}", "", MISFIT, "[1]", "'values' says nothing about a value that is a mapping of names to values"),
-        ("{type: int, pattern: x}", "", MISFIT, "x", "'pattern' says nothing about a value that is a whole number"),
-        ("{type: float, size: 2}", "", MISFIT, "2", "'size' says nothing about a value that is a number"),
-        ("{type: string, unit: m}", "", MISFIT, "m", "'unit' says nothing about a value that is text"),
-        ("{type: E, unit: m}", "E: {enum: [a, b]}", MISFIT, "m", "'unit' says nothing about a value that is one of a, b"),
-        ("{list: string, unit: m}", "", MISFIT, "m", "'unit' says nothing about a value that is text"),
-        ("{type: P, size: 2}", "P: {struct: {x: int}}", MISFIT, "2", "'size' says nothing about a value that is a group"),
-        ("{group: {x: int}, range: [1, 2]}", "", MISFIT, "[1, 2]", "'range' says nothing about a value that is a group"),
-        ("{type: int, unique: true}", "", MISFIT, "true", "'unique' is for lists of plain values"),
-        ("{list: {list: int}, unique: true}", "", MISFIT, "true", "'unique' is for lists of plain values"),
-        ("{map: int, unique: true}", "", MISFIT, "true", "'unique' is for lists of plain values"),
+        ("{type: bool, range: [0, 1]}", "", MISFIT, "[0, 1]", "'range' does not apply to a value that is true or false"),
+        ("{type: string, range: [0, 1]}", "", MISFIT, "[0, 1]", "'range' does not apply to a value that is text"),
+        ("{list: int, range: [0, 1]}", "", MISFIT, "[0, 1]", "'range' does not apply to a value that is a list"),
+        ("{type: bool, values: [1]}", "", MISFIT, "[1]", "'values' does not apply to a value that is true or false"),
+        ("{map: int, values: [1]}", "", MISFIT, "[1]", "'values' does not apply to a value that is a mapping of names to values"),
+        ("{type: int, pattern: x}", "", MISFIT, "x", "'pattern' does not apply to a value that is a whole number"),
+        ("{type: float, size: 2}", "", MISFIT, "2", "'size' does not apply to a value that is a number"),
+        ("{type: string, unit: m}", "", MISFIT, "m", "'unit' does not apply to a value that is text"),
+        ("{type: E, unit: m}", "E: {enum: [a, b]}", MISFIT, "m", "'unit' does not apply to a value that is one of a, b"),
+        ("{list: string, unit: m}", "", MISFIT, "m", "'unit' does not apply to a value that is text"),
+        ("{type: P, size: 2}", "P: {struct: {x: int}}", MISFIT, "2", "'size' does not apply to a value that is a group"),
+        ("{group: {x: int}, range: [1, 2]}", "", MISFIT, "[1, 2]", "'range' does not apply to a value that is a group"),
+        ("{type: int, unique: true}", "", MISFIT, "true", "'unique' applies only to lists of plain values"),
+        ("{list: {list: int}, unique: true}", "", MISFIT, "true", "'unique' applies only to lists of plain values"),
+        ("{map: int, unique: true}", "", MISFIT, "true", "'unique' applies only to lists of plain values"),
         # Limits that are none
-        ("{type: int, range: [0.5, 1]}", "", MISFIT, "0.5", "'range' of whole numbers has whole limits"),
+        ("{type: int, range: [0.5, 1]}", "", MISFIT, "0.5", "'range' of whole numbers needs whole limits"),
         ("{type: float, range: [x, 1]}", "", MISFIT, "x", "'range' needs numbers, not 'x'"),
-        ("{type: float, range: {from: 1, above: 1}}", "", MISFIT, "{from: 1, above: 1}", "'range' has either 'from' or 'above', not both"),
-        ("{type: float, range: {to: 1, below: 1}}", "", MISFIT, "{to: 1, below: 1}", "'range' has either 'to' or 'below', not both"),
-        ("{type: E, range: {from: a, above: a}}", "E: {enum: [a, b]}", MISFIT, "{from: a, above: a}", "'range' has either 'from' or 'above', not both"),
+        ("{type: float, range: {from: 1, above: 1}}", "", MISFIT, "{from: 1, above: 1}", "'range' cannot have both 'from' and 'above'"),
+        ("{type: float, range: {to: 1, below: 1}}", "", MISFIT, "{to: 1, below: 1}", "'range' cannot have both 'to' and 'below'"),
+        ("{type: E, range: {from: a, above: a}}", "E: {enum: [a, b]}", MISFIT, "{from: a, above: a}", "'range' cannot have both 'from' and 'above'"),
         ("{type: float, range: {}}", "", MISFIT, "{}", "'range' has no limit"),
-        ("{type: E, range: [a, d]}", "E: {enum: [a, b]}", MISFIT, "d", "'range' names 'd', which is no enumerator of E"),
-        ("{type: E, values: [a, d]}", "E: {enum: [a, b]}", MISFIT, "d", "'values' names 'd', which is no enumerator of E"),
-        ("{type: T, pattern: x}", "T: {type: string, pattern: y}", MISFIT, "x", "'pattern' stands at the type already"),
+        ("{type: E, range: [a, d]}", "E: {enum: [a, b]}", MISFIT, "d", "'range' names unknown enumerator 'd' of E"),
+        ("{type: E, values: [a, d]}", "E: {enum: [a, b]}", MISFIT, "d", "'values' names unknown enumerator 'd' of E"),
+        ("{type: T, pattern: x}", "T: {type: string, pattern: y}", MISFIT, "x", "'pattern' is already set by the type"),
     ],
 )  # fmt: skip
-def test_limits_that_cannot_be_meant(spec: str, types: str, code: str, at: str, message: str) -> None:
+def test_contradictory_limits(spec: str, types: str, code: str, at: str, message: str) -> None:
     message = f"nothing fits: {message}" if code == EMPTY else message
     assert wrong(f"a: {spec}", types) == [(code, at, message)]
 
@@ -229,10 +229,10 @@ def test_limits_that_cannot_be_meant(spec: str, types: str, code: str, at: str, 
     [
         ("{type: E, values: [slo]}", "E: {enum: [slow, fast]}", "did you mean 'slow'?"),
         ("{type: E, values: [turbo]}", "E: {enum: [slow, fast]}", "there are: slow, fast"),
-        ("{list: P, unique: true}", "P: {struct: {x: int}}", "for records, a constraint says it: unique(m.name for m in motors)"),
+        ("{list: P, unique: true}", "P: {struct: {x: int}}", "for records, write a constraint: unique(m.name for m in motors)"),
     ],
 )  # fmt: skip
-def test_what_is_meant_instead(spec: str, types: str, hint: str) -> None:
+def test_the_hints_at_limits(spec: str, types: str, hint: str) -> None:
     (found,) = said(pdsl(f"a: {spec}", types), "c.pdsl.yaml")
     assert found.hint == hint
 
@@ -241,23 +241,23 @@ def test_what_is_meant_instead(spec: str, types: str, hint: str) -> None:
     ("pattern", "at"),
     [("'a[b'", "["), ('"a(?=b)"', "("), ('"\\\\d[b"', '"\\\\d[b"')],
 )
-def test_a_pattern_is_refused_at_the_character(pattern: str, at: str) -> None:
-    """Where its spelling tells: behind an escape it does not."""
+def test_a_pattern_is_rejected_at_the_character(pattern: str, at: str) -> None:
+    """The location is exact unless there is an escape before it."""
     text = f"component: c.cdsl.yaml\nparameters:\n  a: {{type: string, pattern: {pattern}}}\n"
     (found,) = said({**pdsl(""), "c.pdsl.yaml": text}, "c.pdsl.yaml")
     assert (found.code, found.at) == ("RC3111", at)
 
 
-def test_all_that_is_wrong_with_values_is_said() -> None:
+def test_all_faults_in_values_are_reported() -> None:
     found = wrong("a: {type: int, values: [7, 7, x, 8]}")
     assert [(at, message) for _, at, message in found] == [
-        ("7", "'7' stands twice"),
+        ("7", "'7' appears twice"),
         ("x", "'x' is not a whole number"),
     ]
     assert len(wrong("a: {type: E, values: [b, c, a]}", "E: {enum: [a]}")) == 2
 
 
-def test_a_limit_that_is_wrong_limits_nothing() -> None:
+def test_a_wrong_limit_has_no_effect() -> None:
     documents = pdsl(
         "a: {type: int, range: [3, 2]}, b: {type: int, values: [x]}, c: {type: E, values: [y]}", "E: {enum: [x]}"
     )

@@ -1,4 +1,4 @@
-"""Options of legacy components add what their files say."""
+"""Options of legacy components add imports and interfaces."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def test_an_agm_agent(linked: Callable[..., tuple[Analysis, LinkedComponent]], s
     ]
 
 
-def test_what_the_document_says_is_not_added_again(linked: Callable[..., tuple[Analysis, LinkedComponent]]) -> None:
+def test_an_option_adds_no_duplicates(linked: Callable[..., tuple[Analysis, LinkedComponent]]) -> None:
     text = (
         "component: Agent\nlanguage: python\nimports: [../interfaces/AGMExecutive.idsl.yaml, AGMExecutiveTopic]\n"
         "requires: [AGMExecutive.AGMExecutive]\nsubscribes: [{Plans: AGMExecutiveTopic}]\noptions: [agmagent]\n"
@@ -72,7 +72,7 @@ def test_what_the_document_says_is_not_added_again(linked: Callable[..., tuple[A
     assert ports(component)["requires"] == ["AGMExecutive"] and ports(component)["subscribes"] == ["Plans"]
 
 
-def test_what_is_not_there_is_told_at_the_option(linked: Callable[..., tuple[Analysis, LinkedComponent]]) -> None:
+def test_unknown_imports_are_reported_at_the_option(linked: Callable[..., tuple[Analysis, LinkedComponent]]) -> None:
     analysis, component = linked("component: Agent\nlanguage: cpp\noptions: [agmagent]\n", interfaces=False)
     assert {d.code for d in analysis.diagnostics} == {"RC2101"}
     assert {(d.span.line, d.span.column) for d in analysis.diagnostics} == {(3, 11)}

@@ -1,4 +1,4 @@
-"""What a workspace holds for editors."""
+"""The files of a workspace that editors read."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def test_an_older_schema_is_brought_up_to_date(tmp_path: Path) -> None:
     assert relative(workspace_files.install(tmp_path), tmp_path) == {".rcyaml/schemas/idsl.schema.json"}
 
 
-def test_the_users_settings_stay(tmp_path: Path) -> None:
+def test_the_users_settings_are_kept(tmp_path: Path) -> None:
     settings = tmp_path / ".vscode/settings.json"
     settings.parent.mkdir()
     settings.write_text('{\n  // I like it wide\n  "editor.rulers": [120],\n}\n')
@@ -50,7 +50,7 @@ def test_the_users_settings_stay(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("content", "reason"), [(b"{ nonsense", "it is not JSON"), (b"\xff\xfe", "it is not UTF-8 text")]
 )
-def test_settings_that_cannot_be_read_are_left(tmp_path: Path, content: bytes, reason: str) -> None:
+def test_unreadable_settings_are_not_changed(tmp_path: Path, content: bytes, reason: str) -> None:
     settings = tmp_path / ".vscode/settings.json"
     settings.parent.mkdir()
     settings.write_bytes(content)
@@ -59,7 +59,7 @@ def test_settings_that_cannot_be_read_are_left(tmp_path: Path, content: bytes, r
     assert reason in workspace_files.settings_problem(tmp_path)
 
 
-def test_settings_behind_a_link_are_left(tmp_path: Path) -> None:
+def test_settings_behind_a_link_are_not_changed(tmp_path: Path) -> None:
     elsewhere = tmp_path / "elsewhere.json"
     elsewhere.write_text("{}")
     (tmp_path / "home/.vscode").mkdir(parents=True)
@@ -69,7 +69,7 @@ def test_settings_behind_a_link_are_left(tmp_path: Path) -> None:
     assert "it is a link" in workspace_files.settings_problem(tmp_path / "home")
 
 
-def test_a_failure_leaves_no_part_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_failure_leaves_no_partial_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def fail(*_: object) -> None:
         raise OSError(28, "no space left")
 

@@ -1,4 +1,4 @@
-"""The language of the data model null: conditions, literals, scripts."""
+"""The expression language of the data model null: conditions, literals, scripts."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from robocomp_yaml.model.conditions import (
     MAX_PARTS,
     Condition,
-    NotInLanguage,
+    NullSyntaxError,
     condition,
     literal,
     names,
@@ -41,16 +41,16 @@ def test_conditions(text: str, found: Condition) -> None:
     "", "low near", "low and", "and", "(low", "low)", "low == 3", "low(1)", "In(a)", "In()", "__import__('os')",
     "low; near", "a.b", "!= low", "1", "not", "low " + "or low " * MAX_PARTS,
 ])  # fmt: skip
-def test_what_is_no_condition(text: str) -> None:
-    with pytest.raises(NotInLanguage):
+def test_wrong_conditions(text: str) -> None:
+    with pytest.raises(NullSyntaxError):
         condition(text)
 
 
 @given(st.text(alphabet="lowIn('a') andort!&|=.;\n\0é", max_size=60))
-def test_any_text_is_a_condition_or_is_refused(text: str) -> None:
+def test_any_text_is_a_condition_or_is_rejected(text: str) -> None:
     try:
         found = condition(text)
-    except NotInLanguage:
+    except NullSyntaxError:
         return
     assert all(name.isidentifier() and name.isascii() for name in names(found, "guard"))
 
@@ -64,13 +64,13 @@ def test_literals(text: str, json: str) -> None:
 
 
 @pytest.mark.parametrize("text", ["", "a", "'a", "'a' + 'b'", "1 + 1", "[1]", "nan", "1_000", "'a\\'b'"])
-def test_what_is_no_literal(text: str) -> None:
-    with pytest.raises(NotInLanguage):
+def test_wrong_literals(text: str) -> None:
+    with pytest.raises(NullSyntaxError):
         literal(text)
 
 
 def test_scripts() -> None:
     assert script(" park; beep()\n  stop ( ) ;; ") == ["park", "beep", "stop"]
     for text in ("park(1)", "x = 1", "park beep", "import os"):
-        with pytest.raises(NotInLanguage):
+        with pytest.raises(NullSyntaxError):
             script(text)

@@ -1,4 +1,4 @@
-"""Documents of each kind with all that they can say: what they are read as, and where each part stands."""
+"""Documents of each kind with all keys: the models that are built from them, and the spans of all parts."""
 
 from __future__ import annotations
 
@@ -167,7 +167,7 @@ FILES = {
 
 
 @pytest.mark.parametrize("kind", ["idsl", "cdsl", "machine", "ddsl"])
-def test_what_it_is_read_as(kind: str, golden: Callable[[str, Mapping[str, str]], None]) -> None:
+def test_the_model_of_a_document(kind: str, golden: Callable[[str, Mapping[str, str]], None]) -> None:
     found = analysed(FILES).program
     arm = found.components[f"{ROOT}/arm/arm.cdsl.yaml"]
     read = {

@@ -1,4 +1,4 @@
-"""Two parts of documents are equal when they say the same, wherever they stand."""
+"""Two parts of documents are equal if their contents are, at any location."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.interface import Literal, TypeRef
 
 
-def test_the_place_does_not_count() -> None:
+def test_the_location_is_ignored() -> None:
     here, there = TypeRef("float", span=Span("a.idsl.yaml", 1)), TypeRef("float", span=Span("b.idsl.yaml", 7))
     assert here == there
     assert not here != there
     assert hash(here) == hash(there)
 
 
-def test_the_content_and_the_kind_count() -> None:
+def test_content_and_kind_are_compared() -> None:
     assert TypeRef("float") != TypeRef("double")
     assert not TypeRef("float") == TypeRef("double")
     assert TypeRef("1") != Literal(1, "1")

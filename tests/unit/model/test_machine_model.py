@@ -1,4 +1,4 @@
-"""One model behind both spellings: the CDSL's and SCXML's."""
+"""State machines in the CDSL and in SCXML have the same model."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def machine_of(folder: Path, statemachine: str, scxml: str = "", *, is_faulty: b
     return component.machine
 
 
-def test_both_spellings_become_the_same_tables(tmp_path: Path) -> None:
+def test_both_formats_have_the_same_tables(tmp_path: Path) -> None:
     inline = lower(machine_of(tmp_path / "inline", INLINE))
     file = lower(machine_of(tmp_path / "file", " c.scxml\n", SCXML))
     assert _sorted(inline) == _sorted(file)
@@ -94,7 +94,7 @@ def test_the_run_time_of_cpp_has_the_same_tables() -> None:
             assert members == own
 
 
-def test_states_alike_in_all_they_say_are_told_apart(tmp_path: Path) -> None:
+def test_equal_states_are_distinguished(tmp_path: Path) -> None:
     twins = "<parallel><state><state/></state><state><state/></state></parallel><state><state/></state>"
     scxml = f'<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0">{twins}</scxml>'
     machine = machine_of(tmp_path, " c.scxml\n", scxml, is_faulty=True)

@@ -1,4 +1,4 @@
-"""SCXML as it is read: which element stands where, what is said of one that does not, and what a machine comes to."""
+"""SCXML: elements at wrong places, their diagnostics, and the model of a machine."""
 
 from __future__ import annotations
 
@@ -15,50 +15,50 @@ CDSL = "component: Door\nlanguage: python\nstatemachine: door.scxml\n"
     ("body", "root", "code", "at", "message", "hint"),
     [
         ("<state id='a' initial='b' src='x'/>", '', 'RC2208', 'x', "<state> has no attribute 'src'", 'it has id, initial'),
-        ("<state id='a' ID='b'/>", '', 'RC2208', 'b', "<state> has no attribute 'ID'", "'id' is there already"),
-        ("<state id='a'><sate/></state>", '', 'RC2207', '<sate', '<sate> cannot stand in <state>', 'did you mean <state>?'),
-        ("<state id='a'><scxml/></state>", '', 'RC2207', '<scxml', '<scxml> cannot stand in <state>', 'it holds onentry, onexit, transition, state, parallel, history, datamodel, invoke, initial, final'),
-        ("<state id='a'>hello there</state>", '', 'RC2214', '<state', "'hello' stands in <state>, where no text is meant", ''),
-        ("<final id='a'><transition/></final>", '', 'RC2207', '<transition', '<transition> cannot stand in <final>', 'it holds onentry, onexit, donedata'),
-        ("<state id='a'><onentry><rais event='x'/></onentry></state>", '', 'RC2207', '<rais', '<rais> cannot stand in <onentry>', 'did you mean <raise>?'),
-        ("<state id='a'><onentry><raise event=' '/></onentry></state>", '', 'RC2209', '<raise', "<raise> lacks the attribute 'event'", ''),
-        ("<state id='a'><onentry><raise event='x'><log/></raise></onentry></state>", '', 'RC2207', '<log', '<log> cannot stand in <raise>', ''),
-        ("<state id='a'><initial/><state id='b'/></state>", '', 'RC2212', '<initial', '<initial> holds exactly one <transition>', ''),
-        ("<state id='a'><initial><transition target='b'/></initial><initial><transition target='b'/></initial><state id='b'/></state>", '', 'RC2213', '<initial', 'a second <initial> in <state>', ''),
-        ("<state id='a'><history id='h'/></state>", '', 'RC2212', '<history', '<history> holds exactly one <transition>', ''),
-        ("<state id='a'><history id='h' type='full'><transition target='b'/></history><state id='b'/></state>", '', 'RC2211', 'full', "'full' is no value of 'type'", 'write shallow or deep'),
-        ("<state id='a'><transition event='x' target='a' type='inner'/></state>", '', 'RC2211', 'inner', "'inner' is no value of 'type'", 'write external or internal'),
-        ("<state id='a'><onentry><send event='x' eventexpr='y'/></onentry></state>", '', 'RC2210', 'y', "'event' and 'eventexpr' cannot both be given", ''),
-        ("<state id='a'><onentry><send event='x' delay='5 minutes'/></onentry></state>", '', 'RC2211', '5 minutes', "'5 minutes' is no value of 'delay'", 'write 100ms or 1.5s'),
-        ("<state id='a'><onentry><send event='x' delay='5'/></onentry></state>", '', 'RC2211', '5', "'5' is no value of 'delay'", 'write 100ms or 1.5s'),
-        ("<state id='a'><onentry><send event='x' target='#_internal' delay='1s'/></onentry></state>", '', 'RC2211', '1s', "'1s' is no value of 'delay'", 'what goes to #_internal goes at once'),
-        ("<state id='a'><onentry><send event='x'><content>1</content><content>2</content></send></onentry></state>", '', 'RC2213', '<content', 'a second <content> in <send>', ''),
-        ("<state id='a'><onentry><send event='x'><param name='n' expr='1'/><content>2</content></send></onentry></state>", '', 'RC2210', '<content', "'param' and 'content' cannot both be given", ''),
-        ("<state id='a'><onentry><cancel/></onentry></state>", '', 'RC2209', '<cancel', "<cancel> lacks the attribute 'sendid' or 'sendidexpr'", ''),
-        ("<state id='a'><onentry><cancel sendid='a' sendidexpr='b'/></onentry></state>", '', 'RC2210', 'b', "'sendid' and 'sendidexpr' cannot both be given", ''),
-        ('<datamodel/><datamodel/><state id="a"/>', '', 'RC2213', '<datamodel', 'a second <datamodel> in <scxml>', ''),
-        ('<datamodel><data/></datamodel><state id="a"/>', '', 'RC2209', '<data', "<data> lacks the attribute 'id'", ''),
-        ('<datamodel><data id=\'x\' src=\'y\' expr=\'1\'/></datamodel><state id="a"/>', '', 'RC2210', '1', "'src' and 'expr' cannot both be given", ''),
-        ('<datamodel><data id=\'x\' src=\'y\'/></datamodel><state id="a"/>', '', 'RC2215', 'y', "'y' cannot be included: there is no such file", ''),
-        ("<state id='a'><onentry><if><log/></if></onentry></state>", '', 'RC2209', '<if', "<if> lacks the attribute 'cond'", ''),
-        ("<state id='a'><onentry><if cond='1'><elseif/></if></onentry></state>", '', 'RC2209', '<elseif', "<elseif> lacks the attribute 'cond'", ''),
-        ("<state id='a'><onentry><foreach array='x'/></onentry></state>", '', 'RC2209', '<foreach', "<foreach> lacks the attribute 'item'", ''),
-        ("<state id='a'><onentry><assign expr='1'/></onentry></state>", '', 'RC2209', '<assign', "<assign> lacks the attribute 'location'", ''),
-        ("<final id='a'><donedata><param name='x'/></donedata></final>", '', 'RC2209', '<param', "<param> lacks the attribute 'expr' or 'location'", ''),
-        ("<final id='a'><donedata><param name='x' expr='1' location='y'/></donedata></final>", '', 'RC2210', 'y', "'expr' and 'location' cannot both be given", ''),
-        ("<state id='a'><invoke type='scxml' typeexpr='1'/></state>", '', 'RC2210', '1', "'type' and 'typeexpr' cannot both be given", ''),
-        ("<state id='a'><invoke autoforward='yes'/></state>", '', 'RC2211', 'yes', "'yes' is no value of 'autoforward'", 'write true or false'),
-        ("<state id='a'><invoke><finalize/><finalize/></invoke></state>", '', 'RC2213', '<finalize', 'a second <finalize> in <invoke>', ''),
-        ("<state id='a'><onentry><script src='x.py'/></onentry></state>", '', 'RC2215', 'x.py', "'x.py' cannot be included: there is no such file", ''),
-        ("<state id='a'><onentry><script src='../x.py'/></onentry></state>", '', 'RC2215', '../x.py', "'../x.py' cannot be included: it does not stand below the document's folder", ''),
-        ("<state id='a'><onentry><script src='http://x'/></onentry></state>", '', 'RC2215', 'http://x', "'http://x' cannot be included: only files can be", ''),
+        ("<state id='a' ID='b'/>", '', 'RC2208', 'b', "<state> has no attribute 'ID'", "'id' is already present"),
+        ("<state id='a'><sate/></state>", '', 'RC2207', '<sate', '<state> cannot contain <sate>', 'did you mean <state>?'),
+        ("<state id='a'><scxml/></state>", '', 'RC2207', '<scxml', '<state> cannot contain <scxml>', 'it may contain onentry, onexit, transition, state, parallel, history, datamodel, invoke, initial, final'),
+        ("<state id='a'>hello there</state>", '', 'RC2214', '<state', "<state> contains the text 'hello', but it cannot contain text", ''),
+        ("<final id='a'><transition/></final>", '', 'RC2207', '<transition', '<final> cannot contain <transition>', 'it may contain onentry, onexit, donedata'),
+        ("<state id='a'><onentry><rais event='x'/></onentry></state>", '', 'RC2207', '<rais', '<onentry> cannot contain <rais>', 'did you mean <raise>?'),
+        ("<state id='a'><onentry><raise event=' '/></onentry></state>", '', 'RC2209', '<raise', "<raise> has no attribute 'event', which is required", ''),
+        ("<state id='a'><onentry><raise event='x'><log/></raise></onentry></state>", '', 'RC2207', '<log', '<raise> cannot contain <log>', ''),
+        ("<state id='a'><initial/><state id='b'/></state>", '', 'RC2212', '<initial', '<initial> must contain exactly one <transition>', ''),
+        ("<state id='a'><initial><transition target='b'/></initial><initial><transition target='b'/></initial><state id='b'/></state>", '', 'RC2213', '<initial', '<state> contains a second <initial>', ''),
+        ("<state id='a'><history id='h'/></state>", '', 'RC2212', '<history', '<history> must contain exactly one <transition>', ''),
+        ("<state id='a'><history id='h' type='full'><transition target='b'/></history><state id='b'/></state>", '', 'RC2211', 'full', "'full' is not a value of 'type'", 'write shallow or deep'),
+        ("<state id='a'><transition event='x' target='a' type='inner'/></state>", '', 'RC2211', 'inner', "'inner' is not a value of 'type'", 'write external or internal'),
+        ("<state id='a'><onentry><send event='x' eventexpr='y'/></onentry></state>", '', 'RC2210', 'y', "'event' and 'eventexpr' exclude each other", ''),
+        ("<state id='a'><onentry><send event='x' delay='5 minutes'/></onentry></state>", '', 'RC2211', '5 minutes', "'5 minutes' is not a value of 'delay'", 'write 100ms or 1.5s'),
+        ("<state id='a'><onentry><send event='x' delay='5'/></onentry></state>", '', 'RC2211', '5', "'5' is not a value of 'delay'", 'write 100ms or 1.5s'),
+        ("<state id='a'><onentry><send event='x' target='#_internal' delay='1s'/></onentry></state>", '', 'RC2211', '1s', "'1s' is not a value of 'delay'", 'an event to #_internal is sent at once: remove the delay, or the target'),
+        ("<state id='a'><onentry><send event='x'><content>1</content><content>2</content></send></onentry></state>", '', 'RC2213', '<content', '<send> contains a second <content>', ''),
+        ("<state id='a'><onentry><send event='x'><param name='n' expr='1'/><content>2</content></send></onentry></state>", '', 'RC2210', '<content', "'param' and 'content' exclude each other", ''),
+        ("<state id='a'><onentry><cancel/></onentry></state>", '', 'RC2209', '<cancel', "<cancel> has no attribute 'sendid' or 'sendidexpr', which is required", ''),
+        ("<state id='a'><onentry><cancel sendid='a' sendidexpr='b'/></onentry></state>", '', 'RC2210', 'b', "'sendid' and 'sendidexpr' exclude each other", ''),
+        ('<datamodel/><datamodel/><state id="a"/>', '', 'RC2213', '<datamodel', '<scxml> contains a second <datamodel>', ''),
+        ('<datamodel><data/></datamodel><state id="a"/>', '', 'RC2209', '<data', "<data> has no attribute 'id', which is required", ''),
+        ('<datamodel><data id=\'x\' src=\'y\' expr=\'1\'/></datamodel><state id="a"/>', '', 'RC2210', '1', "'src' and 'expr' exclude each other", ''),
+        ('<datamodel><data id=\'x\' src=\'y\'/></datamodel><state id="a"/>', '', 'RC2215', 'y', "'y' cannot be included: the file does not exist", ''),
+        ("<state id='a'><onentry><if><log/></if></onentry></state>", '', 'RC2209', '<if', "<if> has no attribute 'cond', which is required", ''),
+        ("<state id='a'><onentry><if cond='1'><elseif/></if></onentry></state>", '', 'RC2209', '<elseif', "<elseif> has no attribute 'cond', which is required", ''),
+        ("<state id='a'><onentry><foreach array='x'/></onentry></state>", '', 'RC2209', '<foreach', "<foreach> has no attribute 'item', which is required", ''),
+        ("<state id='a'><onentry><assign expr='1'/></onentry></state>", '', 'RC2209', '<assign', "<assign> has no attribute 'location', which is required", ''),
+        ("<final id='a'><donedata><param name='x'/></donedata></final>", '', 'RC2209', '<param', "<param> has no attribute 'expr' or 'location', which is required", ''),
+        ("<final id='a'><donedata><param name='x' expr='1' location='y'/></donedata></final>", '', 'RC2210', 'y', "'expr' and 'location' exclude each other", ''),
+        ("<state id='a'><invoke type='scxml' typeexpr='1'/></state>", '', 'RC2210', '1', "'type' and 'typeexpr' exclude each other", ''),
+        ("<state id='a'><invoke autoforward='yes'/></state>", '', 'RC2211', 'yes', "'yes' is not a value of 'autoforward'", 'write true or false'),
+        ("<state id='a'><invoke><finalize/><finalize/></invoke></state>", '', 'RC2213', '<finalize', '<invoke> contains a second <finalize>', ''),
+        ("<state id='a'><onentry><script src='x.py'/></onentry></state>", '', 'RC2215', 'x.py', "'x.py' cannot be included: the file does not exist", ''),
+        ("<state id='a'><onentry><script src='../x.py'/></onentry></state>", '', 'RC2215', '../x.py', "'../x.py' cannot be included: it is not below the document's folder", ''),
+        ("<state id='a'><onentry><script src='http://x'/></onentry></state>", '', 'RC2215', 'http://x', "'http://x' cannot be included: only files can be included", ''),
         ("<state id='a'><onentry><log label='x' expr='1 +'/></onentry></state>", '', 'RC2219', '1 +', 'the value is not Python: invalid syntax', ''),
-        ('<state id="a"/>', 'version="2.0" initial="a"', 'RC2211', '2.0', "'2.0' is no value of 'version'", 'write 1.0'),
-        ('<state id="a"/>', 'version="1.0" initial="a" binding="never"', 'RC2211', 'never', "'never' is no value of 'binding'", 'write early or late'),
+        ('<state id="a"/>', 'version="2.0" initial="a"', 'RC2211', '2.0', "'2.0' is not a value of 'version'", 'write 1.0'),
+        ('<state id="a"/>', 'version="1.0" initial="a" binding="never"', 'RC2211', 'never', "'never' is not a value of 'binding'", 'write early or late'),
         ('<state id="a"/>', 'version="1.0" initial="a" speed="fast"', 'RC2208', 'fast', "<scxml> has no attribute 'speed'", 'it has initial, name, version, datamodel, binding'),
     ],
 )  # fmt: skip
-def test_what_is_no_scxml(body: str, root: str, code: str, at: str, message: str, hint: str) -> None:
+def test_wrong_scxml(body: str, root: str, code: str, at: str, message: str, hint: str) -> None:
     root = root or 'version="1.0" initial="a" datamodel="python"'
     text = f'<scxml xmlns="http://www.w3.org/2005/07/scxml" {root}>{body}</scxml>\n'
     found = said({"door.cdsl.yaml": CDSL, "door.scxml": text})
@@ -66,7 +66,7 @@ def test_what_is_no_scxml(body: str, root: str, code: str, at: str, message: str
     assert len([one for one in found if one.code == code]) == 1
 
 
-def test_notes_of_other_tools_are_left_alone() -> None:
+def test_elements_of_other_namespaces_are_ignored() -> None:
     text = """<scxml xmlns="http://www.w3.org/2005/07/scxml" xmlns:x="urn:x" version="1.0" initial="a" x:zoom="2">
       <state id="a" x:colour="red"><x:note>about <x:b/></x:note></state></scxml>"""
     assert not said({"door.cdsl.yaml": CDSL, "door.scxml": text})
@@ -122,7 +122,7 @@ FILES = {
 }
 
 
-def test_what_a_machine_comes_to(golden: Callable[[str, Mapping[str, str]], None]) -> None:
+def test_the_model_of_a_machine(golden: Callable[[str, Mapping[str, str]], None]) -> None:
     program = analysed(FILES).program
     machine = program.components[f"{ROOT}/door.cdsl.yaml"].machine
     golden("read/scxml", {"machine.txt": "\n".join(outline("machine", machine, FILES)) + "\n"})

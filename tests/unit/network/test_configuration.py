@@ -1,4 +1,5 @@
-"""The configuration that a process gets: on values documents and on flat files, with what `set:` says and is judged."""
+"""The configuration of a process: based on values documents and on flat configs, with the values of `set:`, which are
+checked."""
 
 from __future__ import annotations
 
@@ -36,14 +37,14 @@ def speech(more: str = "", **others: str) -> dict[str, str]:
     return config(network(files(more, **others)).processes["speech"])
 
 
-def test_without_a_document_there_are_defaults_and_what_is_derived() -> None:
+def test_without_a_document_there_are_defaults_and_derived_properties() -> None:
     found = speech()
     assert found["Speech.Endpoints"] == "tcp -h 127.0.0.1 -p 10001"
     assert found["MouthProxy"] == "mouth:tcp -h localhost -p 10002"
     assert found["volume"] == "50" and found["motors.size"] == "2" and "CommonBehavior.Endpoints" in found
 
 
-def test_what_is_derived_replaces_what_the_document_says() -> None:
+def test_derived_properties_replace_those_of_the_document() -> None:
     values = VALUES + (
         "parameters: {volume: 7}\nendpoints: {Speech: tcp -p 1, CommonBehavior: tcp -p 2}\n"
         'proxies: {Mouth: "mouth:tcp -p 3"}\nice: {Warn.Connections: "1"}\nproperties: {Own: "5"}\n'
@@ -84,14 +85,14 @@ def test_what_the_deployment_sets(given: str, expected: dict[str, str]) -> None:
     assert {key: found.get(key) for key in expected} == expected
 
 
-def test_a_path_is_named_as_it_is_meant() -> None:
+def test_a_wrong_path_is_reported_with_its_reason() -> None:
     (found,) = faults(files(", set: {period.compute: 0, voice.pitch: 1}"))
     assert found.message.startswith("period.compute is 0 ms")
     (found,) = faults(files(", set: {voice.pich: 1}"))
-    assert found.message == "there is no parameter 'voice.pich'" and found.hint == "did you mean 'pitch'?"
+    assert found.message == "unknown parameter 'voice.pich'" and found.hint == "did you mean 'pitch'?"
 
 
-def test_each_instance_has_its_own() -> None:
+def test_each_instance_has_its_own_configuration() -> None:
     found = network(
         deployed(
             'components: {"m{i}": {component: idle, instances: 2, set: {name: "cam{i}"}}}\n',
@@ -114,12 +115,12 @@ def test_each_instance_has_its_own() -> None:
         ('{"voice.depth": 1}', "RC3301", 50),
     ],
 )
-def test_what_is_set_is_judged_where_it_stands(given: str, code: str, column: int) -> None:
+def test_a_wrong_value_is_reported_at_its_location(given: str, code: str, column: int) -> None:
     found = faults(files(f", set: {given}"))
     assert [said(fault) for fault in found] == [(code, "robot.ddsl.yaml", 3, column)]
 
 
-def test_a_required_parameter_that_nobody_gives() -> None:
+def test_a_required_parameter_without_a_value() -> None:
     (found,) = faults(
         deployed(
             "components:\n  a: {component: idle}\n",
@@ -133,7 +134,7 @@ def test_a_required_parameter_that_nobody_gives() -> None:
 FLAT = "# as it was\nvolume = 7   # loud\nSpeech.Endpoints=tcp -p 1\nOwn = x y\nMouthProxy=mouth:tcp -p 3"
 
 
-def test_a_flat_file_stays_as_it_is_below_what_is_derived() -> None:
+def test_a_flat_config_stays_unchanged_above_the_derived_properties() -> None:
     found = network(files(", config: etc/config, set: {volume: 70}", **{"speech/etc/config": FLAT}))
     text = found.processes["speech"].config
     assert text is not None and text.text.startswith(FLAT + "\n\n# Configuration of speech, derived by rcyaml from ")
@@ -143,7 +144,7 @@ def test_a_flat_file_stays_as_it_is_below_what_is_derived() -> None:
     assert "motors.size" not in settings
 
 
-def test_a_flat_file_in_the_other_dialect_gets_both_spellings() -> None:
+def test_a_flat_config_in_the_other_dialect_gets_both_spellings() -> None:
     flat = 'Endpoints.Speech = "tcp -p 1"\nProxies.Mouth = "mouth:tcp -p 3"\nvolume = 7\n'
     found = speech(", config: etc/config", **{"speech/etc/config": flat})
     assert found["Endpoints.Speech"] == '"tcp -h 127.0.0.1 -p 10001"'
@@ -163,12 +164,12 @@ def test_a_proxy_under_a_name_of_its_own() -> None:
     assert speech(**{"speech/etc/config.yaml": values})["navigation"] == "mouth:tcp -h localhost -p 10002"
 
 
-def test_what_is_set_on_a_flat_file_is_judged() -> None:
+def test_set_on_a_flat_config_is_checked() -> None:
     (found,) = faults(files(", config: etc/config, set: {volume: 101}", **{"speech/etc/config": FLAT}))
     assert said(found) == ("RC3303", "robot.ddsl.yaml", 3, 78)
 
 
-def test_a_flat_file_is_part_of_what_was_read() -> None:
+def test_a_flat_config_is_among_the_files_that_were_read() -> None:
     analysis = analysed(files(", config: etc/config", **{"speech/etc/config": FLAT}))
     assert analysis.disk.contents["speech/etc/config"] == FLAT.encode()
 
@@ -197,7 +198,7 @@ def test_a_program(how: str, command: tuple[str, ...]) -> None:
         assert found.config is None
 
 
-def test_a_program_with_a_file_of_its_own_gets_it_as_it_is() -> None:
+def test_a_program_gets_its_own_file_unchanged() -> None:
     found = network(
         deployed(
             "components: {view: {program: viewer, config: view.json, args: [--all, '-c{config}']}}\n",
@@ -208,7 +209,7 @@ def test_a_program_with_a_file_of_its_own_gets_it_as_it_is() -> None:
     assert found.config is not None and found.config.text == '{"size": 3}'
 
 
-def test_a_component_takes_its_configuration_first() -> None:
+def test_the_configuration_is_the_first_argument_of_a_component() -> None:
     found = network(files(", args: [--startup-check], executable: build/speech")).processes["speech"]
     assert found.command == (str(Path("speech/build/speech").absolute()), "{config}", "--startup-check")
     assert found.cwd == str(Path("speech").absolute())
@@ -228,7 +229,7 @@ def test_readiness(given: str, expected: tuple[object, ...]) -> None:
     assert (ready.within, bool(ready.pings), ready.port, ready.command, ready.log) == expected
 
 
-def test_what_a_component_in_python_is_made_of_is_watched() -> None:
+def test_the_code_of_a_component_in_python_is_watched() -> None:
     more = dict.fromkeys([
         "speech/src/specificworker.py", "speech/src/notes.txt", "speech/src/mainUI.ui",
         "speech/generated/runtime/main.py", "speech/slice/Face.ice",

@@ -1,4 +1,4 @@
-"""Who serves what a component requires: said, found, and what is said when nobody or too many do."""
+"""Connections of required interfaces: explicit, by candidates, and the diagnostics for no candidate or several."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def line_of(found: Network, source: str) -> Connection:
 BOTH = "  speech: {component: speech}\n  mouth: {component: mouth, port: 10002}\n"
 
 
-def test_the_only_one_that_serves_it() -> None:
+def test_the_only_candidate() -> None:
     found = network(deployed(f"components:\n{BOTH}"))
     assert proxies(found) == {"speech.Mouth": ("mouth", "mouth:tcp -h localhost -p 10002")}
     assert found.processes["speech"].after == ("mouth",)
@@ -59,7 +59,7 @@ def test_as_connect_says(target: str, port: int) -> None:
     assert line_of(found, "speech").proxy == f"mouth:tcp -h localhost -p {port}"
 
 
-def test_a_proxy_of_something_outside() -> None:
+def test_a_proxy_of_an_external_server() -> None:
     text = "mouth:tcp -h 10.0.0.9 -p 10002"
     found = network(deployed(f'components: {{speech: {{component: speech, connect: {{Mouth: "{text}"}}}}}}\n'))
     assert proxies(found) == {"speech.Mouth": ("", text)}
@@ -73,12 +73,17 @@ def test_an_equal_interface_of_another_document() -> None:
 @pytest.mark.parametrize(
     ("was", "now", "difference", "place"),
     [
-        ("returns: bool", "returns: int", "what 'moveTo' returns is bool, and int", (6, 57)),
+        ("returns: bool", "returns: int", "what 'moveTo' returns is bool in one, and int in the other", (6, 57)),
         ("pose: Pose", "to: Pose", "'moveTo' has 'pose' where the other has 'to'", (6, 35)),
         ("y: float", "z: float", "RoboCompFace.Pose has 'y' where the other has 'z'", (3, 47)),
-        ("unit: mm", "unit: m", "'x' of RoboCompFace.Pose is in mm, and in m", (3, 19)),
+        ("unit: mm", "unit: m", "'x' of RoboCompFace.Pose is in mm in one, and in m in the other", (3, 19)),
         ("moveTo", "move", "'moveTo' is in one only", (6, 21)),
-        ("module: RoboCompFace", "module: RoboCompFaces", "its module is RoboCompFace, and RoboCompFaces", (6, 3)),
+        (
+            "module: RoboCompFace",
+            "module: RoboCompFaces",
+            "its module is RoboCompFace in one, and RoboCompFaces in the other",
+            (6, 3),
+        ),
     ],
 )
 def test_the_same_name_with_another_content(was: str, now: str, difference: str, place: tuple[int, int]) -> None:
@@ -97,38 +102,38 @@ def test_documentation_and_defaults_make_no_difference() -> None:
     network({**files, "mouth/mouth.cdsl.yaml": component("MouthComp", MOUTH, "Other")})
 
 
-def test_several_serve_it() -> None:
+def test_several_candidates() -> None:
     (found,) = faults(deployed(f"components:\n{BOTH}  other: {{component: mouth}}\n"))
     assert said(found) == ("RC4202", "robot.ddsl.yaml", 3, 3)
-    assert found.message.endswith("several serve it: mouth, other")
+    assert found.message.endswith("several processes serve: mouth, other")
     assert [related.span.file for related in found.related] == [*["robot.ddsl.yaml"] * 2, "speech/speech.cdsl.yaml"]
 
 
-def test_one_that_is_not_enabled_is_no_rival() -> None:
+def test_a_disabled_process_is_not_a_candidate_beside_an_enabled_one() -> None:
     found = network(deployed(f"components:\n{BOTH}  other: {{component: mouth, enabled: false}}\n"))
     assert line_of(found, "speech").target == "mouth"
 
 
-def test_nothing_serves_it() -> None:
+def test_no_candidate() -> None:
     (found,) = faults(deployed("components: {speech: {component: speech}}\n"))
     assert said(found) == ("RC4201", "robot.ddsl.yaml", 2, 14) and found.severity == "error"
     assert found.related[0].span.file == "speech/speech.cdsl.yaml"
 
 
-def test_nothing_serves_what_may_be_absent() -> None:
+def test_no_candidate_for_what_can_be_absent() -> None:
     lists = "requires: [{Mouth: {interface: Mouth, absent: ignore}}]\n"
     (found,) = faults(deployed("components: {speech: {component: speech}}\n", speech=lists))
     assert (found.code, found.severity) == ("RC4201", "warning")
 
 
-def test_a_broken_document_hides_what_it_may_serve() -> None:
+def test_an_unreadable_document_may_serve_anything() -> None:
     files = deployed(f"components:\n{BOTH}")
     found = faults({**files, "mouth/mouth.cdsl.yaml": "component: MouthComp\nlanguage: klingon\n"})
     assert {fault.span.file for fault in found} == {"mouth/mouth.cdsl.yaml"}
 
 
 @pytest.mark.parametrize("connect", ["", ", connect: {Mouth: mouth}"])
-def test_a_broken_interface_hides_who_serves_it(connect: str) -> None:
+def test_an_unreadable_interface_is_not_reported_again(connect: str) -> None:
     files = deployed(f"components:\n  speech: {{component: speech{connect}}}\n  mouth: {{component: mouth}}\n")
     found = faults({**files, "Face.idsl.yaml": "module: [\n"})
     assert {fault.span.file for fault in found} == {"Face.idsl.yaml"}
@@ -143,7 +148,7 @@ def test_a_broken_interface_hides_who_serves_it(connect: str) -> None:
         ("muoth", "RC4205", "did you mean 'mouth'?"),
     ],
 )
-def test_connect_names_what_does_not_serve_it(connect: str, code: str, hint: str) -> None:
+def test_connect_names_a_process_that_does_not_serve_it(connect: str, code: str, hint: str) -> None:
     (found,) = faults(
         deployed(
             f"services: {{storm: {{icestorm: {{}}}}}}\ncomponents:\n  speech: {{component: speech, connect: {{Mouth: "
@@ -161,12 +166,12 @@ def group(text: str, connect: str = "") -> Tree:
     )
 
 
-def test_a_closed_group_keeps_to_itself() -> None:
+def test_a_closed_group_is_not_a_candidate_outside() -> None:
     found = network(group("{components: [inner, other], expose: {Speech: inner}}"))
     assert line_of(found, "inner").target == "other" and line_of(found, "speech").target == "mouth"
 
 
-def test_a_group_is_connected_to_the_member_that_serves() -> None:
+def test_a_connection_to_a_group_is_one_to_the_member_that_serves() -> None:
     found = network(group("{components: [inner, other], expose: {Mouth: other}}", ", connect: {Mouth: face}"))
     assert line_of(found, "speech").target == "other"
 
@@ -187,12 +192,12 @@ def test_what_a_group_does_not_serve() -> None:
     assert said(found) == ("RC4204", "robot.ddsl.yaml", 3, 48) and found.hint == "it serves Speech"
 
 
-def test_the_inside_of_a_closed_group_is_out_of_reach() -> None:
+def test_members_of_a_closed_group_cannot_be_connected_from_outside() -> None:
     (found,) = faults(group("{components: [inner, other], expose: {Speech: inner}}", ", connect: {Mouth: other}"))
     assert said(found) == ("RC4206", "robot.ddsl.yaml", 3, 48)
 
 
-def test_a_rule_puts_a_gate_between() -> None:
+def test_a_rule_adds_a_gate() -> None:
     found = network(
         group(
             "{components: [inner, other], expose: {Lips: {member: other.Mouth, rate: 10}}}", ", connect: {Mouth: face}"
@@ -205,7 +210,7 @@ def test_a_rule_puts_a_gate_between() -> None:
     assert found.processes["speech"].after == ("face.gate",)
 
 
-def test_gates_of_groups_in_groups_stand_behind_each_other() -> None:
+def test_gates_of_nested_groups_are_connected_in_series() -> None:
     found = network(
         deployed(
             "components:\n  speech: {component: speech}\n  mouth: {component: mouth, port: 10002}\ngroups:\n"
@@ -221,7 +226,7 @@ def test_gates_of_groups_in_groups_stand_behind_each_other() -> None:
     assert found.order == [("mouth",), ("lips.gate",), ("face.gate",), ("speech",)]
 
 
-def test_who_is_after_a_group_is_after_its_gates() -> None:
+def test_a_process_after_a_group_is_after_its_gates() -> None:
     found = network(
         deployed(
             "components:\n  mouth: {component: mouth, after: [other]}\n  other: {program: sleep}\n"
@@ -244,7 +249,7 @@ def test_a_member_is_not_after_the_gate_that_needs_it() -> None:
     assert found.order == [("mouth",), ("lips.gate",)]
 
 
-def test_what_one_can_do_without_is_optional() -> None:
+def test_a_process_that_can_be_ignored_is_optional() -> None:
     files = deployed("components:\n  speech: {component: speech}\n  mouth: {component: mouth}\n")
     text = str(files["speech/speech.cdsl.yaml"]).replace("[Mouth]", "[{Mouth: {interface: Mouth, absent: ignore}}]")
     speech = network({**files, "speech/speech.cdsl.yaml": text}).processes["speech"]
@@ -252,7 +257,7 @@ def test_what_one_can_do_without_is_optional() -> None:
     assert network(files).processes["speech"].optional == ()
 
 
-def test_the_inner_of_two_groups_may_stand_later() -> None:
+def test_the_inner_group_can_come_later_in_the_document() -> None:
     found = network(
         deployed(
             "components:\n  speech: {component: speech, connect: {Mouth: face}}\n  mouth: {component: mouth}\ngroups:\n"
@@ -263,7 +268,7 @@ def test_the_inner_of_two_groups_may_stand_later() -> None:
     assert found.order == [("mouth",), ("lips.gate",), ("face.gate",), ("speech",)]
 
 
-def test_of_closed_groups_that_serve_it_the_groups_are_named() -> None:
+def test_candidates_in_closed_groups_are_named_by_the_groups() -> None:
     (found,) = faults(
         deployed(
             "components:\n  speech: {component: speech}\n  mouth: {component: mouth}\n  other: {component: mouth}\n"
@@ -271,11 +276,11 @@ def test_of_closed_groups_that_serve_it_the_groups_are_named() -> None:
             "  right: {components: [other], expose: {Lips: other.Mouth}}\n"
         )
     )
-    assert found.message.endswith("several serve it: left.Mouth, right.Lips")
-    assert found.hint == "write `connect: {Mouth: left.Mouth}`, or another"
+    assert found.message.endswith("several processes serve: left.Mouth, right.Lips")
+    assert found.hint == "write `connect: {Mouth: left.Mouth}`, or another one"
 
 
-def test_an_include_is_connected_inside_first() -> None:
+def test_an_include_prefers_connections_inside() -> None:
     arm = "deployment: Arm\ncomponents:\n  speech: {component: speech}\n  mouth: {component: mouth}\n"
     found = network(
         deployed(
@@ -291,7 +296,7 @@ def test_an_include_is_connected_inside_first() -> None:
     }
 
 
-def test_what_one_include_lacks_another_may_have() -> None:
+def test_an_include_can_be_connected_to_another_include() -> None:
     files = deployed(
         "include: [a.ddsl.yaml, b.ddsl.yaml]\n",
         **{

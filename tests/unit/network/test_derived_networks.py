@@ -1,4 +1,5 @@
-"""What deployments come to: every process with its command, ports, configuration, order, and where in the document each stands."""
+"""Derived networks: every process with its command, ports, configuration and order, and its location in the
+document."""
 
 from __future__ import annotations
 

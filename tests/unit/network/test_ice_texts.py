@@ -1,4 +1,4 @@
-"""Proxies and endpoints in documents: refused where Ice would refuse them, at the word that is wrong."""
+"""Proxies and endpoints in documents: those that Ice would reject are reported, at the wrong word."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ TREE = {
 
 
 def deployed(diagnostics: Check, entry: str) -> list[tuple[str, str, str]]:
-    """Codes, the text of the document where each stands, and hints."""
+    """Codes, the text of the document at each location, and hints."""
     text = f"deployment: Hall\ncomponents:\n  {entry}\n"
     found = diagnostics({**TREE, "hall.ddsl.yaml": text}, "hall.ddsl.yaml")
     lines = text.splitlines()
@@ -39,29 +39,29 @@ def deployed(diagnostics: Check, entry: str) -> list[tuple[str, str, str]]:
         ('"lamp:tcp -p 1:upd -p 2"', "RC4016", "upd"),
     ],
 )
-def test_a_proxy_that_ice_refuses(diagnostics: Check, proxy: str, code: str, where: str) -> None:
+def test_a_proxy_that_ice_rejects(diagnostics: Check, proxy: str, code: str, where: str) -> None:
     (found,) = deployed(diagnostics, f"hall: {{component: hall, connect: {{Lamp: {proxy}}}}}")
     assert found[:2] == (code, where)
 
 
 @pytest.mark.parametrize("proxy", ['"lamp -o @ Hall"', "lamp:ws -h h -p 1 -r /x", '"\'a lamp\':tcp -h \\"::1\\" -p 1"'])
-def test_a_proxy_that_ice_takes(diagnostics: Check, proxy: str) -> None:
+def test_a_proxy_that_ice_accepts(diagnostics: Check, proxy: str) -> None:
     assert deployed(diagnostics, f"hall: {{component: hall, connect: {{Lamp: {proxy}}}}}") == []
 
 
-def test_a_name_that_is_not_there_is_no_proxy(diagnostics: Check) -> None:
+def test_an_unknown_name_is_not_a_proxy(diagnostics: Check) -> None:
     (found,) = deployed(diagnostics, "hall: {component: hall, connect: {Lamp: lamp/left}}")
     assert found[0] == "RC4205"
 
 
-def test_a_program_takes_any_text_and_is_told_where(diagnostics: Check) -> None:
+def test_the_hint_for_a_program_names_keys_for_any_text(diagnostics: Check) -> None:
     args = 'args: ["lamp left", "tcp -q"], env: {LAMP: "lamp left"}'
     assert deployed(diagnostics, f"viewer: {{program: sh, {args}}}") == []
     (found,) = deployed(diagnostics, "viewer: {program: sh, connect: {Lamp: lamp left}}")
     assert "`args:` or `env:`" in found[2]
 
 
-def test_of_instances_the_whole_text_is_meant(diagnostics: Check) -> None:
+def test_for_instances_the_location_is_the_whole_text(diagnostics: Check) -> None:
     entry = 'hall{i}: {component: hall, instances: 3, connect: {Lamp: "lamp{i}:tcp -p 1 -q"}}'
     (found,) = deployed(diagnostics, entry)
     assert found[:2] == ("RC4015", '"lamp{i}:tcp -p 1 -q"')
@@ -70,7 +70,7 @@ def test_of_instances_the_whole_text_is_meant(diagnostics: Check) -> None:
 @pytest.mark.parametrize(
     ("text", "where"), [("tcp -p 1 -x", "-x"), ("tpc -p 1", "tpc"), ("udp", "udp"), ('"tcp -p 1::tcp"', ":")]
 )
-def test_an_endpoint_that_ice_refuses(diagnostics: Check, text: str, where: str) -> None:
+def test_an_endpoint_that_ice_rejects(diagnostics: Check, text: str, where: str) -> None:
     (found,) = deployed(diagnostics, f"viewer: {{program: sh, endpoints: {{Lamp: {text}}}}}")
     assert found[:2] == ("RC4301", where)
 

@@ -1,4 +1,4 @@
-"""Names and paths that no file can have, and what only arguments can hold: refused by `check`."""
+"""`check` rejects names and paths that are too long for files, and a configuration as a program."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def test_a_path_of_few_letters_with_many_bytes_is_long(diagnostics: Check) -> No
 
 
 @pytest.mark.parametrize("program", ["{config}", "bin/{config}", "{config}/../x"])
-def test_no_program_is_a_configuration(diagnostics: Check, program: str) -> None:
+def test_a_configuration_is_not_a_program(diagnostics: Check, program: str) -> None:
     text = f"deployment: R\ncomponents:\n  a: {{program: '{program}', config-as: argument}}\n"
     found = codes_of(diagnostics, text)
     assert ("RC4017", 3, 16) in found and (len(found) == 1 or ".." in program)

@@ -1,4 +1,4 @@
-"""A network with everything in it: what it comes to, process by process, and each configuration."""
+"""A network with everything in it: each process and each configuration."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The ports of a network: given, counted up, defaults that keep apart, and where adapters listen."""
+"""TCP ports of a network: explicit, counted for instances, distinct defaults, and the endpoints of adapters."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ def texts(found: Network) -> dict[str, str]:
     return {f"{name}.{e.interface}": e.text for name, process in found.processes.items() for e in process.endpoints}
 
 
-def test_the_first_interface_has_the_port_and_the_others_their_defaults() -> None:
+def test_port_is_for_the_first_interface_and_the_others_have_defaults() -> None:
     found = ports(network(deployed("components: {ears: {component: mouth, port: 10001}}\n")))
     assert found == {"ears.Mouth": 10001, "ears.CommonBehavior": default_port("ears", "CommonBehavior")}
 
 
-def test_a_component_that_implements_nothing_has_the_port_for_its_behavior() -> None:
+def test_port_of_a_component_without_interfaces_is_for_common_behavior() -> None:
     assert ports(network(deployed("components: {a: {component: idle, port: 10001}}\n", idle=""))) == {
         "a.CommonBehavior": 10001
     }
@@ -43,7 +43,7 @@ def test_ports_by_name() -> None:
     assert found == {"a.Mouth": 1, "a.CommonBehavior": 2}
 
 
-def test_an_endpoint_in_ices_own_spelling() -> None:
+def test_an_endpoint_in_the_syntax_of_ice() -> None:
     found = network(deployed('components: {a: {component: mouth, endpoints: {Mouth: "ssl -p 10007 -t 500"}}}\n'))
     (mouth, _) = found.processes["a"].endpoints
     assert (mouth.text, mouth.port, mouth.protocol) == ("ssl -p 10007 -t 500", 10007, "ssl")
@@ -64,14 +64,14 @@ def test_instances_count_up_by_the_number_of_entries(given: str, expected: list[
 
 
 def test_defaults_depend_on_names_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("robocomp_yaml.network.ports.default_port", lambda owner, interface: 11310)
+    monkeypatch.setattr("robocomp_yaml.network.draft.default_port", lambda owner, interface: 11310)
     one = ports(network(deployed("components: {a: {component: mouth}, b: {component: mouth}}\n")))
     assert one == {"a.CommonBehavior": 11310, "a.Mouth": 11312, "b.CommonBehavior": 11313, "b.Mouth": 11314}
     other = ports(network(deployed("components: {b: {component: mouth}, a: {component: mouth}}\n")))
     assert other == one
 
 
-def test_a_default_makes_way_for_what_is_given() -> None:
+def test_an_explicit_port_displaces_a_default() -> None:
     taken = default_port("a", "Mouth")
     found = ports(
         network(
@@ -81,7 +81,7 @@ def test_a_default_makes_way_for_what_is_given() -> None:
     assert found["a.Mouth"] == taken + 1
 
 
-def test_hosts_have_ports_of_their_own() -> None:
+def test_each_host_has_its_own_ports() -> None:
     found = network(
         deployed(
             TWO_HOSTS + "components:\n  a: {component: mouth, host: head, port: 10001}\n"

@@ -1,4 +1,4 @@
-"""The order in which processes start: waves behind what they need, and circles broken where someone can wait."""
+"""The order in which processes start: waves by dependences, and circles broken at a process that can wait."""
 
 from __future__ import annotations
 
@@ -7,27 +7,29 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.network.order import AFTER, Need, optional, ordered
+from robocomp_yaml.network.order import AFTER, Dependence, optional, ordered
 
 Arrow = tuple[str, str, str]
 
 
-def needs(*arrows: Arrow) -> list[Need]:
-    """`("a", "b", "wait")`: a needs b; `after` is what the document says."""
+def needs(*arrows: Arrow) -> list[Dependence]:
+    """`("a", "b", "wait")`: a depends on b; `after` is from the document."""
     return [
-        Need(source, target, "" if how == AFTER else how, AFTER if how == AFTER else "Proxy", Span("x", number + 1))
+        Dependence(
+            source, target, "" if how == AFTER else how, AFTER if how == AFTER else "Proxy", Span("x", number + 1)
+        )
         for number, (source, target, how) in enumerate(arrows)
     ]
 
 
-def test_each_stands_behind_all_that_it_needs() -> None:
+def test_each_process_is_after_its_dependences() -> None:
     arrows = [("a", "b", "wait"), ("b", "c", "fail"), ("a", "d", AFTER), ("e", "c", "ignore")]
     waves, after, told = ordered("abcdef", needs(*arrows))
     assert waves == [("c", "d", "f"), ("b", "e"), ("a",)] and not told
     assert after["a"] == ("b", "d")
 
 
-def test_what_one_can_do_without() -> None:
+def test_optional_dependences() -> None:
     arrows = [("a", "b", "ignore"), ("a", "c", "ignore"), ("a", "c", "wait"), ("a", "d", "ignore"), ("a", "d", AFTER)]
     assert optional(needs(*arrows)) == {"a": {"b"}}
 
@@ -43,26 +45,26 @@ def test_what_one_can_do_without() -> None:
         ([("a", "b", "fail"), ("b", "c", "fail"), ("c", "a", "wait")], "c"),
     ],
 )
-def test_in_a_circle_one_that_can_wait_starts_first(arrows: list[Arrow], first: str) -> None:
+def test_in_a_circle_a_process_that_can_wait_starts_first(arrows: list[Arrow], first: str) -> None:
     waves, _, (told,) = ordered("abc", needs(*arrows))
     assert first in waves[0] and (told.code, told.severity) == ("RC4401", "warning")
     assert f"'{first}' starts before" in told.message
-    circle = told.message.removeprefix("these need each other: ").partition(";")[0].split(" → ")
+    circle = told.message.removeprefix("these processes depend on each other: ").partition(";")[0].split(" → ")
     assert circle[0] == circle[-1] == first and len(circle) == len(set(circle)) + 1
 
 
 @pytest.mark.parametrize("how", ["fail", AFTER])
-def test_a_circle_in_which_nobody_can_wait(how: str) -> None:
+def test_a_circle_in_which_no_process_can_wait(how: str) -> None:
     _, _, (told,) = ordered("ab", needs(("a", "b", how), ("b", "a", how)))
     assert (told.code, told.severity) == ("RC4402", "error")
 
 
-def test_one_that_needs_itself() -> None:
+def test_a_process_that_depends_on_itself() -> None:
     waves, after, (told,) = ordered("a", needs(("a", "a", AFTER)))
     assert waves == [("a",)] and after == {"a": ()} and told.code == "RC4402"
 
 
-def test_what_is_not_enabled_is_nobodys_concern() -> None:
+def test_disabled_processes_are_ignored() -> None:
     assert ordered("a", needs(("a", "b", "wait"))) == ([("a",)], {"a": ()}, [])
 
 

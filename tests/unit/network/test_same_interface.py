@@ -1,4 +1,4 @@
-"""Two documents that define one interface: where they mean the same, and what is told where they do not."""
+"""Two documents that define one interface: when the definitions are equal, and the diagnostic when they differ."""
 
 from __future__ import annotations
 
@@ -27,7 +27,8 @@ interfaces:
 
 
 def told(was: str, now: str) -> list[Said]:
-    """What is said where a component requires an interface of one document, and another serves that of the other."""
+    """The diagnostics when one component requires the interface of one document, and another serves that of the
+    other."""
     assert was in FACE
     text = "deployment: R\ncomponents: {speech: {component: speech}, mouth: {component: mouth}}\n"
     return said(
@@ -51,7 +52,7 @@ def told(was: str, now: str) -> list[Said]:
         ("{type: float, unit: mm}", "float"),
     ],
 )
-def test_they_mean_the_same(was: str, now: str) -> None:
+def test_equal_definitions(was: str, now: str) -> None:
     assert told(was, now) == []
 
 
@@ -65,35 +66,35 @@ def test_they_mean_the_same(was: str, now: str) -> None:
         ('pose: Pose, mode', 'to: Pose, mode', "'go' has 'pose' where the other has 'to'", ['pose', 'to']),
         ('pose: Pose, mode: Mode', 'pose: Pose', "'mode' of 'go' is in one only", ['go', 'go']),
         ('mode: Mode}', 'mode: Mode, more: int}', "'more' of 'go' is in one only", ['go', 'go']),
-        ('out: {left: float}', 'out: {left: double}', "'left' of what 'go' gives `out` is float, and double", ['float', 'double']),
-        ('out: {left: float}, ', '', "'left' of what 'go' gives `out` is in one only", ['go', 'go']),
-        ('returns: {type: bool, unit: s}', 'returns: int', "what 'go' returns is bool, and int", ['bool', 'int']),
+        ('out: {left: float}', 'out: {left: double}', "'left' of `out` of 'go' is float in one, and double in the other", ['float', 'double']),
+        ('out: {left: float}, ', '', "'left' of `out` of 'go' is in one only", ['go', 'go']),
+        ('returns: {type: bool, unit: s}', 'returns: int', "what 'go' returns is bool in one, and int in the other", ['bool', 'int']),
         ('returns: {type: bool, unit: s}, ', '', "'go' returns something in one only", ['go', 'go']),
-        ('unit: s', 'unit: ms', "what 'go' returns is in s, and in ms", ['go', 'go']),
+        ('unit: s', 'unit: ms', "what 'go' returns is in s in one, and in ms in the other", ['go', 'go']),
         ('throws: [Stuck]', 'throws: [Lost]', "'go' throws Lost in one only", ['go', 'go']),
         ('throws: [Stuck]', 'throws: [Stuck, Lost]', "'go' throws Lost in one only", ['go', 'go']),
         (', throws: [Stuck]', '', "'go' throws Stuck in one only", ['go', 'go']),
-        ('Stuck: {struct: {why: string}}', 'Stuck: {struct: {why: int}}', "'why' of RoboCompFace.Stuck is string, and int", ['string', 'int']),
-        ('x: {type: float, unit: mm}', 'x: {type: float, unit: m}', "'x' of RoboCompFace.Pose is in mm, and in m", ['x', 'x']),
-        ('x: {type: float, unit: mm}', 'x: double', "'x' of RoboCompFace.Pose is float, and double", ['float', 'double']),
+        ('Stuck: {struct: {why: string}}', 'Stuck: {struct: {why: int}}', "'why' of RoboCompFace.Stuck is string in one, and int in the other", ['string', 'int']),
+        ('x: {type: float, unit: mm}', 'x: {type: float, unit: m}', "'x' of RoboCompFace.Pose is in mm in one, and in m in the other", ['x', 'x']),
+        ('x: {type: float, unit: mm}', 'x: double', "'x' of RoboCompFace.Pose is float in one, and double in the other", ['float', 'double']),
         ('y: float', 'z: float', "RoboCompFace.Pose has 'y' where the other has 'z'", ['y', 'z']),
         (', y: float', '', "'y' of RoboCompFace.Pose is in one only", ['Pose', 'Pose']),
         ('y: float}', 'y: float, z: float}', "'z' of RoboCompFace.Pose is in one only", ['Pose', 'Pose']),
-        ('[slow, fast]', '[fast, slow]', 'the enumerators of RoboCompFace.Mode are not the same', ['Mode', 'Mode']),
-        ('[slow, fast]', '{slow: 0, fast: 2}', 'the enumerators of RoboCompFace.Mode are not the same', ['Mode', 'Mode']),
-        ('Poses: {sequence: Pose}', 'Poses: {sequence: float}', 'an entry of RoboCompFace.Poses is Pose, and float', ['Pose', 'float']),
-        ('key: string', 'key: int', 'a key of RoboCompFace.Named is string, and int', ['string', 'int']),
-        ('value: Pose', 'value: Mode', 'a value of RoboCompFace.Named is RoboCompFace.Pose, and RoboCompFace.Mode', ['Pose', 'Mode']),
-        ('Mode: {enum: [slow, fast]}', 'Mode: {struct: {a: int}}', 'RoboCompFace.Mode is of two kinds', ['Mode', 'Mode']),
-        ('module: RoboCompFace', 'module: RoboCompFaces', 'its module is RoboCompFace, and RoboCompFaces', ['Mouth', 'Mouth']),
-        ('mode: Mode}', 'mode: string}', "'mode' of 'go' is Mode, and string", ['Mode', 'string']),
+        ('[slow, fast]', '[fast, slow]', 'the enumerators of RoboCompFace.Mode differ', ['Mode', 'Mode']),
+        ('[slow, fast]', '{slow: 0, fast: 2}', 'the enumerators of RoboCompFace.Mode differ', ['Mode', 'Mode']),
+        ('Poses: {sequence: Pose}', 'Poses: {sequence: float}', 'an entry of RoboCompFace.Poses is Pose in one, and float in the other', ['Pose', 'float']),
+        ('key: string', 'key: int', 'a key of RoboCompFace.Named is string in one, and int in the other', ['string', 'int']),
+        ('value: Pose', 'value: Mode', 'a value of RoboCompFace.Named is RoboCompFace.Pose in one, and RoboCompFace.Mode in the other', ['Pose', 'Mode']),
+        ('Mode: {enum: [slow, fast]}', 'Mode: {struct: {a: int}}', 'RoboCompFace.Mode has two kinds of definition', ['Mode', 'Mode']),
+        ('module: RoboCompFace', 'module: RoboCompFaces', 'its module is RoboCompFace in one, and RoboCompFaces in the other', ['Mouth', 'Mouth']),
+        ('mode: Mode}', 'mode: string}', "'mode' of 'go' is Mode in one, and string in the other", ['Mode', 'string']),
     ],
 )  # fmt: skip
-def test_they_do_not(was: str, now: str, difference: str, places: list[str]) -> None:
+def test_different_definitions(was: str, now: str, difference: str, places: list[str]) -> None:
     (found,) = told(was, now)
-    assert found.code == "RC4203" and found.message.endswith(f"do not mean the same by Mouth: {difference}")
+    assert found.code == "RC4203" and found.message.endswith(f"define Mouth differently: {difference}")
     assert [at for _, at in found.related] == places
 
 
-def test_of_several_differences_one_is_told() -> None:
+def test_only_the_first_difference_is_reported() -> None:
     assert len(told("{x: {type: float, unit: mm}, y: float}", "{a: int}")) == 1

@@ -1,4 +1,4 @@
-"""Topics of a network: names after renames and prefixes, their IceStorm, and the other end."""
+"""Topics of a network: names after renames and prefixes, their IceStorm, publishers and subscribers."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def lines(found: Network) -> set[tuple[str, str, str, bool]]:
     return {(line.source, line.target, line.topic, line.is_out) for line in found.connections if line.kind == TOPIC}
 
 
-def test_both_ends_meet_in_the_storm() -> None:
+def test_both_ends_are_connected_to_the_storm() -> None:
     found = network(deployed(STORM + BOTH, **ENDS))
     assert lines(found) == {("ears", "storm", "Heard", True), ("mind", "storm", "Heard", False)}
     assert found.order == [("storm",), ("ears", "mind")]
@@ -44,18 +44,20 @@ def test_the_storm_is_a_process() -> None:
     assert settings["IceStorm.LMDB.Path"] == storm.folders[0]
 
 
-def test_a_storm_that_nobody_needs_is_not_started() -> None:
+def test_a_storm_without_users_is_not_started() -> None:
     found = network(deployed(STORM + "components: {mouth: {component: mouth}}\n"))
     assert not found.processes["storm"].enabled and found.order == [("mouth",)]
     unused = "components: {ears: {component: ears, enabled: false}}\n"
     assert not network(deployed(STORM + unused, ears=EARS)).processes["storm"].enabled
 
 
-def test_a_rename_takes_the_prefix_away() -> None:
+def test_a_rename_removes_the_prefix() -> None:
     values = "component: ../ears.cdsl.yaml\ntopics: {prefix: {HeardPub: left}, name: {Heard: Words}}\n"
     files = deployed(STORM + BOTH, **ENDS, **{"ears/etc/config.yaml": values})
-    (kept,) = faults(files)  # nobody publishes `Heard` any more
-    assert kept.code == "RC4210" and kept.hint == "it is published as left/Words: `topics: {Heard: left/Words}`"
+    (kept,) = faults(files)  # `Heard` has no publisher now
+    assert (
+        kept.code == "RC4210" and kept.hint == "the interface is published as left/Words: `topics: {Heard: left/Words}`"
+    )
     both = BOTH.replace("}", ", topics: {Heard: all/heard}}")
     found = network({**files, "robot.ddsl.yaml": f"deployment: Robot\n{STORM}{both}"})
     assert {topic for _, _, topic, _ in lines(found)} == {"all/heard"}
@@ -70,13 +72,13 @@ def test_a_topic_without_a_storm() -> None:
     assert found.related[0].span.file == "ears/ears.cdsl.yaml"
 
 
-def test_what_all_lack_is_told_once() -> None:
+def test_a_missing_storm_is_reported_once() -> None:
     entries = "components:\n  ear{i}: {component: ears, instances: 9}\n"
     (found,) = faults(deployed(entries, ears=EARS))
     assert found.hint.endswith("; 'ear1', 'ear2', 'ear3', 'ear4', 'ear5', 'ear6', 2 more need it, too")
 
 
-def test_a_storm_outside_that_the_configuration_names() -> None:
+def test_an_external_storm_in_the_configuration() -> None:
     manager = "IceStorm/TopicManager:tcp -h 10.0.0.9 -p 9999"
     values = f'component: ../NAME.cdsl.yaml\ntopics: {{manager: "{manager}"}}\n'
     files = {f"{name}/etc/config.yaml": values.replace("NAME", name) for name in ENDS}
@@ -90,14 +92,14 @@ def test_several_storms() -> None:
     assert [fault.code for fault in faults(deployed(two + BOTH, **ENDS))] == ["RC4209"]
 
 
-def test_the_storm_of_ones_own_host() -> None:
+def test_the_storm_of_the_own_host() -> None:
     text = "hosts: {l: 10.0.0.2, r: 10.0.0.3}\nservices: {a: {icestorm: {host: l}}, b: {icestorm: {host: r}}}\n"
     found = network(deployed(text + "components: {ears: {component: ears, host: r}}\n", ears=EARS))
     assert lines(found) == {("ears", "b", "Heard", True)}
     assert found.processes["b"].endpoints[0].text == "tcp -p 9999"
 
 
-def test_nobody_publishes_it() -> None:
+def test_a_topic_without_a_publisher() -> None:
     (found,) = faults(deployed(STORM + "components: {mind: {component: mind}}\n", mind=MIND))
     assert said(found) == ("RC4210", "robot.ddsl.yaml", 3, 14) and found.severity == "warning"
     assert found.hint == "add the component that publishes it"
@@ -106,12 +108,14 @@ def test_nobody_publishes_it() -> None:
     assert found.hint == "add the component that publishes it; 'mind1' needs it, too"
 
 
-def test_both_ends_must_mean_the_same() -> None:
+def test_both_ends_must_have_the_same_interface() -> None:
     other = FACE.replace("word: {in: {text: string", "word: {in: {text: int")
     files = deployed(STORM + BOTH, **ENDS, **{"Other.idsl.yaml": other})
     (found,) = faults({**files, "mind/mind.cdsl.yaml": component("MindComp", MIND, "Other")})
     assert said(found) == ("RC4211", "robot.ddsl.yaml", 5, 3)
-    assert found.message.endswith("by the topic Heard: 'text' of 'word' is string, and int")
+    assert found.message.endswith(
+        "define the topic Heard differently: 'text' of 'word' is string in one, and int in the other"
+    )
 
 
 ARM = "deployment: Arm\n" + BOTH
@@ -130,49 +134,49 @@ def test_each_include_keeps_its_own_topics() -> None:
     assert config(found.processes["left.mind"])["Heard"] == "left/Heard"
 
 
-def test_who_names_the_topic_of_an_include_gets_it() -> None:
+def test_a_topic_of_an_include_by_its_name() -> None:
     outer = STORM + ARMS + "components: {all: {component: mind, topics: {Heard: right/Heard}}}\n"
-    arm = ARM.replace("  mind: {component: mind}\n", "")  # what only one asks for, only that one closes
+    arm = ARM.replace("  mind: {component: mind}\n", "")  # the include no longer has both ends
     found = network(deployed(outer, **ENDS, **{"arm.ddsl.yaml": arm}))
     assert topics(found) == {"all": "right/Heard", "left.ears": "Heard", "right.ears": "right/Heard"}
 
 
-def test_an_open_end_meets_what_is_around_it() -> None:
+def test_an_end_without_another_end_in_its_include_is_connected_outside() -> None:
     inner = "deployment: Arm\ncomponents: {ears: {component: ears}}\n"
     outer = STORM + ARMS + "components: {mind: {component: mind}}\n"
     found = network(deployed(outer, **ENDS, **{"arm.ddsl.yaml": inner}))
     assert set(topics(found).values()) == {"Heard"}
 
 
-def test_the_topic_of_all_is_named_by_a_slash() -> None:
+def test_a_slash_names_a_topic_outside_all_includes() -> None:
     arm = ARM.replace("ears}", "ears, topics: {Heard: /Heard}}")
     outer = STORM + ARMS + "components: {all: {component: mind, topics: {Heard: /Heard}}}\n"
     found = network(deployed(outer, **ENDS, **{"arm.ddsl.yaml": arm}))
     assert set(topics(found).values()) == {"Heard"}
 
 
-def test_who_is_outside_is_told_what_the_topic_is_called() -> None:
+def test_the_hint_outside_has_the_full_name() -> None:
     outer = STORM + ARMS + "components: {all: {component: mind}}\n"
     (found,) = faults(deployed(outer, **ENDS, **{"arm.ddsl.yaml": ARM}))
     assert found.code == "RC4210"
-    assert found.hint == "it is published as left/Heard, right/Heard: `topics: {Heard: left/Heard}`"
+    assert found.hint == "the interface is published as left/Heard, right/Heard: `topics: {Heard: left/Heard}`"
 
 
-def test_the_name_is_that_which_leads_there_from_where_it_is_written() -> None:
+def test_the_name_in_the_hint_works_in_the_document_of_the_subscriber() -> None:
     outer = STORM + "include: {left: arm.ddsl.yaml, right: mind.ddsl.yaml}\n"
     mind = "deployment: Mind\ncomponents: {mind: {component: mind}}\n"
     (found,) = faults(deployed(outer, **ENDS, **{"arm.ddsl.yaml": ARM, "mind.ddsl.yaml": mind}))
-    assert found.hint == "it is published as left/Heard: `topics: {Heard: /left/Heard}`"
+    assert found.hint == "the interface is published as left/Heard: `topics: {Heard: /left/Heard}`"
     named = mind.replace("mind}", "mind, topics: {Heard: /left/Heard}}")
     topic = topics(network(deployed(outer, **ENDS, **{"arm.ddsl.yaml": ARM, "mind.ddsl.yaml": named})))["right.mind"]
     assert topic == "left/Heard"
 
 
-def test_what_another_icestorm_carries_is_told() -> None:
+def test_the_hint_names_another_icestorm_that_carries_it() -> None:
     arm = ARM.replace("components", "services: {storm: {icestorm: {}}}\ncomponents", 1)
     outer = STORM + "include: {left: arm.ddsl.yaml}\ncomponents: {mind: {component: mind}}\n"
     (found,) = faults(deployed(outer, **ENDS, **{"arm.ddsl.yaml": arm}))
-    assert found.hint == "it is published with the IceStorm 'left.storm': where there is one only, all meet"
+    assert found.hint == "the interface is published through the IceStorm 'left.storm': use one IceStorm for all"
 
 
 def test_an_include_with_an_icestorm_of_its_own() -> None:
@@ -182,4 +186,4 @@ def test_an_include_with_an_icestorm_of_its_own() -> None:
         ("left.ears", "left.storm", "Heard", True), ("left.mind", "left.storm", "Heard", False)
     }  # fmt: skip
     ports = {found.processes[f"{side}.storm"].endpoints[0].port for side in ("left", "right")}
-    assert len(ports) == 2  # `check` would tell if they had one
+    assert len(ports) == 2  # `check` would report equal ports

@@ -1,4 +1,4 @@
-"""What a deployment connects: what is said where the other end is none, is several, or is not there."""
+"""Diagnostics of connections whose other end is wrong, ambiguous or missing."""
 
 from __future__ import annotations
 
@@ -29,17 +29,17 @@ def test_nothing_is_wrong(text: str, others: dict[str, str]) -> None:
 @pytest.mark.parametrize(
     ("text", "others", "code", "at", "message", "hint"),
     [
-        ('components:\n  speech: {component: speech, connect: {Mouth: g}}\n  mouth: {component: mouth}\n  other: {component: mouth}\ngroups: {g: {components: [mouth, other]}}\n', {}, 'RC4202', 'g', "'speech' requires Mouth as Mouth, and several serve it: mouth, other", 'write `connect: {Mouth: mouth}`, or another'),
-        ('components:\n  speech: {component: speech, connect: {Mouth: mouth}}\n  mouth: {component: mouth, enabled: false}\n', {}, 'RC4207', 'mouth', "'speech' requires Mouth, which 'mouth' serves, and 'mouth' is not enabled", ''),
+        ('components:\n  speech: {component: speech, connect: {Mouth: g}}\n  mouth: {component: mouth}\n  other: {component: mouth}\ngroups: {g: {components: [mouth, other]}}\n', {}, 'RC4202', 'g', "'speech' requires Mouth as Mouth, which several processes serve: mouth, other", 'write `connect: {Mouth: mouth}`, or another one'),
+        ('components:\n  speech: {component: speech, connect: {Mouth: mouth}}\n  mouth: {component: mouth, enabled: false}\n', {}, 'RC4207', 'mouth', "'speech' requires Mouth from 'mouth', which is not enabled", ''),
         ('components:\n  speech: {component: speech, connect: {Mouth: p}}\n  p: {program: sh, endpoints: {Laser: tcp -p 5}}\n', {}, 'RC4204', 'p', "'p' does not serve Mouth", 'it serves Laser'),
         ('components:\n  speech: {component: speech, connect: {Mouth: p}}\n  p: {program: sh}\n', {}, 'RC4204', 'p', "'p' does not serve Mouth", 'it serves nothing'),
         ('components:\n  speech: {component: speech, connect: {Mouth: speech}}\n', {}, 'RC4204', 'speech', "'speech' does not serve Mouth", 'it serves Speech, CommonBehavior'),
-        ("components:\n  speech: {component: speech, connect: {Mouth: 'm{i}'}}\n  'm{i}': {component: mouth, instances: 2}\n", {}, 'RC4202', "'m{i}'", "'speech' requires Mouth as Mouth, and several serve it: m0, m1", 'write `connect: {Mouth: m0}`, or another'),
+        ("components:\n  speech: {component: speech, connect: {Mouth: 'm{i}'}}\n  'm{i}': {component: mouth, instances: 2}\n", {}, 'RC4202', "'m{i}'", "'speech' requires Mouth as Mouth, which several processes serve: m0, m1", 'write `connect: {Mouth: m0}`, or another one'),
         ('components:\n  p: {program: sh, connect: {Lips: mouth}}\n  mouth: {component: mouth}\n', {}, 'RC4204', 'mouth', "'mouth' does not serve Lips", 'it serves Mouth, CommonBehavior'),
         ('components:\n  p: {program: sh, connect: {Lips: mouth.Lips}}\n  mouth: {component: mouth}\n', {}, 'RC4204', 'mouth.Lips', "'mouth.Lips' does not serve Lips", 'it serves Mouth, CommonBehavior'),
-        ("components:\n  p: {program: sh, connect: {Lips: 'mouth:tcp -q 5'}}\n", {}, 'RC4015', '-q', "'mouth:tcp -q 5' is no proxy: '-q' is no option of tcp; tcp takes -h, -p, -t, -z and --sourceAddress", 'a proxy is spelled as Ice has it: `"lips:tcp -h HOST -p PORT"`; what is for a program that is none of Ice, and may be any text, stands under `args:` or `env:`'),
+        ("components:\n  p: {program: sh, connect: {Lips: 'mouth:tcp -q 5'}}\n", {}, 'RC4015', '-q', "'mouth:tcp -q 5' is not a proxy: tcp has no option '-q', only -h, -p, -t, -z and --sourceAddress", 'write it in the syntax of Ice: `"lips:tcp -h HOST -p PORT"`; for any other text to a program that does not use Ice, use `args:` or `env:`'),
         ('components:\n  speech: {component: speech, connect: {Mouth: storm}}\nservices: {storm: {icestorm: {}}}\n', {}, 'RC4204', 'storm', "'storm' does not serve Mouth", 'it is an IceStorm, which carries topics'),
-        ('components:\n  speech: {component: speech}\n', {'speech': 'requires: [Mouth: {interface: Mouth, absent: fail}]\n'}, 'RC4201', 'speech', "'speech' requires Mouth, which nothing in this deployment serves", 'add a component that implements Mouth, or say where it is: `connect: {Mouth: "mouth:tcp -h HOST -p PORT"}`'),
+        ('components:\n  speech: {component: speech}\n', {'speech': 'requires: [Mouth: {interface: Mouth, absent: fail}]\n'}, 'RC4201', 'speech', "'speech' requires Mouth, which nothing in this deployment serves", 'add a component that implements Mouth, or name its proxy: `connect: {Mouth: "mouth:tcp -h HOST -p PORT"}`'),
         ('components:\n  speech: {component: speech, connect: {Mouth: g.Lip}}\n  mouth: {component: mouth}\ngroups: {g: {components: [mouth], expose: {Lips: mouth.Mouth}}}\n', {}, 'RC4204', 'g.Lip', "'g.Lip' does not serve Mouth", 'it serves Lips'),
         ('components:\n  a: {component: speech}\n  b: {component: speech}\n', {'speech': 'publishes: [Heard]\n'}, 'RC4208', 'a', "'a' publishes Heard, and there is no IceStorm to carry it", "add an IceStorm: `services: {storm: {icestorm: {}}}`; 'b' needs it, too"),
     ],

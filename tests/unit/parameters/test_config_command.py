@@ -174,7 +174,7 @@ def test_get_and_set_as_json(run: Run) -> None:
 def test_set_does_not_make_a_list_that_a_layer_holds(run: Run) -> None:
     result = run("config", "set", "sim.config.yaml", "motors[0].vel", "1")
     assert result.exit_code == 2
-    assert "there is no list here to add to; give the whole list" in result.stderr
+    assert "there is no list to append to; set the whole list" in result.stderr
 
 
 @pytest.mark.parametrize(
@@ -190,9 +190,9 @@ def test_set_does_not_make_a_list_that_a_layer_holds(run: Run) -> None:
         ("motors[1].vel", "fast", "error[RC3302]: motors[1].vel must be a number (rad/s), and is the text 'fast'"),
         ("mode", "slo", "did you mean 'slow'?"),
         ("motors[1].name", "a", "error[RC3308]: two motors have the same name"),
-        ("speed", "[", "'[' is no value"),
-        ("motors", "[]", "error[RC3305]: motors has 0 entries, and must have from 1 to 4"),
-        ("sped", "1", "there is no parameter 'sped'; did you mean 'speed'?"),
+        ("speed", "[", "'[' is not a value"),
+        ("motors", "[]", "error[RC3305]: motors has 0 entries, and must have 1 to 4"),
+        ("sped", "1", "unknown parameter 'sped'; did you mean 'speed'?"),
         ("motors[7].vel", "1", "the list has 2 entries"),
         ("speed", "0.1, device: x", "speed must be a number (m/s), and is a mapping"),
     ],

@@ -83,4 +83,4 @@ def test_they_fit(
 def test_where_nothing_is_found_that_fits_a_person_is_asked(rcyaml: Callable[..., Result], tmp_path: Path) -> None:
     assert first_values(rcyaml, tmp_path, "a: int", "a > 5, a < 5") == ("", False)
     written = (tmp_path / "etc/config.yaml").read_text()
-    assert "  # no example was found that fits the constraints: give it a value\n  # a:\n" in written
+    assert "  # no example satisfies the constraints: set a value\n  # a:\n" in written

@@ -103,13 +103,13 @@ def test_spellings(tmp_path: Path, parameters: str, expected: dict[str, str]) ->
 @pytest.mark.parametrize(
     ("line", "fault"),
     [
-        ('device: "a\\nb"', "device cannot be a property of Ice: it holds a line end"),
+        ('device: "a\\nb"', "device cannot be a property of Ice: it contains a line end"),
         (
             'note: ""',
-            "note cannot be a property of Ice: an optional one that is empty cannot be told from one that is left out",
+            "note cannot be a property of Ice: an empty optional value would be read as a missing one",
         ),
-        ('device: ""', "device cannot be a property of Ice: it is empty, and its default is not"),
-        ("names: []", "names cannot be a property of Ice: it is empty, and its default is not"),
+        ('device: ""', "device cannot be a property of Ice: it is empty, but its default is not"),
+        ("names: []", "names cannot be a property of Ice: it is empty, but its default is not"),
         ('device: "\\ta"', "device cannot be a property of Ice: it may not start or end with a tab"),
         (
             'device: "${env:X}"',
@@ -120,21 +120,20 @@ def test_spellings(tmp_path: Path, parameters: str, expected: dict[str, str]) ->
             "motors[0] cannot be a property of Ice: its row, 'a,b,0', would be read differently",
         ),
         ("motors: [{name: a, tag: t}]", "motors[0].tag cannot be a property of Ice: its rows have no column for it"),
-        ('excluded: [["a;b"]]', "excluded cannot be a property of Ice: its separators cannot say 'a;b;'"),
+        ('excluded: [["a;b"]]', "excluded cannot be a property of Ice: its separators cannot spell 'a;b;'"),
         (
             'plain: [{name: a, tag: ""}]',
-            "plain[0].tag cannot be a property of Ice: an optional one that is empty cannot be told "
-            "from one that is left out",
+            "plain[0].tag cannot be a property of Ice: an empty optional value would be read as a missing one",
         ),
         # By Period.Compute, components take the file for one that has its texts in quotes.
-        ("device: '\"a\"'", "device cannot be a property of Ice: in quotes, it would be read without them"),
+        ("device: '\"a\"'", "device cannot be a property of Ice: its quotes would be removed when it is read"),
         (
             "motors: [{name: '\"a\"'}]",
-            "motors[0].name cannot be a property of Ice: in quotes, it would be read without them",
+            "motors[0].name cannot be a property of Ice: its quotes would be removed when it is read",
         ),
         (
             "tags: [{from: 1, to: 2}, {from: 1, to: 2}]",
-            "tags[1] cannot be a property of Ice: another row is the property ID:1-2 already",
+            "tags[1] cannot be a property of Ice: another row already uses the property ID:1-2",
         ),
     ],
 )

@@ -65,12 +65,15 @@ def test_what_extends_nothing_is_told_once(tmp_path: Path) -> None:
         ("volume: 101", "5:11 RC3303 volume is 101 percent, and must be from 0 to 100 percent"),
         ("volume: 1.5", "5:11 RC3302 volume must be a whole number (percent), and is 1.5"),
         ("volume: true", "5:11 RC3302 volume must be a whole number (percent), and is true"),
-        ('volume: "7"', "5:11 RC3302 volume must be a whole number (percent), and is the text '7' (without quotes: 7)"),
+        (
+            'volume: "7"',
+            "5:11 RC3302 volume must be a whole number (percent), and is the text '7' (write it without quotes: 7)",
+        ),
         ("volume: [1]", "5:11 RC3302 volume must be a whole number (percent), and is a list"),
         (
             "volume: {env: 1A}",
-            "5:17 RC3309 volume names no variable of the environment (a variable's name has letters, "
-            "digits and underscores, and starts with no digit)",
+            "5:17 RC3309 volume does not name an environment variable (a variable's name has letters, "
+            "digits and underscores, and does not start with a digit)",
         ),
         ("ratio: 1", "5:10 RC3303 ratio is 1, and must be above 0 and below 1"),
         ("ratio: .nan", "5:10 RC3302 ratio must be a number, and is .nan"),
@@ -84,19 +87,19 @@ def test_what_extends_nothing_is_told_once(tmp_path: Path) -> None:
         ("device: x/dev/a", "5:11 RC3304 device is 'x/dev/a', and must match /dev/\\w+"),
         ("device: 7", '5:11 RC3302 device must be text, and is 7 (text needs quotes here: "7")'),
         ("baud: 9601", "5:9 RC3303 baud is 9601, and must be one of 9600, 115200"),
-        ("ids: [a, b, a]", "5:15 RC3306 ids holds the text 'a' twice"),
+        ("ids: [a, b, a]", "5:15 RC3306 ids contains the text 'a' twice"),
         ("offsets: {a: 1, b: 2, c: 3}", "5:12 RC3305 offsets has 3 entries, and must have at most 2"),
         ("offsets: {a b: x}", "5:18 RC3302 offsets[\"a b\"] must be a number, and is the text 'x'"),
-        ("volum: 1", "5:3 RC3301 there is no parameter 'volum' (did you mean 'volume'?)"),
+        ("volum: 1", "5:3 RC3301 unknown parameter 'volum' (did you mean 'volume'?)"),
         (
             "<<: {volume: 1}",
-            "5:3 RC3301 there is no parameter '[\"<<\"]' (YAML 1.2 has no merge keys: write the keys themselves)",
+            "5:3 RC3301 unknown parameter '[\"<<\"]' (YAML 1.2 has no merge keys: write the keys themselves)",
         ),
         (
             f"big: {10**50}",
             f"5:8 RC3303 big is 1{38 * '0'}…, and must be from -9223372036854775808 to 9223372036854775807 (long)",
         ),
-        ("volume: 1\n  volumee: 1", "6:3 RC3301 there is no parameter 'volumee' ('volume' is there already)"),
+        ("volume: 1\n  volumee: 1", "6:3 RC3301 unknown parameter 'volumee' ('volume' is already present)"),
         ("period: {compute: 0}", "5:21 RC3303 period.compute is 0 ms, and must be at least 1 ms"),
     ],
 )
@@ -112,10 +115,10 @@ def test_words_that_were_truths_in_yaml_1_1(tmp_path: Path) -> None:
 def test_faults_deep_inside_and_all_at_once(tmp_path: Path) -> None:
     text = "component: c.cdsl.yaml\nparameters:\n  motors:\n    - {nam: a, vel: 3}\n    - {vel: 1, pose: [1, x, 2]}\n"
     assert faults(tmp_path, text) == [
-        "2:1 RC3307 Yolo.gpu has no value, and no default (give it true or false)",
-        "4:8 RC3301 there is no parameter 'motors[0].nam' (did you mean 'name'?)",
+        "2:1 RC3307 Yolo.gpu has no value, and no default (set it to true or false)",
+        "4:8 RC3301 unknown parameter 'motors[0].nam' (did you mean 'name'?)",
         "4:21 RC3303 motors[0].vel is 3 rad/s, and must be from 0 to 2 rad/s",
-        "5:7 RC3307 motors[1].name has no value, and no default (give it text)",
+        "5:7 RC3307 motors[1].name has no value, and no default (set it to text)",
         "5:22 RC3305 motors[1].pose has 3 entries, and must have exactly 2",
         "5:26 RC3302 motors[1].pose[1] must be a whole number, and is the text 'x'",
     ]

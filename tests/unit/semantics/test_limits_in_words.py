@@ -32,7 +32,7 @@ def test_ranges(ends: dict[str, float], words: str, within: list[float], beyond:
         (0, None, "at least 0", [0, 9]),
         (2, 2, "exactly 2", [2]),
         (0, 3, "at most 3", [0, 3]),
-        (1, 3, "from 1 to 3", [1, 2, 3]),
+        (1, 3, "1 to 3", [1, 2, 3]),
     ],
 )
 def test_sizes(least: int, most: int | None, words: str, counts: list[int]) -> None:

@@ -58,7 +58,7 @@ def test_the_last_separator_alone_is_an_empty_list() -> None:
 
 def test_holes_are_filled_and_read_back() -> None:
     key = "ID:{from}-{to}.{i}"
-    assert spellings.holes(key) == ("from", "to", "i")
+    assert spellings.placeholders(key) == ("from", "to", "i")
     filled = spellings.filled(key, {"from": "a", "to": "b-c", "i": "12"})
     read = spellings.pattern(key).match(filled)
     assert read is not None and read.groups() == ("a", "b-c", "12")

@@ -5,40 +5,40 @@ from __future__ import annotations
 import pytest
 
 from robocomp_yaml.source.ice_endpoint import IceEndpoint, fixed_endpoint, parse_endpoint
-from robocomp_yaml.source.ice_options import Refused
+from robocomp_yaml.source.ice_options import InvalidIceText
 from robocomp_yaml.source.ice_proxy import parse_proxy, proxy_at
 
 
 @pytest.mark.parametrize(
     ("text", "where", "problem"),
     [
-        ("lamp left", "left", "'left' stands where an option"),
+        ("lamp left", "left", "'left' is not an option"),
         ("lamp -x:tcp", "-x", "no option '-x'"),
-        ("lamp -o yes:tcp -p 1", "yes", "'-o' takes no value"),
+        ("lamp -o yes:tcp -p 1", "yes", "'-o' has the value 'yes'"),
         ("lamp:tcp -p 65536", "65536", "from 0 to 65535"),
-        ("lamp:tcp -h * -p 1", "*", "stands for all interfaces"),
-        ("lamp:udp -t 5", "-t", "no option of udp; udp takes -h, -p, -c"),
+        ("lamp:tcp -h * -p 1", "*", "means all network interfaces"),
+        ("lamp:udp -t 5", "-t", "udp has no option '-t', only -h, -p, -c"),
         ("lamp:ws -r", "-r", "needs a value"),
         ("lamp:tcp -t 0", "0", "timeout"),
         ("lamp:tcp -h 'a b", "'a b", "a quote is not closed"),
-        ("lamp:tpc -p 1", "tpc", "no protocol 'tpc'"),
-        ("lamp:tcp -h ::1 -p 1", "-h", "an IPv6 address stands in double quotes"),
+        ("lamp:tpc -p 1", "tpc", "unknown protocol 'tpc'"),
+        ("lamp:tcp -h ::1 -p 1", "-h", "an IPv6 address must be in double quotes"),
         ("lamp:", ":", "an endpoint is missing"),
         ("lamp @", "@", "adapter is missing"),
-        ("lamp @ A b", "b", "nothing can follow"),
+        ("lamp @ A b", "b", "must end after the adapter"),
         ("a/b/c:tcp", "a/b/c", "one slash"),
         ("room/:tcp", "room/", "no name"),
         (":tcp -p 1", ":", "identity is missing"),
-        ("lamp -e 1:tcp", "1", "no version"),
-        ("l\\x:tcp", "l\\x", "is no character"),
-        ("lamp:tcp --sourceAddress lamp", "lamp", "no IP address"),
+        ("lamp -e 1:tcp", "1", "not a version"),
+        ("l\\x:tcp", "l\\x", "is not a character"),
+        ("lamp:tcp --sourceAddress lamp", "lamp", "not an IP address"),
         ('lamp:bt -a "00:11:22:33:44:55"', "bt", "UUID"),
         ("lamp:bt -a 00:00", "00", "Bluetooth"),
         ("lamp:opaque -t 99", "opaque", "-v BYTES"),
     ],
 )
 def test_what_is_wrong_and_where(text: str, where: str, problem: str) -> None:
-    with pytest.raises(Refused) as refused:
+    with pytest.raises(InvalidIceText) as refused:
         parse_proxy(text)
     assert problem in refused.value.problem
     assert text[refused.value.start : refused.value.end] == where
@@ -56,7 +56,7 @@ def test_what_it_means() -> None:
 
 
 def test_nobody_means_bluetooth() -> None:
-    with pytest.raises(Refused) as refused:
+    with pytest.raises(InvalidIceText) as refused:
         parse_proxy("lamp:tls -p 1")
     assert "ssl" in refused.value.meant and "bts" not in refused.value.meant
 
@@ -65,7 +65,7 @@ def test_nobody_means_bluetooth() -> None:
     "text", ["", "tcp", "tcp -p 0", "udp:tcp -p 1", "tcp -p 1:tpc -p 2", "tcp -p 1 -q", ":tcp -p 1"]
 )
 def test_no_fixed_endpoint(text: str) -> None:
-    with pytest.raises(Refused):
+    with pytest.raises(InvalidIceText):
         fixed_endpoint(text)
     assert parse_endpoint(text) is None
 

@@ -6,7 +6,7 @@ import pytest
 
 from in_memory import ROOT, analysed
 from robocomp_yaml.source import spelled
-from robocomp_yaml.source.spelled import Texts
+from robocomp_yaml.source.spelled import DocumentTexts
 from robocomp_yaml.source.tree import parse
 
 
@@ -24,7 +24,7 @@ def test_what_was_read_is_not_parsed_again(monkeypatch: pytest.MonkeyPatch) -> N
 
 
 def test_what_was_not_read_is_parsed_when_it_is_asked_for() -> None:
-    texts = Texts({f"{ROOT}/a.yaml": b"a: [b]\n", f"{ROOT}/b.yaml": b"\xff"}, {})
+    texts = DocumentTexts({f"{ROOT}/a.yaml": b"a: [b]\n", f"{ROOT}/b.yaml": b"\xff"}, {})
     text = texts.get(f"{ROOT}/a.yaml")
     assert text is not None
     assert text.tree is not None

@@ -21,7 +21,7 @@ def test_a_pipe_among_the_documents_is_not_waited_for(command: str, rcyaml: Run,
     words = command.split()
     result = rcyaml(*words, *(["."] if words == ["migrate"] else []))
     assert (result.exit_code, result.output.splitlines()[0]) == (
-        1, "error[RC0001]: cannot read this file: it is no regular file",
+        1, "error[RC0001]: cannot read this file: it is not a regular file",
     )  # fmt: skip
 
 

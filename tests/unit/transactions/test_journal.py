@@ -1,4 +1,4 @@
-"""A journal that no commit of ours wrote, come with somebody's repository, moves and removes nothing."""
+"""A journal that rcyaml did not write, from a repository, moves and deletes nothing."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ HOSTILE = {
 
 @pytest.mark.parametrize("name", ["journal.json", "journal.done"])
 @pytest.mark.parametrize("kind", HOSTILE)
-def test_a_hostile_journal_leads_nowhere(kind: str, name: str, rcyaml: Callable[..., Result], tmp_path: Path) -> None:
+def test_a_hostile_journal_changes_nothing(kind: str, name: str, rcyaml: Callable[..., Result], tmp_path: Path) -> None:
     mark = {key: str(tmp_path / "mine.txt") if value == "FULL" else value for key, value in HOSTILE[kind].items()}
     write_tree(tmp_path, {
         "mine.txt": "mine", "home/.rcyaml-1-0.new": "mine", "robot/Speech.idsl.yaml": SPEECH,
@@ -46,7 +46,7 @@ def test_a_hostile_journal_leads_nowhere(kind: str, name: str, rcyaml: Callable[
     assert not (tmp_path / "moved.txt").exists() and not (tmp_path / "home/moved.txt").exists()
 
 
-def test_folders_of_a_hostile_journal_stay(rcyaml: Callable[..., Result], tmp_path: Path) -> None:
+def test_folders_of_a_hostile_journal_are_kept(rcyaml: Callable[..., Result], tmp_path: Path) -> None:
     write_tree(tmp_path, {
         "empty": None, "robot/Speech.idsl.yaml": SPEECH,
         "robot/slice/.rcyaml/journal.json": json.dumps({"marks": [], "folders": ["../../empty"]}),

@@ -1,4 +1,4 @@
-"""The writer: what happens to each file, by what stands there, what the manifest knows and what is planned."""
+"""The writer: what happens to each file, for its content, the manifest and the plan."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ CONFIG = "etc/config"
 
 
 def stated(text: str) -> FilePlan:
-    """A property file of ours, which a document of the user says."""
+    """A generated property file, with the document that it is generated from."""
     return FilePlan(CONFIG, text, stated_in=f"{CONFIG}.yaml")
 
 
@@ -39,7 +39,7 @@ def test_the_first_compile_writes_everything(tmp_path: Path) -> None:
     assert not (tmp_path / "src/specific.py").stat().st_mode & 0o111
 
 
-def test_the_second_compile_touches_nothing(tmp_path: Path) -> None:
+def test_the_second_compile_changes_nothing(tmp_path: Path) -> None:
     planned = plan(tmp_path, always("generated/main.py", "1\n"), once("src/specific.py", "2\n"))
     carry_out(planned)
     before = {path: path.stat() for path in tmp_path.rglob("*")}
@@ -85,7 +85,7 @@ def test_a_missing_file_is_written_again(tmp_path: Path) -> None:
     assert files(tmp_path) == {"generated/a": "1\n", "src/b": "2\n"}
 
 
-def test_a_once_file_is_never_touched(tmp_path: Path) -> None:
+def test_a_once_file_is_never_changed(tmp_path: Path) -> None:
     (tmp_path / "src").mkdir()
     (tmp_path / "src/mine").write_text("mine\n")
     (tmp_path / "src/dangling").symlink_to("/nowhere/at/all")
@@ -96,7 +96,7 @@ def test_a_once_file_is_never_touched(tmp_path: Path) -> None:
     assert tree(tmp_path / "src") == {"mine": "mine\n", "dangling": "-> /nowhere/at/all", "away": "-> /etc/hostname"}
 
 
-def test_a_file_of_someone_else_is_not_overwritten(tmp_path: Path) -> None:
+def test_a_users_file_is_not_overwritten(tmp_path: Path) -> None:
     (tmp_path / "CMakeLists.txt").write_text("mine\n")
     planned = plan(tmp_path, always("CMakeLists.txt", "ours\n"), always("generated/a", "1\n"))
     changes, said = carry_out(planned)
@@ -109,7 +109,7 @@ def test_a_file_of_someone_else_is_not_overwritten(tmp_path: Path) -> None:
     assert files(tmp_path) == {"CMakeLists.txt": "ours\n", "CMakeLists.txt.orig": "mine\n", "generated/a": "1\n"}
 
 
-def test_a_file_with_the_same_text_is_taken_over(tmp_path: Path) -> None:
+def test_a_file_with_the_same_text_is_adopted(tmp_path: Path) -> None:
     """A fresh clone has the generated files, but maybe not the manifest."""
     planned = plan(tmp_path, always("generated/a", "1\n"), once("src/b", "2\n"))
     carry_out(planned)
@@ -121,20 +121,20 @@ def test_a_file_with_the_same_text_is_taken_over(tmp_path: Path) -> None:
     assert tree(tmp_path / ".rcyaml") == state
 
 
-@pytest.mark.parametrize(("mine", "taken"), [("b = 2\na=1 # mine\n", True), ("a=1\nb=3\n", False), (b"\xff", False)])
-def test_a_config_with_the_same_properties_is_adopted(tmp_path: Path, mine: str | bytes, *, taken: bool) -> None:
+@pytest.mark.parametrize(("mine", "adopted"), [("b = 2\na=1 # mine\n", True), ("a=1\nb=3\n", False), (b"\xff", False)])
+def test_a_config_with_the_same_properties_is_adopted(tmp_path: Path, mine: str | bytes, *, adopted: bool) -> None:
     (tmp_path / "etc").mkdir()
     mine = mine.encode() if isinstance(mine, str) else mine
     (tmp_path / CONFIG).write_bytes(mine)
     _, said = carry_out(plan(tmp_path, stated("a=1\nb=2\n")))
-    assert codes(said) == ([] if taken else ["RC6001"])
-    assert (tmp_path / CONFIG).read_bytes() == (b"a=1\nb=2\n" if taken else mine)
-    if taken:
+    assert codes(said) == ([] if adopted else ["RC6001"])
+    assert (tmp_path / CONFIG).read_bytes() == (b"a=1\nb=2\n" if adopted else mine)
+    if adopted:
         assert (tmp_path / "etc/config.orig").read_bytes() == mine
 
 
-def test_a_once_file_that_becomes_ours(tmp_path: Path) -> None:
-    """`etc/config` does, when a values document appears: rewritten if nobody edited it, else it is the user's."""
+def test_a_once_file_becomes_a_generated_one(tmp_path: Path) -> None:
+    """As `etc/config` when a values document appears: it is rewritten unless the user edited it."""
     carry_out(plan(tmp_path, once(CONFIG, "a=1\n")))
     _, said = carry_out(plan(tmp_path, stated("a=2\n")))
     assert not said and (tmp_path / CONFIG).read_text() == "a=2\n"
@@ -142,7 +142,7 @@ def test_a_once_file_that_becomes_ours(tmp_path: Path) -> None:
     (tmp_path / CONFIG).write_text("a=4\n")
     _, said = carry_out(plan(tmp_path, stated("a=5\n")))
     assert codes(said) == ["RC6010"] and (tmp_path / CONFIG).read_text() == "a=4\n"
-    assert f"bring a into {tmp_path / 'etc/config.yaml'};" in said[0].hint
+    assert f"move a to {tmp_path / 'etc/config.yaml'};" in said[0].hint
 
 
 def merge(root: Path, text: str, skeleton: str) -> list[Diagnostic]:
@@ -152,7 +152,7 @@ def merge(root: Path, text: str, skeleton: str) -> list[Diagnostic]:
     return list(writer.commit(prepared).diagnostics)
 
 
-def test_a_merged_file_that_nobody_edited_is_ours(tmp_path: Path) -> None:
+def test_a_merged_file_without_edits_is_generated(tmp_path: Path) -> None:
     carry_out(plan(tmp_path, once(CONFIG, "a=1\n")))
     assert not merge(tmp_path, "a=1\n\nb=1\n", "a=9\nb=1\n")
     assert not merge(tmp_path, "a=1\n\nb=1\n\nc=1\n", "a=9\nb=1\nc=1\n")
@@ -162,19 +162,19 @@ def test_a_merged_file_that_nobody_edited_is_ours(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("first", ["a=1\nmine=1\n", "a=1\n# mine\nmine=1\n"])
-def test_a_merge_does_not_make_the_users_lines_ours(tmp_path: Path, first: str) -> None:
+def test_a_merge_keeps_the_users_lines_the_users(tmp_path: Path, first: str) -> None:
     carry_out(plan(tmp_path, once(CONFIG, "a=1\n")))
     (tmp_path / CONFIG).write_text(first)
     assert not merge(tmp_path, f"{first}\nb=1\n", "a=1\nb=1\n")
     assert not merge(tmp_path, f"{first}\nb=1\n\nc=1\n", "a=1\nb=1\nc=1\n")
     _, said = carry_out(plan(tmp_path, stated("a=1\nb=1\n")))
     assert codes(said) == ["RC6010"] and "mine=1" in (tmp_path / CONFIG).read_text()
-    assert "bring mine into" in said[0].hint
+    assert "move mine to" in said[0].hint
     _, said = carry_out(plan(tmp_path, stated("mine=1\nz=0\n")))
     assert not said and "mine=1" in (tmp_path / "etc/config.orig").read_text()
 
 
-def test_a_lost_executable_bit_comes_back(tmp_path: Path) -> None:
+def test_a_lost_executable_bit_is_restored(tmp_path: Path) -> None:
     planned = plan(tmp_path, always("bin/run", "#!\n", executable=True))
     carry_out(planned)
     (tmp_path / "bin/run").chmod(0o640)
@@ -202,7 +202,7 @@ def test_dry_run_changes_nothing_and_shows_a_diff(tmp_path: Path) -> None:
 
 
 def test_a_diff_of_properties_shows_no_secret(tmp_path: Path) -> None:
-    """However the line spells its key, and where it is commented out."""
+    """For all spellings of the key, and in comments."""
     old = "mail.password = hunter2 # old\n-- db.password=hunter3\nkeys=a\n"
     new = "#mail.password=hunter4\nmy\\=password=hunter5#6\nkeys=b # plain\nmine=hunter7\n"
     (tmp_path / CONFIG).parent.mkdir()
@@ -215,13 +215,13 @@ def test_a_diff_of_properties_shows_no_secret(tmp_path: Path) -> None:
     assert "hunter2 # old" in change.diff()
 
 
-def test_the_bytes_do_not_depend_on_the_place(tmp_path: Path) -> None:
+def test_the_bytes_do_not_depend_on_the_folder(tmp_path: Path) -> None:
     for name in ("one", "two"):
         carry_out(plan(tmp_path / name, always("b", "1\n"), once("a", "é\n")))
     assert tree(tmp_path / "one", state=True) == tree(tmp_path / "two", state=True)
 
 
-def test_a_relative_root_is_shown_as_given(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_relative_root_is_shown_as_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "out").mkdir()
     changes, _ = carry_out(plan(Path("out"), always("a/b", "1\n")))

@@ -1,4 +1,4 @@
-"""Files belong to documents: what goes when a document goes, is renamed, or was not asked for."""
+"""Files have owners: what is deleted when a document is deleted, renamed, or not requested."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def test_an_edited_file_no_longer_planned_is_kept_as_orig(tmp_path: Path) -> Non
     assert files(tmp_path) == {"generated/a.orig": "mine\n", "generated/b": "1\n"}
 
 
-def test_a_renamed_component_leaves_its_once_files(tmp_path: Path) -> None:
+def test_a_renamed_component_keeps_its_once_files(tmp_path: Path) -> None:
     carry_out(plan(tmp_path, once("bin/OLD", "o\n"), always("generated/a", "1\n")))
     changes, said = carry_out(plan(tmp_path, once("bin/NEW", "n\n"), always("generated/a", "1\n")))
     assert actions(changes, tmp_path) == {"bin/NEW": "create", "bin/OLD": "left", "generated/a": "unchanged"}
@@ -31,7 +31,7 @@ def test_a_renamed_component_leaves_its_once_files(tmp_path: Path) -> None:
     assert not said
 
 
-def test_a_renamed_document_takes_the_files_over(tmp_path: Path) -> None:
+def test_a_renamed_document_becomes_the_owner(tmp_path: Path) -> None:
     carry_out(plan(tmp_path, always("generated/a", "1\n"), always("generated/b", "1\n"), once("src/c", "1\n")))
     (tmp_path / OWNER).unlink()
     carry_out(plan(tmp_path, always("generated/a", "1\n"), once("src/c", "1\n"), owner="talk.cdsl.yaml"))
@@ -49,7 +49,7 @@ def test_a_renamed_document_takes_the_files_over(tmp_path: Path) -> None:
     }
 
 
-def test_a_file_goes_with_its_last_owner(tmp_path: Path) -> None:
+def test_a_file_is_deleted_with_its_last_owner(tmp_path: Path) -> None:
     shared = always("Common.ice", "1\n")
     carry_out(plan(tmp_path, shared, owner="a.idsl.yaml"), plan(tmp_path, shared, owner="b.idsl.yaml"))
     (tmp_path / "a.idsl.yaml").unlink()
@@ -59,7 +59,7 @@ def test_a_file_goes_with_its_last_owner(tmp_path: Path) -> None:
     assert tree(tmp_path, state=True) == {"b.idsl.yaml": ""}
 
 
-def test_what_was_not_asked_for_stays(tmp_path: Path) -> None:
+def test_files_of_documents_that_are_not_requested_are_kept(tmp_path: Path) -> None:
     carry_out(
         plan(tmp_path, always("A.ice", "1\n"), owner="a.idsl.yaml"),
         plan(tmp_path, always("B.ice", "1\n"), owner="b.idsl.yaml"),
@@ -75,7 +75,7 @@ def test_a_partial_plan_removes_nothing_of_its_owner(tmp_path: Path) -> None:
     assert files(tmp_path) == {"slice/A.ice": "2\n", "generated/a": "1\n"}
 
 
-def test_a_root_nobody_plans_for_is_swept_when_asked(tmp_path: Path) -> None:
+def test_other_roots_are_cleaned_up(tmp_path: Path) -> None:
     carry_out(plan(tmp_path, always("generated/a", "1\n"), once("src/b", "2\n")))
     changes = writer.prepare([], others=[str(tmp_path)])
     assert not changes.dirty, "its document is still there"
@@ -87,19 +87,19 @@ def test_a_root_nobody_plans_for_is_swept_when_asked(tmp_path: Path) -> None:
     assert (tmp_path / ".rcyaml/base/src/b").exists(), "a merge may still need it"
 
 
-def test_two_documents_cannot_want_one_file(tmp_path: Path) -> None:
+def test_two_documents_cannot_own_one_file(tmp_path: Path) -> None:
     changes, said = carry_out(
         plan(tmp_path, always("A.ice", "1\n"), once("b", "1\n"), always("c", "1\n"), owner="x/A.idsl.yaml"),
         plan(tmp_path, always("A.ice", "2\n"), once("b", "2\n"), always("c", "1\n"), owner="y/A.idsl.yaml"),
     )
     assert codes(said) == ["RC6003"], "one for both files"
-    assert "A.ice' and 1 more would" in said[0].message
+    assert "A.ice' and 1 more" in said[0].message
     assert "x/A.idsl.yaml" in said[0].message and "y/A.idsl.yaml" in said[0].message
     assert not (tmp_path / "A.ice").exists() and changes.roots[0].refused
 
 
-def test_an_owner_outside_a_linked_root_is_found(tmp_path: Path) -> None:
-    """`out` is a link: its `..` is another folder for the system than for the eye. Neither reading removes a file."""
+def test_an_owner_outside_a_linked_root_exists(tmp_path: Path) -> None:
+    """`out` is a link: its `..` is another folder for the system than in the path. Neither meaning deletes a file."""
     (tmp_path / "docs").mkdir()
     (tmp_path / "docs/A.idsl.yaml").touch()
     (tmp_path / "far/away").mkdir(parents=True)
@@ -110,7 +110,7 @@ def test_an_owner_outside_a_linked_root_is_found(tmp_path: Path) -> None:
 
 
 def test_roots_in_each_other_share_a_file(tmp_path: Path) -> None:
-    """Such as a component in a workspace's own folder: the `slice/` of both is one."""
+    """As a component in the folder of its workspace: both have the same `slice/`."""
 
     def compiled(text: str, *, inner: bool = True, outer: bool = True) -> list[str]:
         plans = [plan(tmp_path / "slice", always("A.ice", text), owner="../a.idsl.yaml")] if inner else []
@@ -120,7 +120,7 @@ def test_roots_in_each_other_share_a_file(tmp_path: Path) -> None:
         return codes(said)
 
     assert compiled("1\n") == []
-    for _ in range(2):  # one of them cannot be written for a while
+    for _ in range(2):  # one of them cannot be written at first
         assert compiled("2\n", outer=False) == compiled("3\n") == []
         assert compiled("4\n", inner=False) == compiled("5\n") == []
     _, said = carry_out(plan(tmp_path / "slice", always("A.ice", "5\n"), owner="../a.idsl.yaml"), plan(tmp_path))

@@ -1,4 +1,4 @@
-"""What the writer refuses, and leaves as it is: ways out of the root, things in the way, manifests it cannot read."""
+"""What the writer refuses: paths out of the root, paths that are no files, and manifests that it cannot read."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def root(tmp_path: Path) -> Path:
 
 
 def refused(root: Path, *files: FilePlan) -> list[Diagnostic]:
-    """What is said, where nothing may change."""
+    """The diagnostics of a transaction that changes nothing."""
     planned = plan(root, *files)
     before = tree(root.parent, state=True)
     _, said = carry_out(planned)
@@ -31,25 +31,25 @@ def refused(root: Path, *files: FilePlan) -> list[Diagnostic]:
 
 @pytest.mark.parametrize("path", ["../outside/new", "/tmp/rcyaml-new", "a/../../new", "a//b", "", ".", "a/\0b", "./a"])
 @pytest.mark.parametrize("make", [always, once])
-def test_a_path_that_is_not_plain(root: Path, path: str, make) -> None:
+def test_a_path_out_of_the_root(root: Path, path: str, make) -> None:
     assert codes(refused(root, make(path, "x"))) == ["RC6002"]
 
 
 @pytest.mark.parametrize("make", [always, once])
 @pytest.mark.parametrize("target", ["../outside", "../outside/not/there"])
-def test_a_folder_that_is_a_link_out(root: Path, target: str, make) -> None:
+def test_a_folder_that_is_a_link_to_outside(root: Path, target: str, make) -> None:
     (root / "generated").symlink_to(target)
     said = refused(root, make("generated/deep/new", "x"), make("generated/other", "x"), always("fine", "x"))
     assert codes(said) == ["RC6002"]
     assert "generated/deep/new" in said[0].message and f"'generated' is a link to {target}" in said[0].message
 
 
-def test_a_generated_file_that_is_a_link_out(root: Path) -> None:
+def test_a_generated_file_that_is_a_link_to_outside(root: Path) -> None:
     (root / "a").symlink_to("../outside/file")
     assert codes(refused(root, always("a", "theirs\n"))) == ["RC6002"]
 
 
-def test_the_state_folder_that_is_a_link_out(root: Path) -> None:
+def test_the_state_folder_that_is_a_link_to_outside(root: Path) -> None:
     (root / ".rcyaml").symlink_to("../outside")
     assert codes(refused(root, always("a", "x"))) == ["RC6002"]
 
@@ -71,15 +71,15 @@ def test_a_generated_file_replaced_by_a_link_is_kept_as_that_link(root: Path) ->
     assert tree(root)["a"] == "1\n"
 
 
-def test_things_in_the_way(root: Path) -> None:
+def test_paths_that_are_no_files(root: Path) -> None:
     (root / "a").mkdir()
     (root / "b").write_text("a file\n")
     said = refused(root, always("a", "x"), always("b/c", "x"), once("b/d", "x"), always("n" * 300, "x"))
     assert [(d.code, d.message.partition(": ")[2]) for d in said] == [
-        ("RC6005", "a folder stands there"),
-        ("RC6005", "'b' is no folder"),
+        ("RC6005", "it is a folder"),
+        ("RC6005", "'b' is not a folder"),
         ("RC6005", "file name too long"),
-    ], "one for each cause"
+    ], "one diagnostic for each cause"
 
 
 def test_a_root_that_is_a_file(tmp_path: Path) -> None:
@@ -100,7 +100,7 @@ def test_a_root_that_is_a_file(tmp_path: Path) -> None:
         ('{"version": 1, "files": {"a": {"hash": 1, "owners": []}}}', "damaged"),
         ('{"version": 1, "files": {"a": {"hash": "1", "owners": [1]}}}', "damaged"),
         ("[" * 100_000, "damaged"),
-        ('{"version": 2, "files": {}}', "newer"),
+        ('{"version": 2, "files": {}}', "later version"),
         ("\0\xff", "damaged"),
     ],
 )
@@ -112,7 +112,7 @@ def test_a_manifest_that_cannot_be_used(root: Path, text: str, reason: str) -> N
     assert codes(said) == ["RC6006"] and reason in said[0].message
 
 
-def test_a_manifest_cannot_send_a_removal_outside(root: Path) -> None:
+def test_a_manifest_cannot_delete_files_outside(root: Path) -> None:
     (root / ".rcyaml").mkdir()
     from robocomp_yaml.source.digest import digest
 

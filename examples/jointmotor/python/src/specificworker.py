@@ -1,4 +1,4 @@
-"""JointMotorComp: moves motors, here simulated ones, at no more than their speed and within their limits."""
+"""JointMotorComp: moves simulated motors, at most at their maximum speed, and within their limits."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Shell: a component that does something every period, and speaks with nobody."""
+"""Shell: components with a period, and without interfaces."""
 
 from robocomp_yaml.api.plugins import TargetLanguage
 

@@ -1,4 +1,4 @@
-"""The files of a component: what is started, and what its user writes."""
+"""The files of a component: the program, and the user's script."""
 
 import msgspec
 

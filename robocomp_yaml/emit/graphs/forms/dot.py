@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from robocomp_yaml.emit.graphs import picture as parts
-from robocomp_yaml.emit.graphs.picture import Line, Node, Picture
+from robocomp_yaml.emit.graphs.picture import Picture, PictureLine, PictureNode
 
 _RED = "#c62828"
 _SHAPES = {
@@ -35,11 +35,10 @@ def draw(picture: Picture) -> str:
     return "\n".join([*lines, "}"]) + "\n"
 
 
-def _node(node: Node) -> str:
-    text = "\n".join([node.title, *node.about, *node.served()])
-    more = f', color="{_RED}", penwidth=2, tooltip={_quoted(_told(node))}' if node.faults else ""
+def _node(node: PictureNode) -> str:
+    more = f', color="{_RED}", penwidth=2, tooltip={_quoted(*_faults(node))}' if node.faults else ""
     more += "" if node.enabled else ', fontcolor="#9aa0a6"'
-    return f"{_quoted(node.name)} [label={_quoted(text)}, {_SHAPES[node.kind]}{more}];"
+    return f"{_quoted(node.name)} [label={_quoted(*node.texts())}, {_SHAPES[node.kind]}{more}];"
 
 
 def _lines(picture: Picture) -> Iterator[str]:
@@ -47,13 +46,14 @@ def _lines(picture: Picture) -> Iterator[str]:
         label = line.label if line.kind == parts.USES else ""
         words = [f"label={_quoted(label)}"] if label else []
         words += [_LINES[line.kind]] if _LINES[line.kind] else []
-        words += [f'color="{_RED}"', f'fontcolor="{_RED}"', f"tooltip={_quoted(_told(line))}"] if line.faults else []
+        words += [f'color="{_RED}"', f'fontcolor="{_RED}"', f"tooltip={_quoted(*_faults(line))}"] if line.faults else []
         yield f"{_quoted(line.source)} -> {_quoted(line.target)}" + (f" [{', '.join(words)}]" if words else "") + ";"
 
 
-def _told(part: Node | Line) -> str:
-    return "\n".join(f"{fault.code}: {fault.message}" for fault in part.faults)
+def _faults(part: PictureNode | PictureLine) -> list[str]:
+    return [fault.text for fault in part.faults]
 
 
-def _quoted(text: str) -> str:
+def _quoted(*lines: str) -> str:
+    text = "\n".join(lines)
     return '"' + text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n") + '"'

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from robocomp_yaml.diag.render.json import dumps
-from robocomp_yaml.emit.graphs.picture import Fault, Picture
+from robocomp_yaml.emit.graphs.picture import Picture, PictureFault
 
 
 def draw(picture: Picture) -> str:
@@ -27,7 +27,7 @@ def draw(picture: Picture) -> str:
     })  # fmt: skip
 
 
-def _faults(faults: tuple[Fault, ...]) -> list[dict[str, str]]:
+def _faults(faults: tuple[PictureFault, ...]) -> list[dict[str, str]]:
     return [
         {"code": fault.code, "severity": "error" if fault.is_error else "warning", "message": fault.message}
         for fault in faults

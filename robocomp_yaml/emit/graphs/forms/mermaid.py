@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 from robocomp_yaml.emit.graphs import picture as parts
-from robocomp_yaml.emit.graphs.picture import Node, Picture
+from robocomp_yaml.emit.graphs.picture import Picture, PictureNode
 
 _SHAPES = {
     parts.COMPONENT: ("(", ")"), parts.PROGRAM: ("[", "]"), parts.ICESTORM: ("[(", ")]"),
@@ -28,10 +28,9 @@ def draw(picture: Picture) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _node(node: Node, numbers: dict[str, str]) -> str:
-    text = [node.title, *node.about, *node.served()]
+def _node(node: PictureNode, numbers: dict[str, str]) -> str:
     begin, end = _SHAPES[node.kind]
-    return f"{numbers[node.name]}{begin}{_quoted(*text)}{end}"
+    return f"{numbers[node.name]}{begin}{_quoted(*node.texts())}{end}"
 
 
 def _lines(picture: Picture, numbers: dict[str, str]) -> Iterator[str]:
@@ -56,6 +55,6 @@ def _faults(picture: Picture, numbers: dict[str, str]) -> Iterator[str]:
 
 
 def _quoted(*lines: str) -> str:
-    """Lines of text; what Mermaid or HTML would read is spelled by its number."""
-    told = [re.sub(r"[\"#&<>\\`;]", lambda found: f"#{ord(found[0])};", " ".join(line.split())) for line in lines]
-    return '"' + "<br>".join(told) + '"'
+    """Lines of text in quotes. Characters with a meaning in Mermaid or HTML are escaped."""
+    escaped = [re.sub(r"[\"#&<>\\`;]", lambda match: f"#{ord(match[0])};", " ".join(line.split())) for line in lines]
+    return '"' + "<br>".join(escaped) + '"'

@@ -1,4 +1,4 @@
-"""The picture as SVG, for people: it stands alone, measures its own text, and suits light and dark pages."""
+"""The picture as SVG, for people. It needs no other file, and suits light and dark pages."""
 
 from __future__ import annotations
 
@@ -6,23 +6,15 @@ from collections.abc import Iterator
 from xml.sax.saxutils import escape
 
 from robocomp_yaml.emit.graphs import picture as parts
-from robocomp_yaml.emit.graphs.geometry import (
-    LINE_HEIGHT,
-    SMALL,
-    Block,
-    Geometry,
-    Point,
-    Way,
-    geometry_of,
-)
+from robocomp_yaml.emit.graphs.geometry import LINE_HEIGHT, SMALL, EdgePath, Geometry, Point, Rectangle, geometry_of
 from robocomp_yaml.emit.graphs.measure import shortened, width
-from robocomp_yaml.emit.graphs.picture import Fault, Node, Picture
+from robocomp_yaml.emit.graphs.picture import Picture, PictureFault, PictureNode
 from robocomp_yaml.emit.graphs.routes import Net
 from robocomp_yaml.emit.xml_text import IMPOSSIBLE
 
 _ROUND = 4.0
 _COLORS = 6
-"""Lines of different targets have different colours, so that the eye can follow them."""
+"""The number of colours of lines: lines to different targets differ, so that they can be followed."""
 _MARGIN = 16.0
 
 _STYLE = """
@@ -40,7 +32,7 @@ text { font-family: Helvetica, Arial, 'Liberation Sans', sans-serif; fill: #2021
 .label { font-size: 10px; fill: #3c4043 }
 .line.warned { stroke: #e37400 } .node.warned { stroke: #e37400; stroke-width: 2.4 }
 .line.wrong { stroke: #d93025; stroke-width: 2.2 } .node.wrong { stroke: #d93025; stroke-width: 2.4 }
-.tip.wrong, .told.wrong { fill: #d93025 } .tip.warned, .told.warned { fill: #b35c00 } .told { font-size: 11px }
+.tip.wrong, .problem.wrong { fill: #d93025 } .tip.warned, .problem.warned { fill: #b35c00 } .problem { font-size: 11px }
 @media (prefers-color-scheme: dark) {
 text { fill: #e8eaed } .paper { fill: #1b1c1f } .about, .hostname { fill: #a9aeb4 } .label { fill: #c8ccd0 }
 .host { fill: #232529; stroke: #4b4f55 } .component { fill: #20304f } .program { fill: #30353a }
@@ -49,8 +41,8 @@ text { fill: #e8eaed } .paper { fill: #1b1c1f } .about, .hostname { fill: #a9aeb
 .c5 { stroke: #c9c95a } .t0 { fill: #7fa8e6 } .t1 { fill: #6fc29b } .t2 { fill: #dba36a } .t3 { fill: #a9b4bd }
 .t4 { fill: #4fc3cc } .t5 { fill: #c9c95a } .publishes, .subscribes { stroke: #b98be3 }
 .tpublishes, .tsubscribes { fill: #b98be3 } .line.wrong, .node.wrong { stroke: #f28b82 }
-.tip.wrong, .told.wrong { fill: #f28b82 } .line.warned, .node.warned { stroke: #fbae5c }
-.tip.warned, .told.warned { fill: #fbae5c }
+.tip.wrong, .problem.wrong { fill: #f28b82 } .line.warned, .node.warned { stroke: #fbae5c }
+.tip.warned, .problem.warned { fill: #fbae5c }
 }
 """
 
@@ -58,8 +50,8 @@ text { fill: #e8eaed } .paper { fill: #1b1c1f } .about, .hostname { fill: #a9aeb
 def draw(picture: Picture) -> str:
     geometry = geometry_of(picture)
     colors = {name: number % _COLORS for number, name in enumerate(picture.nodes)}
-    told = list(_problems(picture, geometry))
-    height = geometry.height + len(told) * LINE_HEIGHT + (_MARGIN if told else 0)
+    problems = list(_problems(picture, geometry))
+    height = geometry.height + len(problems) * LINE_HEIGHT + (_MARGIN if problems else 0)
     wide = max(geometry.width, width(picture.name, 16, bold=True) + width(_count(picture), SMALL) + 4 * _MARGIN)
     lines = [
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {wide:.0f} {height:.0f}" width="{wide:.0f}" '
@@ -70,12 +62,12 @@ def draw(picture: Picture) -> str:
         f'<text class="about" x="{2 * _MARGIN + width(picture.name, 16, bold=True):.0f}" y="28">'
         f"{_text(_count(picture))}</text>",
         *(line for block in geometry.hosts.values() for line in _host(block)),
-        *(_way(way, colors) for way in geometry.ways),
-        *(line for way in geometry.ways for line in _tips(way, colors)),
+        *(_way(way, colors) for way in geometry.paths),
+        *(line for way in geometry.paths for line in _tips(way, colors)),
         *(f'<text class="label" x="{x + 5:g}" y="{y - 6:g}">{_text(net.label)}</text>'
           for net, (x, y) in geometry.labels if net.label),
         *(line for name, block in geometry.nodes.items() for line in _node(picture.nodes[name], block)),
-        *told, "</svg>",
+        *problems, "</svg>",
     ]  # fmt: skip
     return "\n".join(lines) + "\n"
 
@@ -87,15 +79,16 @@ def _count(picture: Picture) -> str:
     return ", ".join(f"{count} {kind}{'s' if count > 1 else ''}" for count, kind in counts if count)
 
 
-def _host(block: Block) -> Iterator[str]:
+def _host(block: Rectangle) -> Iterator[str]:
     yield f'<rect class="host" {_place(block)} rx="8"/>'
     yield f'<text class="hostname" x="{block.x + 10:g}" y="{block.y + 17:g}">{_text(block.texts[0])}</text>'
 
 
-def _node(node: Node, block: Block) -> Iterator[str]:
+def _node(node: PictureNode, block: Rectangle) -> Iterator[str]:
     corner = block.height / 2 if node.kind == parts.TOPIC else {parts.PROGRAM: 2}.get(node.kind, 8)
     off = "" if node.enabled else ' class="off"'
-    yield f"<g{off}><title>{_text(_tooltip(node))}</title>"
+    tooltip = "\n".join([*node.texts(), *(fault.text for fault in node.faults)])
+    yield f"<g{off}><title>{_text(tooltip)}</title>"
     yield f'<rect class="node {node.kind}{_fault(node.faults)}" {_place(block)} rx="{corner:g}"/>'
     for number, line in enumerate(block.texts):
         style = "name" if number == 0 else "about"
@@ -104,15 +97,15 @@ def _node(node: Node, block: Block) -> Iterator[str]:
     yield "</g>"
 
 
-def _way(way: Way, colors: dict[str, int]) -> str:
+def _way(way: EdgePath, colors: dict[str, int]) -> str:
     style = f"{_color(way.net, colors, 'c')}{_fault(way.branch.faults)}"
-    told = "".join(f"\n{fault.code}: {fault.message}" for fault in way.branch.faults)
-    title = f"{way.branch.source} {way.net.kind} {way.net.label or way.net.target}{told}"
+    title = f"{way.branch.source} {way.net.kind} {way.net.label or way.net.target}"
+    title = "\n".join([title, *(fault.text for fault in way.branch.faults)])
     return f'<path class="line {style}" d="{_path(way.points)}"><title>{_text(title)}</title></path>'
 
 
-def _tips(way: Way, colors: dict[str, int]) -> Iterator[str]:
-    """The arrow's head: at the target, or where things come from it, at the source."""
+def _tips(way: EdgePath, colors: dict[str, int]) -> Iterator[str]:
+    """The head of the arrow: at the target; at the source if events flow from the target."""
     x, y = way.points[0] if way.net.kind == parts.SUBSCRIBES else way.points[-1]
     back = 7 if way.net.kind == parts.SUBSCRIBES else -7
     style = f"{_color(way.net, colors, 't')}{_fault(way.branch.faults)}"
@@ -126,7 +119,7 @@ def _color(net: Net, colors: dict[str, int], prefix: str) -> str:
 
 
 def _path(points: list[Point]) -> str:
-    """A way with round corners; corners that are none are passed over."""
+    """The path with round corners; points on a straight line are omitted."""
     kept = [points[0]]
     for point, after in zip(points[1:], [*points[2:], None], strict=True):
         straight = after is not None and (kept[-1][0] == point[0] == after[0] or kept[-1][1] == point[1] == after[1])
@@ -140,7 +133,7 @@ def _path(points: list[Point]) -> str:
 
 
 def _towards(corner: Point, other: Point) -> Point:
-    """The point where a round corner begins."""
+    """The point at which a round corner begins."""
     wide, high = other[0] - corner[0], other[1] - corner[1]
     length = abs(wide) + abs(high)
     share = min(_ROUND, length / 2) / length
@@ -151,25 +144,21 @@ def _problems(picture: Picture, geometry: Geometry) -> Iterator[str]:
     room = max(geometry.width, 640.0) - 2 * _MARGIN
     for number, (owner, fault) in enumerate(picture.all_faults()):
         y = geometry.height + LINE_HEIGHT * (number + 1)
-        told = f"{fault.code} {owner}: {fault.message}"
+        text = f"{fault.code} {owner}: {fault.message}"
         style = "wrong" if fault.is_error else "warned"
-        line = shortened(told, SMALL, room)
-        yield f'<text class="told {style}" x="{_MARGIN:g}" y="{y:g}"><title>{_text(told)}</title>{_text(line)}</text>'
+        line = shortened(text, SMALL, room)
+        position = f'x="{_MARGIN:g}" y="{y:g}"'
+        yield f'<text class="problem {style}" {position}><title>{_text(text)}</title>{_text(line)}</text>'
 
 
-def _tooltip(node: Node) -> str:
-    told = [f"{fault.code}: {fault.message}" for fault in node.faults]
-    return "\n".join([node.title, *node.about, *node.served(), *told])
-
-
-def _fault(faults: tuple[Fault, ...]) -> str:
+def _fault(faults: tuple[PictureFault, ...]) -> str:
     return " wrong" if any(fault.is_error for fault in faults) else " warned" if faults else ""
 
 
-def _place(block: Block) -> str:
+def _place(block: Rectangle) -> str:
     return f'x="{block.x:g}" y="{block.y:g}" width="{block.width:g}" height="{block.height:g}"'
 
 
 def _text(text: str) -> str:
-    """A text as XML's; what XML cannot hold is left out."""
+    """A text, escaped for XML, without the characters that XML cannot contain."""
     return escape(IMPOSSIBLE.sub("", text.replace("\r", "")))

@@ -1,34 +1,34 @@
-"""The picture in words: each host with what runs there, and below each process what it is connected to."""
+"""The picture as text: each host with its processes, and each process with its connections."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from robocomp_yaml.emit.graphs import picture as parts
-from robocomp_yaml.emit.graphs.picture import Line, Node, Picture
+from robocomp_yaml.emit.graphs.picture import Picture, PictureLine, PictureNode
 
 _ARROWS = {parts.USES: "->", parts.PUBLISHES: "=>", parts.SUBSCRIBES: "<=", parts.AFTER: ".."}
 
 
 def draw(picture: Picture) -> str:
     lines = [picture.name]
-    places = [(box.name, box.title) for box in picture.boxes] + [("", "")]
-    for name, title in places:
+    sections = [(box.name, box.title) for box in picture.boxes] + [("", "")]
+    for name, title in sections:
         shown = [node for node in picture.inside(name) if node.kind not in (parts.TOPIC, parts.OUTSIDE)]
         if shown and title:
             lines.append(f"  {title}")
         indent = "    " if title else "  "
         for node in shown:
             lines += [f"{indent}{line}" for line in _node(picture, node)]
-    told = list(picture.all_faults())
-    if told:
+    faults = list(picture.all_faults())
+    if faults:
         lines.append("problems")
-    for owner, fault in told:
+    for owner, fault in faults:
         lines.append(f"  {owner}: {'error' if fault.is_error else 'warning'}[{fault.code}]: {fault.message}")
     return "\n".join(lines) + "\n"
 
 
-def _node(picture: Picture, node: Node) -> Iterator[str]:
+def _node(picture: Picture, node: PictureNode) -> Iterator[str]:
     serves = ", ".join(node.served())
     about = ", ".join([*node.about, *(f"in {group}" for group in node.groups), *([] if node.enabled else ["off"])])
     mark = " !" if node.faults else ""
@@ -38,7 +38,7 @@ def _node(picture: Picture, node: Node) -> Iterator[str]:
             yield f"  {_ARROWS[line.kind]} {_target(picture, line)}{' !' if line.faults else ''}"
 
 
-def _target(picture: Picture, line: Line) -> str:
+def _target(picture: Picture, line: PictureLine) -> str:
     target = picture.nodes[line.target]
     if line.kind == parts.AFTER:
         return f"after {target.title}"

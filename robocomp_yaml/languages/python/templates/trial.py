@@ -1,7 +1,7 @@
-"""Compiles a component's Python to bytecode and imports it once, as its launcher would: `trial.py FOLDER MARK`.
+"""Compiles a component's Python to bytecode and imports it once, as its launcher does: `trial.py FOLDER MARK`.
 
-`rcyaml build` runs it in the Python that the component runs in, from 3.9 on. Each thing that is wrong is a line of JSON
-behind MARK; what the user's code prints is between them.
+`rcyaml build` runs it with the component's Python, from 3.9 on. It prints each error as a line of JSON after MARK;
+other lines are output of the user's code.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ def main(root: str) -> int:
     except interpreter.NoPython as error:
         print(error)
         return 3
-    warnings.showwarning = _warned
+    warnings.showwarning = _show_warning
     warnings.simplefilter("always", SyntaxWarning)
     is_fine = all([_compiles(path) for folder in (source, os.path.join(root, "generated")) for path in _code(folder)])
     return 0 if is_fine and _imports(source) else 1
@@ -43,15 +43,15 @@ def _code(folder: str) -> list[str]:
 
 def _compiles(path: str) -> bool:
     try:
-        # In memory first: what is kept already says nothing of warnings any more.
+        # In memory first: compiled files do not repeat warnings.
         with open(path, "rb") as file:
             compile(file.read(), path, "exec", dont_inherit=True)
         py_compile.compile(path, importlib.util.cache_from_source(path), doraise=True)
     except SyntaxError as error:
-        _say("error", path, error.lineno, error.offset, f"{type(error).__name__}: {error.msg}", _end(error))
-    except (ValueError, py_compile.PyCompileError) as error:  # such as a zero byte
-        _say("error", path, 1, 1, str(error))
-    except OSError:  # it cannot be kept, where nobody may write: it is compiled again each time
+        _report("error", path, error.lineno, error.offset, f"{type(error).__name__}: {error.msg}", _end(error))
+    except (ValueError, py_compile.PyCompileError) as error:  # such as a NUL byte
+        _report("error", path, 1, 1, str(error))
+    except OSError:  # a read-only folder: it is compiled again each time
         return True
     else:
         return True
@@ -82,7 +82,7 @@ def _imports(source: str) -> bool:
         last = frames[-1]
         line = linecache.getline(last.filename, last.lineno or 1).rstrip("\n")
         begin = len(line) - len(line.lstrip()) + 1
-        _say("error", last.filename, last.lineno, begin, f"{type(error).__name__}: {error}", len(line.rstrip()) + 1)
+        _report("error", last.filename, last.lineno, begin, f"{type(error).__name__}: {error}", len(line.rstrip()) + 1)
         return False
     return True
 
@@ -91,18 +91,18 @@ def _is_in(path: str, folder: str) -> bool:
     return os.path.abspath(path).startswith(os.path.join(os.path.abspath(folder), ""))
 
 
-def _warned(message: object, category: type, filename: str, lineno: int, *_: object) -> None:
+def _show_warning(message: object, category: type, filename: str, lineno: int, *_: object) -> None:
     if issubclass(category, SyntaxWarning):
-        _say("warning", filename, lineno, None, f"{category.__name__}: {message}")
+        _report("warning", filename, lineno, None, f"{category.__name__}: {message}")
 
 
-def _say(kind: str, path: str, line: int | None, column: int | None, text: str, end: int | None = None) -> None:
-    said = {"kind": kind, "file": path, "line": line or 1, "column": column or 1, "end": end or 0, "text": text}
-    print(sys.argv[2] + json.dumps(said), flush=True)
+def _report(kind: str, path: str, line: int | None, column: int | None, text: str, end: int | None = None) -> None:
+    fault = {"kind": kind, "file": path, "line": line or 1, "column": column or 1, "end": end or 0, "text": text}
+    print(sys.argv[2] + json.dumps(fault), flush=True)
 
 
 if __name__ == "__main__":
     code = main(os.path.abspath(sys.argv[1]))
     sys.stdout.flush()
     sys.stderr.flush()
-    os._exit(code)  # whatever threads the user's code has begun
+    os._exit(code)  # even if the user's code has started threads

@@ -115,7 +115,7 @@ class Values(composite.Record):
         composite.listing(composite.record(Motor), at_least=1, at_most=3),
         editable=True,
     )
-    """From 1 to 3 entries; may change while the component runs."""
+    """1 to 3 entries; may change while the component runs."""
 
     gains: tuple[tuple[float, ...], ...] = composite.member(
         composite.listing(composite.listing(plain.decimal("float"), at_least=3, at_most=3)),
@@ -151,10 +151,10 @@ class Values(composite.Record):
 
 
 class Parameters(parameters.Live, Values):
-    """The parameters while the component runs: `self.parameters` in the worker.
+    """The parameters of the running component: `self.parameters` in the worker.
 
-    What is read is what holds at that moment; `set`, `change` and `listen` are about changes, and `now` gives values
-    that belong together.
+    An attribute returns the value at that moment; `now` returns values that belong together. `set` and `change` change
+    values, and `listen` observes changes.
     """
 
 

@@ -1,10 +1,10 @@
-"""What is read of the user's code."""
+"""Reading the user's code."""
 
 from __future__ import annotations
 
 import pytest
 
-from robocomp_yaml.emit.specific.code import Code
+from robocomp_yaml.emit.specific.code import SourceCode
 from robocomp_yaml.emit.specific.reading import read
 
 PYTHON = '''"""Mine."""
@@ -68,7 +68,7 @@ inline bool SpecificWorker::Speech_say(const std::string& text, RoboCompSpeech::
 """
 
 
-def code(path: str, text: str) -> Code:
+def code(path: str, text: str) -> SourceCode:
     found = read(path, text)
     assert found is not None
     return found
@@ -78,7 +78,7 @@ def test_a_python_class() -> None:
     found = code("src/specificworker.py", PYTHON)
     say, wait, stop, sing = found.members
     assert [m.name for m in found.members] == ["Speech_say", "Speech_wait", "Speech_stop", "Speech_sing"]
-    assert found.place and (found.place.line, found.place.column, found.place.end_column) == (9, 11, 25)
+    assert found.location and (found.location.line, found.location.column, found.location.end_column) == (9, 11, 25)
     assert found.bases == ("GenericWorker", "mixins.Speaker")
     assert say.signature and say.signature.parameters == ("text : str", "loud = False")
     assert (say.signature.least, say.signature.most, say.signature.returns) == (2, None, "bool"), "voice is required"
@@ -106,7 +106,7 @@ def test_a_cpp_class() -> None:
         "done",
     ]
     _, say, wait, inlined, list_, shout, _ = found.members
-    assert found.place and found.place.line == 9 and found.lines[found.body_end] == "};\n"
+    assert found.location and found.location.line == 9 and found.lines[found.body_end] == "};\n"
     assert found.bases == ("GenericWorker", "mine::Speaker")
     assert say.signature and say.signature.names == ("text", "", "times")
     assert say.signature.parameters == ("const std :: string &", "RoboCompSpeech :: Voices", "int")
@@ -114,7 +114,7 @@ def test_a_cpp_class() -> None:
     assert wait.signature and wait.signature.returns == "std :: vector < int >"
     assert list_.signature and list_.signature.returns == "std :: vector < int >&"
     assert (say.has_body, inlined.has_body, shout.nested) == (False, True, True)
-    assert [(m.name, m.place.line) for m in found.definitions] == [("Speech_say", 31)]
+    assert [(m.name, m.location.line) for m in found.definitions] == [("Speech_say", 31)]
     assert found.import_end == 3 and found.faults == 0
 
 
@@ -127,11 +127,11 @@ def test_any_text_can_be_read(path: str, text: str) -> None:
     assert "".join(code(path, text).lines) == text
 
 
-def test_faults_are_counted() -> None:
+def test_syntax_errors_are_counted() -> None:
     assert code("a.py", "def f(:\n    pass\n").faults
     assert code("a.cpp", "void f( {\n").faults
     assert code("a.cpp", "void f() {}\n").faults == 0
 
 
-def test_other_files_are_no_code() -> None:
+def test_other_files_are_not_code() -> None:
     assert read("CMakeLists.txt", "project(x)\n") is None

@@ -1,4 +1,4 @@
-"""SpeechComp: says what is in its queue, a word each period, and moves the mouth with it."""
+"""SpeechComp: says the texts of its queue, one word each period, and moves the mouth with it."""
 
 from __future__ import annotations
 

@@ -10,7 +10,7 @@ namespace machine
 namespace
 {
 
-const std::string tick = "t_compute_to_compute"; // RoboComp's timer fires it
+const std::string tick = "t_compute_to_compute"; // the event of RoboComp's timer
 
 }
 
@@ -86,7 +86,7 @@ void StateMachine::turn()
         }
         catch (const Failure&)
         {
-            // It is in the log.
+            // It is logged already.
         }
     }
 }
@@ -100,7 +100,7 @@ void StateMachine::stop()
     publish();
 }
 
-/// Where tools see it, too.
+/// Shows the states to tools too.
 void StateMachine::publish()
 {
     std::vector<std::string> active;
@@ -151,7 +151,7 @@ void StateMachine::log(const std::string& label, const std::string& value)
     reports_.info(label.empty() ? value : label + ": " + value);
 }
 
-void StateMachine::complain(const std::string& message)
+void StateMachine::warn(const std::string& message)
 {
     reports_.warning("state machine: " + message);
 }

@@ -16,7 +16,7 @@
 namespace machine
 {
 
-/// Where the state machine meets the worker's own methods, by the names of the document.
+/// The worker's own methods for the state machine, by their names in the document.
 struct Methods
 {
     std::map<std::string, std::function<bool()>> guards;
@@ -26,7 +26,7 @@ struct Methods
     std::map<std::string, std::function<void()>> period;
 };
 
-/// What the machine tells the component: lines for its log, and its active states whenever they change.
+/// Receives what the machine reports: lines for the component's log, and its active states whenever they change.
 struct Reports
 {
     std::function<void(const std::string&)> info;
@@ -34,8 +34,7 @@ struct Reports
     std::function<void(const std::string&)> states;
 };
 
-/// The component's state machine, which the worker's thread drives. Its states may be asked, and events fired, from any
-/// thread.
+/// The component's state machine, which runs in the worker's thread. Any thread may ask for its states and fire events.
 class StateMachine : private Host
 {
 public:
@@ -43,25 +42,25 @@ public:
         const Machine& machine, Reports reports, std::function<void()> wake,
         std::function<TimePoint()> clock = std::chrono::steady_clock::now);
 
-    /// The names of all active states, outer ones first; none before the start and after the end.
+    /// The names of all active states, outer ones first; empty before the start and after the end.
     std::vector<std::string> states() const;
 
     bool isIn(const std::string& state) const;
 
-    /// An event for the machine, which the worker's thread hands to it; it does not wait for that.
+    /// Queues an event, which the worker's thread handles later; returns at once.
     void fire(const std::string& event, const Data& data = {});
 
-    /// The event that is being handled; for the worker's thread.
+    /// The event that is being handled. Only for the worker's thread.
     const Event& event() const;
 
     // For the worker's thread
 
     void start();
 
-    /// Handles what has come. Returns in what time there will be more of it.
+    /// Handles all queued events; returns the time until the next delayed event, if any.
     std::optional<std::chrono::steady_clock::duration> run();
 
-    /// Every period: looks again at conditions that need no event, and calls the methods of the active states.
+    /// Called every period: evaluates transitions without an event, and calls the methods of the active states.
     void turn();
 
     /// Leaves all states.
@@ -75,9 +74,9 @@ private:
     void entered(const std::string& state) override;
     void left(const std::string& state) override;
     void log(const std::string& label, const std::string& value) override;
-    void complain(const std::string& message) override;
+    void warn(const std::string& message) override;
 
-    /// Calls a method, where there is one. An exception of the user's code is logged, and becomes a Failure.
+    /// Calls a method, if it exists. An exception of the user's code is logged, and becomes a Failure.
     template <typename Result>
     Result call(const std::map<std::string, std::function<Result()>>& methods, const std::string& name);
 

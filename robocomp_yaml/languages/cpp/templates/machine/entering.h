@@ -11,33 +11,33 @@
 namespace machine
 {
 
-/// What each history remembers.
+/// The remembered states of each history.
 using History = std::map<int, std::vector<int>>;
 
-/// Which states transitions enter (SCXML's computeEntrySet), and between which they take place.
+/// The states that transitions enter (SCXML's computeEntrySet), and the domain of a transition.
 class Entry
 {
 public:
     Entry(const Tree& tree, const History& history);
 
-    /// The state inside of which a transition leaves and enters everything.
+    /// The state in which a transition leaves and enters everything (SCXML's getTransitionDomain).
     int domain(const Transition& transition) const;
 
     void add(const Transition& transition);
 
     std::set<int> states;
-    std::set<int> byDefault; // those of them whose initial transition is followed
-    std::map<int, const std::vector<Action>*> historyActions; // by the state that a history stands in
+    std::set<int> byDefault; // those of them that are entered by default
+    std::map<int, const std::vector<Action>*> historyActions; // by the parent of the history
 
 private:
-    /// Where a transition really goes: a history stands for what is remembered, or for its own transition.
+    /// The effective targets: a history is replaced by its remembered states, or by the targets of its default.
     std::vector<int> targets(const Transition& transition) const;
 
     void descend(int number);
     void remember(int history);
     void ascend(int number, int below);
 
-    /// All children of a parallel state, each as far as nothing in it is to be entered already.
+    /// Adds all children of a parallel state that have no state to enter yet.
     void fill(int parallel);
 
     const Tree& tree_;

@@ -10,10 +10,10 @@
 namespace machine
 {
 
-/// Named values that go along with an event; one value without a name stands under "".
+/// The named values of an event; a value without a name has the name "".
 using Data = std::map<std::string, std::string>;
 
-/// What SCXML calls `_event`.
+/// SCXML's `_event`.
 struct Event
 {
     std::string name = {};
@@ -22,7 +22,7 @@ struct Event
     std::string invokeid = {};
 };
 
-/// What cannot be done; the machine gets `error.execution`, with the id of the event that could not be sent.
+/// An action that failed: the machine receives `error.execution`, with the id of an event that cannot be sent.
 class Failure : public std::runtime_error
 {
 public:

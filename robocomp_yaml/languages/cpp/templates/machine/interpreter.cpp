@@ -10,7 +10,7 @@ namespace machine
 namespace
 {
 
-constexpr int maxSteps = 10000; // without an event from outside: more is a loop that never ends
+constexpr int maxSteps = 10000; // without an external event: more is an endless loop
 
 }
 
@@ -74,8 +74,8 @@ void Interpreter::settle()
         }
         if (steps >= maxSteps)
         {
-            surroundings_.complain(
-                std::to_string(maxSteps) + " steps without an event from outside: the machine stops here");
+            surroundings_.warn(
+                std::to_string(maxSteps) + " steps without an external event: the machine is stopped");
             isRunning = false;
         }
         step(enabled);
@@ -107,11 +107,11 @@ void Interpreter::raise(const Event& raised)
 
 void Interpreter::fail(const std::string& name, const std::string& message, const std::string& sendid)
 {
-    surroundings_.complain(message);
+    surroundings_.warn(message);
     internal_.push_back({name, {}, sendid, {}});
 }
 
-// Which transitions
+// Selection of transitions
 
 Interpreter::Transitions Interpreter::select(const Event* given)
 {
@@ -127,7 +127,7 @@ Interpreter::Transitions Interpreter::select(const Event* given)
     return withoutConflicts(enabled);
 }
 
-/// The transition that an atomic state takes: its own or the nearest of its ancestors'.
+/// The transition of an atomic state: its own one, or that of the nearest ancestor.
 const Transition* Interpreter::first(int number, const Event* given)
 {
     auto sources = tree.ancestors(number);
@@ -147,7 +147,7 @@ const Transition* Interpreter::first(int number, const Event* given)
     return nullptr;
 }
 
-/// Of transitions that leave the same state, the one of the deeper source, else the first.
+/// Without transitions that leave a state which another one leaves: the deeper source wins, else the first.
 Interpreter::Transitions Interpreter::withoutConflicts(const Transitions& enabled) const
 {
     Transitions kept;
@@ -208,7 +208,7 @@ bool Interpreter::valueOf(const Condition& condition)
     return false;
 }
 
-// One step
+// A step
 
 void Interpreter::step(const Transitions& transitions)
 {
@@ -313,7 +313,7 @@ void Interpreter::enter(const Transitions& transitions)
     }
 }
 
-/// A final state: its parent is done, and perhaps the parallel state around.
+/// Raises the event for a final state, and for the enclosing parallel state if that is done too.
 void Interpreter::done(int number)
 {
     const auto& state = tree[number];

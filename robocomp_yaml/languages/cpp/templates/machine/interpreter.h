@@ -17,7 +17,7 @@ namespace machine
 
 class Interpreter;
 
-/// What an interpreter asks of the world around it. What cannot be done throws a Failure.
+/// The environment of an interpreter. Throws a Failure for what fails.
 class Surroundings
 {
 public:
@@ -28,7 +28,7 @@ public:
     virtual void entered(const State& state) = 0;
     virtual void left(const State& state) = 0;
     virtual void log(const std::string& label, const Value& value) = 0;
-    virtual void complain(const std::string& message) = 0;
+    virtual void warn(const std::string& message) = 0;
     virtual void forward(const Event& event) = 0;
     virtual void send(const Send& send) = 0;
     virtual void cancel(const std::string& sendid) = 0;
@@ -38,8 +38,8 @@ public:
     virtual void ended() = 0;
 };
 
-/// Runs one machine: SCXML's algorithm (https://www.w3.org/TR/scxml/#AlgorithmforSCXMLInterpretation), with the data
-/// model `null`. It knows nothing of threads or time; a Session brings the events.
+/// Interprets one machine, by SCXML's algorithm (https://www.w3.org/TR/scxml/#AlgorithmforSCXMLInterpretation), with
+/// the data model `null`. It has no threads and no time; a Session passes events to it.
 class Interpreter
 {
 public:
@@ -48,26 +48,26 @@ public:
     /// Enters the initial states.
     void start();
 
-    /// An event from outside.
+    /// Handles an external event.
     void handle(const Event& event);
 
-    /// Takes transitions until none is enabled and nothing is left of what the machine raised itself.
+    /// Takes transitions until no transition is enabled and no internal event is queued.
     void settle();
 
-    /// Leaves all states, when the machine is at its end or is stopped.
+    /// Leaves all states, because the machine has ended or is stopped.
     void leave();
 
     void raise(const Event& event);
 
-    /// `error.execution` or `error.communication`, for the machine to handle, and a line in the log.
+    /// Raises `error.execution` or `error.communication` in the machine, and logs the message.
     void fail(const std::string& name, const std::string& message, const std::string& sendid = {});
 
-    /// A block: the first action that fails ends it.
+    /// Executes a block of actions; the first action that fails ends it.
     void execute(const std::vector<Action>& actions);
 
     const Tree tree;
     std::set<int> configuration;
-    Event event; // the one that is being handled
+    Event event; // the event that is being handled
     bool isRunning = false;
 
 private:

@@ -21,7 +21,7 @@ Reports reportsTo(const runtime::Log& log, const std::shared_ptr<Ice::Communicat
             }
             catch (const Ice::CommunicatorDestroyedException&)
             {
-                // Nobody can ask any more.
+                // The communicator is destroyed: no tool can ask any more.
             }
         },
     };

@@ -15,8 +15,8 @@ class Communicator;
 namespace machine
 {
 
-/// To the component's log, and the states to where tools see them: CommonBehavior's parameters and Ice.Admin's
-/// properties. Both must outlive the machine; the communicator may come later.
+/// Writes to the component's log, and shows the states to tools: in CommonBehavior's parameters, and in Ice.Admin's
+/// properties. Log and worker must outlive the machine; the communicator may be set later.
 Reports reportsTo(const runtime::Log& log, const std::shared_ptr<Ice::Communicator>& communicator);
 
 }

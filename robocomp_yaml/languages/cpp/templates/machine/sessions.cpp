@@ -25,7 +25,7 @@ bool startsWith(const std::string& text, const std::string& start)
     return text.compare(0, start.size(), start) == 0;
 }
 
-/// `1.5s`, `100ms`; nothing is no delay.
+/// The time of `1.5s` or `100ms`. Throws a Failure for other texts.
 std::chrono::microseconds delayOf(const std::string& text)
 {
     if (text.empty())
@@ -38,7 +38,7 @@ std::chrono::microseconds delayOf(const std::string& text)
     std::string unit;
     if (!(stream >> number >> unit) || number < 0 || (unit != "s" && unit != "ms"))
     {
-        throw Failure("'" + text + "' is no delay, such as 100ms or 1.5s");
+        throw Failure("'" + text + "' is not a delay such as 100ms or 1.5s");
     }
     return std::chrono::microseconds(static_cast<long long>(number * (unit == "s" ? 1e6 : 1e3)));
 }
@@ -187,7 +187,7 @@ void Session::left(const State& state)
     tell(&Host::left, state);
 }
 
-/// The worker has methods for the component's own machine, not for those that it invokes.
+/// Calls the worker's method of a state: only the component's own machine has methods, no invoked one.
 void Session::tell(void (Host::*method)(const std::string&), const State& state)
 {
     if (parent_ || state.id.empty())
@@ -209,12 +209,12 @@ void Session::log(const std::string& label, const Value& value)
     host_.log(label, value.text);
 }
 
-void Session::complain(const std::string& message)
+void Session::warn(const std::string& message)
 {
-    host_.complain(message);
+    host_.warn(message);
 }
 
-/// An event on its way to the machine: to invoked ones, too, where they are to get all.
+/// Forwards an event of the machine to invoked machines with `autoforward`.
 void Session::forward(const Event& event)
 {
     const auto children = children_;
@@ -252,7 +252,7 @@ void Session::ended()
     }
 }
 
-/// Returns whether there is one. One that has stopped listening is none to complain about.
+/// Sends an event to the parent, unless this session was stopped; returns whether there is a parent.
 bool Session::toParent(const Event& event)
 {
     if (parent_ && isHeard_)
@@ -274,11 +274,11 @@ void Session::send(const Send& send)
         delay = delayOf(send.delay.text);
         if (processors.count(send.type.text) == 0)
         {
-            throw Failure("events cannot be sent by " + send.type.text);
+            throw Failure("unknown event processor '" + send.type.text + "'");
         }
         if (!target.empty() && !startsWith(target, "#_"))
         {
-            throw Failure("'" + target + "' is nothing that events can be sent to");
+            throw Failure("events cannot be sent to '" + target + "'");
         }
     }
     catch (const Failure& failure)
@@ -333,7 +333,7 @@ void Session::deliver(const Event& event, const std::string& target)
     }
     if (!reached)
     {
-        interpreter.fail("error.communication", target + " is not there to be sent to", event.sendid);
+        interpreter.fail("error.communication", target + " does not exist", event.sendid);
     }
 }
 
@@ -352,12 +352,12 @@ void Session::invoke(const Invoke& invoke, int number)
     const auto& what = invoke.content.kind != ValueKind::None ? invoke.content : invoke.source;
     if (services.count(invoke.type.text) == 0)
     {
-        interpreter.fail("error.execution", "'" + invoke.type.text + "' is nothing that can be invoked");
+        interpreter.fail("error.execution", "'" + invoke.type.text + "' cannot be invoked");
         return;
     }
     if (what.kind != ValueKind::Machine)
     {
-        interpreter.fail("error.execution", "what is to be invoked is no machine of this document");
+        interpreter.fail("error.execution", "only machines of this document can be invoked");
         return;
     }
     const auto session

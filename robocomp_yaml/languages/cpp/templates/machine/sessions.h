@@ -22,7 +22,7 @@ namespace machine
 
 using TimePoint = std::chrono::steady_clock::time_point;
 
-/// The world around the machines. What it cannot do throws a Failure.
+/// The environment of the machines. Throws a Failure for what fails.
 class Host
 {
 public:
@@ -33,12 +33,12 @@ public:
     virtual void entered(const std::string& state) = 0;
     virtual void left(const std::string& state) = 0;
     virtual void log(const std::string& label, const std::string& value) = 0;
-    virtual void complain(const std::string& message) = 0;
+    virtual void warn(const std::string& message) = 0;
 };
 
 class Session;
 
-/// A machine and those that it has invoked, with the clock that they share.
+/// A machine and the machines that it invoked, with a common clock.
 class Sessions
 {
 public:
@@ -46,10 +46,10 @@ public:
 
     std::shared_ptr<Session> open(const Machine& machine, Session* parent = nullptr, const std::string& invokeid = {});
 
-    /// Handles everything that has come, and what comes of it, until all is quiet.
+    /// Handles all queued events, and the events that follow, until no event is left.
     void run();
 
-    /// When, by the clock, the next delayed event is due.
+    /// The time, by the clock, of the next delayed event.
     std::optional<TimePoint> nextDue() const;
 
 private:
@@ -69,26 +69,26 @@ private:
 
     Host& host_;
     const std::function<TimePoint()> clock_;
-    std::map<int, std::shared_ptr<Session>> open_; // by number: the older ones first
-    std::vector<std::shared_ptr<Session>> closed_; // kept until none of their methods can be running
+    std::map<int, std::shared_ptr<Session>> open_; // by number: older ones first
+    std::vector<std::shared_ptr<Session>> closed_; // kept while one of their methods may be running
     std::multimap<TimePoint, Timer> timers_;
     int last_ = 0;
 };
 
-/// One machine that runs: what its interpreter asks of the world.
+/// A running machine: the environment of its interpreter.
 class Session : private Surroundings
 {
 public:
     Session(
         Sessions& sessions, const Machine& machine, std::string id, Session* parent, std::string invokeid);
 
-    /// An event from outside, from any thread; one that comes after the end is lost.
+    /// Queues an external event, from any thread. Events after the end are ignored.
     void put(const Event& event);
 
-    /// Handles one event. Returns whether there was one.
+    /// Handles one event; returns whether there was one.
     bool work();
 
-    /// Leaves all states; nobody hears of it any more.
+    /// Leaves all states, without any more events for the parent.
     void stop();
 
     Interpreter interpreter;
@@ -108,7 +108,7 @@ private:
     void entered(const State& state) override;
     void left(const State& state) override;
     void log(const std::string& label, const Value& value) override;
-    void complain(const std::string& message) override;
+    void warn(const std::string& message) override;
     void forward(const Event& event) override;
     void send(const Send& send) override;
     void cancel(const std::string& sendid) override;

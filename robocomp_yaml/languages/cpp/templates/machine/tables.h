@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-/// State machines: an interpreter of SCXML (https://www.w3.org/TR/scxml/) that runs tables.
+/// State machines: an interpreter of SCXML (https://www.w3.org/TR/scxml/) for machines in the form of tables.
 namespace machine
 {
 
-// What a machine is made of: states and transitions point at each other by number. The states stand in the document's
-// order, each before those inside of it; number 0 is the root.
+// The tables of a machine. States and transitions refer to each other by number. The states are in the document's
+// order, parents before their children; number 0 is the root.
 
 constexpr int nowhere = -1;
 constexpr int root = 0;
@@ -120,7 +120,7 @@ struct State
     Value content = {};
 };
 
-/// `machines` are those that it invokes, by number.
+/// `machines` are the machines that it invokes, by number.
 struct Machine
 {
     std::string name;

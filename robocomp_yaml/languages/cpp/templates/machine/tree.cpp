@@ -77,8 +77,8 @@ const Transition* Tree::initial(int number) const
 
 std::vector<int> Tree::initialTargets(int number) const
 {
-    const auto* given = initial(number);
-    return given ? given->targets : std::vector<int>{realChildren(number).front()};
+    const auto* transition = initial(number);
+    return transition ? transition->targets : std::vector<int>{realChildren(number).front()};
 }
 
 int Tree::commonCompound(const std::vector<int>& numbers) const

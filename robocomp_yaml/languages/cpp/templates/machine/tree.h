@@ -9,7 +9,7 @@
 namespace machine
 {
 
-/// Questions about the tree of states that need no configuration. States go by their number.
+/// The tree of states, without their configuration. States are identified by number.
 class Tree
 {
 public:
@@ -19,24 +19,24 @@ public:
     const Transition& transition(int index) const;
     int size() const;
 
-    /// From the nearest on, up to but without `below`.
+    /// The ancestors of a state, the nearest first, up to `below` but without it.
     std::vector<int> ancestors(int number, int below = nowhere) const;
 
-    /// Whether it is a descendant of the other one.
+    /// Whether a state is a descendant of another one.
     bool isInside(int number, int other) const;
 
-    /// Those that are no history.
+    /// The children that are not histories.
     std::vector<int> realChildren(int number) const;
 
     bool isAtomic(int number) const;
     bool isCompound(int number) const;
     bool isParallel(int number) const;
 
-    /// The transition that leads into a compound state, or nullptr where none is given.
+    /// The transition that leads into a compound state, or nullptr if the document has none.
     const Transition* initial(int number) const;
     std::vector<int> initialTargets(int number) const;
 
-    /// The nearest compound state, or the root, that holds all of these (least common compound ancestor).
+    /// The nearest compound state, or the root, that contains all of these (least common compound ancestor).
     int commonCompound(const std::vector<int>& numbers) const;
 
 private:

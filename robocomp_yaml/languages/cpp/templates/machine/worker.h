@@ -12,8 +12,8 @@
 namespace machine
 {
 
-/// A worker with a state machine. Its thread starts the machine after initialize(), hands events to it as soon as they
-/// come, and leaves all its states when the component stops.
+/// A worker with a state machine. The worker's thread starts the machine after initialize(), passes events to it as
+/// soon as they are fired, and leaves all of its states when the component stops.
 class Worker : public runtime::Worker
 {
 public:

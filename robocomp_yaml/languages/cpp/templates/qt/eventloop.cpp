@@ -26,7 +26,7 @@ namespace
 void requireScreen()
 {
 #ifdef __linux__
-    // Qt itself would abort the process.
+    // Qt would abort the process.
     for (const char* name : {"QT_QPA_PLATFORM", "DISPLAY", "WAYLAND_DISPLAY"})
     {
         if (const char* value = std::getenv(name); value != nullptr && *value != '\0')
@@ -34,7 +34,7 @@ void requireScreen()
             return;
         }
     }
-    throw StartError("there is no screen for the window: set DISPLAY, or QT_QPA_PLATFORM=offscreen to do without");
+    throw StartError("the window has no screen: set DISPLAY, or QT_QPA_PLATFORM=offscreen to run without one");
 #endif
 }
 
@@ -103,7 +103,7 @@ void EventLoop::run(Shutdown& shutdown)
     QCoreApplication::exec();
     shutdown.request();
     watch.join();
-    std::deque<std::function<void()>> dropped; // whoever waits for one of them is told so by its end
+    std::deque<std::function<void()>> dropped; // their destruction wakes up the threads that wait for them
     const std::lock_guard lock(mutex_);
     over_ = true;
     dropped.swap(jobs_);
@@ -133,7 +133,7 @@ void EventLoop::call(std::function<void()> job)
 
 void EventLoop::carryOut()
 {
-    std::deque<std::function<void()>> jobs; // those that are posted meanwhile wait for Qt's own events
+    std::deque<std::function<void()>> jobs; // jobs that are posted meanwhile wait until Qt has handled its own events
     {
         const std::lock_guard lock(mutex_);
         jobs.swap(jobs_);
@@ -146,11 +146,11 @@ void EventLoop::carryOut()
         }
         catch (const std::exception& problem)
         {
-            log_.error("what was handed to the main thread failed: " + describe(problem));
+            log_.error("a job in the main thread failed: " + describe(problem));
         }
         catch (...)
         {
-            log_.error("what was handed to the main thread failed");
+            log_.error("a job in the main thread failed");
         }
     }
 }
@@ -162,7 +162,7 @@ void whenClosed(QWidget& window, std::function<void()> closed)
     {
         QObject::connect(dialog, &QDialog::finished, &window, closed);
     }
-    new ClosingFilter(window, std::move(closed)); // belongs to the window
+    new ClosingFilter(window, std::move(closed)); // owned by the window
 }
 #endif
 

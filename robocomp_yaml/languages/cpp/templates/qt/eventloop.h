@@ -18,23 +18,23 @@ class QWidget;
 namespace runtime
 {
 
-/// Qt's event loop, in the main thread. Jobs are carried out one by one, in their order, between Qt's own events.
+/// Qt's event loop, in the main thread. Jobs are executed one by one, in their order, between Qt's own events.
 class EventLoop
 {
 public:
-    /// Throws StartError where there is no screen for the window.
+    /// Throws StartError if the window has no screen.
     EventLoop(const std::string& name, const Log& log, bool hasWindow);
     ~EventLoop();
     EventLoop(const EventLoop&) = delete;
     EventLoop& operator=(const EventLoop&) = delete;
 
-    /// In the main thread: until the component stops, or the user's code ends the loop.
+    /// Runs in the main thread until the component stops, or the user's code ends the loop.
     void run(Shutdown& shutdown);
 
-    /// The job is carried out soon. From any thread.
+    /// Executes the job soon. May be called from any thread.
     void post(std::function<void()> job);
 
-    /// From another thread: waits until the job is done. What it throws is thrown here.
+    /// Waits in another thread until the job is done; throws its exception.
     void call(std::function<void()> job);
 
 private:
@@ -51,7 +51,7 @@ private:
     bool over_ = false;
 };
 
-/// Calls `closed` when the window has been closed. It may refuse to close; so it is asked whether it is still there.
+/// Calls `closed` when the window is closed. A window may refuse to close, so its visibility is checked afterwards.
 void whenClosed(QWidget& window, std::function<void()> closed);
 
 }

@@ -20,7 +20,7 @@ namespace runtime
 
 class Settings;
 
-/// What the window's event loop needs to be there before the window, and after it.
+/// The objects of the window's event loop that must exist before the window, and after it.
 class WindowThread
 {
 protected:
@@ -32,11 +32,11 @@ protected:
     EventLoop loop_;
 };
 
-/// A worker with a window: each has its own thread, and they hand things to each other.
+/// A worker with a window: each has a thread of its own, and they pass jobs to each other.
 ///
-/// compute() and the methods of the component's interfaces run in threads of their own, so that the window always
-/// answers. Qt wants its widgets touched in the main thread only: initializeGui() and what is connected in there run
-/// in it, and runInGui() hands it something from everywhere else.
+/// compute() and the methods of the component's interfaces run in threads of their own, so that the window never
+/// blocks. Widgets may be used only in the main thread: in initializeGui(), and in what is connected there. Everywhere
+/// else, use runInGui().
 template <typename Base>
 class WindowWorker : private WindowThread, public Base
 {
@@ -52,13 +52,13 @@ public:
     {
     }
 
-    /// Calls the function soon, in the main thread. From any thread; returns at once.
+    /// Calls the function soon, in the main thread. May be called from any thread; returns at once.
     void runInGui(std::function<void()> function)
     {
         loop_.post(std::move(function));
     }
 
-    /// Calls the function soon, in the thread of compute(), between two of its turns. Returns at once.
+    /// Calls the function soon, in the thread of compute(), between two turns. Returns at once.
     void runInWorker(std::function<void()> function)
     {
         {
@@ -69,7 +69,7 @@ public:
     }
 
 protected:
-    /// By GenericWorker's constructor.
+    /// Called by GenericWorker's constructor.
     void setWindow(QWidget& window)
     {
         window_ = &window;
@@ -86,11 +86,11 @@ protected:
             }
             catch (const std::exception& problem)
             {
-                this->log.error("what was handed to the worker's thread failed: " + describe(problem));
+                this->log.error("a job in the worker's thread failed: " + describe(problem));
             }
             catch (...)
             {
-                this->log.error("what was handed to the worker's thread failed");
+                this->log.error("a job in the worker's thread failed");
             }
         }
         return Base::betweenTurns();

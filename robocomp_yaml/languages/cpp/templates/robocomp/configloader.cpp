@@ -30,7 +30,7 @@ T number(const std::string& key, const std::string& text)
     T result{};
     if (!(stream >> result) || !(stream >> std::ws).eof())
     {
-        throw std::runtime_error(key + " is '" + text + "' in the config: that is no such number");
+        throw std::runtime_error(key + " is '" + text + "' in the config, which is not a number of this type");
     }
     return result;
 }
@@ -51,7 +51,7 @@ bool ConfigLoader::get(const std::string& key) const
     {
         return text == "true" || text == "True";
     }
-    throw std::runtime_error(key + " is '" + text + "' in the config: that is neither true nor false");
+    throw std::runtime_error(key + " is '" + text + "' in the config, which is neither true nor false");
 }
 
 template <>

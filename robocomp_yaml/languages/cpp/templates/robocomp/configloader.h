@@ -5,14 +5,14 @@
 #include <map>
 #include <string>
 
-/// The component's properties, as RoboComp's latest tool hands them to the worker: `get<int>("Period.Compute")`.
+/// The component's properties, as RoboComp's latest tool passes them to the worker: `get<int>("Period.Compute")`.
 class ConfigLoader
 {
 public:
     ConfigLoader() = default;
     explicit ConfigLoader(std::map<std::string, std::string> values);
 
-    /// Throws std::runtime_error where the key is not set, or the value is of another type.
+    /// Throws std::runtime_error if the key is not set, or the value has another type.
     template <typename T>
     T get(const std::string& key) const;
 

@@ -112,7 +112,7 @@ void StateMachine::change(GRAFCETStep* from, GRAFCETStep* to)
     {
         if (!running_ || current_ != from)
         {
-            return; // another transition was faster
+            return; // another transition was taken first
         }
         if (from != nullptr)
         {

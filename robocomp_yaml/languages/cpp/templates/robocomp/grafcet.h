@@ -13,7 +13,7 @@
 #if __has_include(<QState>)
 #include <QState>
 #else
-/// Only the names that RoboComp's skeletons use; StateMachine below needs no Qt State Machine.
+/// The names that RoboComp's skeletons use; StateMachine below does not need Qt State Machine.
 class QState
 {
 public:
@@ -32,7 +32,7 @@ class StateMachine;
 
 }
 
-/// A step of RoboComp's machine: what to do when it is entered, every period, and when it is left.
+/// A step of RoboComp's machine, with functions for entering it, for every period, and for leaving it.
 class GRAFCETStep : public QObject
 {
     Q_OBJECT
@@ -93,7 +93,7 @@ private:
     std::function<void()> fire_;
 };
 
-/// RoboComp's machine of steps, one of which is active. Has the names of QStateMachine that its skeletons use.
+/// RoboComp's machine of steps, one of which is active. It has the names of QStateMachine that the skeletons use.
 class StateMachine : public QObject
 {
     Q_OBJECT
@@ -120,7 +120,7 @@ public slots:
 private:
     friend class ::GRAFCETStep;
 
-    /// Soon: when what the steps do now is done.
+    /// Takes the transition soon: after the current functions of the steps.
     void change(GRAFCETStep* from, GRAFCETStep* to);
 
     GRAFCETStep* initial_ = nullptr;
@@ -128,7 +128,7 @@ private:
     bool running_ = false;
 };
 
-/// Carries out the user's code; an exception in there is logged.
+/// Calls the user's code; an exception in it is logged.
 void guarded(const std::string& what, const std::function<void()>& function);
 
 }

@@ -85,9 +85,9 @@ void Host::periodSet(int milliseconds)
     {
         setPeriod(period);
     }
-    catch (const std::exception& problem) // it is the user's code that has the say here
+    catch (const std::exception& problem) // the user's code decides
     {
-        log.warning("the parameter period.compute does not follow: " + runtime::describe(problem));
+        log.warning("period.compute keeps its value: " + runtime::describe(problem));
     }
 }
 

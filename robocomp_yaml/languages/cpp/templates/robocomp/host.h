@@ -22,7 +22,7 @@ class Settings;
 namespace robocomp
 {
 
-/// Where code lives that was written for RoboComp's own tool: its worker is an object of Qt in the main thread.
+/// The environment of code for RoboComp's own tool: its worker is a QObject in the main thread.
 class Host : public runtime::Worker
 {
 public:
@@ -32,7 +32,7 @@ public:
     using runtime::Worker::communicator;
     using runtime::Worker::log;
 
-    /// The one of this process; the user's constructors cannot hand it on.
+    /// The host of this process: the user's constructors cannot pass it on.
     static Host& current();
 
     /// All properties, for setParams() and for ConfigLoader.
@@ -44,7 +44,7 @@ public:
 
     bool onlyCheck() const;
 
-    /// The worker has set its period; CommonBehavior must know.
+    /// Called when the worker has set its period, for CommonBehavior.
     void periodSet(int milliseconds);
 
     /// The worker asks the component to stop.
@@ -52,17 +52,17 @@ public:
 
     void initialize() override;
 
-    /// Every period: whether CommonBehavior has set another one.
+    /// Called every period: applies a period that CommonBehavior has set.
     void compute() override;
 
 private:
-    /// In the main thread: makes the worker.
+    /// Creates the worker, in the main thread.
     virtual void make() = 0;
 
-    /// In the main thread: the worker's period.
+    /// Sets the worker's period, in the main thread.
     virtual void setWorkersPeriod(int milliseconds) = 0;
 
-    /// In the main thread, before the component stops.
+    /// Called in the main thread, before the component stops.
     virtual void end()
     {
     }
@@ -87,7 +87,7 @@ struct InitializesAlone<Worker, std::void_t<decltype(std::declval<Worker&>().ini
 {
 };
 
-/// The worker, made as its version of RoboComp's main program makes it.
+/// Creates the worker as that version of RoboComp's main program does for which its constructor was written.
 template <typename Worker, typename Tuple, typename Map>
 std::unique_ptr<Worker> construct(const Host& host, const Tuple& tuple, Map& map)
 {
@@ -112,19 +112,19 @@ std::unique_ptr<Worker> construct(const Host& host, const Tuple& tuple, Map& map
     {
         static_assert(
             std::is_constructible_v<Worker, Map&>,
-            "SpecificWorker needs a constructor of RoboComp's: (TuplePrx, bool), (MapPrx&, bool), or without the bool");
+            "SpecificWorker needs a constructor of RoboComp: (TuplePrx, bool), (MapPrx&, bool), or without the bool");
         return std::make_unique<Worker>(map);
     }
 }
 
-/// Starts it: by initialize(period), whose worker starts its timer, or by the machine of steps, which calls
+/// Starts the worker: by initialize(period), in which it starts its timer, or by the machine of steps, which calls
 /// initialize().
 template <typename Worker>
 void start(const Host& host, Worker& worker)
 {
     if (!worker.setParams(host.parameters()))
     {
-        runtime::Log("worker").warning("setParams() says that it did not like the parameters");
+        runtime::Log("worker").warning("setParams() has rejected the parameters");
     }
     if constexpr (InitializesAlone<Worker>::value)
     {

@@ -10,7 +10,7 @@
 namespace robocomp
 {
 
-/// What stands under RoboComp's name for its QStateMachine: signals and the timer drive it, in the main thread.
+/// Has the name that RoboComp's tool has for its QStateMachine: signals and the timer drive it, in the main thread.
 class Machine : public QObject, public machine::StateMachine
 {
 public:
@@ -18,19 +18,19 @@ public:
 
     using machine::StateMachine::event;
 
-    /// Soon, and once, whoever asks.
+    /// Starts the machine soon; later calls do nothing.
     void start();
 
     bool isRunning() const;
 
-    /// Every period.
+    /// Called every period.
     void turn();
 
     /// Leaves all states.
     void stop();
 
 private:
-    /// Handles what has come, if it has been started, and sees to it that it does so again in time.
+    /// Handles queued events if the machine is started, and sets a timer for the next delayed one.
     void run();
 
     QTimer due_;

@@ -19,10 +19,10 @@ using namespace std::chrono_literals;
 namespace
 {
 
-/// What differs from Ice's own defaults, unless the config file says otherwise.
+/// Ice's defaults are replaced by these, unless the config file sets them.
 constexpr std::pair<const char*, const char*> iceDefaults[] = {
     {"Ice.Warn.UnknownProperties", "0"},     // parameters may begin with an adapter's name: `Laser.Device`
-    {"CommonBehavior.ThreadPool.Size", "1"}, // a thread of its own: it answers while a method is running
+    {"CommonBehavior.ThreadPool.Size", "1"}, // a thread of its own, so that it answers while a method runs
 };
 
 Ice::CommunicatorHolder makeCommunicator(const Settings& settings, Gate& gate)
@@ -72,7 +72,7 @@ void Application::run()
     const auto& communicator = communicator_.communicator();
     worker_->prepare(settings_, commandLine_.onlyCheck);
     const auto worker = std::async(std::launch::async, [this] { work(); });
-    // Ice.Admin's shutdown (IceGrid uses it) is a request to stop, too.
+    // Ice.Admin's shutdown, which IceGrid uses, is a request to stop too.
     const auto ice = std::async(
         std::launch::async,
         [&]
@@ -87,7 +87,7 @@ void Application::run()
     services_.close();
     if (worker.wait_for(0ms) == std::future_status::timeout)
     {
-        communicator->destroy(); // so a call ends that gets no answer
+        communicator->destroy(); // ends calls that wait for an answer
     }
     worker.wait();
     communicator->shutdown();
@@ -105,7 +105,7 @@ void Application::work()
     }
     catch (const Stopped&)
     {
-        // As asked for.
+        // The component was stopped.
     }
     catch (const StartError& problem)
     {
@@ -114,7 +114,7 @@ void Application::work()
     }
     catch (const std::exception& problem)
     {
-        if (!shutdown_.isRequested()) // what it was doing may fail when it is told to stop
+        if (!shutdown_.isRequested()) // stopping may make the start fail
         {
             log_.error("cannot start: " + describe(problem));
             shutdown_.request(1);
@@ -128,7 +128,7 @@ void Application::work()
     shutdown_.request();
 }
 
-/// Serves first and waits for others then, so that two components may require each other.
+/// Serves its own interfaces before it waits for others, so that two components may require each other.
 void Application::start()
 {
     const auto behavior = std::make_shared<CommonBehavior>(
@@ -140,7 +140,7 @@ void Application::start()
     gate_.open();
     services_.ready();
     behavior->setRunning();
-    log_.info(log_.name() + (commandLine_.onlyCheck ? " starts as it should" : " is running"));
+    log_.info(log_.name() + (commandLine_.onlyCheck ? ": the startup check has passed" : " is running"));
 }
 
 }

@@ -20,14 +20,14 @@ namespace runtime
 
 /// The component's life: start, run, stop in order.
 ///
-/// The main thread waits for the request to stop, or runs the event loop of a window; all else is done in the worker's
-/// thread and in Ice's.
+/// The main thread waits for the request to stop, or runs the event loop of a window. Everything else runs in the
+/// worker's thread and in Ice's threads.
 class Application
 {
 public:
     Application(const CommandLine& commandLine, const Log& log, Shutdown& shutdown, const WorkerFactory& makeWorker);
 
-    /// Until the component is asked to stop.
+    /// Runs until the component is stopped; returns the exit code.
     void run();
 
 private:

@@ -15,7 +15,7 @@ bool startsWith(const std::string& text, const std::string& beginning)
     return text.compare(0, beginning.size(), beginning) == 0;
 }
 
-/// `etc/config` of the component, whose program is `bin/NAME`, from whatever folder it is started.
+/// The `etc/config` of the component with this program, `bin/NAME`, whatever the working directory is.
 std::filesystem::path defaultConfig()
 {
     const auto program = std::filesystem::read_symlink("/proc/self/exe");
@@ -54,7 +54,7 @@ CommandLine CommandLine::parse(int argc, const char* const* argv)
         }
         else if (startsWith(argument, "-"))
         {
-            throw UsageError("there is no option " + argument);
+            throw UsageError("unknown option " + argument);
         }
         else
         {
@@ -68,7 +68,7 @@ CommandLine CommandLine::parse(int argc, const char* const* argv)
         {
             all += " " + file.string();
         }
-        throw UsageError("one CONFIG, please, not " + std::to_string(result.files.size()) + ":" + all);
+        throw UsageError("expected one CONFIG, got " + std::to_string(result.files.size()) + ":" + all);
     }
     result.files.insert(result.files.end(), named.begin(), named.end());
     if (result.files.empty())
@@ -83,8 +83,8 @@ std::string CommandLine::usage(const std::string& name)
     return "usage: bin/" + name + R"( [CONFIG] [--Ice.X=Y ...] [--KEY=VALUE ...] [--startup-check]
 
   CONFIG            a file of Ice properties (default: the component's etc/config)
-  --Ice.Config=FILE another way to name it; given both, FILE is read after CONFIG
-  --KEY=VALUE       any property: wins over the same one in the file
+  --Ice.Config=FILE the same as an option; of both, FILE is read last
+  --KEY=VALUE       any property; it overrides the one in the file
   --startup-check   start everything, then stop
 )";
 }

@@ -10,14 +10,14 @@
 namespace runtime
 {
 
-/// What is wrong with a command line.
+/// An error in the command line.
 class UsageError : public std::runtime_error
 {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// The command line, sorted.
+/// The parsed command line.
 struct CommandLine
 {
     std::vector<std::filesystem::path> files;

@@ -23,7 +23,7 @@ using RoboCompCommonBehavior::State;
 namespace
 {
 
-/// What the component says of itself while it runs: the states of its state machine, if it has one.
+/// Properties that a running component sets itself: the states of its state machine.
 Ice::PropertyDict liveProperties(const Ice::Current& current)
 {
     return current.adapter->getCommunicator()->getProperties()->getPropertiesForPrefix("statemachine.");
@@ -56,7 +56,7 @@ void CommonBehavior::setPeriod(int period, const Ice::Current&)
     }
     catch (const std::invalid_argument& problem)
     {
-        log_.warning("setPeriod(" + std::to_string(period) + ") refused: " + problem.what());
+        log_.warning("setPeriod(" + std::to_string(period) + ") rejected: " + problem.what());
     }
 }
 
@@ -69,7 +69,7 @@ int CommonBehavior::timeAwake(const Ice::Current&)
 
 void CommonBehavior::killYourSelf(const Ice::Current&)
 {
-    log_.info("asked to stop");
+    log_.info("stop requested through CommonBehavior");
     shutdown_.request();
 }
 
@@ -118,7 +118,7 @@ void CommonBehavior::setParameterList(ParameterList parameters, const Ice::Curre
     }
     catch (const ParameterError& problem)
     {
-        log_.warning(std::string("setParameterList refused: ") + problem.what());
+        log_.warning(std::string("setParameterList rejected: ") + problem.what());
         return;
     }
     std::string changed;
@@ -139,11 +139,11 @@ void CommonBehavior::reloadConfig(const Ice::Current&)
     try
     {
         loadParameters(store_, Settings(commandLine_));
-        log_.info("the config is read again; the period is " + std::to_string(worker_.getPeriod()) + " ms");
+        log_.info("config reloaded, the period is " + std::to_string(worker_.getPeriod()) + " ms");
     }
     catch (const StartError& problem)
     {
-        log_.warning(std::string("reloadConfig refused: ") + problem.what());
+        log_.warning(std::string("reloadConfig rejected: ") + problem.what());
     }
 }
 

@@ -18,8 +18,8 @@ namespace runtime
 class Store;
 class Worker;
 
-/// RoboComp's interface CommonBehavior: what tools ask any component, and tell it. It answers from the start, while the
-/// component still waits for others.
+/// RoboComp's interface CommonBehavior, through which tools query and control any component. It is served from the
+/// start, while the component waits for others.
 class CommonBehavior : public RoboCompCommonBehavior::CommonBehavior
 {
 public:
@@ -31,18 +31,18 @@ public:
     int getPeriod(const Ice::Current&) override;
     void setPeriod(int period, const Ice::Current&) override;
 
-    /// In milliseconds.
+    /// The uptime in milliseconds.
     int timeAwake(const Ice::Current&) override;
 
     void killYourSelf(const Ice::Current&) override;
 
-    /// The parameters by their dotted paths; and the other properties, which nobody can change.
+    /// The parameters by their dotted paths, and the other properties, which are read-only.
     RoboCompCommonBehavior::ParameterList getParameterList(const Ice::Current& current) override;
 
-    /// All of them, or none: then the log says why.
+    /// Changes all of the parameters or none; an error is logged.
     void setParameterList(RoboCompCommonBehavior::ParameterList parameters, const Ice::Current& current) override;
 
-    /// Reads the config again: all that it changes takes effect, or nothing does and the log says why.
+    /// Reads the config again. All changes take effect, or none of them and the error is logged.
     void reloadConfig(const Ice::Current&) override;
 
     RoboCompCommonBehavior::State getState(const Ice::Current&) override;

@@ -10,7 +10,7 @@ namespace runtime
 namespace
 {
 
-/// What is wrong with values that a component would start with.
+/// The errors in the values that a component would start with.
 std::set<std::string> messages(const Store& store, const Settings& settings)
 {
     std::set<std::string> found;
@@ -21,7 +21,7 @@ std::set<std::string> messages(const Store& store, const Settings& settings)
     return found;
 }
 
-/// The file, or the options of the command line, that are to blame for what is wrong.
+/// The file or the options of the command line that cause the errors.
 std::string sources(const ParameterError& error, const Store& store, const Settings& settings)
 {
     const auto all = messages(store, settings);
@@ -66,14 +66,14 @@ void loadParameters(Store& store, const Settings& settings)
             throw StartError(from + ": " + error.what());
         }
         const auto count = std::to_string(error.problems.size());
-        throw StartError(count + " parameters cannot be as given by " + from + ": " + error.what());
+        throw StartError(count + " parameters have invalid values in " + from + ": " + error.what());
     }
 }
 
 void warnOfProperties(const Store& store, const Settings& settings, const Log& log)
 {
     const std::string tail = ".Endpoints";
-    // Their names may begin a property of Ice; the first ones are what RoboComp's spellings of ports begin with.
+    // Their names may begin a property of Ice. RoboComp's names of ports begin with the first ones.
     std::set<std::string> ports{"Endpoints", "Proxies", "Period", "TopicManager"};
     for (const auto& [key, text] : settings.parameters())
     {
@@ -85,7 +85,7 @@ void warnOfProperties(const Store& store, const Settings& settings, const Log& l
     for (const auto& [key, meant] : store.misspelled(ports))
     {
         const auto hint = meant.empty() ? "" : " (did you mean '" + meant + "'?)";
-        log.warning(settings.source(key) + ": there is no parameter '" + key + "'" + hint);
+        log.warning(settings.source(key) + ": unknown parameter '" + key + "'" + hint);
     }
 }
 

@@ -9,11 +9,11 @@
 namespace runtime
 {
 
-/// Takes the parameters from the config, at the start or once more. Throws StartError with all that is wrong,
-/// and changes nothing then.
+/// Reads the parameters from the config, at the start or again. Throws StartError with all errors, and then changes
+/// nothing.
 void loadParameters(Store& store, const Settings& settings);
 
-/// Names properties that seem to be parameters, and are none.
+/// Warns of properties that nothing reads and that look like parameters.
 void warnOfProperties(const Store& store, const Settings& settings, const Log& log);
 
 }

@@ -17,8 +17,8 @@ namespace
 {
 
 constexpr auto pause = 250ms;     // between two attempts
-constexpr auto remind = 5s;       // between two lines about it
-constexpr auto patience = 2000ms; // that one attempt may take
+constexpr auto remind = 5s;       // between two log lines about the wait
+constexpr auto patience = 2000ms; // the timeout of one attempt
 
 std::string seconds(std::chrono::milliseconds time)
 {
@@ -38,10 +38,10 @@ Connections::Connections(
 std::shared_ptr<Ice::ObjectPrx> Connections::connect(const Requirement& requirement) const
 {
     const auto& [name, absent, timeout] = requirement;
-    const auto sought = "the proxy to " + name;
-    const auto text = settings_.required(sought, {name + "Proxy", "Proxies." + name});
+    const auto label = "the proxy to " + name;
+    const auto text = settings_.required(label, {name + "Proxy", "Proxies." + name});
     const auto what = name + " at " + text;
-    const auto proxy = parse(sought, text);
+    const auto proxy = parse(label, text);
     if (absent == Absent::wait)
     {
         waitFor(what, proxy, timeout);
@@ -51,7 +51,7 @@ std::shared_ptr<Ice::ObjectPrx> Connections::connect(const Requirement& requirem
         const auto why = ping(proxy, timeout.value_or(patience));
         if (!why.empty())
         {
-            throw StartError(what + " is not there (" + why + ")");
+            throw StartError(what + " does not answer (" + why + ")");
         }
     }
     return timeout ? proxy->ice_invocationTimeout(static_cast<int>(timeout->count())) : proxy;
@@ -59,9 +59,9 @@ std::shared_ptr<Ice::ObjectPrx> Connections::connect(const Requirement& requirem
 
 std::shared_ptr<Ice::ObjectPrx> Connections::topicManager() const
 {
-    const auto sought = "IceStorm's topic manager";
-    const auto text = settings_.required(sought, {"TopicManager.Proxy", "Proxies.TopicManager"});
-    const auto proxy = parse(sought, text);
+    const auto label = "IceStorm's topic manager";
+    const auto text = settings_.required(label, {"TopicManager.Proxy", "Proxies.TopicManager"});
+    const auto proxy = parse(label, text);
     waitFor("TopicManager at " + text, proxy);
     return proxy;
 }
@@ -71,9 +71,9 @@ const Settings& Connections::settings() const
     return settings_;
 }
 
-std::shared_ptr<Ice::ObjectPrx> Connections::parse(const std::string& sought, const std::string& text) const
+std::shared_ptr<Ice::ObjectPrx> Connections::parse(const std::string& label, const std::string& text) const
 {
-    const auto problem = sought + " is '" + text + "' in " + settings_.where() + ": that is no proxy";
+    const auto problem = label + " is '" + text + "' in " + settings_.where() + ", which is not a proxy";
     try
     {
         if (auto proxy = communicator_->stringToProxy(text))

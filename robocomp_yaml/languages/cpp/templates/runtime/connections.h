@@ -23,7 +23,7 @@ class Communicator;
 namespace runtime
 {
 
-/// What to do at start where a required component does not answer.
+/// What to do at start if a required component does not answer.
 enum class Absent
 {
     wait,
@@ -31,7 +31,7 @@ enum class Absent
     ignore
 };
 
-/// A proxy that the component requires. The timeout, where there is one, holds for the wait and for each call.
+/// A proxy that the component requires. The timeout, if any, limits the wait and each call.
 struct Requirement
 {
     std::string name;
@@ -39,7 +39,7 @@ struct Requirement
     std::optional<std::chrono::milliseconds> timeout = std::nullopt;
 };
 
-/// The way to other components.
+/// The connections to other components.
 class Connections
 {
 public:
@@ -47,14 +47,14 @@ public:
         std::shared_ptr<Ice::Communicator> communicator, const Settings& settings, const Log& log,
         const Shutdown& shutdown);
 
-    /// The proxy as configured, when the other side answers, or at once if the requirement says so.
+    /// The configured proxy, as soon as the server answers, or at once if `absent` is Absent::ignore.
     template <typename Proxy>
     std::shared_ptr<Proxy> require(const Requirement& requirement) const
     {
         return Ice::uncheckedCast<Proxy>(connect(requirement));
     }
 
-    /// IceStorm's topic manager, when it answers.
+    /// IceStorm's topic manager, as soon as it answers.
     std::shared_ptr<Ice::ObjectPrx> topicManager() const;
 
     const Settings& settings() const;
@@ -63,14 +63,14 @@ private:
     using Milliseconds = std::chrono::milliseconds;
 
     std::shared_ptr<Ice::ObjectPrx> connect(const Requirement& requirement) const;
-    std::shared_ptr<Ice::ObjectPrx> parse(const std::string& sought, const std::string& text) const;
+    std::shared_ptr<Ice::ObjectPrx> parse(const std::string& label, const std::string& text) const;
 
-    /// Until the object answers a ping. `what` is for the user.
+    /// Waits until the object answers a ping; `what` is its name in messages.
     void waitFor(
         const std::string& what, const std::shared_ptr<Ice::ObjectPrx>& proxy,
         std::optional<Milliseconds> timeout = std::nullopt) const;
 
-    /// Why the object does not answer, or an empty text.
+    /// Why the object does not answer; empty if it does.
     std::string ping(const std::shared_ptr<Ice::ObjectPrx>& proxy, Milliseconds patience) const;
 
     const std::shared_ptr<Ice::Communicator> communicator_;

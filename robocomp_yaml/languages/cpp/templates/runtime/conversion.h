@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-/// Values to and from the types that a component has for them. Generated code adds its enums and records.
+/// Conversions between values and a component's types. Generated code adds its enums and records.
 namespace runtime
 {
 
@@ -89,7 +89,7 @@ void fromValue(const Value& value, std::map<std::string, T>& to)
     }
 }
 
-/// The number that a float stands for, as a person would write it: 3.15f is 3.15.
+/// A float as the double with the same shortest decimal text: 3.15f becomes 3.15.
 double widened(float value);
 
 inline Value toValue(bool value)
@@ -141,7 +141,7 @@ Value toValue(const std::vector<T>& value)
     Value::List items;
     for (const auto& item : value)
     {
-        items.push_back(toValue(static_cast<const T&>(item))); // an entry of vector<bool> is none by itself
+        items.push_back(toValue(static_cast<const T&>(item))); // an entry of vector<bool> is a proxy object
     }
     return items;
 }
@@ -157,7 +157,7 @@ Value toValue(const std::map<std::string, T>& value)
     return items;
 }
 
-/// A record's member: one that is left out has none.
+/// Adds a member to a record; an optional one without a value is omitted.
 template <typename T>
 void putMember(Value::Map& record, const char* key, const T& value)
 {

@@ -17,7 +17,7 @@ bool isNumber(const std::string& step)
     return !step.empty() && step.size() < 10 && step.find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// The type of what stands there, and the place of its value; nullptr where there is nothing.
+/// The type at a step, and the location of its value; nullptr for an unknown step.
 std::pair<const Kind*, Value*> stepInto(const Kind& kind, Value& data, const std::string& step)
 {
     auto* map = data.as<Value::Map>();
@@ -41,7 +41,7 @@ std::pair<const Kind*, Value*> stepInto(const Kind& kind, Value& data, const std
     return {nullptr, nullptr};
 }
 
-/// Records and maps without what is nothing.
+/// Records and maps without members that are nothing.
 void removeNothing(const Kind& kind, Value& data)
 {
     if (auto* map = data.as<Value::Map>())
@@ -58,7 +58,7 @@ void removeNothing(const Kind& kind, Value& data)
     }
 }
 
-/// A plain value as text; what is secret, by its type or by the name that it has in a map, is hidden.
+/// A plain value as text. Secrets are hidden, by their type or by their name in a map.
 std::string shownAt(const Kind& kind, const Value& value, const std::string& name)
 {
     const auto text = spelled(value);

@@ -14,25 +14,25 @@
 namespace runtime
 {
 
-/// Sets the value at a path, nothing removes it; false where there is no such path. The number after the last one of a
-/// list is a new entry.
+/// Sets the value at a path, or removes it if the value is nothing; returns false for an unknown path. The index after
+/// the last entry of a list appends an entry.
 bool put(const Kind& kind, Value& data, const std::vector<std::string>& steps, Value value);
 
 /// The type at a path, or nullptr.
 const Kind* kindAt(const Kind& kind, const std::vector<std::string>& steps);
 
-/// A parameter that has changed, and whether it may.
+/// A changed parameter, and whether it may change.
 using Difference = std::pair<Path, bool>;
 
-/// A parameter may change with all that it holds.
+/// The differences. An editable parameter may change with all of its content.
 void findDifferences(
     const Kind& kind, const Value& before, const Value& after, std::vector<Difference>& found, const Path& path = {},
     bool isEditable = false);
 
-/// `after`, but with what is original where `before` is the same: a float is not as precise as what the config says.
+/// `after`, with the values of `original` where it equals `before`: a float is less precise than the config's text.
 Value carried(const Value& original, const Value& before, const Value& after);
 
-/// One line of the flat list of all values.
+/// One line of the flat list of values.
 struct Entry
 {
     std::string text;
@@ -40,11 +40,11 @@ struct Entry
     bool isEditable = false;
 };
 
-/// Each plain value by its dotted path, with the sizes of lists and the keys of maps, as properties have them.
-/// Secrets are hidden; of what was given by reference, the reference stands there.
+/// Each plain value by its dotted path, with the sizes of lists and the keys of maps, as properties have them. Secrets
+/// are hidden; a value that came from a reference is shown as the reference.
 std::map<std::string, Entry> flat(const Kind& kind, const Value& value, const Texts& references);
 
-/// Each plain value itself, by its dotted path.
+/// Each plain value, by its dotted path.
 std::map<std::string, Value> plainValues(const Kind& kind, const Value& value);
 
 }

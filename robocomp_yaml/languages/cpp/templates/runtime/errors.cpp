@@ -64,7 +64,7 @@ std::string reason(const std::exception& problem)
     }
     if (dynamic_cast<const Ice::NoEndpointException*>(&problem) != nullptr)
     {
-        return "it has no endpoint, and there is no locator to ask";
+        return "it has no endpoint, and no locator is configured";
     }
     if (const auto system = dynamic_cast<const Ice::SyscallException*>(&problem))
     {

@@ -9,22 +9,22 @@
 namespace runtime
 {
 
-/// Why the component cannot start, in words for the person who started it.
+/// Why the component cannot start, as a message for its user.
 class StartError : public std::runtime_error
 {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// The component was asked to stop while it waited.
+/// The component was stopped while it waited.
 class Stopped
 {
 };
 
-/// An exception on one line: what it says, or, for one of Ice's, its name and what it means.
+/// An exception on one line: its message; for an exception of Ice, its name and meaning.
 std::string describe(const std::exception& problem);
 
-/// One of Ice's exceptions in a few words.
+/// An exception of Ice in a few words.
 std::string reason(const std::exception& problem);
 
 }

@@ -15,7 +15,7 @@ bool isTrue(const Value& truth)
     return *truth.as<bool>();
 }
 
-/// The parts, one after the other, until one is `decisive`.
+/// Evaluates the parts in their order until one has the value `decisive`.
 Value decide(const std::function<bool(Value&)>& next, bool decisive)
 {
     bool isUnknown = false;
@@ -49,7 +49,7 @@ Value decideParts(std::initializer_list<Part> parts, bool decisive)
         decisive);
 }
 
-/// The elements, one after the other; unknown where the condition is.
+/// The elements for which the condition holds, one by one; nothing in place of an element if the condition is unknown.
 std::function<bool(Value&)> elements(const Value::List& items, const Function& element, const Function& condition)
 {
     return [&items, &element, &condition, at = std::size_t(0)](Value& value) mutable
@@ -57,10 +57,10 @@ std::function<bool(Value&)> elements(const Value::List& items, const Function& e
         while (at < items.size())
         {
             const auto& item = items[at++];
-            const auto isWanted = condition ? condition(item) : Value(true);
-            if (isWanted.isNothing() || isTrue(isWanted))
+            const auto holds = condition ? condition(item) : Value(true);
+            if (holds.isNothing() || isTrue(holds))
             {
-                value = isWanted.isNothing() ? Value() : element ? element(item) : item;
+                value = holds.isNothing() ? Value() : element ? element(item) : item;
                 return true;
             }
         }
@@ -68,7 +68,7 @@ std::function<bool(Value&)> elements(const Value::List& items, const Function& e
     };
 }
 
-/// All elements; nothing where one is unknown.
+/// All elements; nothing if one of them is unknown.
 Value gathered(const Value& many, const Function& element, const Function& condition)
 {
     const auto* items = many.as<Value::List>();

@@ -10,8 +10,9 @@
 #include <utility>
 #include <vector>
 
-/// What constraints are made of. An optional parameter that is left out is nothing, which is unknown: so is what is
-/// made of it, unless the rest decides. What has no value at all, such as a division by zero, throws std::domain_error.
+/// The functions of constraints. An optional parameter without a value is nothing, which means unknown. The result of
+/// an unknown operand is unknown, unless the other operands decide it. An operation without a result, such as a
+/// division by zero, throws std::domain_error.
 namespace runtime::expressions
 {
 
@@ -27,7 +28,7 @@ Value compare(const Value& first, std::initializer_list<std::pair<std::string, V
 
 Value arithmetic(char sign, const Value& left, const Value& right);
 
-/// An entry of a list by its number, or of a map by its key.
+/// An entry of a list by its index, or of a map by its key.
 Value entry(const Value& owner, const Value& index);
 
 Value has(const Value& value);
@@ -36,7 +37,7 @@ Value absolute(const Value& number);
 Value keys(const Value& map);
 Value values(const Value& map);
 
-// Functions of the entries of a list, or of what `element` makes of those that `condition` lets through.
+// Functions of the entries of a list, or of `element` of those entries for which `condition` holds.
 Value all(const Value& many, const Function& element = {}, const Function& condition = {});
 Value any(const Value& many, const Function& element = {}, const Function& condition = {});
 Value sum(const Value& many, const Function& element = {}, const Function& condition = {});

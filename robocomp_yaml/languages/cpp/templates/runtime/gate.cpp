@@ -10,7 +10,7 @@
 namespace runtime
 {
 
-/// The turn of a call that came early: it begins when all before it are done.
+/// The turn of an early call: it starts when all earlier ones are done.
 class Gate::Turn
 {
 public:

@@ -11,23 +11,23 @@
 namespace runtime
 {
 
-/// Lets calls through to the worker once it has initialized.
+/// Lets calls pass to the worker once it has initialized.
 ///
-/// Those that come before wait in threads of their own, not in Ice's: so the component answers pings, and two
-/// components that wait for each other do not lock up.
+/// Earlier calls wait in threads of their own instead of Ice's: so the component answers pings, and two components that
+/// wait for each other do not deadlock.
 class Gate
 {
 public:
-    /// Carries out a request of Ice's: here, or, as long as the gate is not open, in a thread of its own.
+    /// Executes a request of Ice: in this thread, or in a thread of its own while the gate is closed.
     void dispatch(const std::function<void()>& request);
 
-    /// Carries out a call of the worker. Throws Ice::UnknownException where the component is stopping.
+    /// Executes a call of the worker. Throws Ice::UnknownException if the component is stopping.
     bool pass(const std::function<bool()>& call);
 
-    /// Carries out the calls that wait, one by one in their order, and then lets all through.
+    /// Executes the waiting calls one by one in their order, and then lets all calls pass.
     void open();
 
-    /// Refuses all calls, those that wait, too.
+    /// Rejects all calls, also waiting ones.
     void close();
 
 private:
@@ -39,8 +39,8 @@ private:
     std::condition_variable changed_;
     bool open_ = false;
     bool closed_ = false;
-    unsigned long early_ = 0;  // how many calls had to wait
-    unsigned long served_ = 0; // and how many of them are done
+    unsigned long early_ = 0;  // the number of calls that had to wait
+    unsigned long served_ = 0; // the number of those that are done
     std::list<std::future<void>> threads_;
 };
 

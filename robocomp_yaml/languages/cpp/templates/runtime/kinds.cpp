@@ -18,33 +18,33 @@ constexpr long double largestFloat = 3.4028234663852886e38L;
 /// A text in quotes, on one line.
 std::string quoted(const std::string& text)
 {
-    std::string said = "'";
+    std::string result = "'";
     for (const char c : text)
     {
         const auto code = static_cast<unsigned char>(c);
         const auto digits = "0123456789abcdef";
-        said += c == '\n' ? "\\n"
+        result += c == '\n' ? "\\n"
             : c == '\t' ? "\\t"
             : c == '\r' ? "\\r"
             : code < 32 || code == 127 ? std::string("\\x") + digits[code / 16] + digits[code % 16]
             : std::string(1, c);
     }
-    return said + "'";
+    return result + "'";
 }
 
 /// At most 60 bytes, of whole characters.
-std::string shortened(const std::string& said)
+std::string shortened(const std::string& text)
 {
-    if (said.size() <= 60)
+    if (text.size() <= 60)
     {
-        return said;
+        return text;
     }
     std::size_t end = 57;
-    while (end > 0 && (static_cast<unsigned char>(said[end]) & 0xC0) == 0x80)
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80)
     {
         --end;
     }
-    return said.substr(0, end) + "...";
+    return text.substr(0, end) + "...";
 }
 
 /// A value for messages, shortened.
@@ -62,12 +62,12 @@ std::string shownValue(const Value& raw)
 
 std::string joinedNames(const Value::List& values)
 {
-    std::string said;
+    std::string names;
     for (const auto& value : values)
     {
-        said += (said.empty() ? "" : ", ") + spelled(value);
+        names += (names.empty() ? "" : ", ") + spelled(value);
     }
-    return said;
+    return names;
 }
 
 bool holds(const Value::List& values, const Value& value)
@@ -182,9 +182,9 @@ const Member* Kind::member(const std::string& key) const
     return nullptr;
 }
 
-Value Kind::takePlain(const Value& given, const Path& path, Taking& taking) const
+Value Kind::takePlain(const Value& data, const Path& path, Taking& taking) const
 {
-    const auto raw = referred(given);
+    const auto raw = referred(data);
     const auto* reference = raw.as<Referred>();
     if (reference != nullptr && !reference->missing.empty())
     {
@@ -205,32 +205,32 @@ Value Kind::takePlain(const Value& given, const Path& path, Taking& taking) cons
     else if (const auto wanted = limit(value); !wanted.empty())
     {
         const bool isBare = !isSecret && !takesAnyText() && raw.as<std::string>() != nullptr;
-        const auto said = isBare ? *raw.as<std::string>() : shown(raw);
+        const auto text = isBare ? *raw.as<std::string>() : shown(raw);
         taking.refuse(
-            path, "is " + said + (unit.empty() ? "" : " " + unit) + ", and must " + wanted, said, wanted, unit);
+            path, "is " + text + (unit.empty() ? "" : " " + unit) + ", and must " + wanted, text, wanted, unit);
     }
     return value;
 }
 
 Value Kind::takeList(const Value& raw, const Path& path, Taking& taking) const
 {
-    const auto* given = raw.as<Value::List>();
-    if (given == nullptr)
+    const auto* list = raw.as<Value::List>();
+    if (list == nullptr)
     {
         taking.refuse(path, "must be a list, and is " + shownValue(raw), shownValue(raw), "a list");
         return {};
     }
-    checkSize(given->size(), path, taking);
+    checkSize(list->size(), path, taking);
     Value::List items;
     bool isTwice = false;
-    for (std::size_t place = 0; place < given->size(); ++place)
+    for (std::size_t place = 0; place < list->size(); ++place)
     {
-        auto item = element->take((*given)[place], path + Step{"", static_cast<long>(place)}, taking);
+        auto item = element->take((*list)[place], path + Step{"", static_cast<long>(place)}, taking);
         if (unique_ && !isTwice && !item.isNothing() && holds(items, item))
         {
             isTwice = true;
             taking.refuse(
-                path, "holds " + element->shown(item) + " twice", element->shown(item), "entries that all differ");
+                path, "contains " + element->shown(item) + " twice", element->shown(item), "entries that all differ");
         }
         items.push_back(std::move(item));
     }
@@ -239,16 +239,16 @@ Value Kind::takeList(const Value& raw, const Path& path, Taking& taking) const
 
 Value Kind::takeMap(const Value& raw, const Path& path, Taking& taking) const
 {
-    const auto* given = raw.as<Value::Map>();
-    if (given == nullptr)
+    const auto* entries = raw.as<Value::Map>();
+    if (entries == nullptr)
     {
         taking.refuse(
             path, "must be a mapping of names to values, and is " + shownValue(raw), shownValue(raw), "a mapping");
         return {};
     }
-    checkSize(given->size(), path, taking);
+    checkSize(entries->size(), path, taking);
     Value::Map items;
-    for (const auto& [key, item] : *given)
+    for (const auto& [key, item] : *entries)
     {
         items[key] = element->take(item, path + Step{key}, taking);
     }
@@ -257,8 +257,8 @@ Value Kind::takeMap(const Value& raw, const Path& path, Taking& taking) const
 
 Value Kind::takeRecord(const Value& raw, const Path& path, Taking& taking) const
 {
-    const auto* given = raw.as<Value::Map>();
-    if (given == nullptr)
+    const auto* entries = raw.as<Value::Map>();
+    if (entries == nullptr)
     {
         std::string keys;
         for (const auto& each : members)
@@ -268,11 +268,11 @@ Value Kind::takeRecord(const Value& raw, const Path& path, Taking& taking) const
         taking.refuse(path, "must be a mapping of " + keys + ", and is " + shownValue(raw), shownValue(raw), keys);
         return {};
     }
-    for (const auto& [key, item] : *given)
+    for (const auto& [key, item] : *entries)
     {
         if (member(key) == nullptr)
         {
-            taking.refuse({}, "there is no parameter '" + inWords(path + Step{key}) + "'");
+            taking.refuse({}, "unknown parameter '" + inWords(path + Step{key}) + "'");
         }
     }
     Value::Map items;
@@ -295,7 +295,7 @@ Value Kind::takeMember(const Member& each, const Value& raw, const Path& path, T
     }
     if (each.hasDefault)
     {
-        Taking checked; // by the compiler
+        Taking checked; // the compiler has checked defaults
         return each.kind.take(each.defaultValue, path, checked);
     }
     if (each.kind.form == Form::group)
@@ -319,12 +319,12 @@ void Kind::checkSize(std::size_t count, const Path& path, Taking& taking) const
     const auto wanted = !most_ ? "at least " + least
         : *most_ == least_ ? "exactly " + least
         : least_ == 0 ? "at most " + std::to_string(*most_)
-                      : "from " + least + " to " + std::to_string(*most_);
+                      : least + " to " + std::to_string(*most_);
     const auto entries = std::to_string(count) + (count == 1 ? " entry" : " entries");
     taking.refuse(path, "has " + entries + ", and must have " + wanted, entries, wanted);
 }
 
-/// The value of data of the right type, else nothing.
+/// The value of data that has the right type, else nothing.
 Value Kind::of(const Value& raw) const
 {
     const auto* number = raw.as<double>();
@@ -336,7 +336,7 @@ Value Kind::of(const Value& raw) const
         if (number != nullptr && std::isfinite(*number) && std::trunc(*number) == *number)
         {
             const bool fits = *number >= -0x1p63 && *number < 0x1p63;
-            return fits ? Value(static_cast<long long>(*number)) : raw; // what does not fit is beyond any limit
+            return fits ? Value(static_cast<long long>(*number)) : raw; // other values are beyond every limit
         }
         return raw.as<long long>() != nullptr ? raw : Value();
     case Form::decimal:
@@ -366,14 +366,14 @@ Value Kind::read(const std::string& text) const
     }
 }
 
-/// A value of this type, or what was to be one, for messages.
+/// A value, or an invalid one, for messages.
 std::string Kind::shown(const Value& raw) const
 {
     const bool isPlainValue = raw.isNumber() || raw.as<bool>() != nullptr || raw.as<std::string>() != nullptr;
     return isSecret && isPlainValue ? hidden : shownValue(raw);
 }
 
-/// What a value is.
+/// The values of the type, for messages.
 std::string Kind::words() const
 {
     switch (form)
@@ -391,7 +391,7 @@ std::string Kind::words() const
     }
 }
 
-/// Which values it may have: of a secret, only how many.
+/// The allowed values, for messages; of a secret, only their number.
 std::string Kind::oneOf() const
 {
     if (isSecret)
@@ -399,7 +399,7 @@ std::string Kind::oneOf() const
     return "one of " + joinedNames(values_);
 }
 
-/// What the value must do to be within the limits, or an empty text.
+/// Which limit the value must meet, for messages; empty if it meets all.
 std::string Kind::limit(const Value& value) const
 {
     const auto in = unit.empty() ? "" : " " + unit;
@@ -432,9 +432,9 @@ std::string Kind::limit(const Value& value) const
     {
         return "";
     }
-    const auto said = [&](long double end)
+    const auto inWords = [&](long double end)
     { return form == Form::whole ? std::to_string(static_cast<long long>(end)) : shortest(static_cast<double>(end)); };
-    return "be from " + said(least) + " to " + said(most) + " (" + name + ")";
+    return "be from " + inWords(least) + " to " + inWords(most) + " (" + name + ")";
 }
 
 std::string Kind::range() const
@@ -443,19 +443,19 @@ std::string Kind::range() const
     {
         return "from " + spelled(atLeast_) + " to " + spelled(atMost_);
     }
-    std::string said;
+    std::string text;
     const auto add = [&](const char* word, const Value& limit)
     {
         if (!limit.isNothing())
         {
-            said += (said.empty() ? "" : " and ") + std::string(word) + spelled(limit);
+            text += (text.empty() ? "" : " and ") + std::string(word) + spelled(limit);
         }
     };
     add("at least ", atLeast_);
     add("above ", above_);
     add("at most ", atMost_);
     add("below ", below_);
-    return said;
+    return text;
 }
 
 Kind truth()

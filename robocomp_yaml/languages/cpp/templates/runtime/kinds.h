@@ -16,8 +16,8 @@
 namespace runtime
 {
 
-/// Values being taken. `isText`: plain values are legacy texts. `references` are the paths of values that were given by
-/// reference, with the reference.
+/// Values that are being read. `isText`: plain values are legacy texts. `references` are the references of values that
+/// were set by reference, by path.
 struct Taking
 {
     bool isText = false;
@@ -31,7 +31,7 @@ struct Taking
 
 struct Member;
 
-/// A type of parameters: what values it takes, within which limits, and how it says so.
+/// A type of parameters: its values, its limits, and messages about them.
 class Kind
 {
 public:
@@ -64,7 +64,7 @@ public:
     Kind&& unique() &&;
     Kind&& secret() &&;
 
-    /// The value that `raw` stands for, with defaults; a problem goes to `taking` where there is none.
+    /// The value of `raw`, with defaults; a problem is added to `taking` if it is invalid.
     Value take(const Value& raw, const Path& path, Taking& taking) const;
 
     bool isPlain() const
@@ -72,7 +72,7 @@ public:
         return form < Form::list;
     }
 
-    /// Whether any text is a value, as far as the type goes.
+    /// Whether every text is a value of the type.
     bool takesAnyText() const
     {
         return form == Form::text || form == Form::choice;
@@ -89,12 +89,12 @@ public:
     Form form;
     std::string name;
     std::string unit;
-    bool isSecret = false; ///< its values are never shown
+    bool isSecret = false; ///< its values are hidden
     std::shared_ptr<const Kind> element;
     std::vector<Member> members;
 
 private:
-    Value takePlain(const Value& given, const Path& path, Taking& taking) const;
+    Value takePlain(const Value& data, const Path& path, Taking& taking) const;
     Value takeList(const Value& raw, const Path& path, Taking& taking) const;
     Value takeMap(const Value& raw, const Path& path, Taking& taking) const;
     Value takeRecord(const Value& raw, const Path& path, Taking& taking) const;
@@ -143,7 +143,7 @@ struct Member
         return std::move(*this);
     }
 
-    /// Whether a text or list without a property is an empty one.
+    /// Whether a missing property means an empty text or list.
     bool readsAsEmpty() const
     {
         return !hasDefault && !isOptional;

@@ -14,7 +14,7 @@
 namespace runtime
 {
 
-/// A part of the values as they were at one moment; it keeps them while it is there.
+/// A part of the values at one moment. It keeps these values alive.
 template <typename T>
 class Held
 {
@@ -58,8 +58,8 @@ private:
     std::shared_ptr<const T> part_;
 };
 
-/// The newest values, typed. Any thread may read at any time: it looks at a number, and takes a lock only if that says
-/// that there are newer values than those it saw last.
+/// The newest values, typed. Any thread may read at any time: it compares a version number, and takes a lock only if
+/// there are newer values than the ones that it has read last.
 template <typename Values>
 class Live
 {
@@ -79,7 +79,7 @@ public:
     Live(const Live&) = delete;
     Live& operator=(const Live&) = delete;
 
-    /// The newest values, until this thread asks again.
+    /// The newest values, valid until this thread calls it again.
     const Values& now() const
     {
         return *seen();
@@ -118,7 +118,7 @@ private:
 
     void publish(Values values)
     {
-        static std::atomic<std::uint64_t> versions{0}; // no two of them alike in the whole process
+        static std::atomic<std::uint64_t> versions{0}; // unique in the process
         auto made = std::make_shared<const Values>(std::move(values));
         const std::lock_guard lock(mutex_);
         values_ = std::move(made);

@@ -13,10 +13,10 @@ class Logger;
 namespace runtime
 {
 
-/// Stands in what Ice would otherwise report a second time.
+/// Marks an exception that is logged already, so that Ice's warning about it is not.
 inline const std::string alreadyLogged = "(see the log of the component) ";
 
-/// A source of lines on the standard error stream: `12:30:05 WARNING NAME: text`. Any thread may write at any time.
+/// Writes lines to the standard error stream: `12:30:05 WARNING NAME: text`. Any thread may write at any time.
 class Log
 {
 public:
@@ -32,7 +32,7 @@ private:
     std::string name_;
 };
 
-/// What Ice has to say, in the component's own log.
+/// Writes the messages of Ice to the component's log.
 std::shared_ptr<Ice::Logger> makeIceLogger();
 
 }

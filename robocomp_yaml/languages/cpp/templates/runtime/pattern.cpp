@@ -12,7 +12,7 @@ namespace runtime
 namespace
 {
 
-// libstdc++'s usual way recurses once a character, and may take for ever: this one does neither.
+// libstdc++'s default algorithm recurses for each character, and may take exponential time: this one does neither.
 #ifdef __GLIBCXX__
 constexpr auto flags = std::regex_constants::ECMAScript | std::regex_constants::__polynomial;
 #else

@@ -9,8 +9,8 @@
 namespace runtime
 {
 
-/// One value that cannot be: `parameter` is its path, `value` what it was to be, `wanted` what it must be (its range,
-/// say) in its `unit`; `message` says it all.
+/// An invalid value: `parameter` is its path, `value` the value, `wanted` what it must be (its range, say), in its
+/// `unit`; `message` is the whole message.
 struct Problem
 {
     std::string parameter;
@@ -20,7 +20,7 @@ struct Problem
     std::string unit;
 };
 
-/// Values that parameters cannot have: nothing has changed. `problems` are all of them.
+/// Invalid values of parameters: nothing has changed. `problems` are all errors.
 class ParameterError : public std::invalid_argument
 {
 public:

@@ -12,7 +12,7 @@ namespace runtime
 
 int run(const std::string& name, int argc, const char* const* argv, const WorkerFactory& makeWorker)
 {
-    // Before any thread: it masks the signals, and threads inherit the mask.
+    // Created before any thread: it masks the signals, and threads inherit the mask.
     IceUtil::CtrlCHandler signals;
     Shutdown shutdown;
     signals.setCallback([&](int) { shutdown.request(); });

@@ -23,7 +23,7 @@ bool isDigits(const std::string& text)
     return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// How many entries a count asks for; nothing where it is no count, or more than there could be.
+/// The number of entries that a count requires; nothing if it is not a number, or too large.
 std::optional<std::size_t> countOf(const std::string& text, std::size_t known)
 {
     constexpr std::size_t most = 1'000'000;
@@ -34,7 +34,7 @@ std::optional<std::size_t> countOf(const std::string& text, std::size_t known)
     return std::stoul(text);
 }
 
-/// Whether a key is one of those whose files quote their texts.
+/// Whether a key belongs to the files that quote their texts.
 bool isOfToml(const std::string& key)
 {
     const std::string prefix = "Prefix";
@@ -53,7 +53,7 @@ std::string filled(std::string key, const std::string& number)
     return key;
 }
 
-/// A key's literal parts and the names of the holes between them.
+/// The literal parts of a key, and the names of the holes between them.
 struct Holes
 {
     explicit Holes(const std::string& key)
@@ -77,7 +77,7 @@ struct Holes
         parts.push_back(key.substr(at));
     }
 
-    /// What stands in the holes; each as short as the rest allows, a number where it is the row's.
+    /// The texts in the holes: each as short as possible; a number for the row's number.
     bool match(const std::string& key, std::size_t at, std::size_t hole, std::vector<std::string>& found) const
     {
         if (!beginsWith(key.substr(at), parts[hole]))
@@ -112,7 +112,7 @@ struct Holes
 
 void fillEmpty(const Kind& kind, Value::Map& row);
 
-/// What is there, and has no property.
+/// The value of a parameter that exists without a property.
 Value empty(const Kind& kind)
 {
     switch (kind.form)
@@ -135,7 +135,7 @@ Value empty(const Kind& kind)
     }
 }
 
-/// The members of a record that read as empty where they have no property.
+/// The members of a record that are empty without a property.
 void fillEmpty(const Kind& kind, Value::Map& row)
 {
     for (const auto& member : kind.members)
@@ -191,7 +191,7 @@ const std::string* Reader::get(const std::string& key)
     return &found->second;
 }
 
-/// Whether there is something below a key.
+/// Whether a property is below a key.
 bool Reader::isStem(const std::string& key) const
 {
     const auto found = properties_.lower_bound(key + ".");
@@ -224,7 +224,7 @@ Value Reader::readRecord(const Kind& kind, const std::string& key, bool isTop)
     return found;
 }
 
-/// What stands under a path, or nothing.
+/// The value at a path, or nothing.
 Value Reader::readValue(const Kind& kind, const std::string& key)
 {
     if (kind.isPlain())
@@ -261,7 +261,7 @@ Value Reader::readList(const Kind& kind, const std::string& key)
     auto count = isSized ? countOf(*size, properties_.size()) : std::optional<std::size_t>(0);
     if (!count)
     {
-        return *size; // no list: refused
+        return *size; // not a list: rejected later
     }
     if (!isSized)
     {
@@ -286,7 +286,7 @@ Value Reader::readList(const Kind& kind, const std::string& key)
     return found;
 }
 
-/// An entry of a list or map is there, whether or not it has a property.
+/// An entry of a list or map exists even without a property.
 Value Reader::readEntry(const Kind& kind, const std::string& key)
 {
     auto value = readValue(kind, key);
@@ -340,8 +340,8 @@ Value Reader::readParts(
     return found;
 }
 
-/// A record's columns, the optional ones at the end if they are there; or one plain value. A text that is no row is
-/// refused later.
+/// The columns of a record, in which optional ones at the end may be missing; or one plain value. A text that is not a
+/// row is rejected later.
 Value Reader::readRow(
     const Spelling& spelling, const Kind& kind, const std::string& text, const std::string& separator)
 {
@@ -375,7 +375,7 @@ Value Reader::readRow(
     return row;
 }
 
-/// Rows by their numbers: as many as the count says, else until one is missing.
+/// Numbered rows: as many as the count says, else until one is missing.
 Value Reader::readNumbered(const Spelling& spelling, const Kind& kind)
 {
     const auto* counted = spelling.count.empty() ? nullptr : get(spelling.count);
@@ -383,7 +383,7 @@ Value Reader::readNumbered(const Spelling& spelling, const Kind& kind)
     const auto count = isCounted ? countOf(*counted, properties_.size()) : std::nullopt;
     if (isCounted && !count)
     {
-        return *counted; // no list: refused
+        return *counted; // not a list: rejected later
     }
     Value::List found;
     while (!count || found.size() < *count)
@@ -421,7 +421,7 @@ Value Reader::readNumberedRow(const Spelling& spelling, const Kind& kind, const 
     return row;
 }
 
-/// Rows whose key holds members: in the order of these, since properties have none.
+/// Rows whose key contains members, in the order of these members: properties have no order.
 Value Reader::readKeyed(const Spelling& spelling, const Kind& kind)
 {
     const Holes holes(spelling.key);

@@ -14,8 +14,8 @@ namespace runtime
 
 using Texts = std::map<std::string, std::string>;
 
-/// How properties spell a parameter. `key` may have holes: `{i}`, a row's number from `first` on, or members' keys.
-/// With `fields`, each member has a property of its own.
+/// How properties spell a parameter. `key` may have holes: `{i}`, the number of a row, counted from `first`, or keys of
+/// members. With `fields`, each member has a property of its own.
 struct Spelling
 {
     std::string key;
@@ -28,8 +28,8 @@ struct Spelling
     std::string count;
 };
 
-/// Properties to the values of parameters, all still text: by their paths, or as a table spells them. Relative paths
-/// are from `folder`; `known` are plain values by their paths, which are taken as they are.
+/// Reads properties to values of parameters, as texts: by their paths, or as a table spells them. Relative paths are
+/// resolved in `folder`; `known` are plain values by their paths, which are used unchanged.
 class Reader
 {
 public:
@@ -39,7 +39,7 @@ public:
 
     Value read(const Kind& kind);
 
-    /// The keys that it has come upon.
+    /// The keys that were read.
     const std::set<std::string>& used() const
     {
         return used_;

@@ -20,7 +20,7 @@ namespace runtime
 namespace
 {
 
-constexpr std::size_t largest = 1 << 20; // bytes of a file that holds one value
+constexpr std::size_t largest = 1 << 20; // bytes of a file with a value
 
 bool isVariable(const std::string& name)
 {
@@ -55,7 +55,7 @@ Value variable(const std::string& name)
     return made;
 }
 
-/// A file that is open for reading, as long as this lives.
+/// An open file, closed by the destructor.
 struct Open
 {
     explicit Open(const std::string& path) : descriptor(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC))
@@ -112,10 +112,10 @@ bool isUtf8(const std::string& text)
     return true;
 }
 
-/// The text of a file, without one line end at its end. Throws std::runtime_error with what is wrong with it.
+/// The text of a file without one line end at its end. Throws std::runtime_error with the reason.
 std::string contents(const std::string& path)
 {
-    const Open file(path); // without waiting: what is no file could block
+    const Open file(path); // non-blocking: special files could block
     struct stat status = {};
     if (::fstat(file.descriptor, &status) != 0)
     {
@@ -123,7 +123,7 @@ std::string contents(const std::string& path)
     }
     if (!S_ISREG(status.st_mode))
     {
-        throw std::runtime_error("which is no regular file");
+        throw std::runtime_error("which is not a regular file");
     }
     std::string text(largest + 1, '\0');
     std::size_t size = 0;
@@ -142,7 +142,7 @@ std::string contents(const std::string& path)
     }
     if (text.find('\0') != std::string::npos)
     {
-        throw std::runtime_error("which holds a NUL");
+        throw std::runtime_error("which contains a NUL character");
     }
     if (!text.empty() && text.back() == '\n')
     {

@@ -9,8 +9,8 @@
 namespace runtime
 {
 
-/// The text itself, or what the reference `${env:NAME}` or `${file:PATH}` stands for that it is; a relative path is one
-/// from the folder.
+/// The text itself, or the value of the reference `${env:NAME}` or `${file:PATH}` if it is one. A relative path is
+/// resolved in the folder.
 Value resolved(const std::string& text, const std::string& folder = "");
 
 /// The same for the data `{"env": NAME}` or `{"file": PATH}`.

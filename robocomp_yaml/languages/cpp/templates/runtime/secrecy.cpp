@@ -24,12 +24,12 @@ const Words secretWords{
 const Words ends{
     "token", "tokens", "pwd", "dbpass", "userpass", "rootpass", "adminpass", "wifipass", "mypass", "keypass",
 };
-const Words about{ // words that end the name of something about a secret, which is none itself
+const Words about{ // last words of names that are about a secret, but are not secret themselves
     "age", "attempts", "band", "count", "dir", "directory", "enabled", "expiry", "file", "filter", "folder",
     "interval", "len", "length", "lifetime", "limit", "max", "min", "path", "period", "policy", "prompt",
     "rate", "required", "retries", "size", "through", "timeout", "tries", "ttl", "type",
 };
-const Words how{ // words that begin such a name
+const Words how{ // first words of such names
     "all", "allow", "ask", "band", "by", "count", "enable", "first", "has", "hide", "high", "is", "low", "max",
     "min", "multi", "no", "num", "number", "over", "require", "requires", "second", "show", "single", "two",
     "under", "use", "with",
@@ -50,7 +50,7 @@ bool isDigit(char c)
     return c >= '0' && c <= '9';
 }
 
-/// The words of a name in small letters: `DBPassword_2` has three.
+/// The words of a name in lower case: `DBPassword_2` has three.
 Words wordsOf(const std::string& name)
 {
     Words words;
@@ -63,7 +63,7 @@ Words wordsOf(const std::string& name)
         }
         if (end > at && end < name.size() && name[end] >= 'a' && name[end] <= 'z' && end - at > 1)
         {
-            --end; // the last capital begins the next word
+            --end; // the last capital letter belongs to the next word
         }
         else if (end <= at + 1 && end < name.size() && isLower(name[end]))
         {
@@ -151,20 +151,20 @@ bool isSecret(const std::string& name)
 
 std::string withoutPasswords(const std::string& text)
 {
-    std::string said = text;
-    for (auto at = said.find("://"); at != std::string::npos; at = said.find("://", at + 3))
+    std::string result = text;
+    for (auto at = result.find("://"); at != std::string::npos; at = result.find("://", at + 3))
     {
-        const auto end = std::min(said.find_first_of(" \t\r\n\f\v/?#'\"<>", at + 3), said.size());
-        const auto sign = said.rfind('@', end);
-        const auto colon = said.find_first_of(":@", at + 3);
-        const bool hasPassword = sign != std::string::npos && colon != std::string::npos && said[colon] == ':' &&
+        const auto end = std::min(result.find_first_of(" \t\r\n\f\v/?#'\"<>", at + 3), result.size());
+        const auto sign = result.rfind('@', end);
+        const auto colon = result.find_first_of(":@", at + 3);
+        const bool hasPassword = sign != std::string::npos && colon != std::string::npos && result[colon] == ':' &&
             colon + 1 < sign && sign < end;
-        if (hasPassword && isBehindScheme(said, at))
+        if (hasPassword && isBehindScheme(result, at))
         {
-            said.replace(colon + 1, sign - colon - 1, hidden);
+            result.replace(colon + 1, sign - colon - 1, hidden);
         }
     }
-    return said;
+    return result;
 }
 
 std::string shown(const std::string& name, const std::string& text)

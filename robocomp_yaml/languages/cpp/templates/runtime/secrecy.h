@@ -10,13 +10,13 @@ namespace runtime
 /// What is shown instead of a secret.
 extern const std::string hidden;
 
-/// Whether what has this name is to be kept secret: by the rule of rcyaml itself.
+/// Whether the name is the name of a secret, by the same rule as in rcyaml itself.
 bool isSecret(const std::string& name);
 
-/// A text without the passwords in its URLs.
+/// The text without passwords in URLs.
 std::string withoutPasswords(const std::string& text);
 
-/// The text of what has a name, for people.
+/// The text of a value with a name, for messages.
 std::string shown(const std::string& name, const std::string& text);
 
 }

@@ -14,7 +14,7 @@ namespace runtime
 namespace
 {
 
-/// Stands before a servant. Lets calls wait at the gate, and logs exceptions that the interface does not declare.
+/// Intercepts the calls of a servant: lets them wait at the gate, and logs exceptions that no interface declares.
 class Guard : public Ice::DispatchInterceptor
 {
 public:
@@ -50,7 +50,7 @@ private:
         {
             if (problem.id == current.id && problem.operation == current.operation)
             {
-                throw; // it is about this very call, not about one that the worker made
+                throw; // about this call, not about one that the worker made
             }
             fail(current, describe(problem));
         }
@@ -60,7 +60,7 @@ private:
         }
         catch (...)
         {
-            fail(current, "an exception that is no std::exception");
+            fail(current, "an exception that is not a std::exception");
         }
     }
 
@@ -121,7 +121,7 @@ std::shared_ptr<Ice::ObjectPrx> Services::listen(
     const auto endpoints = settings_.first({topic + ".Endpoints", "Endpoints." + topic, "Endpoints." + name});
     const std::lock_guard lock(mutex_);
     const auto adapter = makeAdapter(topic, endpoints.empty() ? "tcp -p 0" : endpoints);
-    // IceStorm knows subscribers by identity: with a UUID, several components may listen to one topic.
+    // IceStorm identifies subscribers by identity: with a UUID, several components may subscribe to a topic.
     const auto guard = std::make_shared<Guard>(Service{name, "", interface}, servant, log_, gate_);
     const auto proxy = adapter->addWithUUID(guard);
     adapter->activate();

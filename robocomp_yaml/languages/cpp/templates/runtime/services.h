@@ -25,8 +25,8 @@ class ObjectPrx;
 namespace runtime
 {
 
-/// An interface that the component serves: its name in the config, the identity of its object, its own name, and which
-/// operation declares which exception.
+/// An interface that the component serves: its name in the config, the identity of its object, its own name, and the
+/// exceptions that its operations declare.
 struct Service
 {
     std::string name;
@@ -35,7 +35,7 @@ struct Service
     std::set<std::pair<std::string, std::string>> declared = {};
 };
 
-/// What the component offers: servants, each on an adapter of its own.
+/// What the component serves: servants, each on an adapter of its own.
 class Services
 {
 public:
@@ -47,15 +47,15 @@ public:
     /// Serves an interface of the worker.
     void implement(const Service& service, const std::shared_ptr<Ice::Object>& servant);
 
-    /// Serves what needs no worker, where the config has an endpoint for it.
+    /// Serves an interface that needs no worker, if the config has an endpoint for it.
     void implementIfConfigured(
         const std::string& name, const std::string& identity, const std::shared_ptr<Ice::Object>& servant);
 
-    /// Serves a topic's subscriber. Returns its proxy.
+    /// Serves the subscriber of a topic; returns its proxy.
     std::shared_ptr<Ice::ObjectPrx>
     listen(const std::string& name, const std::string& interface, const std::shared_ptr<Ice::Object>& servant);
 
-    /// What to do when the worker has initialized, and what undoes it when the component stops.
+    /// Calls `begin` when the worker has initialized, and `end` when the component stops.
     void whileReady(std::function<void()> begin, std::function<void()> end);
 
     void ready();
@@ -70,7 +70,7 @@ private:
     const Settings& settings_;
     const Log& log_;
     Gate& gate_;
-    std::mutex mutex_; // the worker's thread may still be starting when the main thread stops
+    std::mutex mutex_; // the worker's thread may still start while the main thread stops
     std::vector<std::shared_ptr<Ice::ObjectAdapter>> adapters_;
     std::vector<std::function<void()>> begin_;
     std::vector<std::function<void()>> end_;

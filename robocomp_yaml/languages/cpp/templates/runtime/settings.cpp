@@ -18,7 +18,7 @@ namespace runtime
 namespace
 {
 
-/// A path as its user would open it from here.
+/// A path as its user would open it.
 std::string shown(const std::filesystem::path& file)
 {
     std::error_code ignored;
@@ -26,7 +26,7 @@ std::string shown(const std::filesystem::path& file)
     return relative.empty() || relative.compare(0, 2, "..") == 0 ? file.string() : relative;
 }
 
-/// `--KEY=VALUE`, taken as it stands: Ice's own reader would end the value at a `#`.
+/// The key and value of `--KEY=VALUE`. Ice's own parser would end the value at a `#`.
 std::map<std::string, std::string> read(const std::vector<std::string>& options)
 {
     std::map<std::string, std::string> found;
@@ -36,7 +36,7 @@ std::map<std::string, std::string> read(const std::vector<std::string>& options)
         const auto key = trimmed(option.substr(2, equals - 2));
         if (key.empty())
         {
-            throw StartError(option.substr(0, equals) + "= names no property");
+            throw StartError(option.substr(0, equals) + "= has no property name");
         }
         found[key] = equals < option.size() ? option.substr(equals + 1) : "1";
     }
@@ -96,7 +96,7 @@ void Settings::load(const std::filesystem::path& file)
     }
 }
 
-/// Ice takes any bytes, but what is no UTF-8 cannot be sent to others. Old comments may be in any encoding.
+/// Throws StartError for a line that is not UTF-8, which Ice cannot send. Comments may have any encoding.
 void Settings::checkText(const std::filesystem::path& file)
 {
     std::ifstream lines(file);
@@ -109,7 +109,7 @@ void Settings::checkText(const std::filesystem::path& file)
         }
         catch (const Ice::IllegalConversionException&)
         {
-            throw StartError(shown(file) + ":" + std::to_string(number) + ": this line is not in UTF-8");
+            throw StartError(shown(file) + ":" + std::to_string(number) + ": this line is not UTF-8");
         }
     }
 }

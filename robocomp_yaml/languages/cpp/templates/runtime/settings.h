@@ -18,9 +18,9 @@ class Properties;
 namespace runtime
 {
 
-/// The component's properties: its config file, with the command line on top.
+/// The component's properties: its config file, overridden by the command line.
 ///
-/// There are two spellings of a key, `Speech.Endpoints` and `Endpoints.Speech`: the first one that is set counts.
+/// A key has two spellings, `Speech.Endpoints` and `Endpoints.Speech`: the first one that is set is used.
 class Settings
 {
 public:
@@ -28,28 +28,28 @@ public:
 
     explicit Settings(const CommandLine& commandLine);
 
-    /// The same files, but for an option of the command line.
+    /// The same files and options, without one option.
     Settings without(const std::string& option) const;
 
-    /// The value of the first of the keys that is set, or an empty one.
+    /// The value of the first key that is set, or an empty text.
     std::string first(Keys keys) const;
 
-    /// As first(). Throws StartError where none is set; `what` says what is sought.
+    /// As first(). Throws StartError if none is set; `what` is the name in the message.
     std::string required(const std::string& what, Keys keys) const;
 
-    /// All properties but Ice's own.
+    /// All properties except Ice's own.
     std::map<std::string, std::string> parameters() const;
 
-    /// What the command line says, which has the last word.
+    /// The properties of the command line, which override the file.
     const std::map<std::string, std::string>& overrides() const;
 
     /// The config file, for messages.
     std::string where() const;
 
-    /// Where the config file stands.
+    /// The folder of the config file.
     std::string folder() const;
 
-    /// Where a property comes from, for messages.
+    /// The source of a property, for messages.
     std::string source(const std::string& key) const;
 
     const std::shared_ptr<Ice::Properties>& properties() const;

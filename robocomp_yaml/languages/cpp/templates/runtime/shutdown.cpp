@@ -64,7 +64,7 @@ void Shutdown::watch()
     changed_.wait(lock, [this] { return requested_ || done_; });
     if (!changed_.wait_for(lock, 1500ms, [this] { return done_; }))
     {
-        Log("stop").warning("a method is still running after 1.5 s: ending without it");
+        Log("stop").warning("a method is still running after 1.5 s: the process ends anyway");
         std::_Exit(exitCode_);
     }
 }

@@ -10,10 +10,10 @@
 namespace runtime
 {
 
-/// The request to stop, which anyone may make at any time, and for which any thread can wait.
+/// The request to stop, which any thread may make at any time, and for which any thread can wait.
 ///
-/// Once it is made the component has 1.5 s to stop in order. A method that does not return would hold it up for ever,
-/// so after that time the process ends without it.
+/// After the request, the component has 1.5 s to stop in order. Then the process ends, even if a method has not
+/// returned.
 class Shutdown
 {
 public:
@@ -22,16 +22,16 @@ public:
     Shutdown(const Shutdown&) = delete;
     Shutdown& operator=(const Shutdown&) = delete;
 
-    /// Stop, and end with this code (the first that is not 0 wins).
+    /// Requests to stop. The exit code is the first one that is not 0.
     void request(int exitCode = 0);
 
     bool isRequested() const;
     int exitCode() const;
 
-    /// Until the request.
+    /// Waits for the request.
     void wait() const;
 
-    /// Until the request, or for so long. Returns whether it has been made.
+    /// Waits for the request, or for so long; returns whether it has been made.
     bool waitFor(std::chrono::milliseconds time) const;
 
 private:

@@ -50,7 +50,7 @@ void Store::load(const Texts& properties, const Texts& overrides, const std::str
         isLoaded_ = true;
         others_ = std::move(found.others);
     }
-    tell();
+    notify();
 }
 
 std::vector<Problem> Store::problems(
@@ -63,7 +63,7 @@ std::vector<Problem> Store::problems(
 Store::Found Store::read(Texts properties, const Texts& overrides, const std::string& folder) const
 {
     auto known = properties;
-    const auto robocomp = properties.find("Period.Compute"); // RoboComp's own spelling
+    const auto robocomp = properties.find("Period.Compute"); // RoboComp's own name
     if (robocomp != properties.end())
     {
         known.emplace("period.compute", robocomp->second);
@@ -102,13 +102,13 @@ void Store::change(const std::map<std::string, Value>& values)
         {
             if (!put(table_.kind, changed, parsePath(path), value))
             {
-                taking.refuse({}, "there is no parameter '" + path + "'");
+                taking.refuse({}, "unknown parameter '" + path + "'");
             }
         }
         auto made = taking.problems.empty() ? table_.kind.take(changed, {}, taking) : Value();
         replace(std::move(made), std::move(taking));
     }
-    tell();
+    notify();
 }
 
 void Store::edit(const std::function<Value(const Value&)>& edit)
@@ -119,7 +119,7 @@ void Store::edit(const std::function<Value(const Value&)>& edit)
         auto made = table_.kind.take(edit(values_), {}, taking);
         replace(std::move(made), std::move(taking));
     }
-    tell();
+    notify();
 }
 
 void Store::changeTexts(const Texts& changes)
@@ -146,7 +146,7 @@ void Store::changeTexts(const Texts& changes)
         {
             if (reader.used().count(key) == 0)
             {
-                taking.refuse({}, "there is no parameter '" + key + "'");
+                taking.refuse({}, "unknown parameter '" + key + "'");
             }
         }
         for (const auto& [key, text] : changes)
@@ -157,13 +157,13 @@ void Store::changeTexts(const Texts& changes)
                 (listed != now.end() && listed->second.text.find(hidden) != std::string::npos);
             if (isHidden && reader.used().count(key) != 0 && text.find(hidden) != std::string::npos)
             {
-                taking.refuse({}, key + " is to hold " + hidden + ", which stands for what is not shown");
+                taking.refuse({}, key + " cannot be " + hidden + ", which is shown instead of a secret");
             }
         }
         auto made = table_.kind.take(read, {}, taking);
         replace(std::move(made), std::move(taking));
     }
-    tell();
+    notify();
 }
 
 void Store::listen(Listener listener)
@@ -195,7 +195,7 @@ Texts Store::others() const
     return listed;
 }
 
-/// The plain values by their dotted paths, as they are now: a reference is not followed again.
+/// The plain values by their dotted paths, as they are now: references are not read again.
 std::map<std::string, Value> Store::known() const
 {
     auto found = plainValues(table_.kind, values_);
@@ -251,7 +251,7 @@ int Store::number(const std::string& path, int otherwise) const
     return number != nullptr ? static_cast<int>(*number) : otherwise;
 }
 
-/// Puts new values in the place of the old ones, if they may be there.
+/// Replaces the values, if the new ones are valid and may change.
 void Store::replace(Value made, Taking taking)
 {
     std::vector<Difference> changed;
@@ -295,7 +295,7 @@ void Store::replace(Value made, Taking taking)
     }
     if (isLoaded_)
     {
-        news_.push_back(std::move(change));
+        pending_.push_back(std::move(change));
     }
 }
 
@@ -312,19 +312,19 @@ std::vector<Problem> Store::broken(const Value& made) const
     return problems;
 }
 
-/// One thread at a time tells the news, in order and without the lock on the values, so that listeners may change more.
-void Store::tell()
+/// Calls the listeners, in one thread at a time, in order and without the lock: listeners may change values.
+void Store::notify()
 {
     std::unique_lock lock(mutex_);
-    if (isTelling_)
+    if (isNotifying_)
     {
         return;
     }
-    isTelling_ = true;
-    while (!news_.empty())
+    isNotifying_ = true;
+    while (!pending_.empty())
     {
-        const auto change = std::move(news_.front());
-        news_.pop_front();
+        const auto change = std::move(pending_.front());
+        pending_.pop_front();
         const auto listeners = listeners_;
         lock.unlock();
         for (const auto& listener : listeners)
@@ -340,7 +340,7 @@ void Store::tell()
         }
         lock.lock();
     }
-    isTelling_ = false;
+    isNotifying_ = false;
 }
 
 }

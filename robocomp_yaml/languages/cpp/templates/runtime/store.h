@@ -17,14 +17,14 @@
 namespace runtime
 {
 
-/// What must hold between parameters; `otherwise` is what to say when it does not.
+/// A constraint between parameters; `otherwise` is the message if it does not hold.
 struct Constraint
 {
     std::string text;
     std::string otherwise;
     std::function<Value(const Value&)> value;
 
-    /// An unknown one holds; a division by zero, or an entry that is not there, does not.
+    /// An unknown result holds; a division by zero, or a missing entry, does not.
     bool holds(const Value& values) const;
 };
 
@@ -36,35 +36,35 @@ struct Table
     std::vector<Constraint> constraints;
 };
 
-/// What a listener is told: the paths that have changed.
+/// The argument of listeners: the changed paths.
 struct Change
 {
     std::vector<std::string> paths;
 
-    /// Whether the parameter at this path, or something in it, has changed.
+    /// Whether the parameter at this path, or a value in it, has changed.
     bool concerns(const std::string& path) const;
 };
 
 using Listener = std::function<void(const Change&)>;
 
-/// The values of the parameters, and what happens to them. All changes go through here, one at a time.
+/// The values of the parameters. All changes are made here, one at a time.
 class Store
 {
 public:
     explicit Store(Table table);
 
-    /// Takes the values from properties, at the start or once more. `overrides` are of the command line; they are
-    /// paths, whatever the table says. Relative paths in properties are from `folder`. Throws ParameterError.
+    /// Reads the values from properties, at the start or again. `overrides` come from the command line; their keys are
+    /// paths, whatever spelling the table has. Relative paths are resolved in `folder`. Throws ParameterError.
     void load(const Texts& properties, const Texts& overrides, const std::string& folder = "");
 
-    /// What is wrong with values that a component would start with.
+    /// The errors in the values that a component would start with.
     std::vector<Problem> problems(
         const Texts& properties, const Texts& overrides, const std::string& folder = "") const;
 
-    /// Sets several values by their paths: all of them, or none and ParameterError.
+    /// Sets several values by their paths. Throws ParameterError, and then changes none of them.
     void change(const std::map<std::string, Value>& values);
 
-    /// Replaces all values by what `edit` makes of them. Throws ParameterError.
+    /// Replaces all values by the result of `edit`. Throws ParameterError.
     void edit(const std::function<Value(const Value&)>& edit);
 
     /// As change(), with the keys and texts of entries().
@@ -72,16 +72,16 @@ public:
 
     void listen(Listener listener);
 
-    /// Calls `publish` with new values, in the place of the old ones, before anyone is told of them.
+    /// Calls `publish` with new values, instead of the old ones, before listeners are called.
     void publishTo(std::function<void(const Value&)> publish);
 
-    /// Each plain value as text, by its dotted path; references as they stand in the config, secrets hidden.
+    /// Each plain value as text, by its dotted path. References are as in the config, secrets are hidden.
     std::map<std::string, Entry> entries() const;
 
-    /// The properties that are no parameter's; what is secret by its name is hidden.
+    /// The properties that are not parameters; those with the name of a secret are hidden.
     Texts others() const;
 
-    /// Those of them below a parameter, or called almost as one, which they then lead to.
+    /// Those of them that are below a parameter, or have almost the name of one: the property, and that name or "".
     Texts misspelled(const std::set<std::string>& ports) const;
 
     /// The whole number at a path, or `otherwise`.
@@ -99,7 +99,7 @@ private:
     std::map<std::string, Value> known() const;
     void replace(Value made, Taking taking);
     std::vector<Problem> broken(const Value& made) const;
-    void tell();
+    void notify();
 
     const Table table_;
     mutable std::mutex mutex_;
@@ -109,8 +109,8 @@ private:
     Texts others_;
     std::function<void(const Value&)> publish_;
     std::vector<Listener> listeners_;
-    std::deque<Change> news_;
-    bool isTelling_ = false;
+    std::deque<Change> pending_;
+    bool isNotifying_ = false;
 };
 
 }

@@ -41,7 +41,7 @@ bool isPlainName(const std::string& name)
     return !name.empty();
 }
 
-/// The index behind the digits that stand at `at`.
+/// The index after the digits at `at`.
 std::size_t behindDigits(const std::string& text, std::size_t at)
 {
     const auto end = text.find_first_not_of(digits, at);
@@ -53,13 +53,13 @@ std::size_t behindSign(const std::string& text, std::size_t at)
     return at + (at < text.size() && (text[at] == '+' || text[at] == '-') ? 1 : 0);
 }
 
-/// Without the locale, in which a number may have a comma.
+/// Independent of the locale, which may have a decimal comma.
 double parsed(const std::string& text)
 {
     std::istringstream stream(text);
     stream.imbue(std::locale::classic());
     double value = 0;
-    stream >> value; // too large a number becomes the largest one
+    stream >> value; // a number that is too large becomes the largest one
     const bool isTooLarge = stream.fail() && std::abs(value) > 1;
     return isTooLarge ? std::copysign(std::numeric_limits<double>::infinity(), value) : value;
 }
@@ -295,7 +295,7 @@ Value readWhole(const std::string& text)
         if (__builtin_mul_overflow(value, 10LL, &value) ||
             __builtin_add_overflow(value, isNegative ? -digit : digit, &value))
         {
-            return std::copysign(std::numeric_limits<double>::infinity(), isNegative ? -1.0 : 1.0); // beyond any limit
+            return std::copysign(std::numeric_limits<double>::infinity(), isNegative ? -1.0 : 1.0); // above every limit
         }
     }
     return value;

@@ -11,7 +11,7 @@
 namespace runtime
 {
 
-/// A step of a path: a name, or an entry's number.
+/// A step of a path: a name, or the index of an entry.
 struct Step
 {
     std::string name;
@@ -33,14 +33,14 @@ std::string inWords(const Path& path);
 /// `motors.0.vel`.
 std::string dotted(const Path& path);
 
-/// The steps of a path in either spelling, all as text; none for what is no path.
+/// The steps of a path in either spelling, as texts; empty if it is not a path.
 std::vector<std::string> parsePath(const std::string& text);
 
-/// A map's key as a segment of a property's name: dots, blanks, `=`, `%` and what does not print as `%2E`.
+/// A map's key as a segment of a property's name: dots, blanks, `=`, `%` and unprintable characters become `%2E`.
 std::string escapedKey(const std::string& key);
 std::string unescapedKey(const std::string& segment);
 
-/// Plain values as text: how properties and command lines spell them, and how that is read (nothing where it is none).
+/// Plain values as text, as properties and command lines spell them, and the reverse (nothing for an invalid text).
 std::string spelled(const Value& value);
 Value readTruth(const std::string& text);
 Value readWhole(const std::string& text);
@@ -49,27 +49,26 @@ Value readNumber(const std::string& text);
 /// The shortest text that is read as the same number.
 std::string shortest(double value);
 
-/// The number that a float stands for, as a person would write it: 3.15f is 3.15.
+/// A float as the double with the same shortest decimal text: 3.15f becomes 3.15.
 double widened(float value);
 
-/// Whether two names differ by a slip: in case, or in one character that is wrong, missing, too many, or changed places
-/// with the next.
+/// Whether two names differ by a typing error: in case, or by one wrong, missing, extra or transposed character.
 bool alike(const std::string& one, const std::string& other);
 
-/// Without the double quotes around it that TOML wants and Ice does not know.
+/// Without enclosing double quotes, which TOML requires and Ice does not remove.
 std::string unquoted(const std::string& value);
 
 std::string trimmed(const std::string& text);
 
-/// The parts of a text; a separator of blanks stands for any run of them.
+/// The parts of a text; a blank as separator matches any run of blanks.
 std::vector<std::string> split(const std::string& text, const std::string& separator);
 
-/// Nested lists of texts; the outermost separator may stand once more at the end.
+/// Nested lists of texts; the outermost separator may follow the last one too.
 Value nested(
     const std::string& text, const std::vector<std::string>& separators, std::size_t level, std::size_t levels,
     bool trailing);
 
-/// The characters of a text in UTF-8, as far as it is.
+/// The characters of a text in UTF-8, up to the first invalid one.
 std::u32string characters(const std::string& text);
 
 }

@@ -12,17 +12,17 @@ namespace runtime
 namespace
 {
 
-/// Carries out what Ice's exceptions must not end with a riddle.
-template <typename Question>
-auto ask(const std::string& topic, const Question& question)
+/// The result of `call`. Throws StartError with the topic's name for exceptions of Ice.
+template <typename Call>
+auto ask(const std::string& topic, const Call& call)
 {
     try
     {
-        return question();
+        return call();
     }
     catch (const Ice::LocalException& problem)
     {
-        throw StartError("cannot ask IceStorm for the topic " + topic + ": " + reason(problem));
+        throw StartError("IceStorm does not provide the topic " + topic + ": " + reason(problem));
     }
 }
 
@@ -50,7 +50,7 @@ void Topics::subscribe(
         }
         catch (const Ice::Exception&)
         {
-            // IceStorm drops a subscriber that does not answer.
+            // IceStorm removes subscribers that do not answer.
         }
     };
     services.whileReady(begin, end);
@@ -72,7 +72,7 @@ std::string Topics::nameOf(const std::string& name, const std::string& topic, co
 
 std::shared_ptr<IceStorm::TopicPrx> Topics::find(const std::string& fullName) const
 {
-    // Another component may create or destroy the topic at any moment.
+    // Another component may create or destroy the topic at the same time.
     while (true)
     {
         try

@@ -19,23 +19,24 @@ namespace runtime
 class Connections;
 class Services;
 
-/// The component's dealings with IceStorm.
+/// Publishing and subscribing through IceStorm.
 ///
-/// A topic is called as the property of the port's name says, else as its interface; behind a prefix, if there is one.
+/// The name of a topic is the value of the property with the port's name, else its interface's name; after a prefix, if
+/// any.
 class Topics
 {
 public:
-    /// When IceStorm answers.
+    /// Returns when IceStorm answers.
     explicit Topics(const Connections& connections);
 
-    /// The proxy that sends to the topic.
+    /// The proxy that publishes to the topic.
     template <typename Proxy>
     std::shared_ptr<Proxy> publish(const std::string& name, const std::string& topic) const
     {
         return Ice::uncheckedCast<Proxy>(publisher(name, topic));
     }
 
-    /// Sends the topic's events to the servant, from when the worker has initialized until the component stops.
+    /// Sends the topic's events to the servant, after the worker has initialized and until the component stops.
     void subscribe(
         Services& services, const std::string& name, const std::string& topic,
         const std::shared_ptr<Ice::Object>& servant) const;
@@ -46,7 +47,7 @@ private:
     /// The topic's name.
     std::string nameOf(const std::string& name, const std::string& topic, const std::string& prefixKey) const;
 
-    /// The topic, created if nobody has yet.
+    /// The topic, created if needed.
     std::shared_ptr<IceStorm::TopicPrx> find(const std::string& fullName) const;
 
     const Connections& connections_;

@@ -12,12 +12,12 @@
 namespace runtime
 {
 
-/// A text that a reference gave, or was to give: what is shown of it is the reference alone.
+/// A text from a reference, or a reference without a value. Only the reference is shown.
 struct Referred
 {
     std::string reference; ///< `${env:NAME}`, `${file:PATH}`
     std::string text;
-    std::string missing; ///< where it comes from and what is wrong there, or empty
+    std::string missing; ///< why there is no value; empty if there is one
 
     bool operator==(const Referred& other) const
     {
@@ -25,7 +25,7 @@ struct Referred
     }
 };
 
-/// Any value of a parameter: nothing, a plain one, a list, or values by name (a map or a record).
+/// Any value of a parameter: nothing, a plain value, a list, or values by name (a map or a record).
 class Value
 {
 public:
@@ -55,7 +55,7 @@ public:
     {
         if (value > static_cast<unsigned long long>(std::numeric_limits<long long>::max()))
         {
-            data_ = static_cast<double>(value); // beyond any limit
+            data_ = static_cast<double>(value); // above every limit
         }
     }
     Value(double value) : data_(value)
@@ -77,7 +77,7 @@ public:
     {
     }
 
-    /// The value of a type, or nullptr where it is of another.
+    /// The value if it has this type, else nullptr.
     template <typename T>
     const T* as() const
     {
@@ -100,13 +100,13 @@ public:
         return as<long long>() != nullptr || as<double>() != nullptr;
     }
 
-    /// A number with room for every whole one of 64 bits and every double.
+    /// A number with space for every 64-bit integer and every double.
     long double number() const
     {
         return as<double>() != nullptr ? static_cast<long double>(*as<double>()) : *as<long long>();
     }
 
-    /// Values are equal as numbers are: 1 and 1.0 are.
+    /// Values are equal as numbers are: 1 equals 1.0.
     bool operator==(const Value& other) const
     {
         return isNumber() && other.isNumber() ? number() == other.number() : data_ == other.data_;
@@ -117,7 +117,7 @@ public:
         return !(*this == other);
     }
 
-    /// What has a name here, or nothing.
+    /// The value with a name, or nothing.
     const Value& operator[](const std::string& name) const
     {
         static const Value nothing;

@@ -15,10 +15,10 @@ constexpr bool sameText(const char* one, const char* other)
     return *one == *other;
 }
 
-/// Which run time this is: it is made of all its files.
+/// The version of the run time: a digest of all of its files.
 constexpr char VERSION[] = "@RUNTIME_VERSION@";
 
-/// Whether code that was generated for a run time is for this one.
+/// Whether code that was generated for a version fits this run time.
 constexpr bool isVersion(const char* wanted)
 {
     return sameText(wanted, VERSION);

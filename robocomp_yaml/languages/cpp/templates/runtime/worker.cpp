@@ -92,7 +92,7 @@ void Worker::run()
     afterTurns();
 }
 
-/// A turn that came late does not move those after it; turns that were missed altogether are left out.
+/// A late turn does not delay the following ones; turns that were missed completely are skipped.
 bool Worker::waitForTurn()
 {
     std::unique_lock lock(stateMutex_);

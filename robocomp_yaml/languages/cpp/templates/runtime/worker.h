@@ -26,10 +26,11 @@ class Services;
 class Settings;
 class Shutdown;
 
-/// The worker: what GenericWorker, and so the user's SpecificWorker, is built on.
+/// The worker: the base class of GenericWorker, and so of the user's SpecificWorker.
 ///
-/// Ice calls the methods of the component's interfaces in its own threads, while compute() may be running: guard what
-/// both touch with `mutex`. Several methods run at once only if the config says so (Ice.ThreadPool.Server.Size).
+/// Ice calls the methods of the component's interfaces in its own threads, also while compute() runs: protect data that
+/// both use with `mutex`. Several methods run at the same time only if the config allows it
+/// (Ice.ThreadPool.Server.Size).
 class Worker
 {
 public:
@@ -38,12 +39,12 @@ public:
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
 
-    /// Called once, when the proxies are ready; calls from other components wait until it is done.
+    /// Called once, when the proxies are ready; calls from other components wait until it returns.
     virtual void initialize()
     {
     }
 
-    /// Called every period. An exception is logged, and the next turn comes.
+    /// Called every period. An exception is logged, and the next turn follows.
     virtual void compute()
     {
     }
@@ -51,7 +52,7 @@ public:
     /// The period in milliseconds.
     int getPeriod() const;
 
-    /// Sets `period.compute`: at once, even in the middle of a wait. Throws ParameterError where it cannot be.
+    /// Sets `period.compute`. It takes effect immediately, even during a wait. Throws ParameterError if it is invalid.
     void setPeriod(int milliseconds);
 
     /// Stops the component in order.
@@ -62,14 +63,14 @@ protected:
     std::shared_ptr<Ice::Communicator> communicator;
     const Log log;
 
-    /// What the generated accessors read and change.
+    /// The store that the generated accessors read and change.
     Store& parameterStore();
 
-    /// There is something to do before the next turn.
+    /// Ends the wait, because there is something to do before the next turn.
     void wake();
 
-    // What else there is to do in the worker's thread: before the first turn, whenever it wakes up between two turns
-    // (and in what time it is to do so again), in a turn, after the last one.
+    // Hooks of subclasses, called in the worker's thread: before the first turn; whenever the thread wakes up between
+    // two turns (returns the time until it must be called again); for each turn; after the last turn.
 
     virtual void beforeTurns()
     {
@@ -89,7 +90,7 @@ protected:
 private:
     friend class Application;
 
-    // In the main thread: before the worker's thread begins, and then until the component stops.
+    // Called in the main thread: before the worker's thread starts, and then until the component stops.
 
     virtual void prepare(const Settings& /*settings*/, bool /*onlyCheck*/)
     {
@@ -97,14 +98,14 @@ private:
 
     virtual void waitForEnd(Shutdown& shutdown);
 
-    /// Makes the proxies and offers the servants.
+    /// Creates the proxies and serves the servants.
     virtual void connect(const Connections& connections, Services& services) = 0;
 
     /// Calls compute() every period, until stop().
     void run();
     bool waitForTurn();
 
-    /// Works by `period.compute` as it is now.
+    /// Applies the current `period.compute`.
     void followPeriod();
     void stop();
 

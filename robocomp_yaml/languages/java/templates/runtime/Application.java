@@ -11,15 +11,15 @@ import java.util.List;
 import java.util.Map;
 
 /**
- * One component in one process: start, run, stop in order. The main thread waits for the request to stop; all else is
- * done in the worker's thread and in Ice's.
+ * One component in one process: start, run, stop in order. The main thread waits for the request to stop. Everything
+ * else runs in the worker's thread and in Ice's threads.
  */
 final class Application {
     private static final String BEHAVIOR = "CommonBehavior";
-    /** What differs from Ice's own defaults, unless the config says otherwise. */
+    /** Ice's defaults are replaced by these, unless the config sets them. */
     private static final Map<String, String> DEFAULTS = Map.of(
         "Ice.Warn.UnknownProperties", "0", // parameters may begin with an adapter's name: `Laser.Device`
-        "CommonBehavior.ThreadPool.Size", "1"); // a thread of its own: it answers while a method is running
+        "CommonBehavior.ThreadPool.Size", "1"); // a thread of its own, so that it answers while a method runs
 
     private final Component component;
     private final Settings settings;
@@ -55,11 +55,11 @@ final class Application {
                 data.properties.setProperty(key, value);
             }
         });
-        data.properties.setProperty("Ice.Default.Package", "slice"); // where the build puts what Slice becomes
+        data.properties.setProperty("Ice.Default.Package", "slice"); // the package of the Java code of all Slice
         return Util.initialize(data);
     }
 
-    /** Until the component is asked to stop. */
+    /** Runs the component until it is stopped. */
     void run() {
         Thread work = new Thread(this::work, "worker");
         Thread watch = new Thread(this::watchIce, "shutdown");
@@ -88,12 +88,12 @@ final class Application {
         }
     }
 
-    /** Ice.Admin's shutdown (IceGrid uses it) is a request to stop, too. */
+    /** Ice.Admin's shutdown, which IceGrid uses, is a request to stop too. */
     private void watchIce() {
         try {
             communicator.waitForShutdown();
         } catch (com.zeroc.Ice.CommunicatorDestroyedException error) {
-            return; // it was told to stop before it had started
+            return; // it was stopped before it had started
         }
         stopping.request(0);
     }
@@ -102,7 +102,7 @@ final class Application {
         try {
             Worker worker = start();
             if (isCheck) {
-                log.info(component.name() + " starts as it should");
+                log.info(component.name() + ": the startup check has passed");
             } else {
                 log.info(component.name() + " is running");
                 turns(worker);
@@ -115,7 +115,7 @@ final class Application {
         } catch (Stopped error) {
             return;
         } catch (Throwable error) { // what the user's code may throw
-            if (!stopping.isRequested()) { // what it was doing may fail when it is told to stop
+            if (!stopping.isRequested()) { // stopping may make the start fail
                 log.error("cannot start", error);
                 stopping.request(1);
             }
@@ -124,7 +124,7 @@ final class Application {
         }
     }
 
-    /** Calls compute() until the component stops. An exception in there is logged, and the next turn comes. */
+    /** Calls compute() until the component stops. An exception in it is logged, and the next turn follows. */
     private void turns(Worker worker) {
         schedule.restart();
         while (schedule.awaitTurn()) {
@@ -136,7 +136,7 @@ final class Application {
         }
     }
 
-    /** Serves first and waits for others then, so that two components may require each other. */
+    /** Serves its own interfaces before it waits for others, so that two components may require each other. */
     private Worker start() throws Exception {
         List<Service> services = component.services(gate);
         Behavior behavior = serveBehavior(services);
@@ -163,7 +163,7 @@ final class Application {
         return worker;
     }
 
-    /** An object for each subscription. IceStorm knows subscribers by their identity, so it must be unique. */
+    /** An object for each subscription. IceStorm identifies subscribers by identity, so it must be unique. */
     private List<Runnable> listen(List<Service> services) {
         List<Runnable> subscriptions = new ArrayList<>();
         for (Service service : services) {
@@ -180,10 +180,10 @@ final class Application {
 
     private void warnOfProperties() {
         store.misspelled(component.ports()).forEach((key, meant) -> log.warning(settings.source(key)
-            + ": there is no parameter '" + key + "'" + (meant.isEmpty() ? "" : " (did you mean '" + meant + "'?)")));
+            + ": unknown parameter '" + key + "'" + (meant.isEmpty() ? "" : " (did you mean '" + meant + "'?)")));
     }
 
-    /** Unless the config has no endpoint for it, or the component implements it itself. */
+    /** Serves CommonBehavior, unless the config has no endpoint for it or the component implements it itself. */
     private Behavior serveBehavior(List<Service> services) {
         String endpoints = settings.first(BEHAVIOR + ".Endpoints", "Endpoints." + BEHAVIOR);
         if (endpoints.isEmpty() || services.stream().anyMatch(service -> service.name().equals(BEHAVIOR))) {

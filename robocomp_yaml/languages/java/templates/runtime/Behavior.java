@@ -13,8 +13,8 @@ import slice.RoboCompCommonBehavior.Parameter;
 import slice.RoboCompCommonBehavior.State;
 
 /**
- * RoboComp's interface CommonBehavior: what tools ask any component, and tell it. It answers from the start, while the
- * component still waits for others.
+ * RoboComp's interface CommonBehavior, through which tools query and control any component. It is served from the
+ * start, while the component waits for others.
  */
 final class Behavior implements CommonBehavior {
     private final Store store;
@@ -48,7 +48,7 @@ final class Behavior implements CommonBehavior {
             store.change(Map.of("period.compute", period));
             log.info("the period is " + period + " ms now");
         } catch (ParameterError error) {
-            log.warning("setPeriod(" + period + ") refused: " + error.getMessage());
+            log.warning("setPeriod(" + period + ") rejected: " + error.getMessage());
         }
     }
 
@@ -59,11 +59,11 @@ final class Behavior implements CommonBehavior {
 
     @Override
     public void killYourSelf(Current current) {
-        log.info("asked to stop");
+        log.info("stop requested through CommonBehavior");
         stopping.request(0);
     }
 
-    /** The parameters by their dotted paths; and the other properties, which nobody can change. */
+    /** The parameters by their dotted paths, and the other properties, which are read-only. */
     @Override
     public Map<String, Parameter> getParameterList(Current current) {
         Map<String, Parameter> listed = new LinkedHashMap<>();
@@ -73,7 +73,7 @@ final class Behavior implements CommonBehavior {
         return listed;
     }
 
-    /** All of them, or none: then the log says why. What comes back as it was listed, hidden or not, stays. */
+    /** Changes all of the parameters or none; an error is logged. Values equal to the listed ones are ignored. */
     @Override
     public void setParameterList(Map<String, Parameter> parameters, Current current) {
         Map<String, Entry> before = store.entries();
@@ -88,7 +88,7 @@ final class Behavior implements CommonBehavior {
         try {
             store.changeTexts(changes);
         } catch (ParameterError error) {
-            log.warning("setParameterList refused: " + error.getMessage());
+            log.warning("setParameterList rejected: " + error.getMessage());
             return;
         }
         Set<String> hidden = new HashSet<>(changes.keySet());
@@ -99,16 +99,16 @@ final class Behavior implements CommonBehavior {
         log.info("parameters changed by setParameterList: " + (changed.isEmpty() ? "none" : String.join(", ", changed)));
     }
 
-    /** Reads the config again: all that it changes takes effect, or nothing does and the log says why. */
+    /** Reads the config again. All changes take effect, or none of them and the error is logged. */
     @Override
     public synchronized void reloadConfig(Current current) {
         try {
             Settings reloaded = settings.reloaded();
             Configuration.reload(store, reloaded);
             settings = reloaded;
-            log.info("the config is read again; the period is " + schedule.period() + " ms");
+            log.info("config reloaded, the period is " + schedule.period() + " ms");
         } catch (StartError error) {
-            log.warning("reloadConfig refused: " + error.getMessage());
+            log.warning("reloadConfig rejected: " + error.getMessage());
         }
     }
 

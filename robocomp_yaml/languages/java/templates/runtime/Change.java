@@ -3,9 +3,9 @@ package generated.runtime;
 
 import java.util.List;
 
-/** What a listener is told: the paths that have changed. */
+/** The argument of listeners: the changed paths. */
 public record Change(List<String> paths) {
-    /** Whether the parameter at this path, or something in it, has changed. */
+    /** Whether the parameter at this path, or a value in it, has changed. */
     public boolean concerns(String path) {
         return paths.stream().anyMatch(
             changed -> changed.equals(path) || changed.startsWith(path + ".") || changed.startsWith(path + "["));

@@ -4,7 +4,7 @@ package generated.runtime;
 import java.util.List;
 import java.util.Set;
 
-/** What a component is made of: `generated/Main.java` fills it in. `period` is in milliseconds. */
+/** The structure of a component, which `generated/Main.java` fills in. `period` is in milliseconds. */
 public interface Component {
     String name();
 
@@ -12,7 +12,7 @@ public interface Component {
 
     Table table();
 
-    /** The user's worker, made in the worker's thread. */
+    /** The user's worker, created in the worker's thread. */
     Worker worker() throws Exception;
 
     List<Service> services(Gate gate);

@@ -8,12 +8,12 @@ import java.util.List;
 import java.util.Map;
 import java.util.Set;
 
-/** Parameters taken from the component's config, and what is said when they cannot be. */
+/** Reads parameters from the component's config, and reports errors in it. */
 final class Configuration {
     private Configuration() {
     }
 
-    /** Throws StartError with all that is wrong. */
+    /** Throws StartError with all errors. */
     static Store load(Table table, Settings settings) {
         try {
             return new Store(table, settings.parameters(), settings.overrides, settings.folder());
@@ -22,7 +22,7 @@ final class Configuration {
         }
     }
 
-    /** Throws StartError, and changes nothing then. */
+    /** Reads the values again. Throws StartError, and then changes nothing. */
     static void reload(Store store, Settings settings) {
         try {
             store.reload(settings.parameters(), settings.overrides, settings.folder());
@@ -31,7 +31,7 @@ final class Configuration {
         }
     }
 
-    /** All problems, and whether the file or options of the command line are to blame for them. */
+    /** All errors, and whether they are in the file or on the command line. */
     private static String inWords(ParameterError error, Table table, Settings settings) {
         Set<String> wrong = messages(error);
         Set<String> byFile = new HashSet<>(wrong);
@@ -54,7 +54,7 @@ final class Configuration {
         if (error.problems().size() == 1) {
             return sources.get(0) + ": " + error.getMessage();
         }
-        return error.problems().size() + " parameters cannot be as given by " + String.join(" and ", sources) + ": "
+        return error.problems().size() + " parameters have invalid values in " + String.join(" and ", sources) + ": "
             + error.getMessage();
     }
 

@@ -20,7 +20,7 @@ public final class Connections {
     }
 
     /**
-     * The proxy of a port, when the other side answers, or at once if `absent` is "ignore". `timeout` is in
+     * The proxy of a port, as soon as the server answers, or at once if `absent` is "ignore". `timeout` is in
      * milliseconds, -1 for none.
      */
     public ObjectPrx required(String name, String absent, int timeout) {
@@ -32,18 +32,18 @@ public final class Connections {
         } else if (absent.equals("fail")) {
             String why = Waiting.ping(proxy, timeout < 0 ? Waiting.PATIENCE : timeout);
             if (!why.isEmpty()) {
-                throw new StartError(what + " is not there (" + why + ")");
+                throw new StartError(what + " does not answer (" + why + ")");
             }
         }
         return timeout < 0 ? proxy : proxy.ice_invocationTimeout(timeout);
     }
 
-    /** The proxy that sends to a topic. */
+    /** The proxy that publishes to a topic. */
     public ObjectPrx published(String name, String topic) {
         return topics().publisher(name, topic);
     }
 
-    /** The component's dealings with IceStorm, from the first time that it has any. */
+    /** The component's topics, created when they are first used. */
     Topics topics() {
         if (topics == null) {
             String text = settings.topicManager();
@@ -58,19 +58,19 @@ public final class Connections {
         return topics != null;
     }
 
-    /** The proxy that a property spells. */
+    /** The proxy in a property. Throws StartError if the text is not a proxy. */
     private ObjectPrx fromText(String what, String text) {
         try {
             ObjectPrx proxy = communicator.stringToProxy(text);
             if (proxy != null) {
                 return proxy;
             }
-            throw new StartError(what + " is '" + text + "' in " + settings.where() + ": that is no proxy");
+            throw new StartError(what + " is '" + text + "' in " + settings.where() + ", which is not a proxy");
         } catch (com.zeroc.Ice.ProxyParseException | com.zeroc.Ice.EndpointParseException
             | com.zeroc.Ice.IdentityParseException error) {
             String why = error instanceof com.zeroc.Ice.ProxyParseException one ? one.str
                 : error instanceof com.zeroc.Ice.EndpointParseException other ? other.str : error.ice_id();
-            throw new StartError(what + " is '" + text + "' in " + settings.where() + ": that is no proxy (" + why + ")");
+            throw new StartError(what + " is '" + text + "' in " + settings.where() + ", which is not a proxy (" + why + ")");
         }
     }
 }

@@ -4,9 +4,9 @@ package generated.runtime;
 import java.util.Map;
 import java.util.function.Function;
 
-/** What must hold between parameters: `text` as the document says it, `otherwise` what to say when it does not. */
+/** A constraint between parameters: `text` as in the document, `otherwise` the message if it does not hold. */
 public record Constraint(String text, String otherwise, Function<Object, Object> value) {
-    /** An unknown one holds; a division by zero, or an entry that is not there, does not. */
+    /** An unknown result holds; a division by zero, or a missing entry, does not. */
     public boolean holds(Map<String, Object> values) {
         try {
             return !Boolean.FALSE.equals(value.apply(values));

@@ -3,7 +3,7 @@ package generated.runtime;
 
 import com.zeroc.Ice.Communicator;
 
-/** What a worker is made with. */
+/** What a worker is created with. */
 public final class Context {
     private static Context current;
 
@@ -21,10 +21,10 @@ public final class Context {
         this.store = store;
     }
 
-    /** For the one worker of this process, while it is made. */
+    /** The context of the one worker of this process, while it is created. */
     static synchronized Context current() {
         if (current == null) {
-            throw new IllegalStateException("a worker is made by its component alone");
+            throw new IllegalStateException("only the component creates its worker");
         }
         return current;
     }

@@ -9,7 +9,7 @@ import java.util.Map;
 import java.util.Optional;
 import java.util.function.Function;
 
-/** A group of values, with a field for each: they can be read and compared, never changed. */
+/** A group of values with a field for each. They can be read and compared, but not changed. */
 public abstract class Data {
     private final Map<String, Object> of;
     private final java.util.Set<String> secret;
@@ -31,15 +31,15 @@ public abstract class Data {
 
     @Override
     public final String toString() {
-        List<String> said = new ArrayList<>();
+        List<String> fields = new ArrayList<>();
         of.forEach((key, value) -> {
             boolean isHidden = secret.contains(key) && !value.equals("") && !value.equals(0L) && !value.equals(0.0);
-            said.add(key + "=" + (isHidden ? Secrecy.HIDDEN : value));
+            fields.add(key + "=" + (isHidden ? Secrecy.HIDDEN : value));
         });
-        return getClass().getSimpleName() + "(" + String.join(", ", said) + ")";
+        return getClass().getSimpleName() + "(" + String.join(", ", fields) + ")";
     }
 
-    /** Values of the generated classes, and Java's own numbers, as the store has them. */
+    /** Values of the generated classes, and Java's own numbers, as the store keeps them. */
     static Object plain(Object value) {
         if (value instanceof Data data) {
             return Editing.copy(data.of);
@@ -88,7 +88,7 @@ public abstract class Data {
         return Optional.ofNullable(value).map(element);
     }
 
-    /** The constant of an enum that documents call so. */
+    /** The constant of an enum with this name in documents. */
     protected static <T extends Named> T named(Class<T> type, Object text) {
         for (T one : type.getEnumConstants()) {
             if (one.text().equals(text)) {

@@ -8,12 +8,12 @@ import java.util.Map;
 import java.util.Objects;
 import java.util.function.BiConsumer;
 
-/** Changes of values: one value put into data, what differs, and values as a flat list of texts. */
+/** Edits of values: setting one value in data, differences, and values as a flat list of texts. */
 final class Editing {
     private Editing() {
     }
 
-    /** The same data, which may be changed. */
+    /** A copy of the data that may be changed. */
     static Object copy(Object data) {
         if (data instanceof Map<?, ?> map) {
             Map<String, Object> made = new LinkedHashMap<>();
@@ -29,8 +29,8 @@ final class Editing {
     }
 
     /**
-     * Sets the value at a path, null removes it; false where there is no such path. The number after the last one of a
-     * list is a new entry.
+     * Sets the value at a path, or removes it if it is null; returns false for an unknown path. The index after the
+     * last entry of a list appends an entry.
      */
     static boolean put(Kind kind, Object data, List<String> steps, Object value) {
         Kind at = kind;
@@ -56,7 +56,7 @@ final class Editing {
         return false;
     }
 
-    /** The type that stands there, or null. */
+    /** The type at a step, or null. */
     private static Kind stepped(Kind kind, Object data, String step) {
         if (kind.isRecord() && kind.members.containsKey(step) && data instanceof Map) {
             return kind.members.get(step).kind;
@@ -120,34 +120,34 @@ final class Editing {
         return found;
     }
 
-    /** What has changed, and whether it may: a parameter may with all that it holds, a record's member by itself. */
+    /** The changed paths, and whether each may change: an editable parameter with all of its content, or a member. */
     static void differences(
-        Kind kind, Object old, Object made, List<Object> path, boolean mayChange, BiConsumer<List<Object>, Boolean> tell) {
+        Kind kind, Object old, Object made, List<Object> path, boolean mayChange, BiConsumer<List<Object>, Boolean> report) {
         if (Objects.equals(old, made)) {
             return;
         }
         if (kind.isRecord() && old instanceof Map<?, ?> before && made instanceof Map<?, ?> after) {
             for (Member member : kind.members.values()) {
                 differences(member.kind, before.get(member.key), after.get(member.key), Paths.inside(path, member.key),
-                    mayChange || member.mayChange(), tell);
+                    mayChange || member.mayChange(), report);
             }
         } else if (old instanceof List<?> before && made instanceof List<?> after && before.size() == after.size()) {
             for (int place = 0; place < before.size(); place++) {
-                differences(kind.element, before.get(place), after.get(place), Paths.inside(path, place), mayChange, tell);
+                differences(kind.element, before.get(place), after.get(place), Paths.inside(path, place), mayChange, report);
             }
         } else if (kind.form == Kind.Form.MAP && old instanceof Map<?, ?> before && made instanceof Map<?, ?> after
             && before.keySet().equals(after.keySet())) {
             for (Object name : before.keySet()) {
-                differences(kind.element, before.get(name), after.get(name), Paths.inside(path, name), mayChange, tell);
+                differences(kind.element, before.get(name), after.get(name), Paths.inside(path, name), mayChange, report);
             }
         } else {
-            tell.accept(path, mayChange);
+            report.accept(path, mayChange);
         }
     }
 
     /**
      * Each plain value by its dotted path, with the sizes of lists and the keys of maps, as properties have them.
-     * Secrets are hidden; of what was given by reference, the reference stands there.
+     * Secrets are hidden; a value that came from a reference is shown as the reference.
      */
     static void flat(
         Kind kind, Object value, Map<List<Object>, String> references, List<Object> path, boolean mayChange,
@@ -187,22 +187,22 @@ final class Editing {
     }
 
     /** Each plain value with its path. */
-    static void plainValues(Kind kind, Object value, List<Object> path, BiConsumer<List<Object>, Object> tell) {
+    static void plainValues(Kind kind, Object value, List<Object> path, BiConsumer<List<Object>, Object> report) {
         if (value == null) {
             return;
         }
         if (kind.isRecord()) {
             for (Member member : kind.members.values()) {
-                plainValues(member.kind, ((Map<?, ?>) value).get(member.key), Paths.inside(path, member.key), tell);
+                plainValues(member.kind, ((Map<?, ?>) value).get(member.key), Paths.inside(path, member.key), report);
             }
         } else if (value instanceof List<?> items) {
             for (int place = 0; place < items.size(); place++) {
-                plainValues(kind.element, items.get(place), Paths.inside(path, place), tell);
+                plainValues(kind.element, items.get(place), Paths.inside(path, place), report);
             }
         } else if (value instanceof Map<?, ?> map) {
-            map.forEach((name, item) -> plainValues(kind.element, item, Paths.inside(path, name), tell));
+            map.forEach((name, item) -> plainValues(kind.element, item, Paths.inside(path, name), report));
         } else {
-            tell.accept(path, value);
+            report.accept(path, value);
         }
     }
 }

@@ -12,8 +12,8 @@ import java.util.function.Function;
 import java.util.function.Supplier;
 
 /**
- * What constraints are made of. A parameter that is left out is unknown (null): so is what is made of it, unless the
- * rest decides.
+ * The functions of constraints. A parameter without a value is unknown (null). The result of an unknown operand is
+ * unknown, unless the other operands decide it.
  */
 public final class Expressions {
     private Expressions() {
@@ -54,7 +54,7 @@ public final class Expressions {
         return decided(List.of(parts), true);
     }
 
-    /** The parts, one after the other, until one is `decisive`. */
+    /** Evaluates the parts in their order until one has the value `decisive`. */
     private static Object decided(Iterable<Supplier<Object>> parts, boolean decisive) {
         boolean isUnknown = false;
         for (Supplier<Object> part : parts) {
@@ -182,7 +182,7 @@ public final class Expressions {
         return ((List<?>) many).stream().anyMatch(item -> same(item, one));
     }
 
-    /** Numbers are the same where they are equal, whatever their type. */
+    /** Numbers are equal by value, whatever their types are. */
     static boolean same(Object one, Object other) {
         if (one instanceof Number && other instanceof Number) {
             boolean isOdd = !isFinite(one) || !isFinite(other);
@@ -207,7 +207,7 @@ public final class Expressions {
             : Double.compare(decimal(one), decimal(other));
     }
 
-    // Functions of lists and maps; with `steps`, of what the first makes of each item that the second lets through.
+    // Functions of lists and maps; with `steps`, of the first function of each item for which the second one holds.
 
     public static Object keys(Object map) {
         return map == null ? null : new ArrayList<Object>(((Map<?, ?>) map).keySet());
@@ -286,7 +286,7 @@ public final class Expressions {
         return best;
     }
 
-    /** What is equal as a number is equal here too. */
+    /** Equal numbers are equal here too, whatever their types are. */
     private static Object comparable(Object value) {
         if (value instanceof Number && isFinite(value)) {
             BigDecimal plain = exact(value).stripTrailingZeros();
@@ -295,7 +295,7 @@ public final class Expressions {
         return value instanceof List<?> items ? items.stream().map(Expressions::comparable).toList() : value;
     }
 
-    /** The elements, each worked out when it is asked for; what a condition leaves out decides nothing. */
+    /** The elements, each evaluated when it is needed; an element for which the condition is false is skipped. */
     @SafeVarargs
     private static Iterable<Supplier<Object>> later(Object many, Function<Object, Object>... steps) {
         List<?> items = many instanceof Map<?, ?> map ? List.copyOf(map.keySet()) : (List<?>) many;
@@ -311,7 +311,7 @@ public final class Expressions {
             .iterator();
     }
 
-    /** All elements; null where there is no list, or one is unknown. */
+    /** All elements; null if there is no list, or an element is unknown. */
     @SafeVarargs
     private static List<Object> gathered(Object many, Function<Object, Object>... steps) {
         if (many == null) {

@@ -12,10 +12,10 @@ import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.CompletionStage;
 
 /**
- * Lets calls through to the worker once it has initialized.
+ * Lets calls pass to the worker once it has initialized.
  *
- * Those that come before wait in a list, not in Ice's threads: so the component answers pings, and two components that
- * wait for each other do not lock up.
+ * Earlier calls wait in a list instead of Ice's threads: so the component answers pings, and two components that wait
+ * for each other do not deadlock.
  */
 public final class Gate {
     private final Log log;
@@ -30,7 +30,7 @@ public final class Gate {
         this.log = log;
     }
 
-    /** Whether a call goes on at once: also one that is none of the worker's, such as a ping. */
+    /** Whether a call is executed at once. Calls that do not reach the worker, such as pings, always are. */
     public synchronized boolean lets(Current current) {
         return (worker != null && !isClosed) || current.operation.startsWith("ice_");
     }
@@ -43,7 +43,7 @@ public final class Gate {
         return worker;
     }
 
-    /** What a call comes to that is made once the gate is open, with what it holds now. */
+    /** The result of a call that is executed when the gate opens. */
     public CompletionStage<OutputStream> later(Incoming incoming, Current current) {
         byte[] inputs = incoming.readParamEncaps();
         OutputStream cached = incoming.getAndClearCachedOutputStream();
@@ -66,19 +66,19 @@ public final class Gate {
                 return answer;
             }
         }
-        call.run(); // it has opened meanwhile
+        call.run(); // the gate has opened meanwhile
         return answer;
     }
 
-    /** What is thrown in place of what an operation does not declare; that is logged here. */
+    /** The exception in place of one that the operation does not declare, which is logged here. */
     public UnknownException failed(String method, Throwable error) {
         log.error(method + "() failed", error);
-        String said = error.getMessage() == null ? "" : ": " + error.getMessage().replaceAll("\\s+", " ");
+        String message = error.getMessage() == null ? "" : ": " + error.getMessage().replaceAll("\\s+", " ");
         return new UnknownException(
-            Log.ALREADY_LOGGED + method + ": " + error.getClass().getSimpleName() + said, null);
+            Log.ALREADY_LOGGED + method + ": " + error.getClass().getSimpleName() + message, null);
     }
 
-    /** Carries out the early calls, in their order. */
+    /** Executes the waiting calls in their order. */
     void open(Worker ready) {
         List<Early> waiting;
         synchronized (this) {
@@ -89,7 +89,7 @@ public final class Gate {
         waiting.forEach(one -> one.call.run());
     }
 
-    /** Refuses all calls, those that wait, too. */
+    /** Rejects all calls, also waiting ones. */
     void close() {
         List<Early> waiting;
         synchronized (this) {

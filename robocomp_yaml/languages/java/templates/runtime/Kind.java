@@ -13,9 +13,9 @@ import java.util.function.Predicate;
 import java.util.stream.Collectors;
 
 /**
- * A type of parameters: what values it takes, within which limits, and how it says so.
+ * A type of parameters: its values, its limits, and messages about them.
  *
- * Values are Boolean, Long, Double, String, and lists and maps of such; none of them ever changes.
+ * Values are Boolean, Long, Double, String, and lists and maps of them; none of them ever changes.
  */
 public final class Kind {
     enum Form { TRUTH, WHOLE, DECIMAL, TEXT, CHOICE, LIST, MAP, RECORD, GROUP }
@@ -55,7 +55,7 @@ public final class Kind {
         return new Kind(Form.WHOLE, name, null);
     }
 
-    /** `name` is float or double: the range, since values are kept as doubles. */
+    /** `name` is float or double. It decides the range: values are stored as doubles. */
     public static Kind decimal(String name) {
         return new Kind(Form.DECIMAL, name, null);
     }
@@ -161,12 +161,12 @@ public final class Kind {
         return form == Form.GROUP;
     }
 
-    /** Whether any text is a value, as far as the type goes. */
+    /** Whether every text is a value of the type. */
     boolean takesAnyText() {
         return form == Form.TEXT || form == Form.CHOICE;
     }
 
-    /** The value that `raw` stands for, with defaults; a problem goes to `taking` where there is none. */
+    /** The value of `raw`, with defaults; a problem is added to `taking` if it is invalid. */
     Object take(Object raw, List<Object> path, Taking taking) {
         return switch (form) {
             case LIST -> takeList(raw, path, taking);
@@ -190,14 +190,14 @@ public final class Kind {
         }
         if (value == null) {
             String wanted = words() + (unit.isEmpty() ? "" : " (" + unit + ")");
-            String said = shown(raw);
-            taking.refuse(path, "must be " + wanted + ", and is " + said, said, wanted, unit);
+            String text = shown(raw);
+            taking.refuse(path, "must be " + wanted + ", and is " + text, text, wanted, unit);
             return null;
         }
         String wanted = limit(value);
         if (!wanted.isEmpty()) {
-            String said = takesAnyText() ? shown(raw) : stripped(shown(raw));
-            taking.refuse(path, "is " + said + (unit.isEmpty() ? "" : " " + unit) + ", and must " + wanted, said,
+            String text = takesAnyText() ? shown(raw) : stripped(shown(raw));
+            taking.refuse(path, "is " + text + (unit.isEmpty() ? "" : " " + unit) + ", and must " + wanted, text,
                 wanted, unit);
         }
         return value;
@@ -205,7 +205,7 @@ public final class Kind {
 
     private Object takeList(Object raw, List<Object> path, Taking taking) {
         if (!(raw instanceof List<?> items)) {
-            taking.refuse(path, "must be a list, and is " + said(raw), said(raw), "a list", "");
+            taking.refuse(path, "must be a list, and is " + shownValue(raw), shownValue(raw), "a list", "");
             return null;
         }
         checkSize(items.size(), path, taking);
@@ -217,8 +217,8 @@ public final class Kind {
             HashSet<Object> seen = new HashSet<>();
             for (Object item : made) {
                 if (item != null && !seen.add(item)) {
-                    String twice = element.isPlain() ? element.shown(item) : said(item);
-                    taking.refuse(path, "holds " + twice + " twice", twice, "entries that all differ", "");
+                    String twice = element.isPlain() ? element.shown(item) : shownValue(item);
+                    taking.refuse(path, "contains " + twice + " twice", twice, "entries that all differ", "");
                     break;
                 }
             }
@@ -228,7 +228,7 @@ public final class Kind {
 
     private Object takeMap(Object raw, List<Object> path, Taking taking) {
         if (!(raw instanceof Map<?, ?> map) || !map.keySet().stream().allMatch(String.class::isInstance)) {
-            taking.refuse(path, "must be a mapping of names to values, and is " + said(raw), said(raw), "a mapping", "");
+            taking.refuse(path, "must be a mapping of names to values, and is " + shownValue(raw), shownValue(raw), "a mapping", "");
             return null;
         }
         checkSize(map.size(), path, taking);
@@ -240,12 +240,12 @@ public final class Kind {
     private Object takeRecord(Object raw, List<Object> path, Taking taking) {
         if (!(raw instanceof Map<?, ?> map)) {
             String words = "a mapping of " + String.join(", ", members.keySet());
-            taking.refuse(path, "must be " + words + ", and is " + said(raw), said(raw), words, "");
+            taking.refuse(path, "must be " + words + ", and is " + shownValue(raw), shownValue(raw), words, "");
             return null;
         }
         for (Object key : map.keySet()) {
             if (!members.containsKey(key)) {
-                taking.refuse(List.of(), "there is no parameter '"
+                taking.refuse(List.of(), "unknown parameter '"
                     + Paths.inWords(Paths.inside(path, String.valueOf(key))) + "'");
             }
         }
@@ -280,7 +280,7 @@ public final class Kind {
             return;
         }
         String wanted = most < 0 ? "at least " + least : least == most ? "exactly " + least
-            : least > 0 ? "from " + least + " to " + most : "at most " + most;
+            : least > 0 ? least + " to " + most : "at most " + most;
         String entries = count + " entr" + (count == 1 ? "y" : "ies");
         taking.refuse(path, "has " + entries + ", and must have " + wanted, entries, wanted, "");
     }
@@ -295,7 +295,7 @@ public final class Kind {
         };
     }
 
-    /** The value of data of the right type, else null. */
+    /** The value of data that has the right type, else null. */
     private Object of(Object raw) {
         return switch (form) {
             case TRUTH -> raw instanceof Boolean ? raw : null;
@@ -327,7 +327,7 @@ public final class Kind {
         };
     }
 
-    /** What the value must do to be within the limits, or ''. */
+    /** Which limit the value must meet, for messages; '' if it meets all. */
     private String limit(Object value) {
         String inUnit = unit.isEmpty() ? "" : " " + unit;
         if (form == Form.CHOICE) {
@@ -376,20 +376,20 @@ public final class Kind {
         return String.join(" and ", ends);
     }
 
-    /** Which values it may have: of a secret, only how many. */
+    /** The allowed values, for messages; of a secret, only their number. */
     private String allowed() {
         return isSecret ? "one of the " + values.size() + " values allowed"
             : "one of " + values.stream().map(Texts::spelled).collect(Collectors.joining(", "));
     }
 
-    /** A value of this type, or what was to be one, for messages. */
+    /** A value, or an invalid one, for messages. */
     String shown(Object raw) {
         return isSecret && (raw instanceof String || raw instanceof Number || raw instanceof Boolean)
-            ? Secrecy.HIDDEN : said(raw);
+            ? Secrecy.HIDDEN : shownValue(raw);
     }
 
     /** A value for messages, shortened. */
-    static String said(Object raw) {
+    static String shownValue(Object raw) {
         String text = raw instanceof References.Referred referred ? referred.reference()
             : raw instanceof String string ? "'" + Secrecy.url(string) + "'"
             : raw instanceof Map ? "a mapping" : raw instanceof List ? "a list"

@@ -6,7 +6,7 @@ import java.util.function.Consumer;
 import java.util.function.Function;
 
 /**
- * The parameters while the component runs, in any thread: what is read is what holds at that moment, and `now` gives
+ * The parameters while the component runs, for any thread. A getter returns the value at that moment; `now` returns
  * values that belong together.
  */
 public abstract class Live<T> {
@@ -22,7 +22,7 @@ public abstract class Live<T> {
         this.made = made;
     }
 
-    /** All values as they are at this moment: they stay as they are. */
+    /** All values at this moment. The returned object does not change later. */
     public final T now() {
         Map<String, Object> newest = store.values();
         Seen<T> last = seen;
@@ -34,19 +34,19 @@ public abstract class Live<T> {
     }
 
     /**
-     * Sets one parameter, or a value in it: set("motors[0].vel", 1.0); null returns to the default. Throws ParameterError
-     * where it cannot be, and changes nothing then.
+     * Sets one parameter, or a value in it: set("motors[0].vel", 1.0); null resets it to the default. Throws
+     * ParameterError if the value is invalid, and then changes nothing.
      */
     public final void set(String path, Object value) {
         store.change(java.util.Collections.singletonMap(path, value));
     }
 
-    /** Sets several parameters at once: all of them, or none and ParameterError. */
+    /** Sets several parameters at once. Throws ParameterError, and then changes none of them. */
     public final void change(Map<String, ?> values) {
         store.change(values);
     }
 
-    /** Calls `listener` after each change, in the thread that made one; in order, one at a time. */
+    /** Calls `listener` after each change, in the thread that made the change; in order, one at a time. */
     public final void listen(Consumer<Change> listener) {
         store.listen(listener);
     }

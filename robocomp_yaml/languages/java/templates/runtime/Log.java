@@ -7,7 +7,7 @@ import java.io.StringWriter;
 import java.time.LocalTime;
 import java.time.format.DateTimeFormatter;
 
-/** The component's log: one line a message, on standard error. */
+/** The component's log: one line per message, on standard error. */
 public final class Log {
     static final String ALREADY_LOGGED = "(see the log of the component) ";
     private static final DateTimeFormatter TIME = DateTimeFormatter.ofPattern("HH:mm:ss");
@@ -30,7 +30,7 @@ public final class Log {
         write("ERROR", message);
     }
 
-    /** With where it came from. */
+    /** Logs an error with its stack trace. */
     public void error(String message, Throwable error) {
         StringWriter trace = new StringWriter();
         error.printStackTrace(new PrintWriter(trace));
@@ -41,7 +41,7 @@ public final class Log {
         System.err.println(LocalTime.now().format(TIME) + " " + level + " " + name + ": " + message);
     }
 
-    /** What Ice has to say, in the component's own log. */
+    /** Writes the messages of Ice to the component's log. */
     static Logger ofIce(String name) {
         Log log = new Log(name);
         return new Logger() {

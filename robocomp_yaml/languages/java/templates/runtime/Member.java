@@ -29,12 +29,12 @@ public final class Member {
         return this;
     }
 
-    /** Whether a text or list without a property is an empty one. */
+    /** Whether a missing property means an empty text or list. */
     boolean readsAsEmpty() {
         return byDefault == null && !isOptional;
     }
 
-    /** A group's members say it themselves. */
+    /** The members of a group are editable themselves. */
     boolean mayChange() {
         return isEditable && !kind.isGroup();
     }

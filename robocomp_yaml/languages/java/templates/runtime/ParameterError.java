@@ -4,7 +4,7 @@ package generated.runtime;
 import java.util.List;
 import java.util.stream.Collectors;
 
-/** Values that parameters cannot have: nothing has changed. `problems` are all of them. */
+/** Invalid values of parameters: nothing has changed. `problems` are all errors. */
 public final class ParameterError extends IllegalArgumentException {
     private static final long serialVersionUID = 1L;
 

@@ -41,7 +41,7 @@ final class Paths {
             .collect(Collectors.joining("."));
     }
 
-    /** The steps of a path in either spelling, all as text; none for what is no path. */
+    /** The steps of a path in either spelling, as texts; empty if it is not a path. */
     static List<String> parse(String text) {
         List<String> steps = new ArrayList<>();
         Matcher found = STEP.matcher(text);
@@ -70,8 +70,8 @@ final class Paths {
     }
 
     /**
-     * A map's key as a segment of a property's name: dots, blanks, `=`, `%` and what does not print as `%2E`. The empty
-     * key is `%`, and `keys`, which would be mistaken for the list of keys, `%6Beys`.
+     * A map's key as a segment of a property's name: dots, blanks, `=`, `%` and unprintable characters become `%2E`.
+     * The empty key is `%`, and `keys`, which is also the name of the list of keys, is `%6Beys`.
      */
     static String escaped(String key) {
         if (key.isEmpty()) {
@@ -93,7 +93,7 @@ final class Paths {
         return out.toString();
     }
 
-    /** The key that a segment spells; what is no escape stands for itself. */
+    /** The key of a segment; a `%` that begins no escape is unchanged. */
     static String unescaped(String segment) {
         if (segment.equals("%")) {
             return "";

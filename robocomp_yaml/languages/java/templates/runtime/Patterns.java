@@ -6,7 +6,7 @@ import java.util.regex.Pattern;
 
 /** Patterns of texts. */
 final class Patterns {
-    private static final long STACK = 1L << 29; // Java's own matcher goes one call deeper for each character
+    private static final long STACK = 1L << 29; // Java's own matcher recurses for each character
 
     private Patterns() {
     }

@@ -2,8 +2,8 @@
 package generated.runtime;
 
 /**
- * One value that cannot be: `parameter` is its path, `value` what it was to be, `wanted` what it must be (its range,
- * say) in its `unit`; `message` says it all.
+ * An invalid value: `parameter` is its path, `value` the value, `wanted` what it must be (its range, say), in its
+ * `unit`; `message` is the whole message.
  */
 public record Problem(String parameter, String message, String value, String wanted, String unit) {
     Problem(String message) {

@@ -11,17 +11,17 @@ public final class Program {
         usage: bin/%s [CONFIG] [--Ice.X=Y ...] [--KEY=VALUE ...] [--startup-check]
 
           CONFIG            a file of Ice properties (default: the component's etc/config)
-          --Ice.Config=FILE another way to name it; given both, FILE is read after CONFIG
-          --KEY=VALUE       any property: wins over the same one in the file
+          --Ice.Config=FILE the same as an option; of both, FILE is read last
+          --KEY=VALUE       any property; it overrides the one in the file
           --startup-check   start everything, then stop
 
-        It runs in $JAVA_HOME's Java where that is set, else in the first one on the path.
+        It runs with the Java in $JAVA_HOME if that is set, else with the first one in the PATH.
         """;
 
     private Program() {
     }
 
-    /** Runs the component; the process ends with it. */
+    /** Runs the component, and ends the process. */
     public static void run(Component component, String[] arguments) {
         List<String> words = List.of(arguments);
         String usage = String.format(USAGE, component.name());
@@ -49,18 +49,18 @@ public final class Program {
             log.error(error.getMessage());
         } catch (com.zeroc.Ice.LocalException error) {
             log.error("Ice cannot be initialized: " + error);
-        } catch (Throwable error) { // a fault of ours, or of the machine
+        } catch (Throwable error) { // an error of the run time or of the machine
             log.error("cannot start", error);
         }
         stopping.request(1);
         stopping.end();
     }
 
-    /** What is wrong, or ''. */
+    /** The error in the command line, or ''. */
     private static String parse(List<String> words, List<Path> files, List<String> properties) {
         List<String> named = words.stream().filter(word -> !word.startsWith("-")).toList();
         if (named.size() > 1) {
-            return "one CONFIG, please, not " + named.size() + ": " + String.join(" ", named);
+            return "expected one CONFIG, got " + named.size() + ": " + String.join(" ", named);
         }
         named.forEach(word -> files.add(Path.of(word)));
         for (String option : words) {
@@ -68,7 +68,7 @@ public final class Program {
                 continue;
             }
             if (!option.startsWith("--")) {
-                return "there is no option " + option;
+                return "unknown option " + option;
             }
             if (option.startsWith("--Ice.Config=")) {
                 for (String word : option.substring(option.indexOf('=') + 1).split(",")) {

@@ -13,11 +13,10 @@ import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 
 /**
- * Properties to the values of parameters, all still text: by their paths, or as a table spells them.
+ * Reads properties to values of parameters, as texts: by their paths, or as a table spells them.
  *
- * What stands here reads what `rcyaml compile` writes, and the files that components have had before. `used` are the
- * keys that it has come upon. Relative paths are from `folder`; `known` are plain values by their paths, which are taken
- * as they are.
+ * It reads what `rcyaml compile` writes, and the files of earlier components. `used` are the keys that were read.
+ * Relative paths are resolved in `folder`; `known` are plain values by their paths, which are used unchanged.
  */
 final class Reader {
     private static final Pattern HOLE = Pattern.compile("\\{([A-Za-z0-9_][A-Za-z0-9_-]*)\\}");
@@ -30,7 +29,7 @@ final class Reader {
     private final String folder;
     private final Map<String, Object> known;
     private final boolean isQuoted;
-    private final Set<String> stems = new HashSet<>(); // every beginning of a key: "is anything below" is one look-up
+    private final Set<String> stems = new HashSet<>(); // every prefix of a key, to look up whether anything is below
 
     Reader(
         Map<String, String> properties, Map<String, Spelling> spellings, String folder, Map<String, Object> known) {
@@ -47,7 +46,7 @@ final class Reader {
         }
     }
 
-    /** The values of the parameters, as texts in maps and lists, all of which may be changed. */
+    /** The values of the parameters, as texts in maps and lists that may be changed. */
     Map<String, Object> read(Kind kind) {
         return record(kind, "", true);
     }
@@ -80,7 +79,7 @@ final class Reader {
         return found;
     }
 
-    /** What stands under a path; null where nothing does. */
+    /** The value at a path, or null. */
     private Object value(Kind kind, String key) {
         if (kind.isPlain()) {
             String text = get(key);
@@ -111,7 +110,7 @@ final class Reader {
         boolean isCounted = size != null && !size.isEmpty();
         int count = isCounted ? count(size) : 0;
         if (count < 0) {
-            return size; // no list: refused
+            return size; // not a list: rejected
         }
         if (!isCounted) {
             while (stems.contains(key + "." + count) || properties.containsKey(key + "." + count)) {
@@ -128,13 +127,13 @@ final class Reader {
         return found;
     }
 
-    /** How many entries a count asks for; -1 where it is no count, or more than there could be. */
+    /** The number of entries that a count requires; -1 if it is not a number, or too large. */
     private int count(String text) {
         int count = text.length() < 10 && DIGITS.matcher(text).matches() ? Integer.parseInt(text) : -1;
         return count > properties.size() + 1_000_000 ? -1 : count;
     }
 
-    /** An entry of a list or map is there, whether or not it has a property. */
+    /** An entry of a list or map exists even without a property. */
     private Object entry(Kind kind, String key) {
         Object value = value(kind, key);
         return value == null ? empty(kind) : value;
@@ -176,7 +175,7 @@ final class Reader {
         return row(spelling, kind, (String) parts, separator);
     }
 
-    /** A record's columns, or one plain value; a text that is no row is refused later. */
+    /** The columns of a record, or one plain value; a text that is not a row is rejected later. */
     private Object row(Spelling spelling, Kind kind, String text, String separator) {
         if (!kind.isRecord()) {
             return kind.isPlain() ? text(kind, text) : text;
@@ -184,7 +183,7 @@ final class Reader {
         List<String> parts = Texts.split(text, separator);
         List<String> columns = spelling.columns();
         boolean isRow = parts.size() <= columns.size() && columns.subList(parts.size(), columns.size()).stream()
-            .allMatch(name -> kind.members.get(name).isOptional); // at the end of a row they may be left out
+            .allMatch(name -> kind.members.get(name).isOptional); // at the end of a row they may be missing
         if (!isRow) {
             return text;
         }
@@ -198,13 +197,13 @@ final class Reader {
         return row;
     }
 
-    /** Rows by their numbers: as many as the count says, else until one is missing. */
+    /** Numbered rows: as many as the count says, else until one is missing. */
     private Object numbered(Spelling spelling, Kind kind) {
         String counted = spelling.count().isEmpty() ? null : get(spelling.count());
         boolean isCounted = counted != null && !counted.isEmpty();
         int count = isCounted ? count(counted) : -1;
         if (isCounted && count < 0) {
-            return counted; // no list: refused
+            return counted; // not a list: rejected
         }
         List<Object> found = new ArrayList<>();
         while (!isCounted || found.size() < count) {
@@ -237,7 +236,7 @@ final class Reader {
         return text == null ? null : row(spelling, kind, text, spelling.separator());
     }
 
-    /** Rows whose key holds members: in the order of these, since properties have none. */
+    /** Rows whose key contains members, in the order of these members: properties have no order. */
     private Object keyed(Spelling spelling, Kind kind) {
         List<String> names = new ArrayList<>();
         Pattern pattern = pattern(spelling.key(), names);
@@ -289,7 +288,7 @@ final class Reader {
             : java.util.Arrays.compare(one.codePoints().toArray(), other.codePoints().toArray());
     };
 
-    /** Reads the holes back; each as short as the rest allows, a number where it is the row's. */
+    /** The texts in the holes: each as short as possible; a number for the row's number. */
     private static Pattern pattern(String key, List<String> names) {
         StringBuilder out = new StringBuilder();
         int at = 0;
@@ -302,7 +301,7 @@ final class Reader {
         return Pattern.compile(out + Pattern.quote(key.substring(at)), Pattern.DOTALL);
     }
 
-    /** What is there, and has no property. */
+    /** The value of a parameter that exists without a property. */
     private static Object empty(Kind kind) {
         return switch (kind.form) {
             case TEXT -> "";
@@ -313,7 +312,7 @@ final class Reader {
         };
     }
 
-    /** The members of a record that read as empty where they have no property. */
+    /** The members of a record that are empty without a property. */
     private static Map<String, Object> emptiness(Kind kind) {
         Map<String, Object> found = new LinkedHashMap<>();
         for (Member member : kind.members.values()) {

@@ -15,22 +15,22 @@ import java.util.regex.Pattern;
 
 /** Values by reference: `${env:NAME}` and `${file:PATH}` in properties, {"env": NAME} and {"file": PATH} in data. */
 final class References {
-    static final int LARGEST = 1 << 20; // bytes of a file that holds one value
+    static final int LARGEST = 1 << 20; // bytes of a file with a value
     private static final Pattern TEXT = Pattern.compile(
         "\\$\\{(?:env:([A-Za-z_][A-Za-z0-9_]*)|file:([^\r\n\0]*[^ \t/\r\n\0]))\\}");
 
-    /** A text that a reference gave; what is shown of it is the reference alone. */
+    /** A text from a reference. Only the reference is shown. */
     record Referred(String text, String reference) {
     }
 
-    /** What stands for the value of a reference that leads nowhere; `why` says where it comes from, and what is wrong. */
+    /** A reference without a value; `why` names its source and what is wrong with it. */
     record Missing(String why) {
     }
 
     private References() {
     }
 
-    /** The text itself, or what the reference stands for that it is; a relative path is one from the folder. */
+    /** The text itself, or the value of the reference if it is one; a relative path is resolved in the folder. */
     static Object resolved(String text, String folder) {
         Matcher found = text.startsWith("${") ? TEXT.matcher(text) : null;
         if (found == null || !found.matches()) {
@@ -54,7 +54,7 @@ final class References {
         }
     }
 
-    /** What the data {"env": NAME} or {"file": PATH} stands for; other data as it is. */
+    /** The value of the data {"env": NAME} or {"file": PATH}; other data unchanged. */
     static Object referred(Object raw) {
         if (raw instanceof Map<?, ?> map && map.size() == 1) {
             Map.Entry<?, ?> entry = map.entrySet().iterator().next();
@@ -66,12 +66,12 @@ final class References {
         return raw;
     }
 
-    /** The text of a file, without one line end at its end; an IOException says why there is none. */
+    /** The text of a file without one line end at its end. Throws IOException with the reason. */
     private static String contents(Path path) throws IOException {
         byte[] raw;
         try {
             if (!Files.isRegularFile(path) && Files.exists(path)) {
-                throw new IOException("which is no regular file");
+                throw new IOException("which is not a regular file");
             }
             try (InputStream file = Files.newInputStream(path)) {
                 raw = file.readNBytes(LARGEST + 1);
@@ -87,7 +87,7 @@ final class References {
         int end = raw.length;
         for (byte one : raw) {
             if (one == 0) {
-                throw new IOException("which holds a NUL");
+                throw new IOException("which contains a NUL character");
             }
         }
         if (end > 0 && raw[end - 1] == '\n') {

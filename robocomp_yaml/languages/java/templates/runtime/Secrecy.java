@@ -8,7 +8,7 @@ import java.util.Set;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 
-/** What is shown of a secret, and which names say that something is one: as in rcyaml itself. */
+/** What is shown of a secret, and which names are names of secrets, by the same rule as in rcyaml itself. */
 final class Secrecy {
     static final String HIDDEN = "***";
 
@@ -19,12 +19,12 @@ final class Secrecy {
     private static final Set<String> WORDS = Set.of("pass", "pwd", "token", "tokens");
     private static final List<String> ENDS = List.of(
         "token", "tokens", "pwd", "dbpass", "userpass", "rootpass", "adminpass", "wifipass", "mypass", "keypass");
-    /** Words that end the name of something about a secret, which is none itself. */
+    /** Last words of names that are about a secret, but are not secret themselves. */
     private static final Set<String> ABOUT = Set.of(
         "file", "path", "dir", "directory", "folder", "length", "len", "size", "required", "enabled", "count",
         "policy", "prompt", "timeout", "rate", "attempts", "tries", "retries", "limit", "min", "max", "age", "ttl",
         "lifetime", "expiry", "period", "interval", "filter", "band", "through", "type");
-    /** Words that begin such a name. */
+    /** First words of such names. */
     private static final Set<String> HOW = Set.of(
         "max", "min", "num", "number", "count", "use", "has", "no", "allow", "require", "requires", "show", "hide",
         "enable", "is", "with", "ask", "low", "high", "band", "all", "by", "over", "under", "two", "single", "first",
@@ -35,7 +35,7 @@ final class Secrecy {
     private Secrecy() {
     }
 
-    /** Whether what has this name is to be kept secret: a variable, an option, a parameter, a property. */
+    /** Whether a variable, option, parameter or property with this name is a secret. */
     static boolean isSecret(String name) {
         List<String> words = new ArrayList<>();
         for (Matcher found = WORD.matcher(name); found.find();) {
@@ -50,12 +50,12 @@ final class Secrecy {
             || words.stream().anyMatch(word -> WORDS.contains(word) || ENDS.stream().anyMatch(word::endsWith));
     }
 
-    /** A text without the passwords in its URLs. */
+    /** The text without passwords in URLs. */
     static String url(String text) {
         return text.contains("@") ? USER_INFO.matcher(text).replaceAll("$1:***@") : text;
     }
 
-    /** The text of what has a name. */
+    /** The text of a value with a name, for messages. */
     static String shown(String name, String text) {
         return !text.isEmpty() && isSecret(name) ? HIDDEN : url(text);
     }

@@ -3,7 +3,7 @@ package generated.runtime;
 
 import com.zeroc.Ice.Object;
 
-/** An implemented port (`identity` is its object's), or a subscribed one (`identity` is '', `topic` the interface's). */
+/** An implemented port with the `identity` of its object, or a subscribed port with the `topic` of its interface. */
 public record Service(String name, String identity, String topic, Object servant) {
     boolean isTopic() {
         return identity.isEmpty();

@@ -17,7 +17,7 @@ import java.util.TreeMap;
 import java.util.stream.Collectors;
 
 /**
- * The component's properties: its config file, with the command line on top. Of keys there are two spellings:
+ * The component's properties: its config file, overridden by the command line. A key has two spellings:
  * `Speech.Endpoints` and `Endpoints.Speech`.
  */
 final class Settings {
@@ -33,11 +33,11 @@ final class Settings {
         properties = load();
     }
 
-    /** `--KEY=VALUE`, taken as it stands: Ice's own reader would end the value at a `#`. */
+    /** The key of `--KEY=VALUE`. Ice's own parser would end the value at a `#`. */
     private static String keyOf(String option) {
         String key = option.substring(2).split("=", 2)[0].strip();
         if (key.isEmpty()) {
-            throw new StartError(option.split("=", 2)[0] + "= names no property");
+            throw new StartError(option.split("=", 2)[0] + "= has no property name");
         }
         return key;
     }
@@ -68,7 +68,7 @@ final class Settings {
         return loaded;
     }
 
-    /** Ice takes any bytes. Old comments may be in any encoding. */
+    /** Throws StartError for a line that is not UTF-8. Comments may have any encoding. */
     private static void checkText(Path file) throws IOException {
         byte[] raw = Files.readAllBytes(file);
         int number = 1;
@@ -83,13 +83,13 @@ final class Settings {
                 int length = (code < 0 ? end : code) - start;
                 StandardCharsets.UTF_8.newDecoder().decode(ByteBuffer.wrap(raw, start, length));
             } catch (CharacterCodingException error) {
-                throw new StartError(shown(file) + ":" + number + ": this line is not in UTF-8");
+                throw new StartError(shown(file) + ":" + number + ": this line is not UTF-8");
             }
             start = end + 1;
         }
     }
 
-    /** As its user would open it from here. */
+    /** The path as its user would open it. */
     private static String shown(Path file) {
         Path here = Path.of("").toAbsolutePath();
         Path whole = file.toAbsolutePath().normalize();
@@ -101,13 +101,13 @@ final class Settings {
         return files.stream().map(Settings::shown).collect(Collectors.joining(" or "));
     }
 
-    /** Where the config file stands. */
+    /** The folder of the config file. */
     String folder() {
         Path parent = files.isEmpty() ? null : files.get(0).getParent();
         return parent == null ? "" : parent.toString();
     }
 
-    /** Where a property comes from, for messages. */
+    /** The source of a property, for messages. */
     String source(String key) {
         return overrides.containsKey(key) ? onTheCommandLine(List.of(key)) : where();
     }
@@ -116,7 +116,7 @@ final class Settings {
         return keys.stream().map(key -> "--" + key).collect(Collectors.joining(" and ")) + " on the command line";
     }
 
-    /** The same files, but for an option of the command line. */
+    /** The same files and options, without one option. */
     Settings without(String key) {
         List<String> others = new ArrayList<>(options);
         others.removeIf(option -> keyOf(option).equals(key));
@@ -128,7 +128,7 @@ final class Settings {
         return new Settings(files, options);
     }
 
-    /** The value of the first of the keys that is set, or ''. */
+    /** The value of the first key that is set, or ''. */
     String first(String... keys) {
         for (String key : keys) {
             String value = Texts.unquoted(properties.getProperty(key));
@@ -160,18 +160,18 @@ final class Settings {
     }
 
     String topicEndpoints(String name) {
-        String given = first(name + "Topic.Endpoints", "Endpoints." + name + "Topic", "Endpoints." + name);
-        return given.isEmpty() ? "tcp -p 0" : given;
+        String set = first(name + "Topic.Endpoints", "Endpoints." + name + "Topic", "Endpoints." + name);
+        return set.isEmpty() ? "tcp -p 0" : set;
     }
 
-    /** The property called as the port, else the interface's name; behind the prefix, where there is one. */
+    /** The value of the property with the port's name, else the interface's name; after the prefix, if any. */
     String topicName(String name, String topic, String prefixKey) {
         String prefix = first(prefixKey);
         String plain = first(name).isEmpty() ? topic : first(name);
         return prefix.isEmpty() ? plain : prefix + "/" + plain;
     }
 
-    /** All properties but Ice's own. */
+    /** All properties except Ice's own. */
     Map<String, String> parameters() {
         Map<String, String> found = new TreeMap<>(properties.getPropertiesForPrefix(""));
         found.keySet().removeIf(key -> key.startsWith("Ice."));

@@ -4,8 +4,8 @@ package generated.runtime;
 import java.util.List;
 
 /**
- * How properties spell a parameter. `key` may have holes: `{i}`, a row's number from `first` on, or members' keys. With
- * `fields`, each member has a property of its own.
+ * How properties spell a parameter. `key` may have holes: `{i}`, the number of a row, counted from `first`, or keys of
+ * members. With `fields`, each member has a property of its own.
  */
 public record Spelling(
     String key, List<List<String>> fields, int first, List<String> columns, String separator,

@@ -7,8 +7,8 @@ import java.util.concurrent.CountDownLatch;
 import java.util.concurrent.TimeUnit;
 
 /**
- * The request to stop, which anyone may make at any time; SIGTERM and SIGINT make it, too. Once it is made, the process
- * ends within `GRACE`, however stuck a method may be.
+ * The request to stop, which any thread may make at any time, and SIGTERM and SIGINT. After the request, the process
+ * ends within `GRACE`, even if a method has not returned.
  */
 public final class Stopping {
     private static final long GRACE = 1500; // milliseconds
@@ -18,7 +18,7 @@ public final class Stopping {
     private final List<Runnable> wakeUps = new CopyOnWriteArrayList<>();
     private int exitCode;
 
-    /** From here on, a signal stops the component in order, and it ends with 0: Java would say 143. */
+    /** From now on, a signal stops the component in order, with exit code 0 instead of Java's 143. */
     void onSignals() {
         Runtime.getRuntime().addShutdownHook(new Thread(() -> {
             request(0);
@@ -31,7 +31,7 @@ public final class Stopping {
         }, "signal"));
     }
 
-    /** Stop, and end with this code (the first that is not 0 wins). */
+    /** Requests to stop. The exit code is the first one that is not 0. */
     public void request(int code) {
         synchronized (this) {
             exitCode = exitCode == 0 ? code : exitCode;
@@ -50,7 +50,7 @@ public final class Stopping {
         return requested.getCount() == 0;
     }
 
-    /** Until the request, or for so many milliseconds; whether it has been made. */
+    /** Waits for the request, or for so many milliseconds; returns whether it has been made. */
     boolean await(long milliseconds) {
         try {
             return requested.await(milliseconds, TimeUnit.MILLISECONDS);
@@ -62,11 +62,11 @@ public final class Stopping {
 
     void await() {
         while (!await(Long.MAX_VALUE / 2)) {
-            // until it is requested
+            // until the request
         }
     }
 
-    /** Runs this, too, when the request is made. */
+    /** Runs this too when the request is made. */
     void wakes(Runnable wakeUp) {
         wakeUps.add(wakeUp);
         if (isRequested()) {
@@ -74,7 +74,7 @@ public final class Stopping {
         }
     }
 
-    /** All is in order: the process ends. */
+    /** Ends the process, after it has stopped in order. */
     void end() {
         done.countDown();
         halt();
@@ -83,7 +83,7 @@ public final class Stopping {
     private void watch() {
         try {
             if (!done.await(GRACE, TimeUnit.MILLISECONDS)) {
-                new Log("stop").warning("a method is still running after 1.5 s: ending without it");
+                new Log("stop").warning("a method is still running after 1.5 s: the process ends anyway");
                 halt();
             }
         } catch (InterruptedException error) {

@@ -14,15 +14,15 @@ import java.util.TreeSet;
 import java.util.concurrent.CopyOnWriteArrayList;
 import java.util.function.Consumer;
 
-/** The values of the parameters, and what happens to them. All changes go through here, one at a time. */
+/** The values of the parameters. All changes are made here, one at a time. */
 public final class Store {
-    /** What RoboComp's spellings of ports begin with. */
+    /** RoboComp's names of ports begin with these. */
     private static final Set<String> NOT_PARAMETERS = Set.of("Endpoints", "Proxies", "Period", "TopicManager");
 
     final Table table;
     private final List<Consumer<Change>> listeners = new CopyOnWriteArrayList<>();
-    private final Deque<Change> news = new ArrayDeque<>();
-    private boolean isTelling;
+    private final Deque<Change> pending = new ArrayDeque<>();
+    private boolean isNotifying;
     private volatile Map<String, Object> values;
     private Map<List<Object>, String> references;
     private Map<String, String> others;
@@ -31,8 +31,8 @@ public final class Store {
     }
 
     /**
-     * Takes the values from properties. `overrides` are of the command line; they are paths, whatever the table says.
-     * Relative paths in properties are from `folder`. Throws ParameterError.
+     * Reads the values from properties. `overrides` come from the command line; their keys are paths, whatever spelling
+     * the table has. Relative paths are resolved in `folder`. Throws ParameterError.
      */
     public Store(Table table, Map<String, String> properties, Map<String, String> overrides, String folder) {
         this.table = table;
@@ -42,7 +42,7 @@ public final class Store {
         others = read.others;
     }
 
-    /** All values, by name; they never change. */
+    /** All values by name; they never change. */
     public Map<String, Object> values() {
         return values;
     }
@@ -56,19 +56,19 @@ public final class Store {
         return value instanceof Long number ? number : otherwise;
     }
 
-    /** Sets several values by their paths: all of them, or none and ParameterError. */
+    /** Sets several values by their paths. Throws ParameterError, and then changes none of them. */
     public void change(Map<String, ?> changes) {
         synchronized (this) {
             Taking taking = new Taking(false);
             Object changed = Editing.copy(values);
             changes.forEach((path, value) -> {
                 if (!Editing.put(table.kind(), changed, Paths.parse(path), Data.plain(value))) {
-                    taking.refuse(List.of(), "there is no parameter '" + path + "'");
+                    taking.refuse(List.of(), "unknown parameter '" + path + "'");
                 }
             });
             replace(taking.problems.isEmpty() ? taken(changed, taking) : null, taking);
         }
-        tell();
+        notifyListeners();
     }
 
     /** As `change`, with the keys and texts of `entries()`. */
@@ -85,22 +85,22 @@ public final class Store {
             Object read = reader.read(table.kind());
             for (String key : new TreeSet<>(changes.keySet())) {
                 if (!reader.used.contains(key)) {
-                    taking.refuse(List.of(), "there is no parameter '" + key + "'");
+                    taking.refuse(List.of(), "unknown parameter '" + key + "'");
                 } else if (changes.get(key).contains(Secrecy.HIDDEN)) {
                     Kind kind = Editing.at(table.kind(), Paths.parse(key));
                     Entry entry = entries.get(key);
                     if ((entry != null && entry.text().contains(Secrecy.HIDDEN)) || (kind != null && kind.isSecret)) {
-                        taking.refuse(List.of(), key + " is to hold " + Secrecy.HIDDEN
-                            + ", which stands for what is not shown");
+                        taking.refuse(List.of(), key + " cannot be " + Secrecy.HIDDEN
+                            + ", which is shown instead of a secret");
                     }
                 }
             }
             replace(taken(read, taking), taking);
         }
-        tell();
+        notifyListeners();
     }
 
-    /** The plain values by their dotted paths, as they are now: a reference is not followed again. */
+    /** The plain values by their dotted paths, as they are now: references are not read again. */
     private Map<String, Object> known() {
         Map<String, Object> known = new HashMap<>();
         Editing.plainValues(table.kind(), values, List.of(), (path, value) -> {
@@ -111,7 +111,7 @@ public final class Store {
         return known;
     }
 
-    /** Takes the values from properties once more. */
+    /** Reads the values from properties again. */
     void reload(Map<String, String> properties, Map<String, String> overrides, String folder) {
         synchronized (this) {
             Read read = read(properties, overrides, folder);
@@ -120,28 +120,28 @@ public final class Store {
             replace(read.values, taking);
             others = read.others;
         }
-        tell();
+        notifyListeners();
     }
 
     public void listen(Consumer<Change> listener) {
         listeners.add(listener);
     }
 
-    /** Each plain value as text, by its dotted path; references as they stand in the config, secrets hidden. */
+    /** Each plain value as text, by its dotted path. References are as in the config, secrets are hidden. */
     synchronized Map<String, Entry> entries() {
         Map<String, Entry> found = new LinkedHashMap<>();
         Editing.flat(table.kind(), values, references, List.of(), false, found);
         return found;
     }
 
-    /** The properties that are no parameter's; what is secret by its name is hidden. */
+    /** The properties that are not parameters; those with the name of a secret are hidden. */
     synchronized Map<String, String> others() {
         Map<String, String> shown = new TreeMap<>();
         others.forEach((key, text) -> shown.put(key, Secrecy.shown(key, text)));
         return shown;
     }
 
-    /** Those of them below a parameter, or called almost as one, which they then lead to. */
+    /** Those of them that are below a parameter, or have almost the name of one: the property, and that name or ''. */
     synchronized Map<String, String> misspelled(Set<String> ports) {
         Map<String, Member> members = table.kind().members;
         Map<String, String> found = new TreeMap<>();
@@ -165,7 +165,7 @@ public final class Store {
 
     private Read read(Map<String, String> properties, Map<String, String> overrides, String folder) {
         Map<String, String> known = new LinkedHashMap<>(properties);
-        if (properties.containsKey("Period.Compute")) { // RoboComp's own spelling
+        if (properties.containsKey("Period.Compute")) { // RoboComp's own name
             known.putIfAbsent("period.compute", properties.get("Period.Compute"));
         }
         Reader reader = new Reader(known, table.spellings(), folder, Map.of());
@@ -206,7 +206,7 @@ public final class Store {
         return found;
     }
 
-    /** Puts new values in the place of the old ones, if they may be there. */
+    /** Replaces the values, if the new ones are valid and may change. */
     private void replace(Map<String, Object> made, Taking taking) {
         List<List<Object>> changed = new ArrayList<>();
         if (taking.problems.isEmpty()) {
@@ -230,19 +230,19 @@ public final class Store {
         kept.putAll(taking.references);
         references = kept;
         values = made;
-        news.add(new Change(changed.stream().map(Paths::inWords).toList()));
+        pending.add(new Change(changed.stream().map(Paths::inWords).toList()));
     }
 
-    /** One thread at a time tells the news, in order and without the lock, so that listeners may change more. */
-    private void tell() {
+    /** Calls the listeners, in one thread at a time, in order and without the lock: listeners may change values. */
+    private void notifyListeners() {
         while (true) {
             Change change;
             synchronized (this) {
-                if (isTelling || news.isEmpty()) {
+                if (isNotifying || pending.isEmpty()) {
                     return;
                 }
-                isTelling = true;
-                change = news.poll();
+                isNotifying = true;
+                change = pending.poll();
             }
             for (Consumer<Change> listener : listeners) {
                 try {
@@ -252,7 +252,7 @@ public final class Store {
                 }
             }
             synchronized (this) {
-                isTelling = false;
+                isNotifying = false;
             }
         }
     }

@@ -7,8 +7,8 @@ import java.util.List;
 import java.util.Map;
 
 /**
- * Values being taken. `isText`: plain values are legacy texts. `references` are the paths of values that were given by
- * reference, with the reference.
+ * Values that are being read. `isText`: plain values are legacy texts. `references` are the references of values that
+ * were set by reference, by path.
  */
 final class Taking {
     final boolean isText;

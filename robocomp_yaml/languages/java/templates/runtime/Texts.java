@@ -21,7 +21,7 @@ final class Texts {
     private Texts() {
     }
 
-    /** Without blanks and tabs around it. */
+    /** Without blanks and tabs at the ends. */
     static String bare(String text) {
         int start = 0;
         int end = text.length();
@@ -34,7 +34,7 @@ final class Texts {
         return text.substring(start, end);
     }
 
-    /** Without the double quotes around it that TOML wants and Ice does not know. */
+    /** Without enclosing double quotes, which TOML requires and Ice does not remove. */
     static String unquoted(String value) {
         int last = value.length() - 1;
         boolean isQuoted = last > 0 && value.charAt(0) == '"' && value.indexOf('"', 1) == last;
@@ -42,8 +42,7 @@ final class Texts {
     }
 
     /**
-     * Whether two names differ by a slip: in case, or in one character that is wrong, missing, too many, or changed
-     * places with the next.
+     * Whether two names differ by a typing error: in case, or by one wrong, missing, extra or transposed character.
      */
     static boolean alike(String one, String other) {
         String shorter = one.toLowerCase(Locale.ROOT);
@@ -72,7 +71,7 @@ final class Texts {
         return TRUTHS.get(bare(text));
     }
 
-    /** A Long, or a BigInteger where that is too small; null for what is no whole number. */
+    /** A Long, or a BigInteger if that is too small; null for other texts. */
     static Object whole(String text) {
         String bare = bare(text);
         if (!WHOLE.matcher(bare).matches()) {
@@ -100,7 +99,7 @@ final class Texts {
         return value instanceof Double number ? spelled(number.doubleValue()) : String.valueOf(value);
     }
 
-    /** The shortest text that means this number: as all of rcyaml's languages write it. */
+    /** The shortest text of a number, as in all languages of rcyaml. */
     static String spelled(double number) {
         if (number == 0) {
             return 1 / number < 0 ? "-0.0" : "0.0";
@@ -129,7 +128,7 @@ final class Texts {
         return sign + (plain.contains(".") ? plain : plain + ".0");
     }
 
-    /** The parts of a text; a separator of blanks stands for any run of them. */
+    /** The parts of a text; a blank as separator matches any run of blanks. */
     static List<String> split(String text, String separator) {
         List<String> parts = new ArrayList<>();
         String bare = bare(separator);
@@ -150,7 +149,7 @@ final class Texts {
         return parts;
     }
 
-    /** Nested lists of texts: `levels` separators are used; the outermost one may stand once more at the end. */
+    /** Nested lists of texts: `levels` separators are used; the outermost one may follow the last text too. */
     static Object nested(String text, List<String> separators, int levels, boolean trailing) {
         if (levels == 0) {
             return text;
@@ -181,7 +180,7 @@ final class Texts {
         return text.substring(0, end);
     }
 
-    /** Whether a character can be seen. */
+    /** Whether a character is printable. */
     static boolean isPrintable(int code) {
         if (code == ' ') {
             return true;

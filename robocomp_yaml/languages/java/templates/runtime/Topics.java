@@ -13,7 +13,7 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 
-/** Topics: publishing to and subscribing through IceStorm. */
+/** Publishing and subscribing through IceStorm. */
 final class Topics {
     private final TopicManagerPrx manager;
     private final Settings settings;
@@ -50,18 +50,18 @@ final class Topics {
         }
     }
 
-    /** Takes back every subscription, without much ado if IceStorm is gone. */
+    /** Cancels every subscription; IceStorm may already be gone. */
     void unsubscribe() {
         for (Subscription one : subscriptions) {
             try {
                 TopicPrx.uncheckedCast(one.topic.ice_invocationTimeout(Waiting.PATIENCE / 10)).unsubscribe(one.subscriber);
             } catch (com.zeroc.Ice.LocalException error) {
-                continue; // IceStorm drops a subscriber that does not answer
+                continue; // IceStorm removes subscribers that do not answer
             }
         }
     }
 
-    /** The topic, created if nobody has yet; another component may be faster at any moment. */
+    /** The topic, created if needed: another component may create it at the same time. */
     private TopicPrx topic(String name) {
         while (true) {
             try {
@@ -77,6 +77,6 @@ final class Topics {
     }
 
     private static StartError cannotAsk(String topic, com.zeroc.Ice.LocalException error) {
-        return new StartError("cannot ask IceStorm for the topic " + topic + ": " + Waiting.reason(error));
+        return new StartError("IceStorm does not provide the topic " + topic + ": " + Waiting.reason(error));
     }
 }

@@ -5,9 +5,9 @@ import com.zeroc.Ice.ObjectPrx;
 
 /** Waiting for what other processes serve. */
 final class Waiting {
-    static final int PATIENCE = 2000; // milliseconds that one attempt may take
+    static final int PATIENCE = 2000; // milliseconds: the timeout of one attempt
     private static final long PAUSE = 250; // between two attempts
-    private static final long REMIND = 5000; // between two lines about it
+    private static final long REMIND = 5000; // between two log lines about the wait
 
     private Waiting() {
     }
@@ -24,7 +24,7 @@ final class Waiting {
         }
     }
 
-    /** Until the object answers; for `timeout` milliseconds at most, if that is not -1. `what` is for the user. */
+    /** Waits until the object answers, at most `timeout` milliseconds, -1 for ever; `what` is its name in messages. */
     static void await(String what, ObjectPrx proxy, Log log, Stopping stopping, int timeout) {
         long begin = System.nanoTime() / 1_000_000;
         long nextLine = begin;
@@ -36,8 +36,8 @@ final class Waiting {
             long now = System.nanoTime() / 1_000_000;
             if (timeout >= 0 && now - begin >= timeout) {
                 String seconds = Texts.spelled(timeout / 1000.0);
-                String said = seconds.endsWith(".0") ? seconds.substring(0, seconds.length() - 2) : seconds;
-                throw new StartError(what + " did not answer within " + said + " s (" + why + ")");
+                String shown = seconds.endsWith(".0") ? seconds.substring(0, seconds.length() - 2) : seconds;
+                throw new StartError(what + " did not answer within " + shown + " s (" + why + ")");
             }
             if (now >= nextLine) {
                 log.info("waiting for " + what + " ... (" + why + ")");
@@ -49,7 +49,7 @@ final class Waiting {
         }
     }
 
-    /** Ice's exception in a few words. */
+    /** An exception of Ice in a few words. */
     static String reason(com.zeroc.Ice.LocalException error) {
         if (error instanceof com.zeroc.Ice.ConnectionRefusedException) {
             return "connection refused";
@@ -65,7 +65,7 @@ final class Waiting {
             return "the process answers, but has no such object";
         }
         if (error instanceof com.zeroc.Ice.NoEndpointException) {
-            return "it has no endpoint, and there is no locator to ask";
+            return "it has no endpoint, and no locator is configured";
         }
         Throwable cause = error.getCause();
         return cause != null && cause.getMessage() != null ? cause.getMessage() : error.getClass().getSimpleName();

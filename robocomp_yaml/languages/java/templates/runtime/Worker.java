@@ -4,19 +4,19 @@ package generated.runtime;
 import com.zeroc.Ice.Communicator;
 
 /**
- * Runs `compute()` every period, in a thread of its own: what GenericWorker, and so the user's SpecificWorker, is built
- * on.
+ * Runs `compute()` every period, in a thread of its own: the base class of GenericWorker, and so of the user's
+ * SpecificWorker.
  *
- * Ice calls the methods of the component's interfaces in its own threads, while `compute()` may be running; what both
- * touch, touch in `synchronized (mutex) { … }`. Several methods run at once only if the config says so
+ * Ice calls the methods of the component's interfaces in its own threads, also while `compute()` runs: access data that
+ * both use in `synchronized (mutex) { … }`. Several methods run at the same time only if the config allows it
  * (`Ice.ThreadPool.Server.Size`).
  */
 public abstract class Worker {
     /** The component's log. */
     protected final Log log;
-    /** Ice's. */
+    /** Ice's communicator. */
     protected final Communicator communicator;
-    /** For what compute() and the interfaces' methods both touch. */
+    /** For data that both compute() and the interfaces' methods use. */
     protected final Object mutex = new Object();
     private final Context context;
 
@@ -26,11 +26,11 @@ public abstract class Worker {
         communicator = context.communicator;
     }
 
-    /** Called once, before the first `compute()`; calls from other components wait until it is done. */
+    /** Called once, before the first `compute()`; calls from other components wait until it returns. */
     public void initialize() throws Exception {
     }
 
-    /** Called every period. An exception in there is logged, and the next turn comes. */
+    /** Called every period. An exception in it is logged, and the next turn follows. */
     public void compute() throws Exception {
     }
 
@@ -39,7 +39,7 @@ public abstract class Worker {
         return (int) Math.min(context.schedule.period(), Integer.MAX_VALUE);
     }
 
-    /** Sets `period.compute`, in milliseconds: at once, even in the middle of a wait. */
+    /** Sets `period.compute`, in milliseconds. It takes effect immediately, even during a wait. */
     public final void setPeriod(int period) {
         context.store.change(java.util.Map.of("period.compute", period));
     }
@@ -49,11 +49,11 @@ public abstract class Worker {
         context.stopping.request(0);
     }
 
-    /** The store that the generated class Parameters is about. */
+    /** The store of the generated class Parameters. */
     protected final Store store() {
         return context.store;
     }
 
-    /** Makes the proxies, when the other sides answer. */
+    /** Creates the proxies, as soon as the servers answer. */
     protected abstract void connect(Connections connections);
 }

@@ -11,7 +11,7 @@ INTERNAL, EXTERNAL, PLATFORM = "internal", "external", "platform"
 
 @dataclass(frozen=True)
 class Event:
-    """What SCXML calls `_event`. `data` is what was sent along."""
+    """SCXML's `_event`; `data` are the data that were sent with it."""
 
     name: str
     type: str = EXTERNAL
@@ -23,7 +23,7 @@ class Event:
 
 
 class Data(dict):
-    """Named values of an event: `data["distance"]`, or `data.distance`."""
+    """The named values of an event: `data["distance"]`, or `data.distance`."""
 
     def __getattr__(self, name: str) -> Any:
         try:

@@ -22,18 +22,18 @@ from generated.runtime.waiting import reason
 
 Parameters = tuple[Table, Callable[[Store], Live]]
 
-# What differs from Ice's own defaults, unless the config says otherwise.
+# Ice's defaults are replaced by these, unless the config sets them.
 ICE_DEFAULTS = {
     "Ice.Warn.UnknownProperties": "0",  # parameters may begin with an adapter's name: `Laser.Device`
-    "CommonBehavior.ThreadPool.Size": "1",  # a thread of its own: it answers while a method is running
+    "CommonBehavior.ThreadPool.Size": "1",  # a thread of its own, so that it answers while a method runs
 }
 
 
 class Application:
     """One component in one process.
 
-    The main thread is the stage's (most wait there for the request to stop); all else is done in the worker's thread
-    and in Ice's.
+    The main thread belongs to the stage, which waits there for the request to stop, or runs an event loop. Everything
+    else runs in the worker's thread and in Ice's threads.
     """
 
     def __init__(self, component: Component, worker_class: WorkerClass, parameters: Parameters, stage: Stage) -> None:
@@ -54,7 +54,7 @@ class Application:
         self._communicator = Ice.initialize(_initialization(settings))
 
     def run(self) -> int:
-        """Until the component is asked to stop; the exit code."""
+        """Runs the component until it is stopped; returns the exit code."""
         work = threading.Thread(target=self._work, name="worker", daemon=True)
         watch = threading.Thread(target=self._watch_ice, name="shutdown", daemon=True)
         for thread in (work, watch):
@@ -67,23 +67,23 @@ class Application:
             self._topics.unsubscribe()
         self._communicator.destroy()
         for thread in (work, watch):
-            thread.join()  # Python must not end while one of its threads is in Ice
+            thread.join()  # Python must not exit while one of its threads is in Ice
         self._stopping.done()
         return self._stopping.exit_code
 
     def _watch_ice(self) -> None:
-        """Ice.Admin's shutdown (IceGrid uses it) is a request to stop, too."""
+        """Ice.Admin's shutdown, which IceGrid uses, is a request to stop too."""
         try:
             self._communicator.waitForShutdown()
         except Ice.CommunicatorDestroyedException:
-            pass  # it was told to stop before it had started
+            pass  # it was stopped before it had started
         self._stopping.request()
 
     def _work(self) -> None:
         try:
             running = self._start()
         except Exception as error:
-            if not self._stopping.is_requested():  # what it was doing may fail when it is told to stop
+            if not self._stopping.is_requested():  # stopping may make the start fail
                 if isinstance(error, StartError):
                     self._log.error(error)
                 else:
@@ -91,15 +91,15 @@ class Application:
                 self._stopping.request(1)
         else:
             if self._stage.only_check:
-                self._log.info("%s starts as it should", self._component.name)
+                self._log.info("%s: the startup check has passed", self._component.name)
             else:
                 self._log.info("%s is running", self._component.name)
                 self._stage.run(running, self._schedule)
         finally:
-            self._stopping.request()  # also where the user's code called sys.exit()
+            self._stopping.request()  # also if the user's code called sys.exit()
 
     def _start(self) -> worker.Worker:
-        """Serves first and waits for others then, so that two components may require each other."""
+        """Serves its own interfaces before it waits for others, so that two components may require each other."""
         behavior = self._serve_common_behavior()
         self._warn_of_properties()
         for port in self._component.implements:
@@ -125,10 +125,10 @@ class Application:
         ports = (*component.implements, *component.requires, *component.publishes, *component.subscribes)
         for key, meant in configuration.misspelled(self._store, [port.name for port in ports]):
             hint = f" (did you mean '{meant}'?)" if meant else ""
-            self._log.warning("%s: there is no parameter '%s'%s", self._settings.source(key), key, hint)
+            self._log.warning("%s: unknown parameter '%s'%s", self._settings.source(key), key, hint)
 
     def _serve_common_behavior(self) -> commonbehavior.Behavior | None:
-        """Unless the config has no endpoint for it, or the component implements it itself."""
+        """Serves CommonBehavior, unless the config has no endpoint for it or the component implements it itself."""
         name = "CommonBehavior"
         endpoints = self._settings.first(*connections.endpoints(name))
         if not endpoints or any(port.name == name for port in self._component.implements):
@@ -163,7 +163,7 @@ class Application:
         return proxies
 
     def _listen(self) -> list[tuple[Subscribed, Ice.ObjectPrx]]:
-        """An object for each subscription. IceStorm knows subscribers by their identity, so it must be unique."""
+        """An object for each subscription. IceStorm identifies subscribers by identity, so it must be unique."""
         subscribers = []
         for port in self._component.subscribes:
             adapter = self._adapter(f"{port.name}Topic", self._settings.topic_endpoints(port.name))

@@ -15,7 +15,7 @@ from generated.runtime.stopping import Stopping
 
 
 def launch(name: str, files: Sequence[Path], properties: Sequence[str], only_check: bool) -> int:
-    """Reads the config, loads the Slice and the user's code, and runs them; the exit code."""
+    """Reads the config, loads the Slice and the user's code, and runs them; returns the exit code."""
     log.set_up()
     stopping = Stopping()
     stopping.on_signals()

@@ -16,7 +16,7 @@ def set_up() -> None:
 
 
 class IceLogger(Ice.Logger):
-    """What Ice has to say, in the component's own log."""
+    """Writes the messages of Ice to the component's log."""
 
     def __init__(self, name: str = "Ice") -> None:
         self._log = logging.getLogger(name)

@@ -14,18 +14,18 @@ USAGE = """\
 usage: bin/{name} [CONFIG] [--Ice.X=Y ...] [--KEY=VALUE ...] [--startup-check]
 
   CONFIG            a file of Ice properties (default: the component's etc/config)
-  --Ice.Config=FILE another way to name it; given both, FILE is read after CONFIG
-  --KEY=VALUE       any property: wins over the same one in the file
+  --Ice.Config=FILE the same as an option; of both, FILE is read last
+  --KEY=VALUE       any property; it overrides the one in the file
   --startup-check   start everything, then stop
 
-It runs in the first Python that has Ice: $RCYAML_PYTHON where it is set, else the workspace's .venv, python3 on the
-path, /usr/bin/python3.
+The component runs with the first Python that has Ice: $RCYAML_PYTHON if it is set, else the workspace's .venv, python3
+in the PATH, /usr/bin/python3.
 """
 
 
 @dataclass(frozen=True)
 class Options:
-    """The command line, sorted."""
+    """The parsed command line."""
 
     files: tuple[Path, ...]
     properties: tuple[str, ...]
@@ -33,7 +33,7 @@ class Options:
 
 
 def main(root: Path, name: str, arguments: Sequence[str]) -> int:
-    """Runs the component in the folder `root`; the exit code."""
+    """Runs the component in the folder `root`; returns the exit code."""
     if "-h" in arguments or "--help" in arguments:
         print(USAGE.format(name=name), end="")
         return 0
@@ -53,17 +53,17 @@ def main(root: Path, name: str, arguments: Sequence[str]) -> int:
 
 
 def parse(root: Path, arguments: Sequence[str]) -> Options:
-    """Raises ValueError, with what is wrong."""
+    """Parses the command line. Raises ValueError if an argument is invalid."""
     named = [argument for argument in arguments if not argument.startswith("-")]
     if len(named) > 1:
-        raise ValueError(f"one CONFIG, please, not {len(named)}: {' '.join(named)}")
+        raise ValueError(f"expected one CONFIG, got {len(named)}: {' '.join(named)}")
     files = [Path(word) for word in named]
     properties = []
     for option in arguments:
         if not option.startswith("-") or option == "--startup-check":
             continue
         if not option.startswith("--"):
-            raise ValueError(f"there is no option {option}")
+            raise ValueError(f"unknown option {option}")
         if option.startswith("--Ice.Config="):
             files += [Path(word) for word in option.partition("=")[2].split(",") if word]
         else:

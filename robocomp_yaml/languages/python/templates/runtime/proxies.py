@@ -15,20 +15,20 @@ from generated.runtime.waiting import PATIENCE, ping, wait_for
 
 
 def from_text(communicator: Ice.Communicator, what: str, text: str, where: str) -> Ice.ObjectPrx:
-    """The proxy that a property spells."""
+    """The proxy in a property. Raises StartError if the text is not a proxy."""
     try:
         if proxy := communicator.stringToProxy(text):
             return proxy
-        raise StartError(f"{what} is '{text}' in {where}: that is no proxy")
+        raise StartError(f"{what} is '{text}' in {where}, which is not a proxy")
     except Ice.LocalException as error:
         why = getattr(error, "str", "") or type(error).__name__
-        raise StartError(f"{what} is '{text}' in {where}: that is no proxy ({why})") from None
+        raise StartError(f"{what} is '{text}' in {where}, which is not a proxy ({why})") from None
 
 
 def connect(
     port: Required, communicator: Ice.Communicator, settings: Settings, log: logging.Logger, stopping: Stopping
 ) -> Any:
-    """The proxy of a port, when the other side answers, or at once if the port says so."""
+    """The proxy of a port, as soon as the server answers, or at once if the port's `absent` is 'ignore'."""
     text = settings.proxy(port.name)
     what = f"{port.name} at {text}"
     proxy = from_text(communicator, f"the proxy to {port.name}", text, settings.where)
@@ -36,7 +36,7 @@ def connect(
     if port.absent == "wait":
         wait_for(what, proxy, log, stopping, port.timeout)
     elif port.absent == "fail" and (why := ping(proxy, milliseconds or PATIENCE)):
-        raise StartError(f"{what} is not there ({why})")
+        raise StartError(f"{what} does not answer ({why})")
     if milliseconds is not None:
         proxy = proxy.ice_invocationTimeout(milliseconds)
     return port.proxy.uncheckedCast(proxy)

@@ -17,10 +17,10 @@ Call = Callable[[Worker], Any]
 
 
 class Gate:
-    """Lets calls through to the worker once it has initialized.
+    """Lets calls pass to the worker once it has initialized.
 
-    Those that come before wait in a list, not in Ice's threads: so the component answers pings, and two components that
-    wait for each other do not lock up.
+    Earlier calls wait in a list instead of Ice's threads: so the component answers pings, and two components that wait
+    for each other do not deadlock.
     """
 
     def __init__(self, log: logging.Logger) -> None:
@@ -31,7 +31,7 @@ class Gate:
         self._closed = False
 
     def enter(self, call: Call) -> Any:
-        """The call's result, or a future that Ice waits for."""
+        """The result of the call, or a future for Ice."""
         with self._lock:
             if self._closed:
                 raise Ice.UnknownException(f"{ALREADY_LOGGED}the component is stopping")
@@ -42,7 +42,7 @@ class Gate:
         return call(self._worker)
 
     def open(self, worker: Worker) -> None:
-        """Carries out the early calls, in their order, and then lets all through."""
+        """Executes the waiting calls in their order, and then lets all calls pass."""
         while True:
             with self._lock:
                 if not self._early:
@@ -56,7 +56,7 @@ class Gate:
                     future.set_exception(error)
 
     def close(self) -> None:
-        """Refuses all calls, those that wait, too."""
+        """Rejects all calls, also waiting ones."""
         with self._lock:
             self._closed = True
             early, self._early = self._early, []
@@ -65,7 +65,7 @@ class Gate:
 
 
 def servant(interface: type, methods: Sequence[Method], gate: Gate) -> Ice.Object:
-    """An object of this interface whose operations call the worker's methods."""
+    """An object of this interface, whose operations call the worker's methods."""
     operations = {method.operation: _operation(method, gate) for method in methods}
     return type(f"{interface.__name__}Servant", (interface,), operations)()
 
@@ -79,7 +79,7 @@ def _operation(method: Method, gate: Gate) -> Callable[..., Any]:
 
 
 def _call(worker: Worker, method: Method, inputs: Sequence[Any], log: logging.Logger) -> Any:
-    """Exceptions that the interface declares travel to the caller; any other one is logged here."""
+    """The result of the method. Declared exceptions are passed to the caller; others are logged."""
     try:
         result = getattr(worker, method.calls)(*inputs)
         return tuple(result) if method.is_tuple else result

@@ -18,17 +18,17 @@ from generated.runtime.settings import shown
 
 COMMON = "CommonBehavior.ice"
 SHIPPED = Path(__file__).resolve().parents[1] / "slice"
-"""The folder of the Slice that is the run time's own."""
+"""The folder of the run time's own Slice."""
 
 
 def load(files: Sequence[str], modules: Sequence[str], folder: str, escape: bool = False) -> list[ModuleType]:
-    """Loads the files in a folder, or of the run time's own, and what they include, and hands out the modules that they
-    define.
+    """Loads Slice files from a folder, or from the run time's own, with all files that they include; returns the
+    modules that they define.
 
-    `escape` says that they have names which are keywords of Python and which Ice does not escape.
+    `escape` is true if they have names which are keywords of Python and which Ice does not escape.
 
-    Ice puts them among Python's own modules. One that has the name of a real Python module (`signal`, say) is taken
-    out again, so that `import signal` keeps its meaning.
+    Ice adds the modules to `sys.modules`. A module with the name of a Python module (`signal`, say) is removed again,
+    so that `import signal` keeps its meaning.
     """
     shadowed = {name: sys.modules.pop(name) for name in modules if _is_python(sys.modules.get(name))}
     try:
@@ -40,8 +40,8 @@ def load(files: Sequence[str], modules: Sequence[str], folder: str, escape: bool
 
 
 class Absent:
-    """Stands where a module would be that the component does not import any more, and that code in src/ still names: so
-    the component starts, and only code that needs the module fails."""
+    """A placeholder for a module that the component does not import any more, but that code in src/ still uses: the
+    component starts, and only code that needs the module fails."""
 
     def __init__(self, name: str) -> None:
         self._name = name
@@ -51,10 +51,10 @@ class Absent:
 
 
 def absent(name: str) -> Absent:
-    """What an import of this name from generated.interfaces gives, where there is no such module."""
+    """The value of an import from generated.interfaces that has no such module."""
     if name.startswith("__"):
         raise AttributeError(name)
-    logging.getLogger("interfaces").warning("the code imports %s, which the component does not", name)
+    logging.getLogger("interfaces").warning("src/ imports %s, which the component's document does not import", name)
     return Absent(name)
 
 
@@ -74,9 +74,9 @@ def _load(name: str, folder: Path, escape: bool) -> None:
         else:
             Ice.loadSlice("", [*options, str(file)])
     except RuntimeError:
-        raise StartError(f"Ice does not take {shown(file)} (see above): compile the component again") from None
+        raise StartError(f"Ice rejects {shown(file)} (see above): compile the component again") from None
 
 
 def _is_python(module: ModuleType | None) -> bool:
-    """Whether it was imported by Python; what Ice makes has no spec."""
+    """Whether Python imported the module: modules of Ice have no spec."""
     return getattr(module, "__spec__", None) is not None

@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import Ice
@@ -12,7 +14,7 @@ from generated.runtime.ports import Published, Subscribed
 from generated.runtime.proxies import from_text
 from generated.runtime.settings import Settings
 from generated.runtime.stopping import Stopping
-from generated.runtime.waiting import PATIENCE, asking, wait_for
+from generated.runtime.waiting import PATIENCE, reason, wait_for
 
 try:
     import IceStorm
@@ -21,7 +23,7 @@ except ImportError:
 
 
 class Topics:
-    """The component's dealings with IceStorm's topic manager."""
+    """Publishing and subscribing through IceStorm's topic manager."""
 
     def __init__(
         self, communicator: Ice.Communicator, settings: Settings, log: logging.Logger, stopping: Stopping
@@ -36,29 +38,29 @@ class Topics:
         self._manager = IceStorm.TopicManagerPrx.uncheckedCast(proxy)
 
     def publisher(self, port: Published) -> Any:
-        """The proxy that sends to the topic."""
+        """The proxy that publishes to the topic."""
         name = self._settings.topic_name(port.name, port.topic, f"{port.name}Pub")
-        with asking(f"IceStorm for the topic {name}"):
+        with _providing(name):
             return port.proxy.uncheckedCast(self._topic(name).getPublisher().ice_oneway())
 
     def subscribe(self, port: Subscribed, proxy: Ice.ObjectPrx) -> None:
         """Sends the topic's events to the object."""
         name = self._settings.topic_name(port.name, port.topic, port.name)
-        with asking(f"IceStorm for the topic {name}"):
+        with _providing(name):
             topic, subscriber = self._topic(name), proxy.ice_oneway()
             topic.subscribeAndGetPublisher({}, subscriber)
         self._subscriptions.append((topic, subscriber))
 
     def unsubscribe(self) -> None:
-        """Takes back every subscription, without much ado if IceStorm is gone."""
+        """Cancels every subscription; IceStorm may already be gone."""
         for topic, subscriber in self._subscriptions:
             try:
                 topic.ice_invocationTimeout(PATIENCE // 10).unsubscribe(subscriber)
             except Ice.Exception:
-                pass  # IceStorm drops a subscriber that does not answer
+                pass  # IceStorm removes subscribers that do not answer
 
     def _topic(self, name: str) -> Any:
-        """The topic, created if nobody has yet; another component may be faster at any moment."""
+        """The topic, created if needed: another component may create it at the same time."""
         while True:
             try:
                 return self._manager.retrieve(name)
@@ -68,3 +70,12 @@ class Topics:
                 return self._manager.create(name)
             except IceStorm.TopicExists:
                 pass
+
+
+@contextmanager
+def _providing(topic: str) -> Iterator[None]:
+    """Raises StartError for exceptions of Ice."""
+    try:
+        yield
+    except Ice.LocalException as error:
+        raise StartError(f"IceStorm does not provide the topic {topic}: {reason(error)}") from None

@@ -6,20 +6,18 @@ from __future__ import annotations
 import logging
 import os
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
 
 import Ice
 from generated.runtime.errors import StartError
 from generated.runtime.stopping import Stopping
 
 PAUSE = 0.25  # seconds between two attempts
-REMIND = 5.0  # seconds between two lines about it
-PATIENCE = 2000  # milliseconds that one attempt may take
+REMIND = 5.0  # seconds between two log lines about the wait
+PATIENCE = 2000  # milliseconds: the timeout of one attempt
 
 
 class Stopped(Exception):
-    """The component was asked to stop while it waited."""
+    """The component was stopped while it waited."""
 
 
 def ping(proxy: Ice.ObjectPrx, patience: int = PATIENCE) -> str:
@@ -36,7 +34,9 @@ def ping(proxy: Ice.ObjectPrx, patience: int = PATIENCE) -> str:
 def wait_for(
     what: str, proxy: Ice.ObjectPrx, log: logging.Logger, stopping: Stopping, timeout: float | None = None
 ) -> None:
-    """Until the object answers a ping; for `timeout` seconds at most, if that is not None. `what` is for the user."""
+    """Waits until the object answers a ping, at most `timeout` seconds, and logs it; `what` is the name in messages.
+
+    Raises StartError after the timeout, and Stopped if the component is stopped."""
     begin = time.monotonic()
     next_line = begin
     while why := ping(proxy):
@@ -50,17 +50,8 @@ def wait_for(
             raise Stopped
 
 
-@contextmanager
-def asking(what: str) -> Iterator[None]:
-    """Ice's exceptions in there mean that the component cannot start."""
-    try:
-        yield
-    except Ice.LocalException as error:
-        raise StartError(f"cannot ask {what}: {reason(error)}") from None
-
-
 def reason(error: Ice.Exception) -> str:
-    """Ice's exception in a few words."""
+    """An exception of Ice in a few words."""
     if isinstance(error, Ice.ConnectionRefusedException):
         return "connection refused"
     if isinstance(error, (Ice.TimeoutException, Ice.InvocationTimeoutException)):
@@ -70,7 +61,7 @@ def reason(error: Ice.Exception) -> str:
     if isinstance(error, Ice.ObjectNotExistException):
         return "the process answers, but has no such object"
     if isinstance(error, Ice.NoEndpointException):
-        return "it has no endpoint, and there is no locator to ask"
+        return "it has no endpoint, and no locator is configured"
     if isinstance(error, Ice.SyscallException):
         return os.strerror(error.error)
     return type(error).__name__

@@ -43,7 +43,7 @@ public:
     virtual void MouthEvents_moved(RoboCompMouth::Shape shape, const RoboCompTypes::Pose& at);
 
 protected:
-    /// What etc/config and the command line say: they are read before initialize() is called.
+    /// The values of etc/config and the command line, which are read before initialize() is called.
     Parameters parameters;
 
     /// Twin, at the address that the property TwinProxy gives.

@@ -7,10 +7,10 @@
 
 static_assert(
     runtime::isVersion("VERSION"),
-    "this was generated for another run time than the one that it is built with: rcyaml compile brings both together");
+    "this was generated for another run time than the one that it is built with: rcyaml compile updates both");
 static_assert(
     !std::is_abstract_v<SpecificWorker>,
-    "src/specificworker.h lacks a method that every component has: the compiler names it below");
+    "src/specificworker.h lacks a method that every component needs: the compiler names it below");
 
 int main(int argc, char* argv[])
 {

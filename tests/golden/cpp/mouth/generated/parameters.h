@@ -32,7 +32,7 @@ struct Values
     parameters::PeriodGroup period{};
 };
 
-// What the run time knows about them.
+// The types, spellings and constraints of the parameters, for the run time.
 runtime::Table table();
 void fromValue(const runtime::Value& value, PeriodGroup& to);
 runtime::Value toValue(const PeriodGroup& value);
@@ -43,7 +43,7 @@ runtime::Value toValue(const Values& value);
 
 /// The parameters of MouthComp while it runs.
 ///
-/// What is read is what holds at that moment; now() gives values that belong together. All may be used in any thread.
+/// A getter returns the value at that moment; now() returns values that belong together. All methods are thread-safe.
 class Parameters
 {
 public:
@@ -54,16 +54,16 @@ public:
     void setPeriodCompute(int value);
     void setPeriodEmergency(int value);
 
-    /// All values as they are at this moment: they stay as they are.
+    /// All values at this moment. The returned object does not change later.
     std::shared_ptr<const parameters::Values> now() const;
 
-    /// Changes several parameters at once: all of them, or none and runtime::ParameterError.
+    /// Changes several parameters at once. Throws runtime::ParameterError, and then changes none of them.
     void change(const std::function<void(parameters::Values&)>& edit);
 
     /// Sets one parameter, or a value in it: set("motors[0].vel", 1.0). Throws runtime::ParameterError.
     void set(const std::string& path, const runtime::Value& value);
 
-    /// Calls `listener` after each change, in the thread that made one; in order, one at a time.
+    /// Calls `listener` after each change, in the thread that made the change; in order, one at a time.
     void listen(runtime::Listener listener);
 
 private:

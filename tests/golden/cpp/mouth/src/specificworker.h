@@ -5,19 +5,19 @@
 
 /// MouthComp: Moves the lips.
 ///
-/// Beside the methods below it has:
+/// Besides the methods below, it has:
 /// - twin_proxy: calls Twin
 /// - backup_proxy: calls Backup
 /// - mouthevents_pubproxy: publishes MouthEvents: moved(shape, at)
-/// - parameters: what etc/config and generated/parameters.h say
+/// - parameters: the values of etc/config, as generated/parameters.h declares them
 /// - log, mutex, communicator, getPeriod(), setPeriod(ms), killYourSelf()
 class SpecificWorker : public GenericWorker
 {
 public:
-    /// Called once: all proxies are there, and calls from other components wait until this is done.
+    /// Called once: all proxies exist, and calls from other components wait until it returns.
     void initialize();
 
-    /// Called every period (50 ms, unless etc/config says otherwise).
+    /// Called every period (50 ms, unless etc/config sets another one).
     void compute();
 
     // Mouth: other components call these.

@@ -31,10 +31,10 @@ class Values(composite.Record):
 
 
 class Parameters(parameters.Live, Values):
-    """The parameters while the component runs: `self.parameters` in the worker.
+    """The parameters of the running component: `self.parameters` in the worker.
 
-    What is read is what holds at that moment; `set`, `change` and `listen` are about changes, and `now` gives values
-    that belong together.
+    An attribute returns the value at that moment; `now` returns values that belong together. `set` and `change` change
+    values, and `listen` observes changes.
     """
 
 

@@ -4,7 +4,7 @@
 #   self.twin_proxy: calls Twin
 #   self.backup_proxy: calls Backup
 #   self.speechevents_proxy: publishes SpeechEvents
-#   self.parameters: what etc/config and generated/parameters.py say
+#   self.parameters: the values of etc/config, as generated/parameters.py describes them
 #   self.log, self.mutex, self.getPeriod(), self.setPeriod(ms), self.killYourSelf()
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ class SpecificWorker(GenericWorker):
     """What SpeechComp does."""
 
     def initialize(self) -> None:
-        """Called once: all proxies are there, and calls from other components wait until this is done."""
+        """Called once: all proxies exist, and calls from other components wait until it returns."""
         self.log.info("initializing")
 
     def compute(self) -> None:
-        """Called every period (50 ms, unless etc/config says otherwise)."""
+        """Called every period (50 ms, unless etc/config sets another one)."""
 
     # Speech: other components call these.
 

@@ -16,7 +16,7 @@ class GenericWorker : public machine::Worker
 public:
     GenericWorker();
 
-    // The state machine: called when a state is entered, when it is left, and every period in it.
+    // The state machine calls these when a state is entered, when it is left, and every period while it is active.
 
     /// The state 'closed' has been entered.
     ///
@@ -96,7 +96,7 @@ protected:
     const machine::Events events;
 
 protected:
-    /// What etc/config and the command line say: they are read before initialize() is called.
+    /// The values of etc/config and the command line, which are read before initialize() is called.
     Parameters parameters;
 
 private:

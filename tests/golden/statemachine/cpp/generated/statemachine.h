@@ -9,7 +9,7 @@ namespace machine
 /// The tables of the state machine.
 const Machine& tables();
 
-/// Fires the events of the state machine, from any thread; `data` goes along.
+/// Fires the events of the state machine, from any thread, with `data`.
 class Events
 {
 public:

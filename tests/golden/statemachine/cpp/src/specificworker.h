@@ -5,23 +5,23 @@
 
 /// Door
 ///
-/// Beside the methods below it has:
-/// - parameters: what etc/config and generated/parameters.h say
-/// - events, which fires the state machine's events, from any thread: events.open()
+/// Besides the methods below, it has:
+/// - parameters: the values of etc/config, as generated/parameters.h declares them
+/// - events, which fires events of the state machine from any thread: events.open()
 /// - statemachine.states(), the names of all active states, and statemachine.isIn(NAME)
-/// - statemachine.event(), the one that is being handled, with its name and data
+/// - statemachine.event(), the event that is being handled, with its name and data
 /// - log, mutex, communicator, getPeriod(), setPeriod(ms), killYourSelf()
 class SpecificWorker : public GenericWorker
 {
 public:
-    /// Called once: all proxies are there, and calls from other components wait until this is done.
+    /// Called once: all proxies exist, and calls from other components wait until it returns.
     void initialize();
 
-    /// Called every period (100 ms, unless etc/config says otherwise).
+    /// Called every period (100 ms, unless etc/config sets another one).
     void compute();
 
-    // The state machine: called when a state is entered. There may also be sm_STATE_exit(), called when it is left, and
-    // sm_STATE_period(), called every period in it.
+    // The state machine calls these when a state is entered. sm_STATE_exit(), called when the state is left, and
+    // sm_STATE_period(), called every period while it is active, may be added.
     void sm_closed();
     void sm_opened();
     void sm_still();

@@ -12,7 +12,7 @@ MODELS = {"null": NullModel}
 
 
 class Events:
-    """Fires the events of the state machine, from any thread; `data` goes along."""
+    """Fires the events of the state machine, from any thread, with `data`."""
 
     def __init__(self, fire: Callable[[str, Any], None]) -> None:
         self.__fire = fire

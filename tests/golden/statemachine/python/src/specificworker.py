@@ -1,8 +1,8 @@
 """Door"""
 
 # This file is yours: rcyaml wrote it once, and will not touch it again. Its worker has
-#   self.parameters: what etc/config and generated/parameters.py say
-#   self.events, which fires the state machine's events, from any thread: self.events.open()
+#   self.parameters: the values of etc/config, as generated/parameters.py describes them
+#   self.events, which fires events of the state machine from any thread: self.events.open()
 #   self.statemachine.states, the names of all active states, and self.statemachine.is_in(NAME)
 #   self.statemachine.event, the one that is being handled, with its name and data
 #   self.log, self.mutex, self.getPeriod(), self.setPeriod(ms), self.killYourSelf()
@@ -16,14 +16,14 @@ class SpecificWorker(GenericWorker):
     """What Door does."""
 
     def initialize(self) -> None:
-        """Called once: all proxies are there, and calls from other components wait until this is done."""
+        """Called once: all proxies exist, and calls from other components wait until it returns."""
         self.log.info("initializing")
 
     def compute(self) -> None:
-        """Called every period (100 ms, unless etc/config says otherwise)."""
+        """Called every period (100 ms, unless etc/config sets another one)."""
 
-    # The state machine: called when a state is entered. There may also be sm_STATE_exit(), called when it is left, and
-    # sm_STATE_period(), called every period in it.
+    # The state machine calls these when a state is entered. sm_STATE_exit(), called when the state is left, and
+    # sm_STATE_period(), called every period while it is active, may be added.
 
     def sm_closed(self) -> None:
         """The state 'closed' has been entered.

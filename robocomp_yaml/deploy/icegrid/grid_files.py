@@ -1,0 +1,141 @@
+"""The files of the IceGrid engine, and the address of its registry.
+
+The deployment's folder has the same path on every host. `state/icegrid` contains the deployment's key, the registry's
+files, a folder for each node, the status files of the `run` scripts, and the desired processes.
+"""
+
+from __future__ import annotations
+
+import json
+import socket
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import msgspec
+
+from robocomp_yaml.deploy import folder as own_folder
+from robocomp_yaml.deploy.local.obstacles import is_local
+from robocomp_yaml.deploy.spec import ProcessSpec
+from robocomp_yaml.network.network import NetworkHost, is_loopback
+
+KEEPER = "rcyaml.keeper"
+"""The id of the keeper's server. No process can have this name."""
+
+_ROOT = "state/icegrid"
+_DESIRED, _SPECS, _REGISTRY, _NODES, _RULES = (
+    f"{_ROOT}/{name}.json" for name in ("wanted", "specs", "registry", "nodes", "rules")
+)
+
+
+class Registry(msgspec.Struct, frozen=True):
+    """The address and the TCP port of a deployment's registry."""
+
+    address: str
+    port: int
+
+
+class GridFiles(msgspec.Struct, frozen=True):
+    """The files of the engine in a deployment's folder. Methods that write raise OSError."""
+
+    folder: str
+
+    @property
+    def root(self) -> str:
+        return f"{self.folder}/{_ROOT}"
+
+    @property
+    def registry_folder(self) -> str:
+        return f"{self.root}/registry"
+
+    @property
+    def key(self) -> str:
+        return f"{self.root}/key.pem"
+
+    @property
+    def certificate(self) -> str:
+        return f"{self.root}/certificate.pem"
+
+    def status(self, name: str) -> str:
+        return f"{self.root}/status/{name}"
+
+    def rule(self, name: str) -> str:
+        """The path of a restart rule that is newer than the start of `run`."""
+        return f"{self.root}/rules/{name}"
+
+    def next_rule(self) -> int:
+        """A number for a new rule, higher than those of all earlier rules."""
+        number: int = self._read(_RULES, 0) + 1
+        self._write(_RULES, number)
+        return number
+
+    def log(self, name: str) -> str:
+        return f"{self.folder}/logs/{name}.log"
+
+    def registry(self) -> Registry | None:
+        data = self._read(_REGISTRY, {})
+        return Registry(**data) if data else None
+
+    def keep_registry(self, registry: Registry) -> None:
+        self._write(_REGISTRY, {"address": registry.address, "port": registry.port})
+
+    def desired(self) -> set[str]:
+        """The names of the processes that should run, whatever happens to their nodes."""
+        return set(self._read(_DESIRED, []))
+
+    def keep_desired(self, names: Iterable[str]) -> None:
+        self._write(_DESIRED, sorted(names))
+
+    def nodes(self) -> dict[str, bool]:
+        """The hosts that had a node after the last `up`, with whether rcyaml started it, and therefore ends it. A node
+        can also be started by hand."""
+        return dict(self._read(_NODES, {}))
+
+    def keep_nodes(self, nodes: Mapping[str, bool]) -> None:
+        self._write(_NODES, dict(nodes))
+
+    def specs(self) -> dict[str, ProcessSpec | None]:
+        """The specs of the processes; None for one that another version of rcyaml wrote."""
+        return {name: ProcessSpec.of_data(data) for name, data in self._read(_SPECS, {}).items()}
+
+    def keep_specs(self, specs: dict[str, ProcessSpec | None]) -> None:
+        kept = self._read(_SPECS, {})
+        self._write(_SPECS, {name: spec.as_data() if spec else kept.get(name) for name, spec in specs.items()})
+
+    def _read(self, path: str, missing: Any) -> Any:
+        """The content of a file; `missing` without a file, or with one of another version in another format."""
+        try:
+            with open(f"{self.folder}/{path}", encoding="utf-8") as file:
+                data = json.load(file)
+        except (FileNotFoundError, NotADirectoryError, ValueError):
+            return missing
+        return data if type(data) is type(missing) else missing
+
+    def _write(self, path: str, data: Any) -> None:
+        own_folder.write(self.folder, path, json.dumps(data))
+
+
+def registry_address(hosts: Iterable[NetworkHost]) -> str:
+    """The address of this machine for all these hosts: a loopback address if all are this machine, else the address of
+    its own entry, else the address from which it reaches the first of the others."""
+    others = [host.address for host in hosts if not is_local(host.address)]
+    if not others:
+        return "127.0.0.1"
+    own = [host.address for host in hosts if host.address not in others and not is_loopback(host.address)]
+    return own[0] if own else _towards(others[0])
+
+
+def free_port(address: str) -> int:
+    with socket.create_server((address, 0)) as probe:
+        port: int = probe.getsockname()[1]
+        return port
+
+
+def _towards(address: str) -> str:
+    """The local address of the route to another address. Nothing is sent."""
+    try:
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+            probe.connect((address, 9))
+            found: str = probe.getsockname()[0]
+            return found
+    except OSError:
+        return "127.0.0.1"

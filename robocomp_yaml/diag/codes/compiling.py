@@ -1,9 +1,0 @@
-"""RC61xx: what keeps a document from being compiled."""
-
-from __future__ import annotations
-
-from robocomp_yaml.diag.code import Family
-
-_PAGE = Family("emitting")
-
-UNRESOLVED = _PAGE.code("RC6101")

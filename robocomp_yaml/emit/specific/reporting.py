@@ -1,0 +1,102 @@
+"""Diagnostics about the user's class: missing methods, with the text to paste, and outdated and obsolete methods."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from msgspec.structs import replace
+
+from robocomp_yaml.diag.codes import specific as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.terminal import typed
+from robocomp_yaml.emit.specific import config_merge
+from robocomp_yaml.emit.specific.code import CLASS, SourceCode, SourceMethod
+from robocomp_yaml.emit.specific.compare import Comparison, MissingMethod, compare
+from robocomp_yaml.emit.specific.insert import lead
+from robocomp_yaml.emit.specific.reading import comment_mark, is_code, others, read
+from robocomp_yaml.emit.specific.user_file import UserFile
+from robocomp_yaml.transactions.output_root import Root
+
+
+def report(root: Root, files: Sequence[UserFile], document: str) -> Iterator[Diagnostic]:
+    """The diagnostics about the user's files of the component of a document."""
+    merge = f"paste the following, or insert it with `{typed('rcyaml', 'compile', '--merge', document)}`"
+    code = [file for file in files if file.is_text and is_code(file.path)]
+    if any(not file.is_up_to_date for file in code):
+        yield from _about_class(root, code, merge)
+    for file in files:
+        if config_merge.is_config(file.path) and file.is_text and not file.is_up_to_date:
+            if keys := config_merge.missing(file.base, file.yours, file.new):
+                path = root.shown(file.path)
+                more = config_merge.paste(file.new, keys)
+                yield codes.MISSING_PROPERTIES.at(Span(path), path=path, keys=", ".join(keys), more=more, hint=merge)
+
+
+def _about_class(root: Root, files: Sequence[UserFile], merge: str) -> Iterator[Diagnostic]:
+    new = [code for file in files if (code := read(file.path, file.new))]
+    base = {file.path: code for file in files if file.base and (code := read(file.path, file.base))}
+    yours = [code for file in files if (code := read(file.path, file.yours))]
+    comparison = compare(new, base, yours)
+    if comparison.missing or not any(code.location for code in yours):
+        # Other files may contain parts of the class.
+        yours += others(root, {file.path for file in files})
+        comparison = compare(new, base, yours)
+    home = next((code for code in yours if code.location), None)
+    if home is None or home.location is None:
+        homes = {code.path for code in new if code.location}
+        where = next((code for code in yours if code.path in homes), yours[0])
+        yield codes.NO_CLASS.at(Span(root.shown(where.path)), name=CLASS, path=root.shown(where.path))
+        return
+    if comparison.missing:
+        names = list(dict.fromkeys(one.method.name for one in comparison.missing))
+        more = _paste(comparison.missing, yours)
+        span = _span(root, home, home.location)
+        yield codes.MISSING_METHODS.at(span, name=CLASS, methods=", ".join(names), more=more, hint=merge)
+    yield from _about_methods(root, comparison)
+
+
+def _about_methods(root: Root, comparison: Comparison) -> Iterator[Diagnostic]:
+    for one in comparison.outdated:
+        yield codes.OUTDATED.at(
+            _span(root, one.code, one.method.location), name=one.method.name, more=_head(one.skeleton, one.expected),
+            hint="it must begin as follows",
+        )  # fmt: skip
+    for method in comparison.obsolete:
+        first, *rest = (_span(root, code, one.location) for code, one in method.occurrences)
+        yield codes.OBSOLETE.at(
+            first, name=method.name, related=[Related("also here", location) for location in rest],
+            hint=f"was it renamed to '{method.renamed}'?" if method.renamed else "remove it, or keep it as your own",
+        )  # fmt: skip
+
+
+def _span(root: Root, code: SourceCode, word: Span) -> Span:
+    return replace(word, file=root.shown(code.path))
+
+
+def _paste(lacking: Sequence[MissingMethod], yours: Sequence[SourceCode]) -> str:
+    """The text to paste, file by file."""
+    parts: list[str] = []
+    skeletons = list({one.skeleton.path: one.skeleton for one in lacking}.values())
+    mine = {line.strip() for code in yours for line in code.lines}
+    for skeleton in skeletons:
+        known = {one.key for code in yours if code.path == skeleton.path for one in code.imports}
+        parts += [one.line for one in skeleton.imports if one.key not in known]
+        if len(skeletons) > 1:
+            parts.append(f"{comment_mark(skeleton.path)} in {skeleton.path}:\n")
+        for one in lacking:
+            if one.skeleton is skeleton:
+                title = lead(skeleton, one.method)
+                if title and title.splitlines()[0].strip() not in mine and title not in parts:
+                    parts.append(title)
+                parts.append(skeleton.text_of(one.method) + ("\n" if one.method.has_body else ""))
+    return "".join(parts).rstrip("\n")
+
+
+def _head(skeleton: SourceCode, method: SourceMethod) -> str:
+    """The lines of a method before its body."""
+    lines = skeleton.lines[method.first : method.end]
+    for n, line in enumerate(lines):
+        if line.rstrip().endswith((":", ";")) or (n and line.strip() == "{"):
+            return "".join(lines[: n if line.strip() == "{" else n + 1]).rstrip("\n")
+    return "".join(lines).rstrip("\n")

@@ -1,0 +1,174 @@
+"""Interfaces compared by content, whatever their documents.
+
+Compared are names, order and types of parameters and members, enumerators with their values, exceptions, and units that
+both sides have. Documentation and defaults are ignored.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from collections.abc import Sequence as Items
+
+import msgspec
+
+from robocomp_yaml.diag.diagnostic import Related
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.link.program import Definition, LinkedModule, Port
+from robocomp_yaml.model.interface import (
+    Enum,
+    ExceptionType,
+    Interface,
+    Map,
+    Member,
+    Method,
+    Sequence,
+    Struct,
+    TypeRef,
+)
+
+
+class InterfaceDifference(msgspec.Struct, frozen=True):
+    """`message` names the first side before the second. The spans are in the documents of the two interfaces."""
+
+    message: str
+    first: Span
+    second: Span
+
+    def sides(self, first: str, second: str) -> list[Related]:
+        """The two definitions, with the names of the processes that use them."""
+        return [Related(f"as '{first}' knows it", self.first), Related(f"as '{second}' knows it", self.second)]
+
+
+class InterfaceComparison(msgspec.Struct):
+    """Compares interfaces, and caches the result of each pair."""
+
+    _known: dict[tuple[LinkedModule, str, LinkedModule, str], InterfaceDifference | None] = {}
+
+    def difference(self, first: Port, second: Port) -> InterfaceDifference | None:
+        """The first difference of two interfaces, None if they are equal."""
+        if first.scope is second.scope and first.interface is second.interface:
+            return None
+        key = (first.scope, first.interface.name, second.scope, second.interface.name)
+        if key not in self._known:
+            found = _ModulePair(first.scope, second.scope).interfaces(first.interface, second.interface)
+            self._known[key] = next(found, None)
+        return self._known[key]
+
+
+def name_of(port: Port) -> tuple[str, str]:
+    """The module and the name of a port's interface."""
+    return port.scope.module.name, port.interface.name
+
+
+class _ModulePair(msgspec.Struct):
+    """Two modules whose definitions are compared. `seen` are the pairs of types that have been compared."""
+
+    first: LinkedModule
+    second: LinkedModule
+    seen: set[tuple[str, str]] = set()
+
+    def interfaces(self, first: Interface, second: Interface) -> Iterator[InterfaceDifference]:
+        names = self.first.module.name, self.second.module.name
+        if names[0] != names[1]:
+            yield InterfaceDifference(
+                f"its module is {names[0]} in one, and {names[1]} in the other", first.span, second.span
+            )
+        others = {method.name: method for method in second.methods}
+        for method in first.methods:
+            if method.name in others:
+                yield from self.methods(method, others[method.name])
+            else:
+                yield InterfaceDifference(f"'{method.name}' is in one only", method.span, second.span)
+        names_of_first = {method.name for method in first.methods}
+        for method in second.methods:
+            if method.name not in names_of_first:
+                yield InterfaceDifference(f"'{method.name}' is in one only", first.span, method.span)
+
+    def methods(self, first: Method, second: Method) -> Iterator[InterfaceDifference]:
+        what = f"'{first.name}'"
+        if first.idempotent != second.idempotent:
+            yield InterfaceDifference(f"{what} is idempotent in one only", first.span, second.span)
+        yield from self.members(what, first.inputs, second.inputs, first.span, second.span)
+        yield from self.members(f"`out` of {what}", first.outputs, second.outputs, first.span, second.span)
+        if first.returns is None or second.returns is None:
+            if first.returns is not second.returns:
+                yield InterfaceDifference(f"{what} returns something in one only", first.span, second.span)
+        else:
+            yield from self.types(f"what {what} returns", first.returns, second.returns)
+        yield from _units(f"what {what} returns", first.returns_unit, second.returns_unit, first.span, second.span)
+        thrown = {ref.name: ref for ref in first.throws}, {ref.name: ref for ref in second.throws}
+        for name in sorted(thrown[0].keys() ^ thrown[1].keys()):
+            yield InterfaceDifference(f"{what} throws {name} in one only", first.span, second.span)
+        for name in sorted(thrown[0].keys() & thrown[1].keys()):
+            yield from self.types(f"what {what} throws", thrown[0][name], thrown[1][name])
+
+    def members(
+        self, what: str, first: Items[Member], second: Items[Member], here: Span, there: Span
+    ) -> Iterator[InterfaceDifference]:
+        for one, other in zip(first, second, strict=False):
+            if one.name != other.name:
+                yield InterfaceDifference(
+                    f"{what} has '{one.name}' where the other has '{other.name}'", one.span, other.span
+                )
+            yield from self.types(f"'{one.name}' of {what}", one.type, other.type)
+            yield from _units(f"'{one.name}' of {what}", one.unit, other.unit, one.span, other.span)
+        if len(first) != len(second):
+            longer = max(first, second, key=len)
+            yield InterfaceDifference(
+                f"'{longer[min(len(first), len(second))].name}' of {what} is in one only", here, there
+            )
+
+    def types(self, what: str, first: TypeRef, second: TypeRef) -> Iterator[InterfaceDifference]:
+        if first.is_basic or second.is_basic:
+            if first.text != second.text:
+                yield InterfaceDifference(
+                    f"{what} is {first.text} in one, and {second.text} in the other", first.span, second.span
+                )
+            return
+        found, other = self.first.find(first), self.second.find(second)
+        if found is None or other is None:  # an unknown type, which has been reported
+            return
+        names = _qualified(*found), _qualified(*other)
+        if names[0] != names[1]:
+            yield InterfaceDifference(
+                f"{what} is {names[0]} in one, and {names[1]} in the other", first.span, second.span
+            )
+        elif found[1] is not other[1] and names not in self.seen:
+            self.seen.add(names)
+            yield from _ModulePair(found[0], other[0], self.seen).definitions(names[0], found[1], other[1])
+
+    def definitions(self, name: str, first: Definition, second: Definition) -> Iterator[InterfaceDifference]:
+        match first, second:
+            case Struct(), Struct():
+                yield from self.members(name, first.members, second.members, first.span, second.span)
+            case ExceptionType(), ExceptionType():
+                yield from self.members(name, first.members, second.members, first.span, second.span)
+            case Enum(), Enum():
+                if _values(first) != _values(second):
+                    yield InterfaceDifference(f"the enumerators of {name} differ", first.span, second.span)
+            case Sequence(), Sequence():
+                yield from self.types(f"an entry of {name}", first.element, second.element)
+            case Map(), Map():
+                yield from self.types(f"a key of {name}", first.key, second.key)
+                yield from self.types(f"a value of {name}", first.value, second.value)
+            case _:
+                if type(first) is not type(second):
+                    yield InterfaceDifference(f"{name} has two kinds of definition", first.span, second.span)
+
+
+def _qualified(scope: LinkedModule, definition: Definition) -> str:
+    return f"{scope.module.name}.{definition.name}"
+
+
+def _values(enum: Enum) -> list[tuple[str, int]]:
+    """Every enumerator with its value, explicit or counted."""
+    found, value = [], -1
+    for enumerator in enum.enumerators:
+        value = value + 1 if enumerator.value is None else enumerator.value
+        found.append((enumerator.name, value))
+    return found
+
+
+def _units(what: str, first: str, second: str, here: Span, there: Span) -> Iterator[InterfaceDifference]:
+    if first and second and first != second:
+        yield InterfaceDifference(f"{what} is in {first} in one, and in {second} in the other", here, there)

@@ -1,1 +1,0 @@
-"""JSON Schemas of values: for editors and tools, and as the gate of `check`."""
