@@ -81,8 +81,8 @@ def rcyaml(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.M
     monkeypatch.chdir(tmp_path)
     monkeypatch.delenv("RCYAML_PATH", raising=False)
 
-    def run(*args: str) -> Result:
-        result = CliRunner().invoke(group, list(args), prog_name="rcyaml")
+    def run(*args: str, stdin: str | None = None) -> Result:
+        result = CliRunner().invoke(group, list(args), stdin, prog_name="rcyaml")
         if result.exception and not isinstance(result.exception, SystemExit):
             raise result.exception  # a traceback is never right
         return result

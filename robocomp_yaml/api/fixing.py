@@ -3,33 +3,19 @@
 from __future__ import annotations
 
 import os
-import stat
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-import msgspec
-
+from robocomp_yaml.api.edited import EditedDocument, write
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.fixing import MISSHAPEN, UNDERSTOOD, UNREADABLE, AttemptedFix, CheckedDocuments, apply_fixes
 from robocomp_yaml.pipeline import Analysis
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 from robocomp_yaml.source.inside import stays_inside
-from robocomp_yaml.source.regular import whole
-from robocomp_yaml.transactions import whole_file
 from robocomp_yaml.transactions.changes import unified
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.workspace import Workspace
-
-
-class FixedDocument(msgspec.Struct, frozen=True):
-    """A document with fixes. `before` and `after` are its contents; `reason` says why it was not written, '' if it
-    was."""
-
-    path: str
-    before: bytes
-    after: bytes
-    reason: str = ""
 
 
 class Fixing:
@@ -46,7 +32,7 @@ class Fixing:
         self._before, self._load, self._paths, self._environment = before, load, tuple(paths), environment
         result = apply_fixes(self._look, _requested(before.analysis), unsafe=unsafe)
         self._changed, self._fixed, self._left = result.changed, result.fixed, result.left
-        self.written: tuple[FixedDocument, ...] = self._write(look_only=True)
+        self.written: tuple[EditedDocument, ...] = self._write(look_only=True)
         self._remaining: Workspace | None = None
 
     @property
@@ -92,18 +78,10 @@ class Fixing:
         self.written = self._write(look_only=False)
         self._remaining = None
 
-    def _write(self, *, look_only: bool) -> tuple[FixedDocument, ...]:
-        return tuple(self._written(path, after, look_only) for path, after in sorted(self._changed.items()))
-
-    def _written(self, path: str, after: bytes, look_only: bool) -> FixedDocument:
-        before = self._before.analysis.disk.contents[path]
-        try:
-            reason = _refusal(self._paths, path, before)
-            if not reason and not look_only:
-                whole_file.replace(path, after)
-        except OSError as error:
-            reason = (error.strerror or str(error)).lower()
-        return FixedDocument(path, before, after, reason)
+    def _write(self, *, look_only: bool) -> tuple[EditedDocument, ...]:
+        contents = self._before.analysis.disk.contents
+        changed = ((path, contents[path], after) for path, after in sorted(self._changed.items()))
+        return tuple(write(self._paths, changed, look_only=look_only))
 
     def _look(self, changed: Mapping[str, bytes]) -> CheckedDocuments:
         workspace = self._load(changed) if changed else self._before
@@ -138,14 +116,3 @@ def _requested(analysis: Analysis) -> set[str]:
 
 def _text(content: bytes) -> str:
     return content.decode("utf-8", "surrogateescape")
-
-
-def _refusal(paths: Sequence[str], path: str, before: bytes) -> str:
-    """Why a document is not written, or ''. Raises OSError if it cannot be read."""
-    real = os.path.realpath(path)
-    named = {os.path.realpath(one) for one in paths}
-    if real not in named and not any(stays_inside(one, real) for one in paths if os.path.isdir(one)):
-        return f"a link leads to {real}, outside the requested paths: pass that file to fix it"
-    if not os.stat(real).st_mode & (stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH) or not os.access(real, os.W_OK):
-        return "it is read-only"
-    return "" if whole(real)[0] == before else "it has changed meanwhile: run the check again"

@@ -36,3 +36,10 @@ def ports(analysis: Analysis) -> Callable[[LinkedComponent], PortTable]:
         return known[key]
 
     return of
+
+
+def workspace_ports(analysis: Analysis) -> PortTable:
+    """The ports of all components that were read."""
+    from robocomp_yaml.emit.ports import assign
+
+    return assign(analysis.program.components.values(), analysis.disk, analysis.program.values.values())

@@ -22,6 +22,7 @@ GLOBS = {
     "ddsl": ["*.ddsl.yaml", "ddsl.yaml"],
     "config": ["*.config.yaml", "etc/config.yaml"],
     "workspace": ["rcyaml.yaml"],
+    "mock": ["*.mock.yaml"],
 }
 """The file names of each kind, as patterns for VS Code's `yaml.schemas`."""
 

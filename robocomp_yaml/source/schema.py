@@ -286,6 +286,12 @@ def _name_hint(name: str) -> Hint:
     return Hint(f"{rule}: for example '{cleaned}'", name, cleaned)
 
 
+def _counted(count: int, keyword: str) -> str:
+    """`1 entry`, `2 characters`."""
+    one, many = ("character", "characters") if keyword.endswith("Length") else ("entry", "entries")
+    return f"{count} {one if count == 1 else many}"
+
+
 def _in_words(keyword: str, facts: dict[str, Any], node: Node, instance_path: Path[str | int]) -> str:
     key = _key_of(instance_path)
     it = f"'{key}'" if key else "the document"
@@ -302,9 +308,10 @@ def _in_words(keyword: str, facts: dict[str, Any], node: Node, instance_path: Pa
         case "maximum" | "exclusiveMaximum":
             return f"{it} must be {'below' if 'exclusive' in keyword else 'at most'} {facts['limit']}"
         case "minItems" | "minProperties" | "minLength":
-            return f"{it} must not be empty" if facts["limit"] == 1 else f"{it} must have at least {facts['limit']}"
+            least = _counted(facts["limit"], keyword)
+            return f"{it} must not be empty" if facts["limit"] == 1 else f"{it} must have at least {least}"
         case "maxItems" | "maxProperties" | "maxLength":
-            return f"{it} must have at most {facts['limit']}"
+            return f"{it} must have at most {_counted(facts['limit'], keyword)}"
         case "uniqueItems":
             return f"{it} contains the same element twice"
         case _:

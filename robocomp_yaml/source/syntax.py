@@ -113,12 +113,33 @@ def compose(path: str, text: str) -> Node | None:
         raise SyntaxFault(_diagnostic(path, text, fault)) from None
 
 
-def _composed_with_stand_ins(path: str, text: str) -> Node | None:
+def tokens(text: str) -> Iterator[object]:
+    """The tokens of a text, by libyaml; Raises MarkedYAMLError."""
+    parser = CParser(text)
+    while parser.check_token():
+        yield parser.get_token()
+
+
+def tokens_as_1_2(text: str) -> Iterator[object]:
+    """The tokens of a text that libyaml may refuse, by ruamel.yaml's own scanner; Raises MarkedYAMLError."""
+    from ruamel.yaml import YAML
+
+    yield from YAML(typ="safe", pure=True).scan(text)
+
+
+def stand_ins(text: str) -> tuple[str, dict[int, str]]:
+    """A text with other characters for those that end lines in YAML 1.1 alone, and the table that brings these back."""
+    if text.isascii() or not _HAS_THEM.search(text):
+        return text, {}
     used = set(text)
     free = [chr(code) for code in _PRIVATE if chr(code) not in used][: len(_LINE_ENDS_OF_1_1)]
     forth = str.maketrans(_LINE_ENDS_OF_1_1, "".join(free))
-    back = str.maketrans("".join(free), _LINE_ENDS_OF_1_1)
-    root = compose(path, text.translate(forth))
+    return text.translate(forth), {ord(key): value for key, value in zip(free, _LINE_ENDS_OF_1_1, strict=True)}
+
+
+def _composed_with_stand_ins(path: str, text: str) -> Node | None:
+    safe, back = stand_ins(text)
+    root = compose(path, safe)
     for node in _nodes(root):
         if isinstance(node, ScalarNode):
             node.value = node.value.translate(back)

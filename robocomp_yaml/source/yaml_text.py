@@ -22,7 +22,7 @@ _READ_OTHERWISE = pattern(
 )
 _BAD_START = pattern(r"[-?:](?:\s|$)|[,\[\]{}#&*!|>'\"%@`]|---|\.\.\.|\s")
 _BAD_INSIDE = pattern(r":(?:\s|$)|\s\#|\s$|[\t\n\r]")
-_BAD_IN_FLOW = pattern(r"[,\[\]{}:?]|^-")
+_BAD_IN_FLOW = pattern(r"[,\[\]{}:?]")  # libyaml refuses a colon and a question mark
 _UNPRINTABLE = pattern("[^\x09\x20-\x7e\xa0-\u2027\u202a-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]")
 
 
@@ -58,10 +58,15 @@ def _escape(match: re.Match[str]) -> str:
 def text_of(text: str, *, in_flow: bool = False) -> str:
     """A text, in quotes only if it would otherwise be read as another value, or be a syntax error. `in_flow`: it is
     inside of `[]` or `{}`."""
+    if is_plain(text, in_flow=in_flow):
+        return text
+    return single_quoted(text) if "'" not in text and re.search(r'["\\]', text) else quoted(text)
+
+
+def is_plain(text: str, *, in_flow: bool) -> bool:
+    """Whether a text without quotes is read as this text."""
     bad = not text or _READ_OTHERWISE.fullmatch(text) or _BAD_START.match(text) or _BAD_INSIDE.search(text)
-    if bad or _UNPRINTABLE.search(text) or (in_flow and _BAD_IN_FLOW.search(text)):
-        return single_quoted(text) if "'" not in text and re.search(r'["\\]', text) else quoted(text)
-    return text
+    return not (bad or _UNPRINTABLE.search(text) or (in_flow and _BAD_IN_FLOW.search(text)))
 
 
 def is_printable(text: str) -> bool:

@@ -22,6 +22,7 @@ SUFFIX = {
     "ddsl": ".ddsl.yaml",
     "config": ".config.yaml",
     "workspace": "/rcyaml.yaml",
+    "mock": ".mock.yaml",
 }
 
 

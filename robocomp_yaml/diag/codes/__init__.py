@@ -2,8 +2,8 @@
 `docs/diagnostics/` describes.
 
 RC0xxx files and YAML · RC1xxx IDSL · RC2xxx CDSL · RC3xxx PDSL and values · RC4xxx DDSL · RC5xxx migration · RC6xxx
-emitting · RC7xxx deploying · RC8xxx building. Within a family, numbers have no meaning; a retired number is never used
-again.
+emitting · RC7xxx deploying · RC8xxx building · RC9xxx calls. Within a family, numbers have no meaning; a retired number
+is never used again.
 """
 
 from __future__ import annotations

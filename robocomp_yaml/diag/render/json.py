@@ -49,6 +49,6 @@ def run_as_data(diagnostics: Sequence[Diagnostic], documents: int) -> dict[str, 
     return {"diagnostics": [as_data(diagnostic) for diagnostic in diagnostics], "documents": documents}
 
 
-def dumps(data: object) -> str:
+def dumps(data: object, indent: int | None = 2) -> str:
     """JSON as UTF-8; bytes in file names that are not UTF-8 are escaped."""
-    return json.dumps(data, indent=2, ensure_ascii=False).encode("utf-8", "backslashreplace").decode() + "\n"
+    return json.dumps(data, indent=indent, ensure_ascii=False).encode("utf-8", "backslashreplace").decode() + "\n"

@@ -16,7 +16,7 @@ from robocomp_yaml.transactions import whole_file
 Run = Callable[..., Result]
 OWN_FILES = {
     "rcyaml.yaml", ".gitignore", ".vscode/settings.json",
-    *(f".rcyaml/schemas/{kind}.schema.json" for kind in ("idsl", "cdsl", "pdsl", "ddsl", "config", "workspace")),
+    *(f".rcyaml/schemas/{kind}.schema.json" for kind in ("idsl", "cdsl", "pdsl", "ddsl", "config", "workspace", "mock")),
 }  # fmt: skip
 EXAMPLE = {"interfaces/Hello.idsl.yaml", "components/hellocomp/hellocomp.cdsl.yaml"}
 

@@ -15,7 +15,7 @@ from robocomp_yaml.source.schema_text import schema_text
 Run = Callable[..., Result]
 
 
-@pytest.mark.parametrize("kind", ["idsl", "cdsl", "pdsl", "ddsl", "config", "workspace"])
+@pytest.mark.parametrize("kind", ["idsl", "cdsl", "pdsl", "ddsl", "config", "workspace", "mock"])
 def test_a_kind_is_printed(rcyaml: Run, kind: str) -> None:
     result = rcyaml("schema", kind)
     assert result.exit_code == 0
@@ -26,7 +26,7 @@ def test_the_kinds_are_listed(rcyaml: Run) -> None:
     assert rcyaml("schema").stdout.startswith("idsl       *.idsl.yaml, idsl.yaml\n")
     rcyaml("init")
     rows = rcyaml("schema").stdout.splitlines()
-    assert [row.split()[0] for row in rows] == ["idsl", "cdsl", "pdsl", "ddsl", "config", "workspace"]
+    assert [row.split()[0] for row in rows] == ["idsl", "cdsl", "pdsl", "ddsl", "config", "workspace", "mock"]
     assert all(Path(row.split()[-1]).is_file() for row in rows)
 
 
@@ -71,7 +71,7 @@ def test_a_stale_schema_is_reported(rcyaml: Run, tmp_path: Path, content: str | 
     ("argument", "reason"),
     [
         ("ids", "did you mean 'idsl'?"),
-        ("robot", "the kinds are idsl, cdsl, pdsl, ddsl, config, workspace"),
+        ("robot", "the kinds are idsl, cdsl, pdsl, ddsl, config, workspace, mock"),
         ("a.idsl.yaml", "does not exist"),
     ],
 )

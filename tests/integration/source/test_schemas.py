@@ -16,7 +16,7 @@ from robocomp_yaml.source import tree
 from robocomp_yaml.source.schema import validate
 from robocomp_yaml.source.schema_text import schema_text
 
-KINDS = ("idsl", "cdsl", "pdsl", "ddsl", "config", "workspace")
+KINDS = ("idsl", "cdsl", "pdsl", "ddsl", "config", "workspace", "mock")
 EDITOR = Path(__file__).resolve().parents[2] / "editor"
 RIGHT = {
     "idsl": "Speech.idsl.yaml",
@@ -25,6 +25,7 @@ RIGHT = {
     "config": "speech.config.yaml",
     "ddsl": "robot.ddsl.yaml",
     "workspace": "rcyaml.yaml",
+    "mock": "robot.mock.yaml",
 }
 SCHEMAS: dict[str, dict[str, Any]] = {kind: json.loads(schema_text(kind)) for kind in KINDS}
 ANNOTATIONS = ("title", "description", "markdownDescription")

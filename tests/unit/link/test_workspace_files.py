@@ -10,7 +10,7 @@ import pytest
 
 from robocomp_yaml.link import workspace_files
 
-KINDS = ("idsl", "cdsl", "pdsl", "ddsl", "config", "workspace")
+KINDS = ("idsl", "cdsl", "pdsl", "ddsl", "config", "workspace", "mock")
 EVERYTHING = {*(f".rcyaml/schemas/{kind}.schema.json" for kind in KINDS), ".vscode/settings.json"}
 
 

@@ -1,0 +1,103 @@
+"""`rcyaml mock`: stand-ins for interfaces and topics."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from robocomp_yaml.commands import _options, _signals
+from robocomp_yaml.commands._command import LibraryCommand
+
+if TYPE_CHECKING:
+    from robocomp_yaml.api.mocking import Mock
+    from robocomp_yaml.wire.stand_ins import Call
+
+
+@click.command(cls=LibraryCommand, short_help="Stand in for components: serve interfaces, publish topics.")
+@click.argument("interfaces", nargs=-1, metavar="[INTERFACE]...")
+@click.option("--script", type=click.Path(dir_okay=False, exists=True), help="What they answer and publish, in YAML.")
+@click.option("--endpoint", "endpoints", multiple=True, metavar="NAME=ENDPOINT", help="Where an interface is served.")
+@click.option("--storm", default="", metavar="PROXY", help="IceStorm's topic manager; by default, at port 9999.")
+@click.option("--check", is_flag=True, help="Check the script, and serve nothing.")
+@_options.include
+@click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text", help="How to print it.")
+@click.pass_context
+def command(
+    ctx: click.Context, interfaces: tuple[str, ...], script: str | None, endpoints: tuple[str, ...], storm: str,
+    check: bool, include: tuple[str, ...], format_: str,
+) -> None:  # fmt: skip
+    """Stand in for the components that serve INTERFACEs or publish topics, until Ctrl-C.
+
+    Methods return example values, and topics get example messages once a second; a script says it otherwise. Each
+    interface is served where the components of this workspace expect it.
+    """
+    from robocomp_yaml.api.mocking import Mock
+
+    mock = Mock(interfaces, script or "", include)
+    if check or mock.diagnostics:
+        _options.report(ctx, format_, mock.diagnostics, 1)
+    _serve(ctx, mock, _pairs(endpoints), storm, format_)
+
+
+def _pairs(given: tuple[str, ...]) -> dict[str, str]:
+    pairs = {}
+    for text in given:
+        name, equals, endpoint = text.partition("=")
+        if not equals or not name or not endpoint:
+            raise click.UsageError(f"'{text}' is not NAME=ENDPOINT, such as Mouth='tcp -p 10005'")
+        pairs[name] = endpoint
+    return pairs
+
+
+def _serve(ctx: click.Context, mock: Mock, endpoints: Mapping[str, str], storm: str, format_: str) -> None:
+    from robocomp_yaml.diag import terminal
+    from robocomp_yaml.diag.render.json import dumps
+
+    lock = threading.Lock()
+
+    def show(call: Call) -> None:
+        with lock:
+            if format_ == "json":
+                terminal.data(dumps(_as_data(call), indent=None), json=True)
+            elif ctx.obj.verbosity >= 0:
+                terminal.say(_line(call))
+
+    try:
+        with mock.running(endpoints=endpoints, storm=storm, on_call=show) as proxies:
+            if ctx.obj.verbosity >= 0:
+                terminal.say(*(f"serving  {proxy}" for proxy in proxies), "Ctrl-C stops it", err=format_ == "json")
+            while True:
+                time.sleep(3600)
+    except KeyboardInterrupt as error:
+        ctx.exit(_signals.code_of(error))
+
+
+def _line(call: Call) -> str:
+    from robocomp_yaml.source.yaml_text import flow
+
+    at = time.strftime("%H:%M:%S", time.localtime(call.time))
+    arguments = ", ".join(f"{name}: {flow(value)}" for name, value in call.arguments.items())
+    if call.is_published:
+        end = ""
+    elif call.raises:
+        end = f" raises {call.raises}"
+    else:
+        end = f" returns {flow(_results(call.results))}" if call.results else ""
+    return f"{at} {'published ' if call.is_published else ''}{call.interface}.{call.method}({arguments}){end}"
+
+
+def _results(results: Mapping[str, Any]) -> Any:
+    """One result by itself, several by name."""
+    return next(iter(results.values())) if list(results) == ["returns"] else dict(results)
+
+
+def _as_data(call: Call) -> dict[str, Any]:
+    results = {"raises": call.raises} if call.raises else {"results": dict(call.results)}
+    return {
+        "time": call.time, "interface": call.interface, "method": call.method, "arguments": dict(call.arguments),
+        **({"published": True} if call.is_published else results),
+    }  # fmt: skip

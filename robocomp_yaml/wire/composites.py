@@ -1,0 +1,174 @@
+"""Structs, exceptions, sequences and maps as Ice carries them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import IcePy
+
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.suggest import did_you_mean
+from robocomp_yaml.model import interface as model
+from robocomp_yaml.semantics import paths
+from robocomp_yaml.semantics.paths import Path
+from robocomp_yaml.source import tree
+from robocomp_yaml.source.tree import Node
+from robocomp_yaml.wire.values import Data, Fault, Report, WireType
+
+
+class _Record:
+    """A struct's value: Ice reads and writes its attributes."""
+
+    def __eq__(self, other: object) -> bool:
+        return type(self) is type(other) and self.__dict__ == other.__dict__
+
+    def __hash__(self) -> int:
+        return hash(tuple(self.__dict__.values()))
+
+
+class Members:
+    """The members of a struct or an exception, by their names in documents.
+
+    Ice gets other names, since only their order travels: a member may have a name that Python cannot have.
+    """
+
+    def __init__(self, members: Sequence[tuple[model.Member, WireType]]) -> None:
+        self.types = {member.name: type_ for member, type_ in members}
+        self._defaults = {member.name: member.default for member, _ in members if member.default is not None}
+        self._attributes = {name: f"m{number}" for number, name in enumerate(self.types)}
+
+    def described(self, *more: object) -> tuple[tuple[object, ...], ...]:
+        """As Ice wants them described."""
+        return tuple((self._attributes[name], (), type_.ice, *more) for name, type_ in self.types.items())
+
+    def fill(self, made: Any, node: tree.Mapping, path: Path, report: Report) -> None:
+        """Sets the attributes of a value to what a mapping says, and to defaults."""
+        for key, _ in node.items():
+            if key.lexeme not in self.types:
+                hint = did_you_mean(key.lexeme, self.types) or f"there is {', '.join(self.types) or 'no member'}"
+                report(Fault(key.span, paths.in_words((*path, key.lexeme)), "is unknown", hint))
+        for name, type_ in self.types.items():
+            entry, default = node.entries.get(name), self._defaults.get(name)
+            if entry is not None:
+                value = type_.to_ice(entry[1], (*path, name), report)
+            elif default is not None:
+                value = type_.to_ice(tree.scalar_at(node.span, default.lexeme), (*path, name), report)
+            else:
+                value = None
+                hint = f"write `{name}: …`, a {type_.name}"
+                report(Fault(node.span, paths.in_words((*path, name)), "is missing", hint))
+            setattr(made, self._attributes[name], value)
+
+    def zero(self, made: Any) -> None:
+        """Sets the attributes of a value to defaults, else to `zero`."""
+        self._set(made, lambda name, type_: type_.zero())
+
+    def example(self, made: Any) -> None:
+        """Sets the attributes of a value to defaults, else to examples."""
+        self._set(made, lambda name, type_: type_.example(name))
+
+    def _set(self, made: Any, otherwise: Callable[[str, WireType], Any]) -> None:
+        for name, type_ in self.types.items():
+            default = self._defaults.get(name)
+            value = type_.to_ice(tree.scalar_at(Span(""), default.lexeme), (), lambda fault: None) if default else None
+            setattr(made, self._attributes[name], otherwise(name, type_) if value is None else value)
+
+    def to_data(self, made: Any) -> dict[str, Data]:
+        return {name: type_.to_data(getattr(made, self._attributes[name])) for name, type_ in self.types.items()}
+
+
+class Struct(WireType):
+    def __init__(self, id_: str, definition: model.Struct, members: Members) -> None:
+        self.name, self.members = definition.name, members
+        self._kind = type(definition.name, (_Record,), {})
+        self.ice = IcePy.defineStruct(id_, self._kind, (), members.described())
+
+    def to_ice(self, node: Node, path: Path, report: Report) -> Any:
+        if not isinstance(node, tree.Mapping):
+            return self._wrong(node, path, report, f"a mapping of {', '.join(self.members.types) or 'nothing'}")
+        made = self._kind()
+        self.members.fill(made, node, path, report)
+        return made
+
+    def to_data(self, value: Any) -> Data:
+        return self.members.to_data(value)
+
+    def zero(self) -> Any:
+        made = self._kind()
+        self.members.zero(made)
+        return made
+
+    def example(self, name: str) -> Any:
+        made = self._kind()
+        self.members.example(made)
+        return made
+
+
+class SequenceOf(WireType):
+    def __init__(self, id_: str, name: str, element: WireType) -> None:
+        self.name, self._element = name, element
+        self.ice = IcePy.defineSequence(id_, (), element.ice)
+
+    def to_ice(self, node: Node, path: Path, report: Report) -> Any:
+        if not isinstance(node, tree.Sequence):
+            return self._wrong(node, path, report, "a list")
+        made = [self._element.to_ice(item, (*path, at), report) for at, item in enumerate(node.items)]
+        if self._element.name != "byte":
+            return made
+        return bytes(0 if value is None else value for value in made)
+
+    def to_data(self, value: Any) -> Data:
+        return [self._element.to_data(item) for item in value]
+
+    def zero(self) -> Any:
+        return b"" if self._element.name == "byte" else []
+
+    def example(self, name: str) -> Any:
+        return b"\0" if self._element.name == "byte" else [self._element.example(name)]
+
+
+class MapOf(WireType):
+    def __init__(self, id_: str, name: str, key: WireType, value: WireType) -> None:
+        self.name, self._key, self._value = name, key, value
+        self.ice = IcePy.defineDictionary(id_, (), key.ice, value.ice)
+
+    def to_ice(self, node: Node, path: Path, report: Report) -> Any:
+        if isinstance(self._key, Struct):
+            return self._of_pairs(node, path, report)
+        if not isinstance(node, tree.Mapping):
+            return self._wrong(node, path, report, "a mapping")
+        made = {}
+        for key, value in node.items():
+            at = (*path, key.lexeme)
+            made[self._key.key(key, at, report)] = self._value.to_ice(value, at, report)
+        return made
+
+    def _of_pairs(self, node: Node, path: Path, report: Report) -> Any:
+        if not isinstance(node, tree.Sequence):
+            return self._wrong(node, path, report, "a list of {key: …, value: …}")
+        made = {}
+        for number, item in enumerate(node.items):
+            at = (*path, number)
+            entries = item.entries if isinstance(item, tree.Mapping) else {}
+            if entries.keys() != {"key", "value"}:
+                self._wrong(item, at, report, "{key: …, value: …}")
+                continue
+            key = self._key.to_ice(entries["key"][1], (*at, "key"), report)
+            made[key] = self._value.to_ice(entries["value"][1], (*at, "value"), report)
+        return made
+
+    def to_data(self, value: Any) -> Data:
+        if isinstance(self._key, Struct):
+            return [{"key": self._key.to_data(k), "value": self._value.to_data(v)} for k, v in value.items()]
+        return {_as_key(self._key.to_data(key)): self._value.to_data(item) for key, item in value.items()}
+
+    def zero(self) -> Any:
+        return {}
+
+    def example(self, name: str) -> Any:
+        return {self._key.example("key"): self._value.example(name)}
+
+
+def _as_key(data: Data) -> str:
+    return str(data).lower() if isinstance(data, bool) else str(data)

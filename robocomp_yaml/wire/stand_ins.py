@@ -1,0 +1,149 @@
+"""Stand-ins that run: servants that answer by a script, and topics that are published at a rate."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+from typing import Any
+
+import Ice
+import IceStorm
+import msgspec
+
+from robocomp_yaml.diag.errors import Refused
+from robocomp_yaml.wire.interfaces import Operation
+from robocomp_yaml.wire.script import Published, Script, Served
+from robocomp_yaml.wire.values import Data
+
+STORM = "IceStorm/TopicManager:default -p 9999"
+_PATIENCE = 2000  # milliseconds for IceStorm to answer
+
+
+class Call(msgspec.Struct, frozen=True):
+    """A call that was answered, or a message that was published. `raises` is an exception's name, or ''; `time` are
+    seconds since the epoch."""
+
+    interface: str
+    method: str
+    arguments: Mapping[str, Data]
+    results: Mapping[str, Data] = {}
+    raises: str = ""
+    is_published: bool = False
+    time: float = msgspec.field(default_factory=time.time)
+
+
+Listener = Callable[[Call], None]
+
+
+@contextmanager
+def running(script: Script, endpoints: Mapping[str, str], storm: str, on_call: Listener) -> Iterator[list[str]]:
+    """Serves and publishes while the context lasts; yields the proxies that are served. `endpoints` are those of
+    interfaces, by their type ids. Raises Refused where an endpoint or IceStorm cannot be used."""
+    data = Ice.InitializationData()
+    data.properties = Ice.createProperties()
+    data.properties.setProperty("Ice.ThreadPool.Server.Size", "16")  # delays keep a thread busy
+    data.properties.setProperty("Ice.Warn.Dispatch", "0")
+    data.properties.setProperty("Ice.MessageSizeMax", "0")
+    communicator = Ice.initialize(data)
+    stop = threading.Event()
+    publishers: list[threading.Thread] = []
+    try:
+        proxies = [_serve(communicator, one, endpoints[one.interface.id], on_call) for one in script.served]
+        if script.published:
+            manager = _topic_manager(communicator, script.storm or storm or STORM)
+            for one in script.published:
+                target = (one, _publisher(manager, one), on_call, stop)
+                publishers.append(threading.Thread(target=_publish, args=target, daemon=True))
+        for thread in publishers:
+            thread.start()
+        yield proxies
+    finally:
+        stop.set()
+        for thread in publishers:
+            thread.join(2)
+        communicator.destroy()
+
+
+def _serve(communicator: Any, served: Served, endpoint: str, on_call: Listener) -> str:
+    name = served.interface.interface.name
+    try:
+        adapter = communicator.createObjectAdapterWithEndpoints(f"mock {served.interface.id}", endpoint)
+    except Ice.SocketException:
+        raise Refused(f"'{endpoint}' is in use, so {name} cannot be served there: is the component running?") from None
+    except Ice.Exception as error:
+        raise Refused(f"{name} cannot be served at '{endpoint}': {_reason(error)}") from None
+    servant = served.interface.servant(_Answers(served, on_call))
+    adapter.add(servant, communicator.stringToIdentity(name.lower()))
+    adapter.activate()
+    published = adapter.getPublishedEndpoints() or adapter.getEndpoints()
+    return f"{name.lower()}:{':'.join(map(str, published))}"
+
+
+class _Answers:
+    """The answers of one interface. Each method has a turn of its own."""
+
+    def __init__(self, served: Served, on_call: Listener) -> None:
+        self._served, self._on_call = served, on_call
+        self._turns: dict[str, int] = {}
+        self._lock = threading.Lock()
+
+    def __call__(self, operation: Operation, arguments: tuple[Any, ...]) -> Any:
+        name, inputs = self._served.interface.interface.name, operation.inputs_as_data(arguments)
+        answers = self._served.answers.get(operation.name, ())
+        if not answers:
+            result = operation.as_result(operation.examples())
+            self._on_call(Call(name, operation.name, inputs, operation.results_as_data(result)))
+            return result
+        with self._lock:
+            turn = self._turns[operation.name] = self._turns.get(operation.name, -1) + 1
+        answer = answers[turn % len(answers)]
+        if answer.delay:
+            time.sleep(answer.delay)
+        if answer.raises is not None:
+            self._on_call(Call(name, operation.name, inputs, raises=type(answer.raises).__name__))
+            raise answer.raises
+        self._on_call(Call(name, operation.name, inputs, operation.results_as_data(answer.result)))
+        return answer.result
+
+
+def _topic_manager(communicator: Any, text: str) -> Any:
+    try:
+        proxy = communicator.stringToProxy(text).ice_invocationTimeout(_PATIENCE)
+        proxy.ice_ping()
+    except Ice.Exception as error:
+        raise Refused(f"IceStorm, which carries topics, does not answer at '{text}': {_reason(error)}") from None
+    return IceStorm.TopicManagerPrx.uncheckedCast(proxy)
+
+
+def _publisher(manager: Any, published: Published) -> Any:
+    name = published.interface.interface.name
+    while True:
+        with suppress(IceStorm.NoSuchTopic):
+            return manager.retrieve(name).getPublisher().ice_oneway()
+        with suppress(IceStorm.TopicExists):
+            return manager.create(name).getPublisher().ice_oneway()
+
+
+def _publish(published: Published, proxy: Any, on_call: Listener, stop: threading.Event) -> None:
+    """Sends the messages in turn. The times are multiples of the period since the first, so that they do not drift."""
+    began, name, sent = time.monotonic(), published.interface.interface.name, 0
+    while not stop.is_set():
+        operation, arguments = published.messages[sent % len(published.messages)]
+        try:
+            operation.ice.invoke(proxy, (arguments, None))
+        except Ice.Exception as error:
+            if stop.is_set():
+                return
+            on_call(Call(name, operation.name, operation.inputs_as_data(arguments), raises=type(error).__name__))
+        else:
+            on_call(Call(name, operation.name, operation.inputs_as_data(arguments), is_published=True))
+        sent += 1
+        stop.wait(max(0.0, began + sent / published.rate - time.monotonic()))
+
+
+def _reason(error: Exception) -> str:
+    """An exception of Ice in one line."""
+    reason = getattr(error, "reason", "") or getattr(error, "str", "")
+    return reason or type(error).__name__

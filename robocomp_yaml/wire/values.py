@@ -1,0 +1,204 @@
+"""The types of IDSL as Ice carries them: data of documents to Ice values, and back.
+
+Ice for Python describes a type by objects that `slice2py` generates code for. Here they are made from the linked model,
+so that nothing has to be generated: https://doc.zeroc.com/ice/3.7/language-mappings/python-mapping
+
+What a document spells is what values documents spell: enumerators by name, structs and maps as mappings, bytes as a
+list of numbers. A map whose keys are structs is a list of `{key: …, value: …}`.
+"""
+
+from __future__ import annotations
+
+import math
+import struct
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from typing import Any
+
+import Ice
+import IcePy
+import msgspec
+
+from robocomp_yaml.diag.fix import Hint
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.suggest import did_you_mean
+from robocomp_yaml.model import interface as model
+from robocomp_yaml.semantics import paths
+from robocomp_yaml.semantics.paths import Path
+from robocomp_yaml.source import tree
+from robocomp_yaml.source.tree import Node
+
+Data = Any
+"""What JSON and YAML have: None, bool, int, float, str, list, dict with texts as keys."""
+
+_INTEGERS = {"byte": (0, 2**8 - 1), "short": (-(2**15), 2**15 - 1), "int": (-(2**31), 2**31 - 1)}
+_INTEGERS["long"] = (-(2**63), 2**63 - 1)
+_SHOWN = 60  # characters of a wrong value in a message
+
+
+class Fault(msgspec.Struct, frozen=True):
+    """What is wrong with a value: `path` leads to it from the argument's name."""
+
+    span: Span
+    path: str
+    problem: str
+    hint: Hint | str = ""
+
+
+Report = Callable[[Fault], None]
+
+
+class WireType(ABC):
+    """A type. `name` is the one that documents have, `ice` what describes it to Ice."""
+
+    name: str
+    ice: Any
+
+    @abstractmethod
+    def to_ice(self, node: Node, path: Path, report: Report) -> Any:
+        """The Ice value that a node of a document spells. None, and a report, where it spells none."""
+
+    @abstractmethod
+    def to_data(self, value: Any) -> Data:
+        """The data that an Ice value is in documents."""
+
+    @abstractmethod
+    def zero(self) -> Any:
+        """The Ice value without any choice: false, 0, an empty text, the first enumerator, an empty list."""
+
+    def example(self, name: str) -> Any:
+        """An Ice value to try a program with: `name` as text, one entry in each list and map, otherwise `zero`."""
+        return self.zero()
+
+    def key(self, text: tree.Scalar, path: Path, report: Report) -> Any:
+        """The Ice value that a mapping's key spells."""
+        return self.to_ice(tree.scalar_at(text.span, text.lexeme), path, report)
+
+    def _wrong(self, node: Node, path: Path, report: Report, words: str, hint: Hint | str = "") -> None:
+        report(Fault(node.span, paths.in_words(path), f"must be {words}, but is {_shown(node)}", hint))
+
+
+class Truth(WireType):
+    name, ice = "bool", IcePy._t_bool
+
+    def to_ice(self, node: Node, path: Path, report: Report) -> Any:
+        if isinstance(node.data, bool):
+            return node.data
+        return self._wrong(node, path, report, "true or false")
+
+    def to_data(self, value: Any) -> Data:
+        return bool(value)
+
+    def zero(self) -> Any:
+        return False
+
+
+class Whole(WireType):
+    def __init__(self, name: str, ice: Any) -> None:
+        self.name, self.ice = name, ice
+
+    def to_ice(self, node: Node, path: Path, report: Report) -> Any:
+        data = node.data
+        if isinstance(data, float) and data.is_integer():
+            data = int(data)
+        if isinstance(data, bool) or not isinstance(data, int):
+            return self._wrong(node, path, report, "a whole number")
+        least, most = _INTEGERS[self.name]
+        if least <= data <= most:
+            return data
+        return self._wrong(node, path, report, f"from {least} to {most} ({self.name})")
+
+    def to_data(self, value: Any) -> Data:
+        return int(value)
+
+    def zero(self) -> Any:
+        return 0
+
+
+class Real(WireType):
+    """Unlike parameters, what travels may be infinite, or not a number."""
+
+    def __init__(self, name: str, ice: Any) -> None:
+        self.name, self.ice = name, ice
+
+    def to_ice(self, node: Node, path: Path, report: Report) -> Any:
+        data = node.data
+        if isinstance(data, bool) or not isinstance(data, (int, float)):
+            return self._wrong(node, path, report, "a number")
+        try:
+            struct.pack("<f" if self.name == "float" else "<d", data)
+            return float(data)
+        except OverflowError:
+            return self._wrong(node, path, report, f"a number that a {self.name} can hold")
+
+    def to_data(self, value: Any) -> Data:
+        """A float as the shortest number that is the same one in 32 bits: 0.1, not 0.10000000149011612."""
+        if self.name == "double" or not math.isfinite(value):
+            return float(value)
+        return next(short for digits in range(6, 10) if as_float(short := float(f"{value:.{digits}g}")) == value)
+
+    def zero(self) -> Any:
+        return 0.0
+
+
+def as_float(number: float) -> float:
+    """The nearest number of 32 bits; an infinity where it is too large."""
+    try:
+        return float(struct.unpack("<f", struct.pack("<f", number))[0])
+    except OverflowError:
+        return math.copysign(math.inf, number)
+
+
+class Text(WireType):
+    name, ice = "string", IcePy._t_string
+
+    def to_ice(self, node: Node, path: Path, report: Report) -> Any:
+        if isinstance(node.data, str):
+            return node.data
+        hint = f'quote it: "{node.lexeme}"' if isinstance(node, tree.Scalar) and node.lexeme else ""
+        return self._wrong(node, path, report, "text", hint)
+
+    def to_data(self, value: Any) -> Data:
+        return str(value)
+
+    def zero(self) -> Any:
+        return ""
+
+    def example(self, name: str) -> Any:
+        return name
+
+    def key(self, text: tree.Scalar, path: Path, report: Report) -> Any:
+        return text.lexeme
+
+
+class Enumeration(WireType):
+    def __init__(self, id_: str, definition: model.Enum) -> None:
+        self.name = definition.name
+        kind = type(definition.name, (Ice.EnumBase,), {})
+        self._values: dict[str, Any] = {}
+        number = -1
+        for enumerator in definition.enumerators:
+            number = number + 1 if enumerator.value is None else enumerator.value
+            self._values[enumerator.name] = kind(enumerator.name, number)
+        self._names = {value.value: name for name, value in self._values.items()}
+        self.ice = IcePy.defineEnum(id_, kind, (), {value.value: value for value in self._values.values()})
+
+    def to_ice(self, node: Node, path: Path, report: Report) -> Any:
+        name = node.lexeme if isinstance(node, tree.Scalar) else ""
+        if name in self._values:
+            return self._values[name]
+        words = f"one of {', '.join(self._values)}"
+        return self._wrong(node, path, report, words, did_you_mean(name, self._values) if name else "")
+
+    def to_data(self, value: Any) -> Data:
+        return self._names[value.value]
+
+    def zero(self) -> Any:
+        return next(iter(self._values.values()))
+
+
+def _shown(node: Node) -> str:
+    if isinstance(node, tree.Scalar):
+        text = node.lexeme if not node.quoted else f"'{node.lexeme}'"
+        return (text if len(text) <= _SHOWN else f"{text[: _SHOWN - 1]}…") or "missing"
+    return "a mapping" if isinstance(node, tree.Mapping) else "a list"
