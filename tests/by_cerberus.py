@@ -33,9 +33,18 @@ def cerberus_verdict(root: RecordType, data: object) -> tuple[bool, Any]:
     """Cerberus's own verdict on whole effective values, and what it makes of them."""
     if not isinstance(data, dict):
         return False, None
-    validator = ParameterValidator(rules_of(root))
+    validator = _validator(root)
     verdict = validator.validate(with_references(root, copy.deepcopy(data)))
     return bool(verdict), as_data(root, validator.document)
+
+
+_LAST: list[Any] = []  # the type that was judged last, and its validator: tests judge many values of one type
+
+
+def _validator(root: RecordType) -> ParameterValidator:
+    if not _LAST or _LAST[0] is not root:
+        _LAST[:] = [root, ParameterValidator(rules_of(root))]
+    return _LAST[1]
 
 
 class ParameterValidator(Validator):  # type: ignore[misc]  # cerberus has no types

@@ -18,7 +18,7 @@ import jsonschema_rs
 import accessors
 from by_cerberus import cerberus_verdict
 from parameters import tree
-from robocomp_yaml.parameters.json_schema import EFFECTIVE, values_schema
+from robocomp_yaml.parameters.json_schema import EFFECTIVE, document_schema, values_schema
 from robocomp_yaml.parameters.types import Parameters
 from robocomp_yaml.parameters.verdict.judge import judge
 from robocomp_yaml.source.yaml_text import flow
@@ -44,13 +44,13 @@ def by_jsonschema_rs(parameters: Parameters, data: Any) -> bool:
 
 
 def by_jsonschema(parameters: Parameters, data: Any) -> bool:
-    return _validators(parameters)[1].is_valid(_as_json(data))
+    return _validators(parameters)[1].is_valid({"parameters": _as_json(data)})
 
 
 def _validators(parameters: Parameters) -> tuple[Any, Any]:
     if not _LAST or _LAST[0] is not parameters:
-        schema = values_schema(parameters, EFFECTIVE)
-        _LAST[:] = [parameters, jsonschema_rs.Draft7Validator(schema), jsonschema.Draft7Validator(schema)]
+        gate, written = values_schema(parameters, EFFECTIVE), document_schema(parameters, "C", {}, EFFECTIVE)
+        _LAST[:] = [parameters, jsonschema_rs.Draft7Validator(gate), jsonschema.Draft7Validator(written)]
     return _LAST[1], _LAST[2]
 
 

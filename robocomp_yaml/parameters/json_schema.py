@@ -2,8 +2,8 @@
 
 The three modes accept the same values, and differ in what may be missing. In a DOCUMENT everything may be missing, and
 `null` resets a value to its default. EFFECTIVE values have everything that is required. COMPLETE values also have all
-defaults, so that nothing is left to complete. Only the schema of a document has messages, examples and snippets,
-because people see it in editors; the schema of effective values, for tools, has descriptions.
+defaults, so that nothing is left to complete. The gate has no words. The schemas that are written have titles and
+descriptions; that of a document also has messages, examples and snippets, because people see it in editors.
 """
 
 from __future__ import annotations
@@ -87,7 +87,7 @@ def fits(linked: ResolvedParameters, mode: str, data: object) -> bool:
 
 
 def values_schema(parameters: Parameters, mode: str) -> Schema:
-    """The schema of the data under `parameters:` alone."""
+    """The schema of the data under `parameters:` alone, without words."""
     builder = _SchemaBuilder(mode)
     made = builder.record(parameters.root)
     return {"$schema": "http://json-schema.org/draft-07/schema#", **made, "definitions": builder.definitions}
@@ -103,7 +103,7 @@ def gate_of_complete(type_: Type) -> jsonschema_rs.Draft7Validator:
 def document_schema(parameters: Parameters, name: str, ports: Mapping[str, Iterable[str]], mode: str) -> Schema:
     """The self-contained schema of a values document of the component `name`. `ports` has the names that are known
     under `endpoints` and `proxies`."""
-    builder = _SchemaBuilder(mode)
+    builder = _SchemaBuilder(mode, has_words=True)
     made = new_schema("config")
     made["$id"] = f"https://rcyaml.invalid/schemas/values/{name}.{mode}.schema.json"
     made["title"] = f"Values of {name}"
@@ -127,11 +127,12 @@ class _SchemaBuilder(msgspec.Struct):
     """Builds schemas in one mode. Structs are in `definitions`."""
 
     mode: str
+    has_words: bool = False
     definitions: dict[str, Schema] = msgspec.field(default_factory=lambda: {"reference": _REFERENCE})
 
     @property
     def for_editors(self) -> bool:
-        return self.mode == DOCUMENT
+        return self.has_words and self.mode == DOCUMENT
 
     def type(self, type_: Type, *, nullable: bool = False) -> Schema:
         match type_:
@@ -227,18 +228,16 @@ class _SchemaBuilder(msgspec.Struct):
             needed = [member.name for member in type_.members if not member.optional]
         if needed:
             made["required"] = needed
-        if type_.name and self.mode != COMPLETE:
+        if type_.name and self.has_words:
             made["title"] = type_.name
-        if type_.doc and self.mode != COMPLETE:
+        if type_.doc and self.has_words:
             made["description"] = type_.doc
             made |= {"markdownDescription": prose(type_.doc)} if self.for_editors else {}
         return made
 
     def member(self, member: ResolvedMember) -> Schema:
         made = self.type(member.type, nullable=self.mode == DOCUMENT)
-        if self.mode != COMPLETE:
-            made |= self.about(member)
-        return made
+        return made | self.about(member) if self.has_words else made
 
     def about(self, member: ResolvedMember) -> Schema:
         """Title, description and default; for editors also Markdown and examples."""

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
+import jsonschema_rs
 from hypothesis import HealthCheck, Phase, example, given, settings
 from hypothesis import strategies as st
 
 from by_cerberus import cerberus_verdict
 from parameters import Data, documents, linked, mutated, values
 from robocomp_yaml.parameters.defaults import with_defaults
+from robocomp_yaml.parameters.json_schema import DOCUMENT, document_schema, fits
 from robocomp_yaml.parameters.layers.completion import completed
 from robocomp_yaml.parameters.layers.effective import effective
 from verdicts import CASES, verdicts
@@ -47,6 +49,20 @@ def test_all_judges_agree(case: tuple[Data, Any]) -> None:
     if isinstance(data, dict):  # every component has its periods; a document need not give them
         found = verdicts(parameters, data)
         assert len(set(found.values())) == 1, found
+
+
+@given(judged())
+@RELAXED
+@example((WHOLE, {"n": None}))
+@example((WHOLE, {"n": 2.5}))
+@example((WHOLE, {"x-n": 2}))
+def test_editors_report_what_the_gate_of_documents_rejects(case: tuple[Data, Any]) -> None:
+    """Their schema has another form, so that each value has one message."""
+    document, data = case
+    of = linked(document)
+    schema = jsonschema_rs.Draft7Validator(document_schema(of.parameters, "C", {}, DOCUMENT))
+    if isinstance(data, dict):
+        assert schema.is_valid({"parameters": data}) == fits(of, DOCUMENT, data)
 
 
 @given(documents())

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import chain
 
 from robocomp_yaml.parameters.patterns.match import Alternatives, parsed
 from robocomp_yaml.parameters.patterns.pattern import CONTROLS, Pattern
@@ -43,4 +44,4 @@ def _character(atom: str) -> str:
     if not atom.startswith("["):
         return CONTROLS.get(atom[1:], atom[-1])
     is_in = re.compile(atom).fullmatch
-    return next((char for char in (*_PLAIN, *map(chr, range(0x21, 0x10000))) if is_in(char)), "")
+    return next(filter(is_in, chain(_PLAIN, map(chr, range(0x21, 0x10000)))), "")

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import pytest
 
 from in_memory import ROOT, pdsl, program, refused, said
 from parameters import tree
+from robocomp_yaml.parameters.types import Parameters
 from verdicts import verdicts
 
 PARAMETERS = (
@@ -152,13 +155,17 @@ def test_lists_of_a_later_layer_take_the_place_of_earlier_ones_and_mappings_join
     assert over("m: {c: 3}") == ["m has 3 entries, and must have at most 2"]
 
 
+@cache
+def _parameters() -> Parameters:
+    component = program(DOCUMENTS).components[f"{ROOT}/c.cdsl.yaml"]
+    assert component.parameters is not None
+    return component.parameters.parameters
+
+
 @pytest.mark.parametrize("values", [one for one in (*FITTING, *(row[0] for row in MISFITS)) if "null" not in one])
 def test_all_judges_say_the_same(values: str) -> None:
     """Ours, Cerberus, JSON Schema twice, and what components are generated with."""
-    component = program(DOCUMENTS).components[f"{ROOT}/c.cdsl.yaml"]
-    assert component.parameters is not None
-    data = tree(f"{{need: 1, {values}}}").data
-    said = verdicts(component.parameters.parameters, data)
+    said = verdicts(_parameters(), tree(f"{{need: 1, {values}}}").data)
     assert set(said.values()) == {values in FITTING}, said
 
 
