@@ -6,6 +6,7 @@ from __future__ import annotations
 import importlib
 import os
 from collections.abc import Callable, Iterable, Mapping
+from functools import cache
 from types import ModuleType
 from typing import Any
 
@@ -35,8 +36,7 @@ class Modules(msgspec.Struct, frozen=True):
 
     def table(self) -> dict[str, str]:
         """The full name of each module, by its name in the package."""
-        names = module_names(importlib.import_module(self.package).__path__)
-        return {name: f"{self.package}.{name}" for name in names}
+        return _table(self.package)
 
     def every(self) -> list[ModuleType]:
         """Imports all modules, in the order of their names."""
@@ -48,6 +48,12 @@ class Modules(msgspec.Struct, frozen=True):
         if name not in modules:
             raise ValueError(f"unknown {self.what} '{name}'")
         return importlib.import_module(modules[name])
+
+
+@cache
+def _table(package: str) -> dict[str, str]:
+    names = module_names(importlib.import_module(package).__path__)
+    return {name: f"{package}.{name}" for name in names}
 
 
 def lazy_attributes(module: str, homes: Mapping[str, str]) -> Callable[[str], Any]:

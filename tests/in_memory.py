@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 import msgspec
@@ -116,3 +116,14 @@ def refused(documents: Mapping[str, str], values: str, more: str = "") -> list[s
     """What is said of values for the component, which are `complete` as its own are."""
     text = f"component: c.cdsl.yaml\nparameters: {{{values}}}\n{more}"
     return [found.message for found in said({**documents, "c.config.yaml": text}, "c.config.yaml")]
+
+
+def fitting(documents: Mapping[str, str], candidates: Sequence[str]) -> list[str]:
+    """Those values of which nothing is said, each in a document of its own. Of the component nothing may be said."""
+    files = {
+        f"v{number}.config.yaml": f"component: c.cdsl.yaml\nparameters: {{{values}}}\n"
+        for number, values in enumerate(candidates)
+    }
+    found = {one.file for one in said({**documents, **files})}
+    assert found <= set(files), found
+    return [values for file, values in zip(files, candidates, strict=True) if file not in found]

@@ -6,6 +6,7 @@ the documents of the workspaces that name them."""
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping
+from functools import cache
 from typing import Any, TypeVar
 
 from robocomp_yaml import languages
@@ -20,6 +21,7 @@ _Item = TypeVar("_Item")
 Check = Callable[[Any], Iterator[Diagnostic]]
 
 
+@cache
 def checks_of(kind: str) -> list[Check]:
     """The checks of a kind of document, in the order of their modules' names."""
     return [module.check for module in Modules(f"{__name__}.{kind}", "check").every() if hasattr(module, "check")]

@@ -36,9 +36,7 @@ def matcher(portable: str) -> Matcher:
     alternatives = parsed(portable)
     if _size(alternatives) > MAX_STATES:
         raise TooLarge
-    made = Matcher()
-    made.end = made.add(alternatives, made.state())
-    return made
+    return Matcher(alternatives)
 
 
 def parsed(portable: str) -> Alternatives:
@@ -92,11 +90,13 @@ def _size(alternatives: Alternatives) -> int:
 class Matcher:
     """A finite automaton. `free` are the transitions without a character, `steps` those with a character of a class."""
 
-    def __init__(self) -> None:
+    def __init__(self, alternatives: Alternatives) -> None:
         self.free: list[list[int]] = []
         self.steps: list[tuple[re.Pattern[str], int] | None] = []
-        self.end = 0
         self._next: dict[tuple[frozenset[int], str], frozenset[int]] = {}
+        start = self.state()
+        self.end = self.add(alternatives, start)
+        self.begin = self._with_free({start})
 
     def state(self) -> int:
         self.free.append([])
@@ -137,7 +137,7 @@ class Matcher:
         return following
 
     def matches(self, text: str) -> bool:
-        states = self._with_free({0})
+        states = self.begin
         for char in text:
             following = self._next.get((states, char))
             if following is None:

@@ -30,14 +30,14 @@ def some(chance: random.Random, depth: int = 0) -> str:
 
 def test_it_matches_what_python_matches() -> None:
     chance, matched = random.Random(10), 0
-    for _ in range(1500):
+    for _ in range(800):
         pattern = parse(some(chance))
         known = re.compile(pattern.portable)
         for _ in range(10):
             text = "".join(chance.choice("aab.1]\\*|()\n") for _ in range(chance.randrange(7)))
             assert pattern.matches(text) is (known.fullmatch(text) is not None), (pattern, text)
             matched += pattern.matches(text)
-    assert matched > 500
+    assert matched > 300
 
 
 @pytest.mark.parametrize(
