@@ -12,6 +12,7 @@ from typing import Any
 
 from cerberus import TypeDefinition, Validator
 
+from robocomp_yaml.parameters.patterns.pattern import Pattern
 from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,
@@ -81,12 +82,10 @@ class ParameterValidator(Validator):  # type: ignore[misc]  # cerberus has no ty
         if not isinstance(value, Unresolved) and value not in allowed:
             self._error(field, f"must be one of {allowed}")
 
-    def _validate_pattern(self, expression: str, field: str, value: object) -> None:
-        """{'type': 'string'}"""
-        from robocomp_yaml.parameters.patterns.match import matcher
-
-        if isinstance(value, str) and not matcher(expression).matches(value):
-            self._error(field, f"must match {expression}")
+    def _validate_pattern(self, wanted: Pattern, field: str, value: object) -> None:
+        """{'nullable': False}"""
+        if isinstance(value, str) and not wanted.matches(value):
+            self._error(field, f"must match {wanted.text}")
 
     def _validate_distinct(self, wanted: bool, field: str, value: list[object]) -> None:
         """{'type': 'boolean'}"""
@@ -149,7 +148,7 @@ def _scalar(type_: ScalarType) -> Rules:
     if type_.values:
         rules["one_of"] = [literal.value for literal in type_.values]
     if type_.pattern is not None:
-        rules["pattern"] = type_.pattern.portable
+        rules["pattern"] = type_.pattern
     return rules
 
 

@@ -19,7 +19,7 @@ from robocomp_yaml.semantics import composite, plain
 
 
 class _Text(plain.TextKind):
-    """Text that is matched by `patterns.match`, whose time is bounded."""
+    """Text that is matched as the compiler does, in a bounded time."""
 
     def __init__(self, values: tuple[str, ...], pattern: Pattern | None) -> None:
         super().__init__(values, shown_as="" if pattern is None else pattern.text)

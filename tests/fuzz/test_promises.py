@@ -18,7 +18,6 @@ from conftest import ROOT, Tree, read_tree, write_tree
 from robocomp_yaml.diag.codes import table
 from robocomp_yaml.legacy import grammar, reading
 from robocomp_yaml.link import deployment_documents
-from robocomp_yaml.parameters.patterns import match as pattern_match
 from robocomp_yaml.parameters.patterns import pattern
 from robocomp_yaml.parameters.resolution import resolve as parameters
 from robocomp_yaml.parameters.specification import expression
@@ -185,7 +184,7 @@ LIMITS = {
     "attributes of one element of XML": xml.MAX_ATTRIBUTES,
     "plain values of a component's parameters": parameters.MAX_VALUES, "types inside of types": parameters.MAX_DEPTH,
     "a constraint": expression.MAX_LENGTH, "nesting of a constraint": expression.MAX_DEPTH, "a count in a `pattern:`": pattern.MAX_COUNT,
-    "sum of all counts of a `pattern:`": pattern_match.MAX_STATES,
+    "sum of all counts of a `pattern:`": pattern.MAX_SIZE,
     "processes of a deployment": deployment_documents.MAX_INSTANCES,
     "nested includes": deployment_documents.MAX_DEPTH,
 }  # fmt: skip

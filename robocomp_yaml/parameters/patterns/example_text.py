@@ -6,8 +6,7 @@ import re
 from collections.abc import Iterator
 from itertools import chain
 
-from robocomp_yaml.parameters.patterns.match import Alternatives, parsed
-from robocomp_yaml.parameters.patterns.pattern import CONTROLS, Pattern
+from robocomp_yaml.parameters.patterns.pattern import CONTROLS, Alternatives, Pattern
 
 _VARIED = "123456789bcdeBCDE"
 _ENOUGH = 32
@@ -30,12 +29,13 @@ def example_texts(pattern: Pattern) -> Iterator[str]:
 
 def example_text(pattern: Pattern) -> str:
     """A short text that a pattern matches."""
-    return "text" if pattern.matches("text") else _shortest(parsed(pattern.portable))
+    return "text" if pattern.matches("text") else _shortest(pattern.alternatives)
 
 
 def _shortest(alternatives: Alternatives) -> str:
     return "".join(
-        (_character(atom) if isinstance(atom, str) else _shortest(atom)) * least for atom, least, _ in alternatives[0]
+        (_character(part.atom) if isinstance(part.atom, str) else _shortest(part.atom)) * part.least
+        for part in alternatives[0]
     )
 
 

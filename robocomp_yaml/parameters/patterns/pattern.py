@@ -3,16 +3,25 @@
 `pattern:` of a PDSL document accepts the subset that all of them support: literals, `.`, classes, `\\d \\w \\s`,
 groups, alternatives and counts. The parser rewrites a pattern in a portable form, which all engines read alike: classes
 are sorted ranges, and shorthands are spelled out (ASCII).
+
+Rust's `regex` matches them, in a time proportional to the lengths of pattern and text; backtracking engines need
+exponential time for `(a+)+b`.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import cache
+from typing import TypeAlias
+
+import jsonschema_rs
 import msgspec
 
-from robocomp_yaml.parameters.patterns.match import MAX_STATES, TooLarge, matcher
 from robocomp_yaml.patterns import pattern
 
 MAX_COUNT = 1000
+MAX_SIZE = 5_000  # enough for `[a-z]{1,1000}`
+_MEMORY = 2**28  # of a pattern of this size, whose classes have many characters
 _SHORTHANDS = {
     "d": [(0x30, 0x39)],
     "w": [(0x30, 0x39), (0x41, 0x5A), (0x5F, 0x5F), (0x61, 0x7A)],
@@ -21,6 +30,7 @@ _SHORTHANDS = {
 CONTROLS = {"t": "\t", "n": "\n", "r": "\r", "f": "\f", "v": "\v"}
 _SPELLED = {"\t": "\\t", "\n": "\\n", "\r": "\\r", "\f": "\\f", "\v": "\\v"}
 _SYNTAX = frozenset("^$\\.*+?()[]{}|/")
+_COUNTS: dict[str, tuple[int, int | None]] = {"*": (0, None), "+": (1, None), "?": (0, 1)}
 _COUNT = pattern(r"\{(\d{1,4})(,(\d{1,4})?)?\}")
 
 
@@ -32,14 +42,40 @@ class NotPortable(ValueError):
         self.index = index
 
 
+class Part(msgspec.Struct, frozen=True):
+    """A character or class, as the portable form spells it, or a group, with its count."""
+
+    atom: str | Alternatives
+    count: str = ""
+    least: int = 1
+    most: int | None = 1
+
+    @property
+    def portable(self) -> str:
+        return (self.atom if isinstance(self.atom, str) else f"(?:{_spelled(self.atom)})") + self.count
+
+    @property
+    def size(self) -> int:
+        """The number of states of an automaton for the part."""
+        times = self.least + 1 if self.most is None else self.most
+        return max(1, times) * (1 if isinstance(self.atom, str) else _size(self.atom))
+
+
+Alternatives: TypeAlias = tuple[tuple[Part, ...], ...]
+
+
 class Pattern(msgspec.Struct, frozen=True):
     """`text` is the pattern as written, `portable` the same pattern without anchors, for `^(?:…)$` in any engine."""
 
     text: str
     portable: str
+    alternatives: Alternatives
 
     def matches(self, value: str) -> bool:
-        return matcher(self.portable).matches(value)
+        try:
+            return _matcher(self.portable)(value)
+        except UnicodeEncodeError:  # half a pair of surrogates is not a character
+            return False
 
     @property
     def anchored(self) -> str:
@@ -55,14 +91,26 @@ def parse(text: str) -> Pattern:
     if body.endswith("$") and (len(body) - len(body.rstrip("$").rstrip("\\")) - 1) % 2 == 0:
         body = body[:-1]
     parser = _PatternParser(body, shift)
-    portable = parser.alternatives()
+    alternatives = parser.alternatives()
     if parser.at < len(body):
         raise NotPortable("a ')' has no '(' before it", parser.at + shift)
-    try:
-        matcher(portable)
-    except TooLarge:
-        raise NotPortable(f"its counts add up to more than {MAX_STATES} characters", 0) from None
-    return Pattern(text, portable)
+    if _size(alternatives) > MAX_SIZE:
+        raise NotPortable(f"its counts add up to more than {MAX_SIZE} characters", 0)
+    return Pattern(text, _spelled(alternatives), alternatives)
+
+
+@cache
+def _matcher(portable: str) -> Callable[[str], bool]:
+    linear = jsonschema_rs.RegexOptions(size_limit=_MEMORY)
+    return jsonschema_rs.Draft7Validator({"pattern": f"^(?:{portable})$"}, pattern_options=linear).is_valid
+
+
+def _spelled(alternatives: Alternatives) -> str:
+    return "|".join("".join(part.portable for part in parts) for parts in alternatives)
+
+
+def _size(alternatives: Alternatives) -> int:
+    return 1 + sum(part.size for parts in alternatives for part in parts)
 
 
 class _PatternParser(msgspec.Struct):
@@ -77,20 +125,20 @@ class _PatternParser(msgspec.Struct):
     def peek(self) -> str:
         return self.text[self.at : self.at + 1]
 
-    def alternatives(self) -> str:
-        parts = [self.sequence()]
+    def alternatives(self) -> Alternatives:
+        found = [self.sequence()]
         while self.peek() == "|":
             self.at += 1
-            parts.append(self.sequence())
-        return "|".join(parts)
+            found.append(self.sequence())
+        return tuple(found)
 
-    def sequence(self) -> str:
-        out = []
+    def sequence(self) -> tuple[Part, ...]:
+        parts = []
         while (char := self.peek()) and char not in "|)":
-            out.append(self.atom() + self.count())
-        return "".join(out)
+            parts.append(self.counted(self.atom()))
+        return tuple(parts)
 
-    def atom(self) -> str:
+    def atom(self) -> str | Alternatives:
         start, char = self.at, self.peek()
         self.at += 1
         match char:
@@ -112,7 +160,7 @@ class _PatternParser(msgspec.Struct):
                 raise self.fail(f"'{char}' needs a backslash: '\\{char}'", start)
         return _literal(char)
 
-    def group(self, start: int) -> str:
+    def group(self, start: int) -> Alternatives:
         if self.text.startswith("?:", self.at):
             self.at += 2
         elif self.peek() == "?":
@@ -125,13 +173,14 @@ class _PatternParser(msgspec.Struct):
             raise self.fail("this '(' has no ')'", start)
         self.depth -= 1
         self.at += 1
-        return f"(?:{inner})"
+        return inner
 
-    def count(self) -> str:
+    def counted(self, atom: str | Alternatives) -> Part:
+        """The part of an atom and the count after it, if one follows."""
         char = self.peek()
-        if char and char in "*+?":
+        if char in _COUNTS:
             self.at += 1
-            found = char
+            part = Part(atom, char, *_COUNTS[char])
         elif char == "{":
             counted = _COUNT.match(self.text, self.at)
             if not counted:
@@ -140,15 +189,15 @@ class _PatternParser(msgspec.Struct):
             if most < least or most > MAX_COUNT:
                 raise self.fail(f"a count must go up, to at most {MAX_COUNT}")
             self.at = counted.end()
-            found = counted[0]
+            part = Part(atom, counted[0], least, most if counted[3] or not counted[2] else None)
         else:
-            return ""
+            return Part(atom)
         following = self.peek()
         if following == "?":
             raise self.fail("a lazy count has no effect where the whole text must match; remove the '?'")
         if following and following in "*+{":
             raise self.fail("a count after a count needs a group around the first")
-        return found
+        return part
 
     def escape(self, start: int) -> str:
         char = self.peek()
