@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 
 import msgspec
@@ -13,6 +14,9 @@ LAST_PORT = 65535
 
 _INT = pattern(r"[ \t\n\v\f\r]*[-+]?[0-9]+\Z")
 _BASE64 = pattern(r"[A-Za-z0-9+/=]+\Z")
+_IN_DOUBLE, _IN_SINGLE = (rf"(?:\\{quote}|[^{quote}\\]|\\(?!{quote}))*" for quote in "\"'")
+_WORD = pattern(rf"""(?:"{_IN_DOUBLE}"|'{_IN_SINGLE}'|\\["']|[^"' \t\r\n\\]|\\(?!["']))*""")
+_QUOTED = pattern(rf""""({_IN_DOUBLE})"|'({_IN_SINGLE})'|\\(["'])""")
 _DEVICE = pattern(r"[0-9A-Fa-f]{2}(:[0-9A-Fa-f]{2}){5}\Z")
 
 
@@ -42,39 +46,19 @@ def words_of(text: str, start: int, end: int) -> list[Word]:
     """The words of text[start:end], split as in a shell: quotes of both kinds, anywhere in a word, and backslashes
     before quotes. Raises InvalidIceText for an unclosed quote."""
     words: list[Word] = []
-    quote, begun, opened, at = "", start, start, start
-    current: list[str] = []
-
-    def close(here: int) -> None:
-        if current:
-            words.append(Word("".join(current), begun, here))
-        current.clear()
-
-    while at < end:
-        char, following = text[at], text[at + 1 : at + 2] if at + 1 < end else ""
-        if not current and not quote:
-            begun = at
-        if not quote and char in "\"'":
-            quote, opened = char, at
-            at += 1
-            continue
-        if char == "\\" and following and following in (quote or "\"'"):
-            at += 1
-            char = following
-        elif quote and char == quote:
-            quote = ""
-            at += 1
-            continue
-        elif not quote and char in BLANKS:
-            close(at)
-            at += 1
-            continue
-        current.append(char)
-        at += 1
-    close(end)
-    if quote:
-        raise InvalidIceText("a quote is not closed", opened, end)
+    while (at := after_blanks(text, start)) < end:
+        match = _WORD.match(text, at, end)
+        assert match is not None  # it may be empty
+        start = match.end()
+        if start < end and text[start] not in BLANKS:
+            raise InvalidIceText("a quote is not closed", start, end)
+        if plain := _QUOTED.sub(_unquoted, match[0]):
+            words.append(Word(plain, at, start))
     return words
+
+
+def _unquoted(part: re.Match[str]) -> str:
+    return part[part.lastindex or 0].replace(f"\\{part[0][0]}", part[0][0])
 
 
 class _Ip:

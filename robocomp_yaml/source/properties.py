@@ -5,6 +5,7 @@ This is the only reader of flat configs; its result has the properties, their po
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterable
 
 import msgspec
@@ -12,6 +13,10 @@ import msgspec
 from robocomp_yaml import secrets
 
 _BLANKS = " \t\r\n"
+_OF_A_KEY = re.compile(r"(?:\\.|[^=#\\]|\\\Z)*", re.DOTALL)
+_BLANK = r"(?:[ \t\r\n]|\\ )*"
+_OF_A_VALUE = re.compile(rf"({_BLANK})((?:{_BLANK}(?:\\[^ ]|[^ \t\r\n#\\]))*)({_BLANK})(\\\Z)?", re.DOTALL)
+_ESCAPED = re.compile(r"\\([\\#= ])")
 
 
 class IceProperty(msgspec.Struct, frozen=True):
@@ -142,55 +147,20 @@ def _line(line: str, number: int, start: int) -> PropertyLine | None:
 
 def _key(line: str) -> tuple[str, int, bool]:
     """The key, the index after its `=`, and True; or the index where a comment begins or the line ends, and False."""
-    key = blanks = ""
-    at = 0
-    while at < len(line):
-        char = line[at]
-        at += 1
-        if char == "=":
-            # Ice trims again when it sets the property: `\` before a tab does not protect the tab.
-            return key.strip(_BLANKS), at, True
-        if char == "#":
-            return key, at - 1, False
-        if char in _BLANKS:
-            blanks += char if key else ""
-            continue
-        if char == "\\" and at < len(line):
-            escaped = line[at]
-            at += 1
-            if escaped == " ":
-                blanks += escaped if key else ""
-                continue
-            char = escaped if escaped in "\\#=" else char + escaped
-        key += blanks + char
-        blanks = ""
-    return key, at, False
+    match = _OF_A_KEY.match(line)
+    assert match is not None  # it may be empty
+    separated = line.startswith("=", match.end())
+    # Ice trims again when it sets the property: `\\` before a tab does not protect the tab.
+    return _ESCAPED.sub(r"\1", match[0]).strip(_BLANKS), match.end() + separated, separated
 
 
 def _value(line: str, at: int) -> tuple[str, int]:
-    """The value, and the index where a comment begins or the line ends."""
-    # `blanks` is all white space since the last other character, `kept` its escaped part, which is kept at the ends.
-    value = blanks = kept = ""
-    while at < len(line):
-        char = line[at]
-        at += 1
-        if char == "#":
-            at -= 1
-            break
-        if char in _BLANKS:
-            blanks += char if value else ""
-            continue
-        if char == "\\":
-            if at == len(line):
-                # Ice does not clear the escaped blanks here, and appends them again at the end.
-                return value + (blanks if value else kept) + char + kept, at
-            escaped = line[at]
-            at += 1
-            if escaped == " ":
-                blanks += escaped
-                kept += escaped
-                continue
-            char = escaped if escaped in "\\#=" else char + escaped
-        value += (blanks if value else kept) + char
-        blanks = kept = ""
-    return value + kept, at
+    """The value, and the index where a comment begins or the line ends. At both ends only escaped blanks are kept."""
+    match = _OF_A_VALUE.match(line, at)
+    assert match is not None
+    before, inner, after, lone = match.groups()
+    first, last = (" " * blanks.count("\\") for blanks in (before, after))
+    value = first + _ESCAPED.sub(r"\1", inner)
+    if lone:  # Ice appends the escaped blanks before it a second time
+        value, last = f"{value}{_ESCAPED.sub(' ', after) if inner else ''}{lone}", last if inner else first
+    return value + last, match.end()
