@@ -10,7 +10,8 @@ characters are replaced by others while a text is parsed.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from itertools import chain
 
 from ruamel.yaml.cyaml import CParser  # type: ignore[attr-defined]  # from C, without types
 from ruamel.yaml.error import MarkedYAMLError
@@ -21,6 +22,7 @@ from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import Edit, Fix
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.digraph import reachable
 from robocomp_yaml.patterns import pattern
 
 MAX_DEPTH = 100
@@ -146,19 +148,13 @@ def _composed_with_stand_ins(path: str, text: str) -> Node | None:
     return root
 
 
-def _nodes(root: Node | None) -> Iterator[Node]:
+def _nodes(root: Node | None) -> Iterable[Node]:
     """All nodes of a tree, each once."""
-    todo, seen = [root] if root is not None else [], set[Node]()
-    while todo:
-        node = todo.pop()
-        if node in seen:
-            continue
-        seen.add(node)
-        yield node
-        if isinstance(node, MappingNode):
-            todo += [part for pair in node.value for part in pair]
-        elif not isinstance(node, ScalarNode):
-            todo += node.value
+
+    def inside(node: Node) -> Iterable[Node]:
+        return chain.from_iterable(node.value) if isinstance(node, MappingNode) else node.value
+
+    return reachable([root] if root else [], lambda node: () if isinstance(node, ScalarNode) else inside(node))
 
 
 def _compose_as_1_2(text: str) -> Node | None:

@@ -40,13 +40,16 @@ def value(expression: Expression, scope: Mapping[str, Any]) -> Any:
     """The value of an expression, None if it is unknown. Raises ArithmeticError, LookupError or ValueError if it is
     undefined, as a division by zero is."""
     match expression:
-        case LiteralExpression(value=literal):
-            return literal
         case NameExpression(name=name):
             return _known(scope.get(name))
         case Attribute(of=of, name=name):
             owner = value(of, scope)
             return None if owner is None else _known(owner.get(name))
+        case LiteralExpression(value=literal):
+            return literal
+        case Compare(first=first, rest=rest):
+            others = ((operator, value(part, scope)) for operator, part in rest)
+            return constraints.all_of(constraints.compared(value(first, scope), others))
         case Index(of=of, index=index):
             return _known(constraints.entry(value(of, scope), value(index, scope)))
         case ListExpression(items=items):
@@ -58,9 +61,6 @@ def value(expression: Expression, scope: Mapping[str, Any]) -> Any:
             return constraints.arithmetic("-", 0, number) if operator == "-" else number
         case Binary(operator=operator, left=left, right=right):
             return constraints.arithmetic(operator, value(left, scope), value(right, scope))
-        case Compare(first=first, rest=rest):
-            others = ((operator, value(part, scope)) for operator, part in rest)
-            return constraints.all_of(constraints.compared(value(first, scope), others))
         case Logic(operator=operator, operands=operands):
             truths = (value(operand, scope) for operand in operands)
             return constraints.all_of(truths) if operator == "and" else constraints.any_of(truths)
