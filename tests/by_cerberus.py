@@ -90,7 +90,7 @@ class ParameterValidator(Validator):  # type: ignore[misc]  # cerberus has no ty
     def _validate_distinct(self, wanted: bool, field: str, value: list[object]) -> None:
         """{'type': 'boolean'}"""
         if wanted and len(set(value)) != len(value):
-            self._error(field, "must have no entry twice")
+            self._error(field, "must have no element twice")
 
 
 def rules_of(type_: RecordType) -> Rules:

@@ -147,7 +147,7 @@ class _ModulePair(msgspec.Struct):
                 if _values(first) != _values(second):
                     yield InterfaceDifference(f"the enumerators of {name} differ", first.span, second.span)
             case Sequence(), Sequence():
-                yield from self.types(f"an entry of {name}", first.element, second.element)
+                yield from self.types(f"an element of {name}", first.element, second.element)
             case Map(), Map():
                 yield from self.types(f"a key of {name}", first.key, second.key)
                 yield from self.types(f"a value of {name}", first.value, second.value)

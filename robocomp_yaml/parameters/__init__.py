@@ -12,12 +12,12 @@ From the bottom to the top, each part uses those above it in this list:
     expressions    constraints: their types and values
     resolution     from `specification` to `types`
     examples       examples of values, and first documents
-    json_schema    JSON Schemas for editors and tools, and the gate
+    json_schema    JSON Schemas for editors and tools, and the validator
     layers         documents merged, judged and completed: the effective values
     writing        effective values as properties and TOML, and the reference of parameters
     editing        effective values with their origin, and edits of their documents
 
-The gate is a compiled schema that decides fast whether values are valid; if they are not, the judge reports why.
-Cerberus completes records. Tests compare the gate, the judge, the types of components (`kinds`) and Cerberus's own
+The validator is a compiled schema that decides fast whether values are valid; if they are not, the judge reports why.
+Cerberus completes records. Tests compare the validator, the judge, the types of components (`kinds`) and Cerberus's own
 verdict. The meaning of texts, limits and constraints is in `semantics`, which components share.
 """

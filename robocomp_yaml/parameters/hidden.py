@@ -50,7 +50,7 @@ def plain(type_: Type, data: Any) -> Any:
 
 
 def _is_named(key: str, data: Any) -> bool:
-    """Whether an entry of a map is secret by its own name."""
+    """Whether an element of a map is secret by its own name."""
     return isinstance(data, str) and data != "" and secrets.is_secret(key)
 
 

@@ -1,8 +1,8 @@
-"""JSON Schemas (draft-07) of a component's values: for editors, for tools, and as the gate of `check`.
+"""JSON Schemas (draft-07) of a component's values: for editors, for tools, and as the validator of `check`.
 
 The three modes accept the same values, and differ in what may be missing. In a DOCUMENT everything may be missing, and
 `null` resets a value to its default. EFFECTIVE values have everything that is required. COMPLETE values also have all
-defaults, so that nothing is left to complete. The gate has no words. The schemas that are written have titles and
+defaults, so that nothing is left to complete. The validator has no words. The schemas that are written have titles and
 descriptions; that of a document also has messages, examples and snippets, because people see it in editors.
 """
 
@@ -30,7 +30,7 @@ from robocomp_yaml.parameters.types import (
     Type,
     json_type,
 )
-from robocomp_yaml.parameters.words import entries_in_words, for_editors, in_words, label, prose
+from robocomp_yaml.parameters.words import elements_in_words, for_editors, in_words, label, prose
 from robocomp_yaml.semantics.limits import LIMITS
 from robocomp_yaml.source.schema import new_schema
 from robocomp_yaml.source.yaml_text import flow
@@ -81,9 +81,9 @@ _REFERENCE_CHOICE = {
 
 
 def fits(linked: ResolvedParameters, mode: str, data: object) -> bool:
-    """The verdict of the gate on the data under `parameters:`, in one of the modes."""
-    gate = linked.once(mode, lambda: jsonschema_rs.Draft7Validator(values_schema(linked.parameters, mode)))
-    return gate.is_valid(data)
+    """The verdict of the validator on the data under `parameters:`, in one of the modes."""
+    validator = linked.once(mode, lambda: jsonschema_rs.Draft7Validator(values_schema(linked.parameters, mode)))
+    return validator.is_valid(data)
 
 
 def values_schema(parameters: Parameters, mode: str) -> Schema:
@@ -93,8 +93,8 @@ def values_schema(parameters: Parameters, mode: str) -> Schema:
     return {"$schema": "http://json-schema.org/draft-07/schema#", **made, "definitions": builder.definitions}
 
 
-def gate_of_complete(type_: Type) -> jsonschema_rs.Draft7Validator:
-    """The gate for one complete value of a type."""
+def validator_of_complete(type_: Type) -> jsonschema_rs.Draft7Validator:
+    """The validator for one complete value of a type."""
     builder = _SchemaBuilder(COMPLETE)
     made = builder.type(type_)
     return jsonschema_rs.Draft7Validator({**made, "definitions": builder.definitions})
@@ -144,9 +144,9 @@ class _SchemaBuilder(msgspec.Struct):
                     then["uniqueItems"] = True
                 return self.shape("array", then, nullable, type_)
             case MapType(element=element, size=size):
-                nullable_entries = self.mode == DOCUMENT
-                then = {"additionalProperties": self.type(element, nullable=nullable_entries)}
-                if not nullable_entries:  # entries are counted after layers are merged
+                nullable_elements = self.mode == DOCUMENT
+                then = {"additionalProperties": self.type(element, nullable=nullable_elements)}
+                if not nullable_elements:  # elements are counted after layers are merged
                     then |= self.size(size, "Properties")
                 return self.shape("object", then, nullable, type_)
             case RecordType(name=""):
@@ -163,7 +163,7 @@ class _SchemaBuilder(msgspec.Struct):
         made |= {f"max{of}": size.most} if size.most is not None else {}
         if not made or not self.for_editors:
             return made
-        otherwise = {"type": "string", "errorMessage": f"there must be {entries_in_words(size)}"}
+        otherwise = {"type": "string", "errorMessage": f"there must be {elements_in_words(size)}"}
         return {"allOf": [{"if": made, "then": {}, "else": otherwise}]}
 
     def shape(self, kind: str, then: Schema, nullable: bool, type_: Type) -> Schema:

@@ -67,7 +67,7 @@ class Range(Located, frozen=True):
 
 
 class Size(Located, frozen=True):
-    """The number of entries: from `least` to `most`, without an upper limit if `most` is None."""
+    """The number of elements: from `least` to `most`, without an upper limit if `most` is None."""
 
     least: int = 0
     most: int | None = None
@@ -224,7 +224,7 @@ class Parameters(msgspec.Struct, frozen=True):
 
 
 def below(type_: Type | None, step: str | int) -> Type | None:
-    """The type one step below: of a member, or of the entries of a list or map; None if the step does not exist. An
+    """The type one step below: of a member, or of the elements of a list or map; None if the step does not exist. An
     index of a list is a number, or its digits."""
     if isinstance(type_, RecordType):
         member = type_.member(step) if isinstance(step, str) else None
@@ -247,7 +247,7 @@ def nested(type_: Type) -> Iterator[Type]:
 
 
 def innermost(type_: Type) -> ScalarType | RecordType:
-    """The type of the entries of lists and maps, at any depth; the type itself if it is neither."""
+    """The type of the elements of lists and maps, at any depth; the type itself if it is neither."""
     while isinstance(type_, (ListType, MapType)):
         type_ = type_.element
     return type_

@@ -60,7 +60,7 @@ def in_words(type_: Type) -> str:
             return f"of type {type_.name}" if type_.name else "a mapping of parameters to values"
         case ListType() | MapType():
             kind = "list" if isinstance(type_, ListType) else "map"
-            size = "" if type_.size.is_any else f" of {entries_in_words(type_.size)}"
+            size = "" if type_.size.is_any else f" of {elements_in_words(type_.size)}"
             unique = ", all different" if isinstance(type_, ListType) and type_.unique else ""
             return f"a {kind}{size}{unique}, each {in_words(type_.element)}"
         case BasicType(values=values) if values:
@@ -74,9 +74,9 @@ def in_words(type_: Type) -> str:
     return f"{words} ({type_.unit})" if isinstance(type_, BasicType) and type_.unit else words
 
 
-def entries_in_words(size: Size) -> str:
-    """A limited number of entries: `exactly 1 entry`, `1 to 4 entries`."""
-    return f"{size.in_words} entr{'y' if (size.most or size.least) == 1 else 'ies'}"
+def elements_in_words(size: Size) -> str:
+    """A limited number of elements: `exactly 1 element`, `1 to 4 elements`."""
+    return f"{size.in_words} element{'' if (size.most or size.least) == 1 else 's'}"
 
 
 def limits_in_words(type_: Type) -> list[str]:
@@ -92,7 +92,7 @@ def limits_in_words(type_: Type) -> list[str]:
         case EnumType(allowed=allowed):
             return [one_of(allowed)] if allowed != type_.names else []
         case ListType(element=element, size=size) | MapType(element=element, size=size):
-            found = [] if size.is_any else [entries_in_words(size)]
+            found = [] if size.is_any else [elements_in_words(size)]
             if isinstance(type_, ListType) and type_.unique:
                 found.append("all different")
             return found + [f"each {limit}".replace("each each", "each of these") for limit in limits_in_words(element)]

@@ -20,7 +20,7 @@ Kind = Union[PlainKind, "ListKind", "MapKind", "RecordKind"]
 
 
 class _SizedKind:
-    """A type of values with entries: `at_least` to `at_most` of them, any number where it is None."""
+    """A type of values with elements: `at_least` to `at_most` of them, any number where it is None."""
 
     def __init__(self, element: Kind, at_least: int = 0, at_most: int | None = None) -> None:
         self.element = element
@@ -28,8 +28,8 @@ class _SizedKind:
 
     def check_size(self, count: int, path: Path, conversion: Conversion) -> None:
         if not limits.has_size(count, self._at_least, self._at_most):
-            entries, expected = limits.entries(count), limits.size_in_words(self._at_least, self._at_most)
-            conversion.reject(path, f"has {entries}, and must have {expected}", entries, expected)
+            elements, expected = limits.elements(count), limits.size_in_words(self._at_least, self._at_most)
+            conversion.reject(path, f"has {elements}, and must have {expected}", elements, expected)
 
 
 class ListKind(_SizedKind):
@@ -47,7 +47,7 @@ class ListKind(_SizedKind):
         if self._unique and len(set(known)) < len(known):
             twice = next(item for index, item in enumerate(known) if item in known[:index])
             text = self.element.shown(twice) if isinstance(self.element, PlainKind) else shown(twice)
-            conversion.reject(path, f"contains {text} twice", text, "entries that all differ")
+            conversion.reject(path, f"contains {text} twice", text, "elements that all differ")
         return items
 
 
@@ -126,7 +126,7 @@ class Record:
 
 
 def _hides(kind: Kind) -> bool:
-    """Whether plain values of a type, or its plain entries, are secret."""
+    """Whether plain values of a type, or its plain elements, are secret."""
     while isinstance(kind, _SizedKind):
         kind = kind.element
     return isinstance(kind, PlainKind) and kind.is_secret

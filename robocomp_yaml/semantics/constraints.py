@@ -28,11 +28,11 @@ class Constraint:
 
 
 class _Unknown(Exception):
-    """The entries of an unknown list are needed."""
+    """The elements of an unknown list are needed."""
 
 
 def holds(part: Part) -> bool:
-    """Whether a part is true or unknown. A division by zero or a missing entry does not hold."""
+    """Whether a part is true or unknown. A division by zero or a missing element does not hold."""
     try:
         return part() is not False
     except (ArithmeticError, LookupError, ValueError):
@@ -103,7 +103,7 @@ def when(condition: Any, element: Part) -> Iterator[Any]:
 
 
 def call(function: Callable[[Any], Any], operand: Part) -> Any:
-    """The result of a function; None if the operand, or an entry of it, is unknown."""
+    """The result of a function; None if the operand, or an element of it, is unknown."""
     try:
         argument = operand()
         if argument is None:

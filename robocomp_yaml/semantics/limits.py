@@ -112,6 +112,6 @@ def size_in_words(least: int, most: int | None) -> str:
     return f"{least} to {most}" if least else f"at most {most}"
 
 
-def entries(count: int) -> str:
-    """`1 entry`, `3 entries`."""
-    return f"{count} entr{'y' if count == 1 else 'ies'}"
+def elements(count: int) -> str:
+    """`1 element`, `3 elements`."""
+    return f"{count} element{'' if count == 1 else 's'}"

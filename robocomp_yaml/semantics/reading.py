@@ -94,11 +94,11 @@ class PropertyReader:
         return [self._entry(kind.element, f"{key}.{index}") for index in range(count)]
 
     def _count(self, text: str) -> int | None:
-        """The number of entries that a count sets; None if it is not a count, or is implausibly large."""
+        """The number of elements that a count sets; None if it is not a count, or is implausibly large."""
         return texts.count(text, len(self._properties) + 1_000_000)
 
     def _entry(self, kind: Kind, key: str) -> Any:
-        """The texts of an entry of a list or map; empty if the entry has no property."""
+        """The texts of an element of a list or map; empty if the element has no property."""
         value = self._value(kind, key)
         return _empty(kind) if value is None else value
 

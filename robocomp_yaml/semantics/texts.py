@@ -53,7 +53,7 @@ def spelled(value: object) -> str:
 
 
 def count(text: str, most: int) -> int | None:
-    """The number of entries that a text sets; None if it is not a count, or is more than `most`."""
+    """The number of elements that a text sets; None if it is not a count, or is more than `most`."""
     found = int(text) if is_digits(text) and len(text) < 10 else None
     return None if found is None or found > most else found
 

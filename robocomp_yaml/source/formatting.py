@@ -185,7 +185,7 @@ class _Layout:
         return self.blocks[-1].new + STEP if self.blocks else 0
 
     def _value_column(self) -> int:
-        """The column of what begins a line here and is neither a key nor an entry of a block list."""
+        """The column of what begins a line here and is neither a key nor an element of a block list."""
         if self.flows:
             return self.flows[-1]
         if self.is_key:

@@ -287,8 +287,8 @@ def _name_hint(name: str) -> Hint:
 
 
 def _counted(count: int, keyword: str) -> str:
-    """`1 entry`, `2 characters`."""
-    one, many = ("character", "characters") if keyword.endswith("Length") else ("entry", "entries")
+    """`1 element`, `2 characters`."""
+    one, many = ("character", "characters") if keyword.endswith("Length") else ("element", "elements")
     return f"{count} {one if count == 1 else many}"
 
 

@@ -24,7 +24,7 @@ PARAMETER = "a parameter is a type, such as float or CommonTypes.Pose, or {type:
 METHOD = "a method is a mapping, such as {in: {text: string}, returns: bool}, or an empty value"
 ENUM = "enum: is a list of names, [spanish, english], or a mapping of names to numbers, {spanish: 0, english: 5}"
 RANGE = "an enumerator's value is an integer from 0 to 2147483647"
-ENTRY = "an entry is an interface, such as Camera, or {Camera1: Camera}, or {Camera1: {interface: Camera, "
+ENTRY = "an element is an interface, such as Camera, or {Camera1: Camera}, or {Camera1: {interface: Camera, "
 PROXY = ENTRY + "absent: ignore, timeout: 10 s}}"
 PORT = ENTRY + "doc: …}}"
 TIME = "a time is milliseconds, such as 100, or has a unit, such as 100 ms or 10 s"
@@ -138,7 +138,7 @@ CDSL: list[tuple[str, list[str]]] = [
     (C + "requires: [a-b]", [f"3:12 {PROXY}"]),
     (C + "requires: [{}]", [f"3:12 {PROXY}"]),
     (C + "requires: [{A: B, C: D}]",
-     ["3:12 each entry has one name: - {Camera1: Camera} and - {Camera2: Camera} are two entries"]),
+     ["3:12 each element has one name: - {Camera1: Camera} and - {Camera2: Camera} are two elements"]),
     (C + "requires: [{1A: B}]", [f"3:13 {A_NAME}"]),
     (C + "requires: [{A: [B]}]",
      ["3:16 the value of a name is an interface, {Camera1: Camera}, or a mapping, {Camera1: {interface: Camera, "

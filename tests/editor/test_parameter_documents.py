@@ -120,9 +120,9 @@ VALUE_MESSAGES = [
     ("  volume: {file: volume/}", ["2:18 file: must be the path of a file"]),
     ("  volume: {env: 7}", ["2:17 env: must be the name of an environment variable: letters, digits and underscores"]),
     ("  volum: 1", ["2:3 Property volum is not allowed."]),
-    ("  motors: []", ["2:11 there must be 1 to 2 entries"]),
+    ("  motors: []", ["2:11 there must be 1 to 2 elements"]),
     ("  motors: [{name: a, vel: 3}]", ["2:27 this must be a number from 0 to 2 (rad/s)"]),
-    ("  motors: {name: a}", ["2:11 this must be a list of 1 to 2 entries, each of type Motor"]),
+    ("  motors: {name: a}", ["2:11 this must be a list of 1 to 2 elements, each of type Motor"]),
     ("  volume: null\n  mode:", []),
 ]
 

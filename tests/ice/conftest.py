@@ -102,10 +102,10 @@ def icestorm(ice: Any, free_port: Ports, tmp_path_factory: pytest.TempPathFactor
 def build(tmp_path: Path) -> Build:
     """`build({path: YAML})`: the components among these documents, compiled, by name."""
 
-    def build_here(documents: Mapping[str, str]) -> dict[str, Built]:
+    def build_in_folder(documents: Mapping[str, str]) -> dict[str, Built]:
         return build_components(documents, tmp_path)
 
-    return build_here
+    return build_in_folder
 
 
 @pytest.fixture(scope="session")

@@ -68,7 +68,7 @@ def found() -> dict[str, set[str]]:
         return sets
 
 
-def found_globals() -> set[str]:
+def detected_globals() -> set[str]:
     """The names of this machine that a namespace cannot have: each word of the headers is tried, except for known macros
     and keywords."""
     sys.path.insert(0, str(ROOT))
@@ -158,7 +158,7 @@ def main() -> None:
     known["SINCE_20"] -= known["ALWAYS"]
     known["QT"] -= known["ALWAYS"]
     TABLE.write_text(table(known), encoding="utf-8")  # before it is imported below
-    names = found_globals()
+    names = detected_globals()
     if GLOBALS.is_file():
         from robocomp_yaml.languages.cpp import globals as cpp_globals
 

@@ -22,7 +22,7 @@ _WITH_A_PATH = ("-I", "-isystem", "-fmacro-prefix-map")
 _WEEK = 7 * 24 * 3600
 
 
-def compile_or_take(folder: Path, command: list[str]) -> int:
+def compile_or_copy(folder: Path, command: list[str]) -> int:
     """The compiler's exit code."""
     made = Path(command[command.index("-o") + 1])
     text = subprocess.run(_preprocess(command), stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
@@ -70,4 +70,4 @@ def _forget_the_old(folder: Path) -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(compile_or_take(Path(sys.argv[1]), sys.argv[2:]))
+    sys.exit(compile_or_copy(Path(sys.argv[1]), sys.argv[2:]))

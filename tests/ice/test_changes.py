@@ -83,7 +83,7 @@ def test_it_builds_and_runs_after_a_change_and_back(
     change: Change, language: str, shared: Path, rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
     request: pytest.FixtureRequest,
 ) -> None:  # fmt: skip
-    skip_what_is_not_here(change, language)
+    skip_if_absent(change, language)
     request.getfixturevalue("ice")
     storm: Storm | None = request.getfixturevalue("icestorm") if "topic" in change.name else None
     root = tmp_path / "robot" if language == "python" else shared
@@ -112,7 +112,7 @@ def test_it_builds_and_runs_after_a_change_and_back(
             assert_runs(root, language, storm)
 
 
-def skip_what_is_not_here(change: Change, language: str) -> None:
+def skip_if_absent(change: Change, language: str) -> None:
     if language == "cpp" and needs_cpp.args[0]:
         pytest.skip(needs_cpp.kwargs["reason"])
     if language == "cpp" and not change.is_built and "RCYAML_ALL_BUILDS" not in os.environ:

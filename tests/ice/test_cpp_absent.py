@@ -42,7 +42,7 @@ def last_line(running: Running) -> str:
     return running.output.splitlines()[-1].partition(" ")[2]
 
 
-def test_it_waits_and_says_so(
+def test_it_waits_and_reports_it(
     client: Program, programs: Programs, start: Start, nobody: str, free_port: Ports, tmp_path: Path
 ) -> None:
     server = programs("Server")

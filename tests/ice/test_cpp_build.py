@@ -59,7 +59,7 @@ def test_ice_is_missing(tmp_path: Path) -> None:
     assert "sudo apt install libzeroc-ice-dev zeroc-ice-compilers" in done.stderr
 
 
-def test_a_method_that_the_user_lacks(tmp_path: Path) -> None:
+def test_a_missing_method_of_the_user(tmp_path: Path) -> None:
     """The interface has gained or lost a method: the user's class compiles all the same."""
     root = build({**INTERFACES, "x/x.cdsl.yaml": cdsl("X", "cpp", implements=["Hand"])}, tmp_path)["X"].root
     header = root / "src" / "specificworker.h"

@@ -118,7 +118,7 @@ def test_a_wrong_endpoint(server: Program, start: Start, tmp_path: Path, wrong: 
     assert fails(start, server, tmp_path, "my.config").startswith(f"cannot serve Arm at '{wrong}' (my.config): ")
 
 
-def test_a_port_that_is_taken(server: Program, start: Start, tmp_path: Path) -> None:
+def test_a_port_in_use(server: Program, start: Start, tmp_path: Path) -> None:
     with socket.create_server(("127.0.0.1", 0)) as other:
         endpoint = f"tcp -h 127.0.0.1 -p {other.getsockname()[1]}"
         write(tmp_path, f"Arm.Endpoints = {endpoint}\n")

@@ -93,7 +93,7 @@ def test_a_turn_every_period(turns: list[str | Path], start: Start) -> None:
     assert moments[20] >= 20 * 40 + 5 * 40, "what was missed is left out"
 
 
-def test_what_it_tells(turns: list[str | Path], start: Start, behavior: Ask, port: int) -> None:
+def test_what_it_reports(turns: list[str | Path], start: Start, behavior: Ask, port: int) -> None:
     start(turns).wait_for("Turns is running")
     asked = behavior(port)
     assert str(asked.getState()) == "Running"
@@ -106,7 +106,7 @@ def test_what_it_tells(turns: list[str | Path], start: Start, behavior: Ask, por
     assert (parameters["a"].editable, parameters["a"].value, parameters["a"].type) == (False, "1", "string")
 
 
-def test_what_it_is_told(turns: list[str | Path], start: Start, behavior: Ask, port: int) -> None:
+def test_what_it_accepts(turns: list[str | Path], start: Start, behavior: Ask, port: int) -> None:
     running = start(turns).wait_for("Turns is running")
     asked = behavior(port)
     asked.setPeriod(100_000)
@@ -142,7 +142,7 @@ def test_what_it_is_told(turns: list[str | Path], start: Start, behavior: Ask, p
     assert "INFO Turns: stop requested through CommonBehavior" in running.output
 
 
-def test_it_answers_while_it_waits(
+def test_it_responds_while_it_waits(
     programs: Programs, start: Start, behavior: Ask, port: int, free_port: Ports, tmp_path: Path
 ) -> None:
     nobody = f"hand:tcp -h 127.0.0.1 -p {free_port()}"

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from conftest import write_tree
-from cpp_macros import FAMILIES, found, found_globals, headers
+from cpp_macros import FAMILIES, detected_globals, found, headers
 from cpp_programs import needs_cpp
 from robocomp_yaml.languages.cpp import globals as cpp_globals
 from robocomp_yaml.languages.cpp import macros as cpp_macros
@@ -106,9 +106,9 @@ def test_the_table_has_the_macros_of_this_machine() -> None:
     assert cpp_macros.FAMILIES == FAMILIES
 
 
-def test_the_table_has_what_stands_in_no_namespace() -> None:
+def test_the_table_has_what_is_in_no_namespace() -> None:
     """`make macros` adds what is missing."""
-    names = found_globals()
+    names = detected_globals()
     assert sorted(names - cpp_globals.GLOBALS) == []
     assert {"time", "log", "index", "FILE", "int8_t"} <= names and "Time" not in cpp_globals.GLOBALS
 
@@ -126,7 +126,7 @@ POSITIONS = {
 CALLED = ("exception", "member of an exception", "method")
 
 
-def test_macros_at_every_place(tmp_path: Path) -> None:
+def test_macros_in_every_position(tmp_path: Path) -> None:
     """A sample: each name has a dozen positions. Harmless names are between them."""
     plain = sorted(cpp_macros.ALWAYS - {"assert", "FD_SET", "offsetof"})
     words = ["EOF", "errno", "M_PI", *random.Random(7).sample([w for w in plain if not w.islower()], 2)]

@@ -27,7 +27,7 @@ def demo(folder: Path, **variables: str) -> subprocess.CompletedProcess[str]:
     )
 
 
-def test_the_network_answers(tmp_path: Path) -> None:
+def test_the_network_responds(tmp_path: Path) -> None:
     done = demo(tmp_path)
     assert done.returncode == 0, done.stdout + done.stderr
     assert not done.stderr and "warning" not in done.stdout.lower() and "\x1b" not in done.stdout
@@ -47,7 +47,7 @@ def test_without_ice(tmp_path: Path) -> None:
     assert done.stderr.startswith("make: RCYAML_PYTHON names /no/such/python, which does not exist")
 
 
-def test_a_call_of_nobody_says_so(tmp_path: Path) -> None:
+def test_a_call_of_nobody_is_reported(tmp_path: Path) -> None:
     """What one who follows the README by hand may do too early."""
     shutil.copytree(ROOT / "examples", tmp_path / "examples")
 

@@ -89,7 +89,7 @@ def test_ice_reads_what_was_derived(
         communicator.destroy()
 
 
-def test_an_adapter_listens_where_it_is_said(tmp_path: Path, free_port: Ports) -> None:
+def test_an_adapter_listens_where_it_is_configured(tmp_path: Path, free_port: Ports) -> None:
     port = free_port()
     found = network(
         tmp_path,

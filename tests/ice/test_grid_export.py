@@ -72,43 +72,43 @@ def admin(start: Start, free_port: Ports, tmp_path: Path) -> Admin:
 
 
 @pytest.fixture
-def open_place() -> Iterator[Path]:
+def open_folder() -> Iterator[Path]:
     """A folder where everybody may write: a node that root runs starts servers as nobody."""
     with tempfile.TemporaryDirectory() as folder:
         os.chmod(folder, 0o777)
         yield Path(folder)
 
 
-def test_a_program_runs_with_its_own_words(admin: Admin, tmp_path: Path, open_place: Path) -> None:
+def test_a_program_runs_with_its_own_words(admin: Admin, tmp_path: Path, open_folder: Path) -> None:
     network = Network("Small", "/small.ddsl.yaml", str(tmp_path), {LOOPBACK: NetworkHost(LOOPBACK)})
     network.processes["echo"] = Process(
-        "echo", LOOPBACK, ("python3", "-c", SCRIPT, *ODD), str(open_place), PROGRAM, is_ice=False,
+        "echo", LOOPBACK, ("python3", "-c", SCRIPT, *ODD), str(open_folder), PROGRAM, is_ice=False,
         env=(EnvironmentVariable("TITLE", TITLE), EnvironmentVariable("NONE"), EnvironmentVariable("FROM", source="PATH")),
     )  # fmt: skip
     (tmp_path / "small.xml").write_text(export(network, "icegrid")["Small.xml"], encoding="utf-8")
     assert admin(f"application add {tmp_path / 'small.xml'}").stderr == ""
-    until(lambda: (open_place / "told").exists(), lambda: admin("server state echo").stdout)
-    told = json.loads((open_place / "told").read_text(encoding="utf-8"))
-    assert told == [list(ODD), [TITLE, "", os.environ["PATH"]], str(open_place)]
+    until(lambda: (open_folder / "told").exists(), lambda: admin("server state echo").stdout)
+    told = json.loads((open_folder / "told").read_text(encoding="utf-8"))
+    assert told == [list(ODD), [TITLE, "", os.environ["PATH"]], str(open_folder)]
     assert admin("application remove Small").stderr == ""
 
 
-def test_a_program_reads_a_configuration_of_its_own(admin: Admin, tmp_path: Path, open_place: Path) -> None:
+def test_a_program_reads_a_configuration_of_its_own(admin: Admin, tmp_path: Path, open_folder: Path) -> None:
     text = "a = \"b\" # no property\n${x} $HOME 100% \\ 'c'\n" * 200
     script = SCRIPT.replace("sys.argv[1:]", "[open(word.rpartition('=')[2]).read() for word in sys.argv[1:]]")
     script = script.replace('[os.environ[name] for name in ("TITLE", "NONE", "FROM")]', "len(sys.argv)")
     network = Network("Small", "/small.ddsl.yaml", str(tmp_path), {LOOPBACK: NetworkHost(LOOPBACK)})
     network.processes["read"] = Process(
-        "read", LOOPBACK, ("python3", "-c", script, CONFIG, f"--file={CONFIG}"), str(open_place), PROGRAM,
+        "read", LOOPBACK, ("python3", "-c", script, CONFIG, f"--file={CONFIG}"), str(open_folder), PROGRAM,
         config=ConfigFile("config/read", text),
     )  # fmt: skip
     (tmp_path / "small.xml").write_text(export(network, "icegrid")["Small.xml"], encoding="utf-8")
     assert admin(f"application add {tmp_path / 'small.xml'}").stderr == ""
-    until(lambda: (open_place / "told").exists(), lambda: admin("server state read").stdout)
-    assert json.loads((open_place / "told").read_text(encoding="utf-8")) == [[text, text], 3, str(open_place)]
+    until(lambda: (open_folder / "told").exists(), lambda: admin("server state read").stdout)
+    assert json.loads((open_folder / "told").read_text(encoding="utf-8")) == [[text, text], 3, str(open_folder)]
 
 
-def test_everything_is_taken(admin: Admin, tmp_path: Path) -> None:
+def test_everything_is_accepted(admin: Admin, tmp_path: Path) -> None:
     (tmp_path / "head.xml").write_text(export(speaking(), "icegrid")["Head.xml"], encoding="utf-8")
     added = admin(f"application add {tmp_path / 'head.xml'}")
     assert added.returncode == 0 and not added.stderr, added.stderr

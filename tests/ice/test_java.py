@@ -192,7 +192,7 @@ def test_while_it_waits_for_others(program: Program, addresses: Addresses, start
         ({}, ["--help"], 0, "usage: bin/Server [CONFIG]"),
     ],
 )
-def test_what_cannot_start_says_why(
+def test_what_cannot_start_reports_why(
     program: Program, start: Start, properties: dict[str, str], words: list[str], code: int, said: str
 ) -> None:
     running = start([*program("Server", properties), *words])
@@ -200,7 +200,7 @@ def test_what_cannot_start_says_why(
     assert said in running.output and "Exception" not in running.output, running.output
 
 
-def test_what_the_launcher_lacks_is_said(built: Callable[[str], Path], tmp_path: Path) -> None:
+def test_what_the_launcher_lacks_is_reported(built: Callable[[str], Path], tmp_path: Path) -> None:
     """Without Java, without Ice, without a build; each message has a hint."""
     root = tmp_path / "server"
     shutil.copytree(built("Server"), root)
@@ -219,7 +219,7 @@ def test_what_the_launcher_lacks_is_said(built: Callable[[str], Path], tmp_path:
     assert said() == f"Server: it is not built yet: run {root}/generated/build\n"
 
 
-def test_a_build_that_is_older_than_its_code_is_told(built: Callable[[str], Path], tmp_path: Path) -> None:
+def test_a_build_that_is_older_than_its_code_is_reported(built: Callable[[str], Path], tmp_path: Path) -> None:
     root = tmp_path / "server"
     shutil.copytree(built("Server"), root)
     os.utime(root / "src" / "SpecificWorker.java", (2e9, 2e9))
@@ -227,7 +227,7 @@ def test_a_build_that_is_older_than_its_code_is_told(built: Callable[[str], Path
     assert done.stderr == f"Server: its sources have changed since it was built: run {root}/generated/build\n"
 
 
-def test_a_method_that_lacks_is_named_by_the_build(built: Callable[[str], Path], tmp_path: Path) -> None:
+def test_a_missing_method_is_named_by_the_build(built: Callable[[str], Path], tmp_path: Path) -> None:
     root = tmp_path / "server"
     shutil.copytree(built("Server"), root)
     worker = root / "src" / "SpecificWorker.java"
@@ -238,7 +238,7 @@ def test_a_method_that_lacks_is_named_by_the_build(built: Callable[[str], Path],
     assert done.stderr.endswith("Server: javac cannot compile the code, see above\n")
 
 
-def test_a_build_refuses_what_it_cannot_do(built: Callable[[str], Path], tmp_path: Path) -> None:
+def test_a_build_rejects_what_it_cannot_do(built: Callable[[str], Path], tmp_path: Path) -> None:
     """A file of another program, an old compiler, no compiler; a failed build keeps the last program."""
     root = tmp_path / "server"
     shutil.copytree(built("Server"), root)

@@ -173,7 +173,7 @@ REFUSED += [(kind, name) for kind, names in INSIDE.items() for name in sorted(na
 
 
 @pytest.mark.parametrize(("kind", "name"), REFUSED)
-def test_what_java_cannot_have_is_refused(rcyaml: Check, tmp_path: Path, kind: str, name: str) -> None:
+def test_what_java_cannot_have_is_rejected(rcyaml: Check, tmp_path: Path, kind: str, name: str) -> None:
     module = {
         "type": {"types": {name: {"struct": {"x": "int"}}}},
         "member": {"types": {"T": {"struct": {name: "int"}}}},

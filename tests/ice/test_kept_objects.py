@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from kept_objects import compile_or_take
+from kept_objects import compile_or_copy
 
 pytestmark = pytest.mark.skipif(shutil.which("g++") is None, reason="there is no g++ here")
 
@@ -19,14 +19,14 @@ def compiled(root: Path, text: str, *words: str) -> int:
     (root / "x.cpp").write_text(f'#include "x.h"\n{text}\n')
     options = ["-Wall", "-Werror", f"-I{root}/include", f"-fmacro-prefix-map={root}=.", "-MD", "-MF", f"{root}/x.d"]
     command = ["g++", *words, *options, "-MT", "x.o", "-o", f"{root}/x.o", "-c", f"{root}/x.cpp"]
-    return compile_or_take(root.parent / "kept", command)
+    return compile_or_copy(root.parent / "kept", command)
 
 
 def kept(root: Path) -> int:
     return len([path for path in (root / "kept").iterdir() if not path.suffix])
 
 
-def test_the_same_in_another_folder_is_taken(tmp_path: Path) -> None:
+def test_the_same_in_another_folder_is_used(tmp_path: Path) -> None:
     text = "const char* where() { return __FILE__; }"
     assert compiled(tmp_path / "one", text) == 0 == compiled(tmp_path / "two", text)
     assert kept(tmp_path) == 1

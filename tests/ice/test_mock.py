@@ -57,7 +57,7 @@ interfaces:
 RCYAML = [os.path.join(os.path.dirname(sys.executable), "rcyaml")]
 
 
-def test_a_component_finds_the_stand_in_where_its_configuration_looks(build: Build, start: Start) -> None:
+def test_a_component_resolves_the_mock_by_its_configuration(build: Build, start: Start) -> None:
     built = build({"Mouth.idsl.yaml": MOUTH, "speech/speech.cdsl.yaml": SPEECH, "r.mock.yaml": SCRIPT})
     speech = built["SpeechComp"]
     (speech.root / "src" / "specificworker.py").write_text(CODE)

@@ -61,7 +61,7 @@ WRONG = {
     "in an exception": (of_arm("where: {throws: {Stuck: {where: 3}}}"), "RC9001", "3", "'Stuck.where' must be a mapping"),
     "an exception without its members": (of_arm("where: {throws: {Stuck: }}"), "RC9001", "", "'Stuck.where' is missing"),
     "an exception of another": (of_arm("stop: {throws: {Stuck: {where: 3}}}"), "RC9004", "Stuck", "stop throws no 'Stuck'"),
-    "two exceptions": (of_arm("where: {throws: {A: , B: }}"), "RC0204", "", "'throws' must have at most 1 entry"),
+    "two exceptions": (of_arm("where: {throws: {A: , B: }}"), "RC0204", "", "'throws' must have at most 1 element"),
     "an unknown method": (of_arm("were: {}"), "RC9003", "were", "Arm has no method 'were'"),
     "an unknown interface": ("interfaces: {Armm: }\n", "RC9002", "Armm", "interface or topic 'Armm'"),
     "a topic among interfaces": ("interfaces: {Moved: }\n", "RC9006", "Moved", "Moved is a topic"),

@@ -132,7 +132,7 @@ def test_the_command_line_has_the_last_word(component: Component, start: Start) 
         ("--basicPeriod=soon", "basicPeriod must be a whole number (ms), and is 'soon'"),
         ("--motors.1.vel=2.5", "motors[1].vel is 2.5 rad/s, and must be from 0 to 2 rad/s"),
         ("--mode=fst", "mode is 'fst', and must be one of slow, fast"),
-        ("--Arm.NumMotors=0", "motors has 0 entries, and must have 1 to 4"),
+        ("--Arm.NumMotors=0", "motors has 0 elements, and must have 1 to 4"),
         ("--motors.0.min=2", "a motor's min must be below its max"),
         (
             "--token=${env:NOBODY_HAS_THIS}",
@@ -147,7 +147,7 @@ def test_it_does_not_start_with_wrong_values(component: Component, start: Start,
     assert line.endswith(f"ERROR ParaComp: {option.partition('=')[0]} on the command line: {said}")
 
 
-def test_file_and_options_are_told_apart(component: Component, start: Start) -> None:
+def test_file_and_options_are_distinguished(component: Component, start: Start) -> None:
     component.write(basicPeriod="2000", Arm_M0="a,-1,1,.5")
     running = component.run(start, "--motors.0.vel=9", "--mode=fast")
     assert running.exit_code() == 1
@@ -169,7 +169,7 @@ def test_options_that_do_not_fit_together(component: Component, start: Start) ->
     assert "ParaComp: --motors.0.min on the command line: a motor's min must be below its max" in running.output
 
 
-def test_a_misspelled_property_is_told_of(component: Component, start: Start) -> None:
+def test_a_misspelled_property_is_reported(component: Component, start: Start) -> None:
     component.write(motors_0_speed="1", offsets_z="1", other_thing="1")
     options = ["--motors.0.velo=1", "--moters.0.vel=1", "--BasicPeriod=1", "--bsaicPeriod=1", "--Ice.Trace.Network=0"]
     running = component.run(start, *options, "--Endpoints.Arm=", "--basics=1").wait_for("ParaComp is running")
@@ -232,7 +232,7 @@ def test_changes_from_another_process(component: Component, start: Start, behavi
         ("gains_size", "-1", "gains must be a list, and is '-1'"),
     ],
 )
-def test_a_bad_value_is_refused_and_all_others_with_it(
+def test_a_bad_value_is_rejected_and_all_others_with_it(
     component: Component, start: Start, behavior: Ask, key: str, value: str, said: str
 ) -> None:
     running = component.run(start).wait_for("ParaComp is running")
@@ -244,7 +244,7 @@ def test_a_bad_value_is_refused_and_all_others_with_it(
     assert "[mode" not in running.output
 
 
-def test_the_user_is_refused_too(component: Component, start: Start, behavior: Ask) -> None:
+def test_the_users_code_is_rejected_too(component: Component, start: Start, behavior: Ask) -> None:
     running = component.run(start).wait_for("ParaComp is running")
     asked = behavior(component.port)
     asked.setParameterList(changed(asked, basicPeriod="7"))
@@ -372,7 +372,7 @@ def test_any_plain_value_can_come_from_a_file(component: Component, start: Start
         (None, "which cannot be read: No such file or directory"),
     ],
 )
-def test_a_file_that_gives_no_value(component: Component, start: Start, content: bytes | None, said: str) -> None:
+def test_a_file_without_a_value(component: Component, start: Start, content: bytes | None, said: str) -> None:
     if content is not None:
         (component.folder / "key").write_bytes(content)
     component.write(token="${file:key}")

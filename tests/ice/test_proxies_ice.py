@@ -88,7 +88,7 @@ def is_taken(parse, text: str) -> bool:
 @example("s:opaque -t 99 -t 98 -v A")
 @example("s -f \\/ @ \\/")
 @example("s:udp -v 1.0 -e 256.0")
-def test_takes_the_proxies_that_ice_takes(communicator, text: str) -> None:
+def test_accepts_the_proxies_that_ice_accepts(communicator, text: str) -> None:
     assume("\0" not in text)
     assume(not re.search(r"opaque(?!.*-t *99)", text))  # its bytes would be looked into, if Ice knew the type
     try:
@@ -119,7 +119,7 @@ def _innermost(info):
 @example("tcp -p 0::tcp")
 @example("tcp --sourceAddress 127.0.0.1")
 @example("udp -h * --interface *")
-def test_takes_the_endpoints_that_ice_takes(communicator, text: str) -> None:
+def test_accepts_the_endpoints_that_ice_accepts(communicator, text: str) -> None:
     """Ice has to listen there to say it: only on this machine, and without looking up names."""
     assume("opaque" not in text and "\0" not in text)
     is_ours = is_taken(ice_endpoint.parse_endpoints, text)

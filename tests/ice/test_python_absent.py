@@ -19,7 +19,7 @@ def client(build: Build, port: int, **keys: object) -> Built:
     return built["Client"].configure({"ArmProxy": f"arm:tcp -h 127.0.0.1 -p {port}"})
 
 
-def test_it_waits_and_says_so(build: Build, start: Start, free_port: Ports) -> None:
+def test_it_waits_and_reports_it(build: Build, start: Start, free_port: Ports) -> None:
     port = free_port()
     server = build({**INTERFACES, "s/s.cdsl.yaml": cdsl("Server", implements=["Arm"])})["Server"]
     server.configure({"Arm.Endpoints": f"tcp -p {port}"})
@@ -93,7 +93,7 @@ def test_an_unknown_host(build: Build, start: Start) -> None:
     assert "host no-such-host.invalid is unknown" in running.output
 
 
-def test_a_timeout_holds_for_each_call(build: Build, start: Start, free_port: Ports) -> None:
+def test_a_timeout_applies_to_each_call(build: Build, start: Start, free_port: Ports) -> None:
     """A call that takes longer than the proxy's timeout fails with an exception of Ice."""
     port = free_port()
     server = build({**INTERFACES, "s/s.cdsl.yaml": cdsl("Server", implements=["Arm"])})["Server"]

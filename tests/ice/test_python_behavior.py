@@ -56,7 +56,7 @@ def turns(running: Running) -> list[tuple[int, int]]:
     return [(int(row[1]), int(row[2])) for row in rows if len(row) == 4]
 
 
-def test_what_it_tells(component: Built, start: Start, behavior: Ask, port: int) -> None:
+def test_what_it_reports(component: Built, start: Start, behavior: Ask, port: int) -> None:
     start(component.command).wait_for("Worker is running")
     asked = behavior(port)
     assert str(asked.getState()) == "Running"
@@ -71,7 +71,7 @@ def test_what_it_tells(component: Built, start: Start, behavior: Ask, port: int)
     assert (speed.editable, speed.value, speed.type) == (False, "1.5", "string")
 
 
-def test_what_it_is_told(component: Built, start: Start, behavior: Ask, port: int) -> None:
+def test_what_it_accepts(component: Built, start: Start, behavior: Ask, port: int) -> None:
     running = start(component.command).wait_for("Worker is running")
     asked = behavior(port)
     asked.setPeriod(20)
@@ -99,7 +99,7 @@ def test_what_it_is_told(component: Built, start: Start, behavior: Ask, port: in
     assert running.exit_code(2) == 0
 
 
-def test_it_answers_while_it_starts(component: Built, start: Start, behavior: Ask, port: int, ice: Any) -> None:
+def test_it_responds_while_it_starts(component: Built, start: Start, behavior: Ask, port: int, ice: Any) -> None:
     """Waiting for another component is a state, and so is a long initialize()."""
     (component.root / "src" / "specificworker.py").write_text(
         "from generated.genericworker import GenericWorker\nimport time\n\nclass SpecificWorker(GenericWorker):\n"
@@ -134,14 +134,14 @@ def test_the_period_of_the_config_and_of_the_command_line(component: Built, star
         running.stop()
 
 
-def test_a_new_period_holds_at_once(component: Built, start: Start, behavior: Ask, port: int) -> None:
+def test_a_new_period_applies_at_once(component: Built, start: Start, behavior: Ask, port: int) -> None:
     running = start([*component.command, "--period.compute=3600000"]).wait_for("Worker is running")
     assert turns(running) == []
     behavior(port).setPeriod(10)
     until(lambda: len(turns(running)) > 3, "turns")
 
 
-def test_it_answers_while_a_method_runs(
+def test_it_responds_while_a_method_runs(
     build: Build, start: Start, behavior: Ask, port: int, ice: Any, free_port: Ports
 ) -> None:
     built = build({**INTERFACES, "w/w.cdsl.yaml": cdsl("Busy", implements=["Arm"])})["Busy"]

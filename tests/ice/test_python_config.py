@@ -97,7 +97,7 @@ def test_a_wrong_endpoint(arm: Built, start: Start, wrong: str) -> None:
     assert fails(start, arm).startswith(f"cannot serve Arm at '{wrong}' (etc/config): ")
 
 
-def test_a_port_that_is_taken(arm: Built, start: Start) -> None:
+def test_a_port_in_use(arm: Built, start: Start) -> None:
     with socket.create_server(("127.0.0.1", 0)) as other:
         endpoint = f"tcp -h 127.0.0.1 -p {other.getsockname()[1]}"
         arm.configure({"Arm.Endpoints": endpoint})
@@ -179,13 +179,13 @@ def test_without_ice(arm: Built) -> None:
     assert line.startswith("ArmComp: RCYAML_PYTHON names /no/such/python, which does not exist: set it to a Python")
 
 
-def test_the_slice_folder_is_gone(arm: Built, start: Start) -> None:
+def test_a_missing_slice_folder(arm: Built, start: Start) -> None:
     arm.configure({})
     (arm.root / "slice" / "Arm.ice").unlink()
     assert fails(start, arm) == "slice/Arm.ice is missing: compile the component again"
 
 
-def test_slice_that_ice_refuses(arm: Built, start: Start) -> None:
+def test_slice_that_ice_rejects(arm: Built, start: Start) -> None:
     arm.configure({})
     (arm.root / "slice" / "Arm.ice").write_text("module M { nonsense }\n")
     running = start(arm.command, cwd=arm.root)

@@ -119,7 +119,7 @@ def test_startup_check_and_user_stop(
     assert serving.exit_code(3) == 0
 
 
-def test_more_of_qt_than_there_is(build: Build, start: Start, tmp_path: Path) -> None:
+def test_more_of_qt_than_exists(build: Build, start: Start, tmp_path: Path) -> None:
     """One readable line, if the user's code needs the real Qt."""
     (tmp_path / "hidden" / "PySide6").mkdir(parents=True)
     (tmp_path / "hidden" / "PySide6" / "__init__.py").write_text(NO_QT)

@@ -50,7 +50,7 @@ def test_what_we_accept_every_compiler_accepts(seed: int, tmp_path: Path) -> Non
     assert len(pairs) > 30
 
 
-def test_what_we_refuse_slice_refuses(tmp_path: Path) -> None:
+def test_what_rcyaml_rejects_slice_rejects(tmp_path: Path) -> None:
     maker = Maker(0, faults=0.03)
     refused = [(pair, said) for pair in (maker.pair() for _ in range(60)) if (said := _said(pair))]
     asked = [(pair, said) for pair, said in refused if not said & OURS_ALONE]

@@ -34,13 +34,13 @@ def _files(folder: Path, words: list[str]) -> dict[str, str]:
     return files
 
 
-def test_words_that_are_refused(tmp_path: Path) -> None:
+def test_words_that_are_rejected(tmp_path: Path) -> None:
     files = _files(tmp_path, sorted(RESERVED | UNESCAPED_IN_PYTHON))
     for name, word in files.items():
         assert complaints(tmp_path, [name]), f"no compiler refuses '{word}'"
 
 
-def test_words_that_are_taken(tmp_path: Path) -> None:
+def test_words_that_are_accepted(tmp_path: Path) -> None:
     words = [
         *keyword.kwlist,
         *keyword.softkwlist,

@@ -133,7 +133,7 @@ SPELLED = st.one_of(
 
 @given(SPELLED)
 @settings(RELAXED, max_examples=max(CASES // 2, 1))
-def test_spelled_values_come_back_or_are_refused(by_ice, data: Data) -> None:
+def test_spelled_values_come_back_or_are_rejected(by_ice, data: Data) -> None:
     comes_back(by_ice, linked(MOTOR), data)
 
 
@@ -143,7 +143,7 @@ def test_spelled_values_of_files_that_seem_to_be_toml(by_ice, data: Data) -> Non
     comes_back(by_ice, linked({**MOTOR, "legacy": {**MOTOR["legacy"], "period.compute": "Period.Compute"}}), data)
 
 
-def test_a_plain_case_of_each_spelling_is_not_refused(by_ice) -> None:
+def test_a_plain_case_of_each_spelling_is_not_rejected(by_ice) -> None:
     motor = {"name": "a", "kind": "fast", "min": 0.5, "tag": "t", "note": "n", "on": False}
     plain = {"name": "a", "min": 0.5}
     data = {

@@ -151,7 +151,7 @@ def zeros(value: Any) -> dict[str, Any]:
     return {name: type_.zero() for name, type_ in value.members.types.items()}
 
 
-def test_a_generated_client_is_answered(ice: Any, interface: Any, folder: Path) -> None:
+def test_a_generated_client_gets_its_results(ice: Any, interface: Any, folder: Path) -> None:
     calls = []
 
     def answer(operation: Any, arguments: tuple[Any, ...]) -> Any:

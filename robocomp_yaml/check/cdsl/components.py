@@ -121,7 +121,7 @@ def _libraries(component: Component) -> Iterator[Diagnostic]:
     for libraries in by_entry.values():
         if len(libraries) > 1:
             kinds = " and ".join(f"`{library.kind}`" for library in libraries)
-            yield codes.LIBRARY_OF_TWO_KINDS.at(libraries[1].span, places=kinds, hint="write two entries")
+            yield codes.LIBRARY_OF_TWO_KINDS.at(libraries[1].span, places=kinds, hint="write two elements")
     for library in component.libraries:
         is_numeric = all(re.fullmatch(_NUMBERS, part) for part in library.version.split(",")) and library.kind != LINK
         if library.version and library.kind != PIP and not is_numeric:

@@ -1,8 +1,8 @@
 """An edit of one value in the text of its document; every other byte is unchanged.
 
-An existing value is replaced at its location. A new value is inserted after the last entry of its mapping or list, and
-after the comments that are indented like that entry. A commented line of a first document (`examples.new`) is replaced.
-An edit that affects more than the value, such as a list on several lines or an alias, is rejected.
+An existing value is replaced at its location. A new value is inserted after the last element of its mapping or list,
+and after the comments that are indented like that element. A commented line of a first document (`examples.new`) is
+replaced. An edit that affects more than the value, such as a list on several lines or an alias, is rejected.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Any
 
 import msgspec
 
-from robocomp_yaml.semantics.limits import entries
+from robocomp_yaml.semantics.limits import elements
 from robocomp_yaml.semantics.paths import Step
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, end_of, last_end, parse
 from robocomp_yaml.source.yaml_text import quoted, scalar, single_quoted
@@ -42,9 +42,9 @@ def set_value(
     path: str, text: str, root: Mapping, steps: list[Step], new: str, *, is_text: bool,
     lines_above: Callable[[list[Step]], Collection[str]] = lambda steps: (),
 ) -> DocumentEdit:  # fmt: skip
-    """The document with a new value at `steps`, from its root. An index equal to the length of a list appends an entry.
-    `new` is YAML on one line, or the text itself if `is_text`. `lines_above` returns the possible comments above the
-    commented line of a value. Raises NotEditable."""
+    """The document with a new value at `steps`, from its root. An index equal to the length of a list appends an
+    element. `new` is YAML on one line, or the text itself if `is_text`. `lines_above` returns the possible comments
+    above the commented line of a value. Raises NotEditable."""
     node: Node = root
     key: Scalar | None = None
     for depth, step in enumerate(steps):
@@ -82,7 +82,7 @@ def _child(node: Node, step: Step) -> tuple[Scalar | None, Node] | None:
     if isinstance(node, Sequence) and isinstance(step, int):
         count = len(node.items)
         if step > count:
-            raise NotEditable(f"the list has {entries(count)}", node)
+            raise NotEditable(f"the list has {elements(count)}", node)
         return (None, node.items[step]) if step < count else None
     return None
 
@@ -114,7 +114,7 @@ def _replace(text: str, node: Node, key: Scalar | None, new: str, is_text: bool)
         raise NotEditable("the value has an anchor, to which aliases may refer", node)
     old = text[start:end]
     if isinstance(node, Scalar):
-        if not old:  # an empty value, or an empty entry of a list
+        if not old:  # an empty value, or an empty element of a list
             return _fill(text, node, key, scalar(new) if is_text else new)
         if old[0] in "|>":
             raise NotEditable("the value is a text of several lines", node)
@@ -123,13 +123,13 @@ def _replace(text: str, node: Node, key: Scalar | None, new: str, is_text: bool)
             spelled = quoted(new) if old[0] == '"' else single_quoted(new) if old[0] == "'" else scalar(new)
         return DocumentEdit(text[:start] + spelled + text[end:], old)
     if old[0] not in "[{":
-        raise NotEditable("the value spans several lines; set its entries, or edit the document", node)
+        raise NotEditable("the value spans several lines; set its elements, or edit the document", node)
     return DocumentEdit(text[:start] + (scalar(new) if is_text else new) + text[end:], old)
 
 
 def _fill(text: str, node: Node, key: Scalar | None, new: str) -> DocumentEdit:
     if key is None:
-        raise NotEditable("the entry is empty", node)
+        raise NotEditable("the element is empty", node)
     colon = _COLON.match(text, key.end)
     if colon is None:
         raise NotEditable("the key has no value", key)
@@ -137,7 +137,7 @@ def _fill(text: str, node: Node, key: Scalar | None, new: str) -> DocumentEdit:
 
 
 def _insert(text: str, node: Node, key: Scalar | None, steps: list[Step], new: str) -> DocumentEdit:
-    """Inserts an entry in a mapping or list, or the first entry below a key without a value."""
+    """Inserts an element in a mapping or list, or the first one below a key without a value."""
     if isinstance(node, Sequence) and isinstance(steps[0], int):
         return _append(text, node, key, steps[1:], new)
     if isinstance(node, Scalar) and node.data is None and key is not None and isinstance(steps[0], str):
@@ -154,9 +154,9 @@ def _insert(text: str, node: Node, key: Scalar | None, steps: list[Step], new: s
         raise NotEditable("the mapping is an alias of another one", key)
     last = last_end(node)
     if text[node.start : node.start + 1] == "{":
-        entry = _flow(steps, new)
+        element = _flow(steps, new)
         at = node.start + 1 if last is None else last
-        return DocumentEdit(text[:at] + (f", {entry}" if last is not None else entry) + text[at:], "")
+        return DocumentEdit(text[:at] + (f", {element}" if last is not None else element) + text[at:], "")
     first_key = next(iter(node.entries.values()))[0]
     indent = " " * (first_key.span.column - 1)
     assert last is not None
@@ -168,7 +168,7 @@ def _insert(text: str, node: Node, key: Scalar | None, steps: list[Step], new: s
 
 
 def _behind_comments(text: str, at: int, indent: int) -> int:
-    """The index after the following comments that are indented deeper: they belong to the entry above them."""
+    """The index after the following comments that are indented deeper: they belong to the element above them."""
     for line in _LINE.finditer(text, at):
         if line["body"] and (not line["body"].startswith("#") or len(line["indent"]) <= indent):
             break
@@ -178,7 +178,7 @@ def _behind_comments(text: str, at: int, indent: int) -> int:
 
 
 def _commented(text: str, node: Node, key: Scalar | None, step: Step, above: Collection[str]) -> re.Match[str] | None:
-    """The commented line of an entry in a first document, below the key of its mapping; None if there is none."""
+    """The commented line of an element in a first document, below the key of its mapping; None if there is none."""
     is_block = (isinstance(node, Mapping) and not node.is_flow) or (isinstance(node, Scalar) and node.data is None)
     if key is None or not above or not is_block:
         return None
@@ -197,7 +197,7 @@ def _commented(text: str, node: Node, key: Scalar | None, step: Step, above: Col
 
 
 def _inside(text: str, key: Scalar) -> int:
-    """The indentation of the entries below a key without entries: that of the comments there."""
+    """The indentation of the elements below a key without elements: that of the comments there."""
     outer = key.span.column - 1
     line = _LINE.search(text, key.end)
     is_inside = line is not None and line["body"].startswith("#") and len(line["indent"]) > outer
@@ -210,18 +210,18 @@ def _uncommented(text: str, line: re.Match[str], steps: list[Step], new: str) ->
 
 
 def _append(text: str, node: Sequence, key: Scalar | None, steps: list[Step], new: str) -> DocumentEdit:
-    """Appends an entry to a list."""
+    """Appends an element to a list."""
     if key is not None and node.start < key.end:
         raise NotEditable("the list is an alias of another one", key)
-    entry = f"{{{_flow(steps, new)}}}" if steps else new
+    element = f"{{{_flow(steps, new)}}}" if steps else new
     if text[node.start : node.start + 1] == "[":
         at = node.items[-1].end if node.items else node.start + 1
-        return DocumentEdit(text[:at] + (f", {entry}" if node.items else entry) + text[at:], "")
+        return DocumentEdit(text[:at] + (f", {element}" if node.items else element) + text[at:], "")
     last = end_of(node)
     if node.items[-1].data is None or text[:last].endswith("\n"):
-        raise NotEditable("the last entry is empty, or a text of several lines", node)
+        raise NotEditable("the last element is empty, or a text of several lines", node)
     at, indent = _end_of_line(text, last), " " * (node.span.column - 1)
-    return DocumentEdit(f"{text[:at]}{_line_end(text)}{indent}- {entry}{text[at:]}", "")
+    return DocumentEdit(f"{text[:at]}{_line_end(text)}{indent}- {element}{text[at:]}", "")
 
 
 def _end_of_line(text: str, at: int) -> int:

@@ -57,7 +57,7 @@ def shown(effective: Effective, *, reveal: bool) -> Iterator[Value]:
 
 
 def _hidden(type_: Type, steps: Path, data: Any) -> Any:
-    """Data at a path, as it may be shown. An entry of a map can be secret by its name."""
+    """Data at a path, as it may be shown. An element of a map can be secret by its name."""
     name = steps[-1] if steps else 0
     named = isinstance(data, str) and data != "" and isinstance(name, str) and secrets.is_secret(name)
     return HIDDEN if named and isinstance(type_, BasicType) else hidden(type_, data)
@@ -113,7 +113,7 @@ def _value(type_: Type, data: Any, where: Origin, default: Node | None, path: Pa
 
 
 def _below(where: Origin, name: Step) -> Origin:
-    """The origin one step below, with the entries of overridden lists at the same position."""
+    """The origin one step below, with the elements of overridden lists at the same position."""
     inner = step(where, name)
     if isinstance(where, MergedValue) and inner is not None and not isinstance(inner, MergedValue) and where.overrode:
         earlier = tuple(found[1] for node in where.overrode if (found := child(node, name)) is not None)

@@ -54,13 +54,13 @@ def example_of(type_: Type) -> object:
 
 
 def count_of(size: Size, preferred: int | None = None) -> int:
-    """The number of entries of an example: the preferred number (1 if None), or the nearest allowed one."""
+    """The number of elements of an example: the preferred number (1 if None), or the nearest allowed one."""
     count = max(1 if preferred is None else preferred, size.least)
     return min(count, _LARGEST if size.most is None else size.most)
 
 
 def _different(element: Type, count: int) -> list[object]:
-    """Different entries, as far as they are known. The others repeat the last one, and the user must change them."""
+    """Different elements, as far as they are known. The others repeat the last one, and the user must change them."""
     plain = element if isinstance(element, (EnumType, BasicType)) else None
     entries = list(islice(simplest(plain), count)) if plain else [example_of(element)]
     return entries + entries[-1:] * (count - len(entries))

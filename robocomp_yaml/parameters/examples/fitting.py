@@ -1,4 +1,4 @@
-"""Examples that satisfy the constraints of a document, and in which entries that must differ are different.
+"""Examples that satisfy the constraints of a document, and in which elements that must differ are different.
 
 The search tries few values of each parameter: the simplest ones, and those that occur in the constraints. It stops
 after a limited number of steps; then there is no example, and the user has to choose one.
@@ -37,7 +37,7 @@ _MOST_STEPS = 12_000  # of all, with up to ten parameters; with more, each step 
 _MOST_SLOTS = 200
 _VALUES = 14  # tried for one slot
 _UNKNOWN = {"env": "UNKNOWN"}  # a value that is not chosen yet; constraints skip references
-_COUNTS = (None, 2, 3, 0, 1, 4, 6)  # numbers of entries of lists and maps to try; None: the default of `count_of`
+_COUNTS = (None, 2, 3, 0, 1, 4, 6)  # numbers of elements of lists and maps to try; None: the default of `count_of`
 
 Path = tuple[str, ...]
 
@@ -88,7 +88,7 @@ def fitted(parameters: Parameters, carried: Mapping[str, Any] | None = None) -> 
 
 
 class _Form(msgspec.Struct, frozen=True):
-    """The form of lists, maps and records: their number of entries, whether they have optional members, and names of
+    """The form of lists, maps and records: their number of elements, whether they have optional members, and names of
     maps."""
 
     count: int | None = None
@@ -112,7 +112,7 @@ class _Slot(msgspec.Struct):
 
     @property
     def column(self) -> tuple[Any, ...]:
-        """The steps without indexes: slots of one column are in different entries of a list."""
+        """The steps without indexes: slots of one column are in different elements of a list."""
         return tuple("" if isinstance(step, int) else step for step in self.steps)
 
 
@@ -326,7 +326,7 @@ def _at(data: Any, path: Path) -> Any:
 
 
 def _differs(type_: Type, value: Any) -> bool:
-    """Whether the chosen entries of unique lists differ."""
+    """Whether the chosen elements of unique lists differ."""
     match type_:
         case ListType(element=element, unique=unique) if isinstance(value, list):
             known = [repr(item) for item in value if item != _UNKNOWN]

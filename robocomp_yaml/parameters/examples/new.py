@@ -77,4 +77,6 @@ def lines_above(root: RecordType, steps: Sequence[Step]) -> tuple[str, ...]:
             return ()
     if member is None or member.is_group:
         return ()
-    return comment(for_documents(member)), *(_NO_EXAMPLE.format(what) for what in _ADVICE.values())
+    words = for_documents(member)
+    earlier = words.replace("elements", "entries").replace("element", "entry")  # as earlier versions wrote it
+    return comment(words), comment(earlier), *(_NO_EXAMPLE.format(what) for what in _ADVICE.values())

@@ -28,7 +28,7 @@ from robocomp_yaml.parameters.types import ListType, MapType, RecordType, Type
 from robocomp_yaml.semantics import constraints
 from robocomp_yaml.semantics.references import is_reference
 
-_OF_ALL = ("len", "abs", "keys", "values")  # defined even if entries are unknown
+_OF_ALL = ("len", "abs", "keys", "values")  # defined even if elements are unknown
 
 
 def holds(expression: Expression, data: Mapping[str, Any]) -> bool:
@@ -87,7 +87,7 @@ def _has(operand: Expression | Each, scope: Mapping[str, Any]) -> Any:
     if isinstance(operand, Attribute):
         return None if owner is None else owner.get(operand.name) is not None
     index = value(operand.index, scope)
-    constraints.entry(owner, index)  # raises LookupError if there is no such entry
+    constraints.entry(owner, index)  # raises LookupError if there is no such element
     return None if owner is None or index is None else True
 
 

@@ -139,7 +139,7 @@ def _unknown(what: str, name: str, known: list[str], at: int, of: str = "") -> E
 
 def _attribute(owner: Type, name: str, at: int) -> Type:
     if not isinstance(owner, RecordType):
-        hint = "select an entry with [0], or loop over the entries with 'for'" if isinstance(owner, ListType) else ""
+        hint = "select an element with [0], or loop over the elements with 'for'" if isinstance(owner, ListType) else ""
         raise ExpressionError(f"{in_brief(owner)} has no members, so no '{name}'", at, hint)
     found = find_member(owner, name)
     if found is None:
@@ -152,12 +152,12 @@ def _index(expression: Index, scope: Scope) -> Type:
     if isinstance(owner, ListType):
         index = expression.index
         if isinstance(index, Unary) or not (isinstance(found := type_of(index, scope), BasicType) and found.is_integer):
-            raise ExpressionError("an entry of a list is selected by its number, counted from 0", index.at)
+            raise ExpressionError("an element of a list is selected by its number, counted from 0", index.at)
         return owner.element
     if isinstance(owner, MapType):
         _expect(expression.index, is_text, "text", "[]", scope)
         return owner.element
-    raise ExpressionError(f"{in_brief(owner)} has no entries", expression.at)
+    raise ExpressionError(f"{in_brief(owner)} has no elements", expression.at)
 
 
 def _listing(items: tuple[Expression, ...], scope: Scope, at: int) -> Type:
@@ -202,7 +202,7 @@ def _call(call: Call, scope: Scope) -> Type:
     function, first = call.function, call.arguments[0]
     if function == "has":
         if not isinstance(first, (NameExpression, Attribute, Index)):
-            raise ExpressionError("has() needs the name of a parameter, member or entry", call.at)
+            raise ExpressionError("has() needs the name of a parameter, member or element", call.at)
         type_of(first, scope)
         return BOOL
     if isinstance(first, Each):

@@ -104,7 +104,7 @@ def _incomplete(type_: Type, merged_value: MergedValue | None, path: Path, head:
 
 
 def _incomplete_node(type_: Type, merged_value: MergedValue, path: Path, head: Span) -> Iterator[Diagnostic]:
-    """The same in a list, whose entries do not merge: each entry is judged, without null."""
+    """The same in a list, whose elements do not merge: each is judged, without null."""
     for fault in judge(type_, _without_null(merged_value.node), path, complete=True, key=merged_value.key):
         if fault.code in (codes.MISSING.id, codes.WRONG_SIZE.id):
             yield fault

@@ -87,7 +87,7 @@ def _replaced(node: Node | None, steps: list[str], key: Scalar, new: Node) -> No
     step, *rest = steps
     if isinstance(node, Sequence):
         if not step.isdigit() or int(step) >= len(node.items):
-            raise LookupError(f"the list has {limits.entries(len(node.items))}, counted from 0")
+            raise LookupError(f"the list has {limits.elements(len(node.items))}, counted from 0")
         at = int(step)
         items = [_replaced(item, rest, key, new) if index == at else item for index, item in enumerate(node.items)]
         return sequence_at(node.span, items)

@@ -246,7 +246,7 @@ def _size(type_: Type, node: Node) -> Type:
     limits = [int(most) for most in (ends[1], old.most) if most is not None]
     size = Size(max(int(ends[0]), old.least), min(limits, default=None), span=node.span)
     if size.most is not None and size.least > size.most:
-        raise _empty(node, f"at least {size.least} and at most {size.most} entries")
+        raise _empty(node, f"at least {size.least} and at most {size.most} elements")
     return replace(type_, size=size)
 
 
@@ -259,7 +259,7 @@ def _unique(type_: Type, node: Node) -> Type:
     possible = element.allowed if isinstance(element, EnumType) else element.values
     count = len(possible) or (2 if element.name == "bool" else None)
     if count is not None and type_.size.least > count:
-        raise _empty(node, f"{type_.size.least} different entries need more than {count} values")
+        raise _empty(node, f"{type_.size.least} different elements need more than {count} values")
     return replace(type_, unique=True)
 
 

@@ -145,7 +145,7 @@ class _Resolver:
         return len(spec.kinds) == 1
 
     def type(self, spec: TypeSpec, name: str) -> Type | None:
-        """The type of a parameter, a member, or the entries of a list or map. `name` is for messages."""
+        """The type of a parameter, a member, or the elements of a list or map. `name` is for messages."""
         if len(self.open) > MAX_DEPTH:
             self.report(codes.TOO_LARGE, spec.span, name=name, limit=MAX_DEPTH, what="nested types")
             return None
@@ -154,7 +154,7 @@ class _Resolver:
                 base = self.reference(spec)
             case "list" | "map":
                 assert spec.element is not None
-                if not self.has_one_kind(spec.element, "the entry type of", name, _IN_PARAMETERS[:3]):
+                if not self.has_one_kind(spec.element, "the element type of", name, _IN_PARAMETERS[:3]):
                     return None
                 element = self.type(spec.element, name)
                 if element is None:
@@ -253,7 +253,7 @@ class _Resolver:
 
 
 def _plain_of(type_: Type) -> ScalarType | None:
-    """The plain type of the entries of lists, at any depth; None if the entries are not plain."""
+    """The plain type of the elements of lists, at any depth; None if the elements are not plain."""
     while isinstance(type_, ListType):
         type_ = type_.element
     return type_ if isinstance(type_, (BasicType, EnumType)) else None
@@ -279,8 +279,8 @@ _FOREIGN = {
 
 
 def _size(type_: Type, known: dict[str, int]) -> int:
-    """The number of plain values in a value of a type, where a list or map counts as one entry. `known` are the numbers
-    of structs, which are used more than once."""
+    """The number of plain values in a value of a type, where a list or map counts as one element. `known` are the
+    numbers of structs, which are used more than once."""
     match type_:
         case RecordType(name=name, members=members):
             if name not in known:

@@ -78,7 +78,7 @@ class Attribute(_Part, frozen=True):
 
 
 class Index(_Part, frozen=True):
-    """An entry of a list by its number, or of a map by its key."""
+    """An element of a list by its number, or of a map by its key."""
 
     of: Expression
     index: Expression
@@ -295,6 +295,6 @@ def _unsupported(node: ast.expr) -> str:
         case ast.IfExp():
             return "'if … else' is not supported"
         case ast.Subscript():
-            return "only one entry of a list or map can be selected"
+            return "only one element of a list or map can be selected"
         case _:
             return "this is not supported in a constraint"

@@ -54,9 +54,9 @@ def _rows(spelling: LegacySpelling, element: Type, placeholders: tuple[str, ...]
             return found
         return "has no row number {i}, so it cannot have 'count'" if "i" not in placeholders and spelling.count else ""
     if placeholders != ("i",):
-        return "has placeholders other than {i}, and the entries are not records"
+        return "has placeholders other than {i}, and the elements are not records"
     if spelling.columns:
-        return "has columns, and the entries are not records"
+        return "has columns, and the elements are not records"
     return "" if isinstance(element, (BasicType, EnumType)) else "cannot nest lists or maps in rows"
 
 
@@ -82,7 +82,7 @@ def _omitted(record: RecordType, named: set[str]) -> str:
 
 def _fields(spelling: LegacySpelling, element: Type) -> str:
     if not isinstance(element, RecordType):
-        return "has 'fields', and the entries are not records"
+        return "has 'fields', and the elements are not records"
     for name, key in spelling.fields:
         member = element.member(name)
         if member is None:
@@ -106,7 +106,7 @@ def _separated(spelling: LegacySpelling, type_: ListType, placeholders: tuple[st
             return fault_
         depth += 1
     elif spelling.columns:
-        return "has columns, and the entries are not records"
+        return "has columns, and the elements are not records"
     if not isinstance(found, (BasicType, EnumType, RecordType)):
         return "cannot nest maps in one property"
     if depth != len(spelling.separators):

@@ -27,7 +27,7 @@ from robocomp_yaml.parameters.verdict.plain import KIND, wrong
 from robocomp_yaml.parameters.words import kind_in_words
 from robocomp_yaml.secrets import HIDDEN, url
 from robocomp_yaml.semantics import references
-from robocomp_yaml.semantics.limits import CHOICE, PATTERN, RANGE, bounds, entries, one_of
+from robocomp_yaml.semantics.limits import CHOICE, PATTERN, RANGE, bounds, elements, one_of
 from robocomp_yaml.semantics.paths import Path, in_words
 from robocomp_yaml.source.retyped import TRUTHS, retyped
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
@@ -185,7 +185,7 @@ def wrong_size(
 ) -> Iterator[Diagnostic]:
     if not type_.size.holds(count):
         size = type_.size.in_words
-        yield codes.WRONG_SIZE.at(_span(node, key), path=in_words(path), count=entries(count), wanted=size)
+        yield codes.WRONG_SIZE.at(_span(node, key), path=in_words(path), count=elements(count), wanted=size)
 
 
 def _map(type_: MapType, node: Node, path: Path, complete: bool, key: Scalar | None) -> Iterator[Diagnostic]:

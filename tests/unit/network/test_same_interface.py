@@ -82,7 +82,7 @@ def test_equal_definitions(was: str, now: str) -> None:
         ('y: float}', 'y: float, z: float}', "'z' of RoboCompFace.Pose is in one only", ['Pose', 'Pose']),
         ('[slow, fast]', '[fast, slow]', 'the enumerators of RoboCompFace.Mode differ', ['Mode', 'Mode']),
         ('[slow, fast]', '{slow: 0, fast: 2}', 'the enumerators of RoboCompFace.Mode differ', ['Mode', 'Mode']),
-        ('Poses: {sequence: Pose}', 'Poses: {sequence: float}', 'an entry of RoboCompFace.Poses is Pose in one, and float in the other', ['Pose', 'float']),
+        ('Poses: {sequence: Pose}', 'Poses: {sequence: float}', 'an element of RoboCompFace.Poses is Pose in one, and float in the other', ['Pose', 'float']),
         ('key: string', 'key: int', 'a key of RoboCompFace.Named is string in one, and int in the other', ['string', 'int']),
         ('value: Pose', 'value: Mode', 'a value of RoboCompFace.Named is RoboCompFace.Pose in one, and RoboCompFace.Mode in the other', ['Pose', 'Mode']),
         ('Mode: {enum: [slow, fast]}', 'Mode: {struct: {a: int}}', 'RoboCompFace.Mode has two kinds of definition', ['Mode', 'Mode']),

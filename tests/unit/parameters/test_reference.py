@@ -37,7 +37,7 @@ def test_what_a_reader_sees(tmp_path: Path) -> None:
         r'| `text` | text | `` "a  `b` \| \n" `` |  |',
         "| `modes` | a map, each [Mode](#mode): one of slow, fast | `{left arm: slow}` |  |",
         "| `one` | [Mode](#mode): one of slow | `slow` |  |",
-        "| `points` | a list of exactly 2 entries, each a list, each of type [Point](#point) | **required** |  |",
+        "| `points` | a list of exactly 2 elements, each a list, each of type [Point](#point) | **required** |  |",
         "| `ids` | a list, all different, each a whole number | `[1]` |  |",
         "| `many` | a list, each a whole number | `[11111, 22222, 33333, 44444, 55555, 66666, 77777, 88888, 9]` |  |",
         r"| `slow` | Less than \<1> \| 2. |",

@@ -88,7 +88,7 @@ def test_what_extends_nothing_is_told_once(tmp_path: Path) -> None:
         ("device: 7", '5:11 RC3302 device must be text, and is 7 (text needs quotes here: "7")'),
         ("baud: 9601", "5:9 RC3303 baud is 9601, and must be one of 9600, 115200"),
         ("ids: [a, b, a]", "5:15 RC3306 ids contains the text 'a' twice"),
-        ("offsets: {a: 1, b: 2, c: 3}", "5:12 RC3305 offsets has 3 entries, and must have at most 2"),
+        ("offsets: {a: 1, b: 2, c: 3}", "5:12 RC3305 offsets has 3 elements, and must have at most 2"),
         ("offsets: {a b: x}", "5:18 RC3302 offsets[\"a b\"] must be a number, and is the text 'x'"),
         ("volum: 1", "5:3 RC3301 unknown parameter 'volum' (did you mean 'volume'?)"),
         (
@@ -119,7 +119,7 @@ def test_faults_deep_inside_and_all_at_once(tmp_path: Path) -> None:
         "4:8 RC3301 unknown parameter 'motors[0].nam' (did you mean 'name'?)",
         "4:21 RC3303 motors[0].vel is 3 rad/s, and must be from 0 to 2 rad/s",
         "5:7 RC3307 motors[1].name has no value, and no default (set it to text)",
-        "5:22 RC3305 motors[1].pose has 3 entries, and must have exactly 2",
+        "5:22 RC3305 motors[1].pose has 3 elements, and must have exactly 2",
         "5:26 RC3302 motors[1].pose[1] must be a whole number, and is the text 'x'",
     ]
 
@@ -134,7 +134,7 @@ def test_a_layer_has_its_faults_at_its_own_lines(tmp_path: Path) -> None:
     text = GOOD.replace("parameters:", "extends: [base.config.yaml]\nparameters:\n  offsets: {c: 3}")
     assert faults(tmp_path, text, base=base) == [
         "2:11 RC3303 volume is 200 percent, and must be from 0 to 100 percent",
-        "4:12 RC3305 offsets has 3 entries, and must have at most 2",
+        "4:12 RC3305 offsets has 3 elements, and must have at most 2",
     ]
 
 

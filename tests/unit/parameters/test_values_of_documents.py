@@ -74,8 +74,8 @@ MISFITS = [
     ('mode: 1', 'RC3302', '1', 'mode must be one of slow, fast, and is 1', ''),
     ('mode: FAST', 'RC3303', 'FAST', "mode is 'FAST', and must be one of slow, fast", "did you mean 'fast'?"),
     ('few: 3', 'RC3303', '3', 'few is 3, and must be one of 1, 2', ''),
-    ('ls: []', 'RC3305', '[]', 'ls has 0 entries, and must have 1 to 3', ''),
-    ('ls: [1, 2, 3, 4]', 'RC3305', '[1, 2, 3, 4]', 'ls has 4 entries, and must have 1 to 3', ''),
+    ('ls: []', 'RC3305', '[]', 'ls has 0 elements, and must have 1 to 3', ''),
+    ('ls: [1, 2, 3, 4]', 'RC3305', '[1, 2, 3, 4]', 'ls has 4 elements, and must have 1 to 3', ''),
     ('ls: [1, 1]', 'RC3306', '1', 'ls contains 1 twice', ''),
     ('ls: [1, 1.0]', 'RC3306', '1.0', 'ls contains 1.0 twice', ''),
     ('ls: [1, x]', 'RC3302', 'x', "ls[1] must be a whole number, and is the text 'x'", ''),
@@ -83,7 +83,7 @@ MISFITS = [
     ('ls: {a: 1}', 'RC3302', '{a: 1}', 'ls must be a list, and is a mapping', ''),
     ('ll: [[1], 2]', 'RC3302', '2', 'll[1] must be a list, and is 2', ''),
     ('ll: [[1], [x]]', 'RC3302', 'x', "ll[1][0] must be a whole number, and is the text 'x'", ''),
-    ('m: {a: 1, b: 2, c: 3}', 'RC3305', '{a: 1, b: 2, c: 3}', 'm has 3 entries, and must have at most 2', ''),
+    ('m: {a: 1, b: 2, c: 3}', 'RC3305', '{a: 1, b: 2, c: 3}', 'm has 3 elements, and must have at most 2', ''),
     ('m: {a: x}', 'RC3302', 'x', "m.a must be a number (s), and is the text 'x'", ''),
     ('m: [1]', 'RC3302', '[1]', 'm must be a mapping of names to values, and is a list', ''),
     ('m: 1', 'RC3302', '1', 'm must be a mapping of names to values, and is 1', ''),
@@ -152,7 +152,7 @@ def test_lists_of_a_later_layer_take_the_place_of_earlier_ones_and_mappings_join
         ]
 
     assert over("ls: [4]") == [] and over("m: {b: 5}") == []
-    assert over("m: {c: 3}") == ["m has 3 entries, and must have at most 2"]
+    assert over("m: {c: 3}") == ["m has 3 elements, and must have at most 2"]
 
 
 @cache
@@ -173,8 +173,8 @@ def test_all_judges_say_the_same(values: str) -> None:
     ("values", "places"),
     [
         ("n:\n  a: 1\nneed: 1", [("n", "n must be a whole number, and is a mapping")]),
-        ("ls:\n- 1\n- 2\n- 3\n- 4\nneed: 1", [("ls", "ls has 4 entries, and must have 1 to 3")]),
-        ("m:\n  a: 1\n  b: 2\n  c: 3\nneed: 1", [("m", "m has 3 entries, and must have at most 2")]),
+        ("ls:\n- 1\n- 2\n- 3\n- 4\nneed: 1", [("ls", "ls has 4 elements, and must have 1 to 3")]),
+        ("m:\n  a: 1\n  b: 2\n  c: 3\nneed: 1", [("m", "m has 3 elements, and must have at most 2")]),
         ("m:\n- 1\n- 2\nneed: 1", [("m", "m must be a mapping of names to values, and is a list")]),
         ("ls:\n  a: 1\n  b: 2\nneed: 1", [("ls", "ls must be a list, and is a mapping")]),
         ("first:\n- a\n- b\nneed: 1", [("first", "first must be a mapping of name, max, tag, and is a list")]),

@@ -115,14 +115,14 @@ class Values(composite.Record):
         composite.listing(composite.record(Motor), at_least=1, at_most=3),
         editable=True,
     )
-    """1 to 3 entries; may change while the component runs."""
+    """1 to 3 elements; may change while the component runs."""
 
     gains: tuple[tuple[float, ...], ...] = composite.member(
         composite.listing(composite.listing(plain.decimal("float"), at_least=3, at_most=3)),
         default=[[1, 0, 0]],
         editable=True,
     )
-    """Each exactly 3 entries; default: [[1, 0, 0]]; may change while the component runs."""
+    """Each exactly 3 elements; default: [[1, 0, 0]]; may change while the component runs."""
 
     ids: tuple[int, ...] = composite.member(
         composite.listing(plain.whole("int"), unique=True),

@@ -15,7 +15,7 @@ namespace runtime
 {
 
 /// Sets the value at a path, or removes it if the value is nothing; returns false for an unknown path. The index after
-/// the last entry of a list appends an entry.
+/// the last element of a list appends an element.
 bool put(const Kind& kind, Value& data, const std::vector<std::string>& steps, Value value);
 
 /// The type at a path, or nullptr.

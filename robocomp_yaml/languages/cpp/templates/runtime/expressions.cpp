@@ -254,7 +254,7 @@ Value entry(const Value& owner, const Value& index)
         const auto number = index.number();
         if (number < 0 || number >= static_cast<long double>(items->size()))
         {
-            throw std::domain_error("there is no such entry");
+            throw std::domain_error("there is no such element");
         }
         return (*items)[static_cast<std::size_t>(number)];
     }
@@ -262,7 +262,7 @@ Value entry(const Value& owner, const Value& index)
     const auto found = map.find(*index.as<std::string>());
     if (found == map.end())
     {
-        throw std::domain_error("there is no such entry");
+        throw std::domain_error("there is no such element");
     }
     return found->second;
 }

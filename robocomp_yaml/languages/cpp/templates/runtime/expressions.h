@@ -28,7 +28,7 @@ Value compare(const Value& first, std::initializer_list<std::pair<std::string, V
 
 Value arithmetic(char sign, const Value& left, const Value& right);
 
-/// An entry of a list by its index, or of a map by its key.
+/// An element of a list by its index, or of a map by its key.
 Value entry(const Value& owner, const Value& index);
 
 Value has(const Value& value);
@@ -37,7 +37,7 @@ Value absolute(const Value& number);
 Value keys(const Value& map);
 Value values(const Value& map);
 
-// Functions of the entries of a list, or of `element` of those entries for which `condition` holds.
+// Functions of the elements of a list, or of `element` of those elements for which `condition` holds.
 Value all(const Value& many, const Function& element = {}, const Function& condition = {});
 Value any(const Value& many, const Function& element = {}, const Function& condition = {});
 Value sum(const Value& many, const Function& element = {}, const Function& condition = {});

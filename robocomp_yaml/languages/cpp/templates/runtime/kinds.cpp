@@ -230,7 +230,7 @@ Value Kind::takeList(const Value& raw, const Path& path, Taking& taking) const
         {
             isTwice = true;
             taking.refuse(
-                path, "contains " + element->shown(item) + " twice", element->shown(item), "entries that all differ");
+                path, "contains " + element->shown(item) + " twice", element->shown(item), "elements that all differ");
         }
         items.push_back(std::move(item));
     }
@@ -320,8 +320,8 @@ void Kind::checkSize(std::size_t count, const Path& path, Taking& taking) const
         : *most_ == least_ ? "exactly " + least
         : least_ == 0 ? "at most " + std::to_string(*most_)
                       : least + " to " + std::to_string(*most_);
-    const auto entries = std::to_string(count) + (count == 1 ? " entry" : " entries");
-    taking.refuse(path, "has " + entries + ", and must have " + wanted, entries, wanted);
+    const auto elements = std::to_string(count) + (count == 1 ? " element" : " elements");
+    taking.refuse(path, "has " + elements + ", and must have " + wanted, elements, wanted);
 }
 
 /// The value of data that has the right type, else nothing.

@@ -23,7 +23,7 @@ bool isDigits(const std::string& text)
     return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// The number of entries that a count requires; nothing if it is not a number, or too large.
+/// The number of elements that a count requires; nothing if it is not a number, or too large.
 std::optional<std::size_t> countOf(const std::string& text, std::size_t known)
 {
     constexpr std::size_t most = 1'000'000;
@@ -286,7 +286,7 @@ Value Reader::readList(const Kind& kind, const std::string& key)
     return found;
 }
 
-/// An entry of a list or map exists even without a property.
+/// An element of a list or map exists even without a property.
 Value Reader::readEntry(const Kind& kind, const std::string& key)
 {
     auto value = readValue(kind, key);

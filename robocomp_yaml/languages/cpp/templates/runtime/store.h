@@ -24,7 +24,7 @@ struct Constraint
     std::string otherwise;
     std::function<Value(const Value&)> value;
 
-    /// An unknown result holds; a division by zero, or a missing entry, does not.
+    /// An unknown result holds; a division by zero, or a missing element, does not.
     bool holds(const Value& values) const;
 };
 

@@ -11,7 +11,7 @@
 namespace runtime
 {
 
-/// A step of a path: a name, or the index of an entry.
+/// A step of a path: a name, or the index of an element.
 struct Step
 {
     std::string name;

@@ -6,7 +6,7 @@ import java.util.function.Function;
 
 /** A constraint between parameters: `text` as in the document, `otherwise` the message if it does not hold. */
 public record Constraint(String text, String otherwise, Function<Object, Object> value) {
-    /** An unknown result holds; a division by zero, or a missing entry, does not. */
+    /** An unknown result holds; a division by zero, or a missing element, does not. */
     public boolean holds(Map<String, Object> values) {
         try {
             return !Boolean.FALSE.equals(value.apply(values));

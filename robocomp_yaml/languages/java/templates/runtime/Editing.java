@@ -30,7 +30,7 @@ final class Editing {
 
     /**
      * Sets the value at a path, or removes it if it is null; returns false for an unknown path. The index after the
-     * last entry of a list appends an entry.
+     * last element of a list appends an element.
      */
     static boolean put(Kind kind, Object data, List<String> steps, Object value) {
         Kind at = kind;

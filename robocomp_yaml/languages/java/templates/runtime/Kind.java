@@ -218,7 +218,7 @@ public final class Kind {
             for (Object item : made) {
                 if (item != null && !seen.add(item)) {
                     String twice = element.isPlain() ? element.shown(item) : shownValue(item);
-                    taking.refuse(path, "contains " + twice + " twice", twice, "entries that all differ", "");
+                    taking.refuse(path, "contains " + twice + " twice", twice, "elements that all differ", "");
                     break;
                 }
             }
@@ -281,8 +281,8 @@ public final class Kind {
         }
         String wanted = most < 0 ? "at least " + least : least == most ? "exactly " + least
             : least > 0 ? least + " to " + most : "at most " + most;
-        String entries = count + " entr" + (count == 1 ? "y" : "ies");
-        taking.refuse(path, "has " + entries + ", and must have " + wanted, entries, wanted, "");
+        String elements = count + (count == 1 ? " element" : " elements");
+        taking.refuse(path, "has " + elements + ", and must have " + wanted, elements, wanted, "");
     }
 
     private String words() {

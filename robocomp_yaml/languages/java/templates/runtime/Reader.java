@@ -127,13 +127,13 @@ final class Reader {
         return found;
     }
 
-    /** The number of entries that a count requires; -1 if it is not a number, or too large. */
+    /** The number of elements that a count requires; -1 if it is not a number, or too large. */
     private int count(String text) {
         int count = text.length() < 10 && DIGITS.matcher(text).matches() ? Integer.parseInt(text) : -1;
         return count > properties.size() + 1_000_000 ? -1 : count;
     }
 
-    /** An entry of a list or map exists even without a property. */
+    /** An element of a list or map exists even without a property. */
     private Object entry(Kind kind, String key) {
         Object value = value(kind, key);
         return value == null ? empty(kind) : value;

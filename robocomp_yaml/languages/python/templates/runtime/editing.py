@@ -22,7 +22,7 @@ class Entry(NamedTuple):
 
 def put(kind: Kind, data: Any, steps: Sequence[str], value: Any) -> bool:
     """Sets the value at a path, or removes it if `value` is None; returns False for an unknown path. The index after
-    the last entry of a list appends an entry."""
+    the last element of a list appends an element."""
     for step in steps[:-1]:
         found = _step(kind, data, step)
         if found is None:
