@@ -31,15 +31,15 @@ def process(name: str, *after: str, **more: Any) -> Process:
 
 def network(*processes: Process) -> Network:
     """Each in the wave behind all that it is after."""
-    made = Network("N", "/n.ddsl.yaml", "/folder", {LOOPBACK: NetworkHost(LOOPBACK)})
-    made.processes = {one.name: one for one in processes}
+    order = []
     left = {one.name: set(one.after) for one in processes if one.enabled}
     while left:
         free = tuple(name for name, after in left.items() if not after & left.keys()) or tuple(left)
-        made.order.append(free)
+        order.append(free)
         for name in free:
             del left[name]
-    return made
+    by_name = {one.name: one for one in processes}
+    return Network("N", "/n.ddsl.yaml", "/folder", {LOOPBACK: NetworkHost(LOOPBACK)}, by_name, order=tuple(order))
 
 
 def spec(one: Process) -> ProcessSpec:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from msgspec.structs import replace
+
 from robocomp_yaml.network.network import (
     CONFIG,
     ICESTORM,
@@ -66,16 +68,16 @@ def speaking(folder: str = "/robot/.rcyaml/deployments/Head") -> Network:
         component("speech", "onboard", (served("Speech", 10001),), ("mouth", "storm"), (EnvironmentVariable("LANG", "es_ES"),)),
         viewer,
     )  # fmt: skip
-    network.processes = {process.name: process for process in processes}
-    network.connections = [
+    connections = (
         Connection("mouth", "JointMotor", "JointMotor", "motors"),
         Connection("speech", "Mouth", "Mouth", "mouth"),
         Connection("speech", "SpeechEvents", "SpeechEvents", "storm", TOPIC, "robot1/SpeechEvents", is_out=True),
         Connection("mouth", "SpeechEvents", "SpeechEvents", "storm", TOPIC, "robot1/SpeechEvents"),
         Connection("speech", "Camera", "Camera", "", proxy="camera:tcp -h 10.0.0.9 -p 10100"),
-    ]
-    network.order = [("storm", "laser", "motors"), ("mouth",), ("speech",)]
-    return network
+    )
+    order = (("storm", "laser", "motors"), ("mouth",), ("speech",))
+    by_name = {process.name: process for process in processes}
+    return replace(network, processes=by_name, connections=connections, order=order)
 
 
 def large(count: int, hosts: int = 4) -> Network:
@@ -83,14 +85,14 @@ def large(count: int, hosts: int = 4) -> Network:
     network = Network("Fleet", "/fleet.ddsl.yaml", "/f", {
         f"robot{i}": NetworkHost(f"robot{i}", f"10.0.0.{i + 1}") for i in range(hosts)
     } if hosts > 1 else {LOOPBACK: NetworkHost(LOOPBACK)})  # fmt: skip
-    names = list(network.hosts)
+    names, connections = list(network.hosts), []
     for i in range(count):
         name = f"component{i}"
         after: tuple[str, ...] = ()
         for other in {i - 1 if i % 7 else -1, i // 3 if i % 5 == 1 else -1}:
             if 0 <= other < i:
                 after += (f"component{other}",)
-                network.connections.append(Connection(name, f"Port{other}", f"Interface{other}", f"component{other}"))
+                connections.append(Connection(name, f"Port{other}", f"Interface{other}", f"component{other}"))
         network.processes[name] = Process(
             name, names[i * hosts // count], (f"/fleet/bin/{name}",), "/fleet", after=after,
             endpoints=(served(f"Interface{i}", 10000 + i),),
@@ -98,6 +100,7 @@ def large(count: int, hosts: int = 4) -> Network:
     depth: dict[str, int] = {}
     for process in network.processes.values():
         depth[process.name] = 1 + max((depth[other] for other in process.after), default=-1)
+    order = []
     for level in range(max(depth.values(), default=-1) + 1):
-        network.order.append(tuple(name for name, at in depth.items() if at == level))
-    return network
+        order.append(tuple(name for name, at in depth.items() if at == level))
+    return replace(network, connections=tuple(connections), order=tuple(order))

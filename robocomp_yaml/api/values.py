@@ -160,8 +160,8 @@ class Values:
         sections, _ = properties(self._linked, values)
         component = self._parameters.component
         name = component.component.name if component else "the component"
-        for section in () if reveal else sections:
-            section.properties = [made.hidden() for made in section.properties]
+        if not reveal:
+            sections = [replace(one, properties=[made.hidden() for made in one.properties]) for one in sections]
         return property_text(sections, name, os.path.basename(self.file))
 
     def set(self, path: str, value: str) -> Change:

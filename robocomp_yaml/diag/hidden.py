@@ -18,7 +18,7 @@ from robocomp_yaml.secrets import HIDDEN, Part, url
 _LONG = 12  # characters that identify a secret in a message that shortens it
 
 
-class Hidden(msgspec.Struct):
+class Hidden(msgspec.Struct, frozen=True):
     """The locations and texts of secrets, by files. `files` are all files that were searched for secrets."""
 
     files: set[str] = set()

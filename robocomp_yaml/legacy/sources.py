@@ -35,7 +35,7 @@ class LegacyFile(msgspec.Struct, frozen=True):
         return os.path.normpath(os.path.join(self.root, self.folder, name))
 
 
-class LegacyFiles(msgspec.Struct):
+class LegacyFiles(msgspec.Struct, frozen=True):
     files: list[LegacyFile] = []
     folders: list[str] = []
     """The output roots of the folders that were passed: each becomes a workspace."""
@@ -74,7 +74,7 @@ def discover(paths: Sequence[str], output: str | None, known: Formats) -> Legacy
                 start = (path if is_folder else os.path.dirname(path)) if output else root
                 folder = os.path.relpath(os.path.dirname(file) or ".", start or ".")
                 discovered.files.append(LegacyFile(file, root, folder))
-    discovered.files = list(_preferences(discovered.files, known))
+    discovered.files[:] = _preferences(discovered.files, known)
     return discovered
 
 

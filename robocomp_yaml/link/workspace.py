@@ -122,7 +122,7 @@ def _ineffective_settings(tree: Mapping, workspace: WorkspaceSettings, disk: Dis
             yield codes.WORKSPACE_SETTING.at(value.span, problem=f"unknown severity '{value.data}'")
 
 
-class ImportSearch(msgspec.Struct):
+class ImportSearch(msgspec.Struct, frozen=True):
     """Resolves imports: in the document's folder, the workspace's folders, then `extra` (`-I`, RCYAML_PATH)."""
 
     extra: tuple[str, ...] = ()

@@ -15,7 +15,7 @@ from robocomp_yaml.model.located import Text
 MANY = 500  # at most so many names are compared with a misspelled one, to stay fast
 
 
-class MachineIndex(msgspec.Struct):
+class MachineIndex(msgspec.Struct, frozen=True):
     """States are identified by their numbers, because an id may be missing or, in a machine with errors, be used twice.
     `parents` maps the number of each state to its parent."""
 

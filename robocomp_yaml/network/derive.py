@@ -35,7 +35,6 @@ def derive(linked: LinkedDeployment, program: Program) -> tuple[Network, list[Di
     deployment = linked.deployment
     folder = os.path.abspath(os.path.join(os.path.dirname(deployment.path), FOLDER, deployment.name))
     drafts = drafts_of(linked)
-    network = Network(deployment.name, os.path.abspath(deployment.path), folder, drafts.hosts, extra=deployment.extra)
     gates = Gates(drafts)
     gates.add()
     assign_ports(drafts)
@@ -51,13 +50,13 @@ def derive(linked: LinkedDeployment, program: Program) -> tuple[Network, list[Di
     connections.resolve()
     gates.connect()
     topics.resolve()
-    network.connections = [*connections.connections, *gates.connections, *topics.connections]
     diagnostics = [*endpoint_faults(drafts), *connections.diagnostics, *topics.diagnostics]
     needs = [*_explicit(drafts, gates), *connections.needs, *gates.needs, *topics.needs]
     enabled = {draft.name for draft in drafts.drafts.values() if draft.instance.entry.enabled}
     needed = {need.target for need in needs if need.source in enabled}
+    made: dict[str, Process] = {}
     for storm in drafts.storms.values():
-        network.processes[storm.name] = processes.of_storm(storm, folder, enabled=storm.name in needed)
+        made[storm.name] = processes.of_storm(storm, folder, enabled=storm.name in needed)
     known: dict[str, tuple[str, ...]] = {}
     for draft in drafts.drafts.values():
         if gates.is_gate(draft):
@@ -68,10 +67,19 @@ def derive(linked: LinkedDeployment, program: Program) -> tuple[Network, list[Di
             configuration.make()
             diagnostics += configuration.diagnostics
             text, hidden = configuration.text, configuration.secrets
-        network.processes[draft.name] = processes.of_draft(draft, text, known, hidden)
-    diagnostics += length_faults(linked, drafts, network)
-    diagnostics += _put_in_order(network, needs)
-    return network, diagnostics
+        made[draft.name] = processes.of_draft(draft, text, known, hidden)
+    order, circles = _put_in_order(made, needs)
+    network = Network(
+        deployment.name,
+        os.path.abspath(deployment.path),
+        folder,
+        drafts.hosts,
+        made,
+        (*connections.connections, *gates.connections, *topics.connections),
+        tuple(order),
+        deployment.extra,
+    )
+    return network, [*diagnostics, *length_faults(linked, drafts, network), *circles]
 
 
 def _explicit(drafts: Drafts, gates: Gates) -> Iterable[Dependence]:
@@ -88,15 +96,17 @@ def _explicit(drafts: Drafts, gates: Gates) -> Iterable[Dependence]:
                 yield Dependence(draft.name, name, "", AFTER, span)
 
 
-def _put_in_order(network: Network, needs: Sequence[Dependence]) -> list[Diagnostic]:
-    waves, after, diagnostics = ordered((process.name for process in network.enabled()), needs)
-    network.order = waves
+def _put_in_order(
+    made: dict[str, Process], needs: Sequence[Dependence]
+) -> tuple[list[tuple[str, ...]], list[Diagnostic]]:  # fmt: skip
+    """Adds to each process what it is `after`. Returns the waves, and diagnostics about circles."""
+    waves, after, diagnostics = ordered((process.name for process in made.values() if process.enabled), needs)
     can_be_absent = optional(needs)
     for name, targets in after.items():
         if targets:
             without = tuple(target for target in targets if target in can_be_absent[name])
-            network.processes[name] = replace(network.processes[name], after=targets, optional=without)
-    return diagnostics
+            made[name] = replace(made[name], after=targets, optional=without)
+    return waves, diagnostics
 
 
 def endpoint_faults(drafts: Drafts) -> Iterator[Diagnostic]:

@@ -6,7 +6,7 @@ starts, shows or exports a network reads this, and no document. Paths are absolu
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import msgspec
 
@@ -165,7 +165,7 @@ class Connection(Located, frozen=True):
     span: Span = Span("")
 
 
-class Network(msgspec.Struct):
+class Network(msgspec.Struct, frozen=True):
     """A deployment's processes by name, in the document's order. `path` is its document. `folder` is the deployment's
     own folder, with its configurations, logs and state. `order` are the enabled processes in waves: each process is in
     the first wave after the waves of all that it is `after`."""
@@ -173,10 +173,10 @@ class Network(msgspec.Struct):
     name: str
     path: str
     folder: str
-    hosts: dict[str, NetworkHost] = {}
-    processes: dict[str, Process] = {}
-    connections: list[Connection] = []
-    order: list[tuple[str, ...]] = []
+    hosts: Mapping[str, NetworkHost] = {}
+    processes: Mapping[str, Process] = {}
+    connections: tuple[Connection, ...] = ()
+    order: tuple[tuple[str, ...], ...] = ()
     extra: tuple[tuple[str, object], ...] = ()
     """What only exports need of the document: the entries of its `x-rcmanager`."""
 

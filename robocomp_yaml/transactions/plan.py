@@ -49,7 +49,7 @@ class Merge(msgspec.Struct, frozen=True):
     base: bytes
 
 
-class Merges(msgspec.Struct):
+class Merges(msgspec.Struct, frozen=True):
     """Merges by real root and path. Nothing may be written into a `refused` root."""
 
     files: dict[tuple[str, str], Merge] = {}

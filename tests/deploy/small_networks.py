@@ -10,6 +10,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from msgspec.structs import replace
+
 from processes import until
 from robocomp_yaml.deploy import operations
 from robocomp_yaml.deploy.carry_out import ProcessEvent
@@ -57,9 +59,8 @@ class Place:
 
     def network(self, *processes: Process) -> Network:
         network = Network("Robot", f"{self.root}/robot.ddsl.yaml", self.folder, {"localhost": HERE})
-        network.processes = {process.name: process for process in processes}
-        network.order = [tuple(process.name for process in processes if process.enabled)]
-        return network
+        enabled = tuple(process.name for process in processes if process.enabled)
+        return replace(network, processes={process.name: process for process in processes}, order=(enabled,))
 
     def run(self, work: Callable[[LocalEngine], Coroutine[Any, Any, Any]], *processes: Process) -> Any:
         """The result of `work` with an open engine for the network of these processes."""

@@ -86,7 +86,7 @@ def systemctl() -> Iterator[Systemctl]:
 def install(systemctl: Systemctl, *processes: Process) -> None:
     """Installs units and config/ as docs/exports.md says."""
     network = Network("Robot", "/robot.ddsl.yaml", "/f", {LOOPBACK: NetworkHost(LOOPBACK)})
-    network.processes = {process.name: process for process in processes}
+    network.processes.update({process.name: process for process in processes})
     settings = systemctl.home / ".config"  # type: ignore[attr-defined]
     for path, text in export(network, "systemd").items():
         write_tree(settings, {("Robot/" if path.startswith("config/") else "systemd/user/") + path: text})

@@ -9,6 +9,8 @@ from collections.abc import AsyncGenerator, Collection, Iterable, Sequence
 from functools import partial
 from typing import Any
 
+from msgspec.structs import replace
+
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
@@ -28,7 +30,7 @@ from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.network.network import FOLDER, Network, NetworkHost
+from robocomp_yaml.network.network import FOLDER, Network, NetworkHost, Process
 
 
 class LocalEngine:
@@ -177,14 +179,12 @@ def stand_in(path: str) -> Network | None:
         return None
     network = Network(name, document, folder)
 
-    async def fill() -> None:
+    async def observed() -> list[Process]:
         engine = LocalEngine()
-        if await engine.open(network, create=False):
-            for name, running in (await engine.observe()).items():
-                if running.spec:
-                    network.processes[name] = running.spec.process
-                    network.hosts[running.spec.process.host] = NetworkHost(running.spec.process.host)
+        states = await engine.observe() if await engine.open(network, create=False) else {}
         await engine.close()
+        return [running.spec.process for running in states.values() if running.spec]
 
-    asyncio.run(fill())
-    return network
+    processes = {process.name: process for process in asyncio.run(observed())}
+    hosts = {process.host: NetworkHost(process.host) for process in processes.values()}
+    return replace(network, hosts=hosts, processes=processes)

@@ -42,7 +42,7 @@ _COUNTS = (None, 2, 3, 0, 1, 4, 6)  # numbers of elements of lists and maps to t
 Path = tuple[str, ...]
 
 
-class Fitted(msgspec.Struct):
+class Fitted(msgspec.Struct, frozen=True):
     """Examples by path. `present` are in the document, so that it is valid. `possible` may be added to it, alone or
     together. `unknown` are the parameters without an example."""
 
@@ -63,7 +63,7 @@ def fitted(parameters: Parameters, carried: Mapping[str, Any] | None = None) -> 
     some = [path for path in optional if search.concerns(path)]
     chosen = search.solve(required) or (search.solve([*required, *some], some) if some else None)
     if chosen is None:
-        found.present = dict(carried_)
+        found.present.update(carried_)
         for path in required:
             alone = search.solve([path], others=False)
             if alone is None or search.concerns(path):
@@ -72,7 +72,7 @@ def fitted(parameters: Parameters, carried: Mapping[str, Any] | None = None) -> 
                 found.present[path] = alone[path]
         chosen = {}
     else:
-        found.present = {**carried_, **chosen}
+        found.present.update({**carried_, **chosen})
     together = dict(found.present)
     for path in (path for path in optional if path not in found.present):
         if members[path].default is not None:

@@ -22,7 +22,7 @@ class NoEntry(msgspec.Struct, frozen=True):
     problem: str
 
 
-class Overlay(msgspec.Struct):
+class Overlay(msgspec.Struct, frozen=True):
     """`root` has the entries of the layer. `faults` are the paths into lists that do not exist."""
 
     root: Mapping
@@ -31,16 +31,15 @@ class Overlay(msgspec.Struct):
 
 def overlay(settings: Mapping, type_: RecordType, base: MergedValue | None) -> Overlay:
     """The layer of `settings`, on top of the merged values `base`."""
-    result = Overlay(mapping_at(settings.span, {}))
     entries: Entries = {}
+    faults: list[NoEntry] = []
     for key, node in settings.items():
         steps = [key.lexeme] if type_.member(key.lexeme) else paths.parse(key.lexeme) or [key.lexeme]
         try:
             _put(entries, steps, key, node, type_, base)
         except LookupError as error:
-            result.faults.append(NoEntry(key, str(error.args[0])))
-    result.root = mapping_at(settings.span, entries)
-    return result
+            faults.append(NoEntry(key, str(error.args[0])))
+    return Overlay(mapping_at(settings.span, entries), faults)
 
 
 def _put(entries: Entries, steps: list[str], key: Scalar, node: Node, type_: Type, base: MergedValue | None) -> None:

@@ -25,7 +25,7 @@ CLASSIC, FLAT_TOML, TOML = "classic", "flat-toml", "toml"
 _OF_PORTS = ("endpoints", "proxies", "topics")
 
 
-class Section(msgspec.Struct):
+class Section(msgspec.Struct, frozen=True):
     """Related properties under a title."""
 
     title: str
@@ -67,10 +67,10 @@ def properties(
     faults = list(writer.faults)
     exact = {key: node.lexeme for key, node in merged_entries(values, "legacy", "exact") if isinstance(node, Scalar)}
     seen: dict[str, Property] = {}
+    written = []
     for section in sections:
-        section.properties = [_exact(made, exact.get(made.key)) for made in section.properties]
         kept = []
-        for made in section.properties:
+        for made in (_exact(one, exact.get(one.key)) for one in section.properties):
             problem = unwritable(made.key, made.value)
             if not problem and made.key in seen and seen[made.key].value != made.value:
                 problem = "another value already uses this property"
@@ -79,8 +79,8 @@ def properties(
             elif made.key not in seen:
                 seen[made.key] = made
                 kept.append(made)
-        section.properties = kept
-    return [section for section in sections if section.properties], faults
+        written += [replace(section, properties=kept)] if kept else []
+    return written, faults
 
 
 def _seems_toml(parameters: Parameters, sections: list[Section]) -> bool:

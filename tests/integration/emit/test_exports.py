@@ -93,7 +93,7 @@ def unescaped(word: str) -> str:
 def test_systemd_accepts_the_units(tmp_path: Path, network: Network) -> None:
     processes = {name: replace(process, command=("/bin/true", *process.command[1:]))
                  for name, process in network.processes.items()}  # fmt: skip
-    network.processes = processes
+    network = replace(network, processes=processes)
     write_tree(tmp_path, export(network, "systemd"))
     for target in tmp_path.rglob("*.target"):
         units = [str(path) for path in target.parent.iterdir() if path.suffix in (".service", ".target")]

@@ -12,6 +12,7 @@ from xml.etree import ElementTree
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from msgspec.structs import replace
 
 from networks import large, speaking
 from robocomp_yaml.diag.codes.files import ALIASES, SYNTAX, WORKSPACE_SETTING, WRONG_SHAPE
@@ -36,7 +37,7 @@ def faulty() -> tuple[Network, list[Diagnostic]]:
     for line, name in ((3, "a"), (6, "b")):
         span = Span("two.ddsl.yaml", line, 3)
         network.processes[name] = Process(name, "localhost", (name,), "/", span=span)
-    network.connections = [Connection("a", "B", "B", "b", span=Span("two.ddsl.yaml", 5, 14))]
+    network = replace(network, connections=(Connection("a", "B", "B", "b", span=Span("two.ddsl.yaml", 5, 14)),))
     there = Related("there", Span("two.ddsl.yaml", 7, 4))
     said = [
         SYNTAX.at(Span("two.ddsl.yaml", 4, 9), problem="they quarrel", related=(there,)),
@@ -76,8 +77,7 @@ def test_a_topic_is_between_publishers_and_subscribers() -> None:
 
 
 def test_a_dependence_without_a_connection_is_a_line() -> None:
-    network = speaking()
-    network.connections.clear()
+    network = replace(speaking(), connections=())
     lines = {(line.source, line.target) for line in picture_of(network).lines if line.kind == parts.AFTER}
     assert lines == {("mouth", "motors"), ("mouth", "storm"), ("speech", "mouth"), ("speech", "storm")}
 

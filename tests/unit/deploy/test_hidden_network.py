@@ -31,8 +31,8 @@ def test_secrets_are_hidden_and_nothing_else() -> None:
         ),
     )
     one = msgspec.structs.replace(one, command=("run", "--password", CANARY, f"--wifi={CANARY}", "--name=camera"))
-    made = network(one)
-    made.extra = (("general", {"password": CANARY, "editor": "vim", "since": 2011}),)
+    extra = (("general", {"password": CANARY, "editor": "vim", "since": 2011}),)
+    made = msgspec.structs.replace(network(one), extra=extra)
     shown = hidden(made)
     assert CANARY not in str(shown)
     camera = shown.processes["camera"]

@@ -34,9 +34,8 @@ B = replace(A, name="b", after=("a",))
 
 def network(*processes: Process) -> Network:
     found = Network("N", "/n.ddsl.yaml", "/folder", {"here": NetworkHost("here", "10.0.0.1")})
-    found.processes = {process.name: process for process in processes}
-    found.order = [tuple(process.name for process in processes if process.enabled)]
-    return found
+    enabled = tuple(process.name for process in processes if process.enabled)
+    return replace(found, processes={process.name: process for process in processes}, order=(enabled,))
 
 
 def spec(process: Process) -> ProcessSpec:

@@ -223,7 +223,7 @@ def test_gates_of_nested_groups_are_connected_in_series() -> None:
         ("lips.gate", "mouth"),
         ("face.gate", "lips.gate"),
     ]
-    assert found.order == [("mouth",), ("lips.gate",), ("face.gate",), ("speech",)]
+    assert found.order == (("mouth",), ("lips.gate",), ("face.gate",), ("speech",))
 
 
 def test_a_process_after_a_group_is_after_its_gates() -> None:
@@ -246,7 +246,7 @@ def test_a_member_is_not_after_the_gate_that_needs_it() -> None:
             "groups: {lips: {components: [mouth], expose: {Mouth: {member: mouth, rate: 5}}}}\n"
         )
     )
-    assert found.order == [("mouth",), ("lips.gate",)]
+    assert found.order == (("mouth",), ("lips.gate",))
 
 
 def test_a_process_that_can_be_ignored_is_optional() -> None:
@@ -265,7 +265,7 @@ def test_the_inner_group_can_come_later_in_the_document() -> None:
             "  lips: {components: [mouth], expose: {Mouth: {member: mouth, allow: [moveTo]}}}\n"
         )
     )
-    assert found.order == [("mouth",), ("lips.gate",), ("face.gate",), ("speech",)]
+    assert found.order == (("mouth",), ("lips.gate",), ("face.gate",), ("speech",))
 
 
 def test_candidates_in_closed_groups_are_named_by_the_groups() -> None:

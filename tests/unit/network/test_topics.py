@@ -27,7 +27,7 @@ def lines(found: Network) -> set[tuple[str, str, str, bool]]:
 def test_both_ends_are_connected_to_the_storm() -> None:
     found = network(deployed(STORM + BOTH, **ENDS))
     assert lines(found) == {("ears", "storm", "Heard", True), ("mind", "storm", "Heard", False)}
-    assert found.order == [("storm",), ("ears", "mind")]
+    assert found.order == (("storm",), ("ears", "mind"))
     manager = "IceStorm/TopicManager:tcp -h localhost -p 9999"
     assert config(found.processes["ears"])["TopicManager.Proxy"] == manager
     assert config(found.processes["mind"])["HeardTopic.Endpoints"] == "tcp -h 127.0.0.1 -p 0"
@@ -46,7 +46,7 @@ def test_the_storm_is_a_process() -> None:
 
 def test_a_storm_without_users_is_not_started() -> None:
     found = network(deployed(STORM + "components: {mouth: {component: mouth}}\n"))
-    assert not found.processes["storm"].enabled and found.order == [("mouth",)]
+    assert not found.processes["storm"].enabled and found.order == (("mouth",),)
     unused = "components: {ears: {component: ears, enabled: false}}\n"
     assert not network(deployed(STORM + unused, ears=EARS)).processes["storm"].enabled
 
