@@ -35,10 +35,17 @@ class Shared:
             return ALONE
         shared_runtime = os.path.relpath(runtime_folder(workspace, target), root or ".")
         modules = linked.modules()
-        if not all(self._is_of(workspace, one) and not _is_hidden(workspace, one, self._disk) for one in modules):
+        if not all(self._is_shared(workspace, linked, one) for one in modules):
             return Layout(runtime=shared_runtime)
         texts = {file.path: file.text for file in self._slices(modules)}
         return Layout(os.path.relpath(workspace.slice_folder, root or "."), shared_runtime, fingerprint(texts))
+
+    def _is_shared(self, workspace: WorkspaceSettings, linked: LinkedComponent, scope: LinkedModule) -> bool:
+        return (
+            self._is_of(workspace, scope)
+            and not _is_own(workspace, linked, scope)
+            and not _is_hidden(workspace, scope, self._disk)
+        )
 
     def _is_of(self, workspace: WorkspaceSettings, scope: LinkedModule) -> bool:
         other = self._options.workspace_of(scope.module.path)
@@ -63,6 +70,14 @@ class Shared:
             owner = os.path.relpath(scope.module.path, root)
             if (root, owner) not in planned:
                 yield RootPlan(root, owner, tuple(self._slices([scope])), partial=True)
+
+
+def _is_own(workspace: WorkspaceSettings, linked: LinkedComponent, scope: LinkedModule) -> bool:
+    """Whether a module is the component's own: in a folder below the component's, which is not in the search path."""
+    folder = os.path.realpath(os.path.dirname(scope.module.path))
+    own = os.path.realpath(os.path.dirname(linked.component.path))
+    is_below = folder.startswith(f"{own}/")
+    return is_below and all(folder != os.path.realpath(path) for path in workspace.interfaces)
 
 
 def _is_hidden(workspace: WorkspaceSettings, scope: LinkedModule, disk: Disk) -> bool:

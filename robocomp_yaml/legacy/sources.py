@@ -28,6 +28,8 @@ class LegacyFile(msgspec.Struct, frozen=True):
     path: str
     root: str
     folder: str
+    is_named: bool = False
+    """Whether the file itself was passed, not a folder that contains it."""
     preferred: str = ""
     """The file in the same folder that this one was generated from; then this one is skipped."""
 
@@ -73,7 +75,7 @@ def discover(paths: Sequence[str], output: str | None, known: Formats) -> Legacy
                 seen.add(real)
                 start = (path if is_folder else os.path.dirname(path)) if output else root
                 folder = os.path.relpath(os.path.dirname(file) or ".", start or ".")
-                discovered.files.append(LegacyFile(file, root, folder))
+                discovered.files.append(LegacyFile(file, root, folder, is_named=not is_folder))
     discovered.files = list(_preferences(discovered.files, known))
     return discovered
 

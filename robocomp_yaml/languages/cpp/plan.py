@@ -102,6 +102,7 @@ def _robocomp(component: LinkedComponent, view: View, parts: list[FilePlan]) -> 
         "generated/component.cmake": "component.cmake",
         "generated/CMakeLists.txt": "robocomp_CMakeLists.txt",
     }
+    accepted = render("cpp/robocomp_accepted.h", view)
     own = {
         "src/specificworker.h": "robocomp_specificworker.h",
         "src/specificworker.cpp": "robocomp_specificworker.cpp",
@@ -111,7 +112,7 @@ def _robocomp(component: LinkedComponent, view: View, parts: list[FilePlan]) -> 
         *parameters.plan(component),
         *parts,
         *(FilePlan(path, render(f"cpp/{name}.j2", view)) for path, name in names.items()),
-        *(FilePlan(path, render(f"cpp/{name}.j2", view), ONCE) for path, name in own.items()),
+        *(FilePlan(path, render(f"cpp/{name}.j2", view), ONCE, accepted=accepted) for path, name in own.items()),
         ignored_program(view.name),
     ]
 
