@@ -188,7 +188,7 @@ class _RootPlanner:
         elif not plan.stated_in and entry and not entry.once:
             change = self._write(plan, status, changes.EDITED)
             self._warn_edited(plan.path, f"your version is kept as '{os.path.basename(change.orig)}'")
-        elif self.adopt or plan.stated_in:
+        elif self.adopt or plan.stated_in or plan.takes_over:
             self._write(plan, status, changes.ADOPT)
         else:
             self._note(plan.path, changes.REFUSED, status.data, text)

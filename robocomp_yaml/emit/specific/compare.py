@@ -75,6 +75,8 @@ def compare(
                 mine = known.get(method.name, [])
                 defined = mine or (bodies.get(method.name) if part == "definitions" else None)
                 others = accepted.get(method.name, ())
+                if accepted and not defined:  # the oldest versions of RoboComp's tool omit the interface's name
+                    defined = known.get(method.name.partition("_")[2])
                 if not defined and method.name not in elsewhere and not others:
                     result.missing.append(MissingMethod(skeleton, method))
                 if mine and not any(_fits_any(one, method, before.get(method.name), others) for _, one in mine):

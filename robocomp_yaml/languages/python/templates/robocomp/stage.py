@@ -19,6 +19,15 @@ from generated.runtime.semantics.problems import ParameterError
 ROOT = Path(__file__).resolve().parents[2]
 
 
+def by_old_name(worker: Any, name: str, arguments: tuple[Any, ...]) -> Any:
+    """Calls the method `Interface_method` by the name that the oldest versions of the tool gave it: `method`. Raises
+    NotImplementedError if the worker has neither."""
+    method = getattr(worker, name.partition("_")[2], None)
+    if method is None:
+        raise NotImplementedError(f"{name}() is missing in src/specificworker.py")
+    return method(*arguments)
+
+
 class Stage(stage.Stage):
     current: Stage
 
