@@ -11,6 +11,8 @@ import os
 from collections.abc import Iterable, Iterator, Sequence
 
 from robocomp_yaml.diag.codes import migration as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.listing import some
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy.convert import convert
 from robocomp_yaml.legacy.draft import base_name
@@ -61,22 +63,24 @@ def _home(homes: Workspaces, root: str) -> str:
     return next((folder for folder in inside if not folder.startswith(os.pardir)), "interfaces")
 
 
-def skip_copies(entries: Sequence[LedgerEntry], interfaces: InterfaceFiles, known: Workspaces) -> None:
-    """Mark the copies as skipped that have an original, and those that no document imports."""
+def skip_copies(entries: Sequence[LedgerEntry], interfaces: InterfaceFiles, known: Workspaces) -> Iterator[Diagnostic]:
+    """Mark the copies as skipped that have an original, and those that no document imports. Yield one note for all."""
     copies = {file.path for files in interfaces.copies.values() for file in files}
     for entry in entries:
         path = entry.file.path
         if path not in copies or entry.skipped or entry.legacy.is_named:
             continue
         stem = base_name(path)
-        if original := interfaces.original(stem, known.of(entry.legacy.document(os.path.basename(path)))):
-            entry.skipped, entry.diagnostics = True, [codes.PREFERRED.at(Span(path), other=original)]
+        if interfaces.original(stem, known.of(entry.legacy.document(os.path.basename(path)))):
+            entry.skipped, entry.diagnostics = True, []
             interfaces.copies.pop(stem, None)
     needed = set(_imported(entries, copies, interfaces))
     for entry in entries:
         path = entry.file.path
         if path in copies and path not in needed and not entry.skipped and not entry.legacy.is_named:
-            entry.skipped, entry.diagnostics = True, [codes.COPY_UNUSED.at(Span(path))]
+            entry.skipped, entry.diagnostics = True, []
+    if skipped := [entry.file.path for entry in entries if entry.file.path in copies and entry.skipped]:
+        yield codes.COPIES.at(Span(skipped[0]), count=len(skipped), files=some(skipped))
 
 
 def _imported(entries: Sequence[LedgerEntry], copies: set[str], interfaces: InterfaceFiles) -> Iterator[str]:

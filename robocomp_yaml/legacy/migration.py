@@ -17,6 +17,7 @@ from robocomp_yaml.legacy.convert import convert
 from robocomp_yaml.legacy.copies import from_search_path, skip_copies
 from robocomp_yaml.legacy.document import Notes
 from robocomp_yaml.legacy.draft import ConfigDraft, DeploymentDraft, MachineDraft
+from robocomp_yaml.legacy.foreign import skip_foreign
 from robocomp_yaml.legacy.ledger import LedgerEntry
 from robocomp_yaml.legacy.linking import (
     InterfaceFiles,
@@ -68,6 +69,7 @@ def migrate(
         if file.preferred:
             entry.diagnostics = [codes.PREFERRED.at(Span(file.path), other=file.preferred)]
         run.entries.append(entry)
+    run.general += skip_foreign(run.entries, formats)
     known = workspaces.Workspaces()
     is_empty = all(entry.skipped or entry.file.refused for entry in run.entries)
     known.new.extend(
@@ -76,7 +78,7 @@ def migrate(
     search = ImportSearch(tuple(extra))
     run.entries += from_search_path([*run.entries], search, formats, known)
     interfaces = InterfaceFiles.of((entry.file for entry in run.entries if not entry.skipped), search)
-    skip_copies(run.entries, interfaces, known)
+    run.general += skip_copies(run.entries, interfaces, known)
     accepted = [entry for entry in run.entries if not entry.skipped and not entry.file.refused]
     known_formats = [(entry.legacy, entry.file.rules) for entry in accepted if entry.file.rules is not None]
     documents, diagnostics = assign_documents(known_formats)

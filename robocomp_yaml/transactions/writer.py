@@ -9,6 +9,7 @@ from msgspec.structs import replace
 
 from robocomp_yaml.diag.codes import emitting as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
+from robocomp_yaml.diag.listing import some
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.source import properties
@@ -20,8 +21,6 @@ from robocomp_yaml.transactions.journal import JOURNAL, JOURNAL_DONE, free_name
 from robocomp_yaml.transactions.manifest import Manifest, ManifestEntry
 from robocomp_yaml.transactions.output_root import PathStatus
 from robocomp_yaml.transactions.plan import ANYBODY, ONCE, FilePlan, Merge, Merges, RootPlan, rights_of
-
-_SHOWN = 4  # names in a message
 
 
 def prepare(
@@ -231,9 +230,9 @@ class _RootPlanner:
         """One warning for each folder with property files of the user."""
         for found in self.users_settings.values():
             plan = found[0][0]
-            files = "; ".join(f"{one.path} ({_some(keys) or 'its text'})" for one, keys in found)
+            files = "; ".join(f"{one.path} ({some(keys) or 'its text'})" for one, keys in found)
             adopt = typed("rcyaml", "compile", "--adopt", self._owner(plan.path))
-            documents = _some([self.root.shown(one.stated_in) for one, _ in found])
+            documents = some([self.root.shown(one.stated_in) for one, _ in found])
             hint = f"set them in {documents} as well; or `{adopt}` overwrites your files, and keeps them as .orig"
             self.diagnostics.append(codes.CHANGED_CONFIG.at(Span(self.root.shown(plan.path)), files=files, hint=hint))
 
@@ -362,9 +361,3 @@ def differing(yours: bytes, new: bytes) -> list[str]:
     except UnicodeDecodeError:
         return []
     return [key for key in {**mine, **then} if mine.get(key, "") != then.get(key, "")]
-
-
-def _some(keys: list[str]) -> str:
-    """The first keys, and the number of the others."""
-    more = f" and {len(keys) - _SHOWN} more" if len(keys) > _SHOWN else ""
-    return ", ".join(keys[:_SHOWN]) + more

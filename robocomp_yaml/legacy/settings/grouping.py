@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 import msgspec
 
 from robocomp_yaml.diag.codes import migration as codes
+from robocomp_yaml.diag.listing import some
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy.document import Map, data
 from robocomp_yaml.legacy.draft import ComponentDraft, ConfigDraft, ParametersDraft, ValuesDraft
@@ -83,6 +84,7 @@ class ConfiguredComponents:
         """Return the components that have configs."""
         components: dict[ConfiguredComponent, None] = {}
         unnamed: dict[str, ConfiguredComponent] = {}
+        alone: dict[str, dict[str, LedgerEntry]] = {}
         configs = {entry.file.path: entry for entry in self.accepted if isinstance(entry.file.draft, ConfigDraft)}
         for config, entry in configs.items():
             component = self._of(config)
@@ -92,13 +94,15 @@ class ConfiguredComponents:
                 if name not in unnamed:
                     unnamed[name] = self._from_config(config, name)
                 component = unnamed[name]
-                entry.diagnostics.append(codes.OWN_COMPONENT.at(Span(config), name=component.name))
+                alone.setdefault(os.path.dirname(config), {}).setdefault(component.name, entry)
             if not component.configs and component.declared is None and component.document:
                 for path in declared.beside(component.document):
                     if not self.was_written(entry, path):
                         component.declared = declared.of_document(path)
             component.configs.append(entry)
             components[component] = None
+        for entries in alone.values():
+            _report_own(entries)
         return list(components)
 
     def _join(self, path: str, component: ConfiguredComponent) -> None:
@@ -166,3 +170,12 @@ def _of_cdsl(document: str, draft: Map) -> ConfiguredComponent:
 def _ports(listed: object) -> frozenset[str]:
     items = listed if isinstance(listed, list) else []
     return frozenset(str(next(iter(item), "") if isinstance(item, dict) else item) for item in items)
+
+
+def _report_own(entries: Mapping[str, LedgerEntry]) -> None:
+    """Report once that the configs of a folder become components of their own, by their names."""
+    names, first = list(entries), next(iter(entries.values()))
+    what = f"this config becomes the component {names[0]}"
+    if names[1:]:
+        what = f"its configs become components of their own: {some(names)}"
+    first.diagnostics.append(codes.OWN_COMPONENT.at(Span(first.file.path), what=what))
