@@ -86,8 +86,8 @@ def migrate(
     for diagnostic in diagnostics:
         by_path[diagnostic.span.file].diagnostics.append(diagnostic)
     _link(accepted, documents, known, interfaces)
-    networks = build_deployments(accepted, documents, known)
-    configs, inferred = build_config_documents(accepted, documents, run.was_written, guesses, exact=exact)
+    networks, owners = build_deployments(accepted, documents, known)
+    configs, inferred = build_config_documents(accepted, documents, owners, run.was_written, guesses, exact=exact)
     _plan(run, accepted, documents, known, networks | configs, inferred, interfaces, force)
     upgrade(run, paths)
     return run

@@ -33,6 +33,12 @@ class LegacyFile(msgspec.Struct, frozen=True):
     preferred: str = ""
     """The file in the same folder that this one was generated from; then this one is skipped."""
 
+    @property
+    def start(self) -> str:
+        """The folder of the source that corresponds to the output root."""
+        folder = os.path.dirname(self.path)
+        return os.path.normpath(os.path.join(folder, os.path.relpath(os.curdir, self.folder)))
+
     def document(self, name: str) -> str:
         return os.path.normpath(os.path.join(self.root, self.folder, name))
 

@@ -41,10 +41,10 @@ class ConfiguredComponents:
     """The components of a run, by the folders of their files."""
 
     def __init__(
-        self, accepted: Sequence[LedgerEntry], documents: Mapping[str, str],
+        self, accepted: Sequence[LedgerEntry], documents: Mapping[str, str], owners: Mapping[str, str],
         was_written: Callable[[LedgerEntry, str], bool],
     ) -> None:  # fmt: skip
-        self.accepted, self.documents, self.was_written = accepted, documents, was_written
+        self.accepted, self.documents, self.owners, self.was_written = accepted, documents, owners, was_written
         self.by_folder: dict[str, list[tuple[str, ConfiguredComponent]]] = {}
         self.used = set(documents.values())
         self.listed: dict[str, list[str]] = {}
@@ -87,7 +87,7 @@ class ConfiguredComponents:
         alone: dict[str, dict[str, LedgerEntry]] = {}
         configs = {entry.file.path: entry for entry in self.accepted if isinstance(entry.file.draft, ConfigDraft)}
         for config, entry in configs.items():
-            component = self._of(config)
+            component = self._of(config) or self._assigned(config)
             if component is None:
                 first = generic_config(config)
                 name = first if first in configs else config
@@ -121,6 +121,12 @@ class ConfiguredComponents:
             if known:
                 return None
         return None
+
+    def _assigned(self, config: str) -> ConfiguredComponent | None:
+        """Return the component to which a network assigns a config."""
+        document = self.owners.get(os.path.realpath(config))
+        known = (component for joined in self.by_folder.values() for _, component in joined)
+        return next((each for each in known if document is not None and each.document == document), None)
 
     def _existing(self, folder: str, file: str) -> list[str]:
         """Return the CDSL documents that exist in a folder, if the config's document is written to it or below it."""
