@@ -21,7 +21,7 @@ from robocomp_yaml.digraph import postorder, reachable
 from robocomp_yaml.emit import slice as slice_target
 from robocomp_yaml.emit.layout import is_settings
 from robocomp_yaml.emit.options import EmitOptions
-from robocomp_yaml.emit.shared import Shared
+from robocomp_yaml.emit.shared import Shared, own_modules
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.transactions.plan import FilePlan, RootPlan
 
@@ -53,6 +53,9 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: EmitOpti
             yield replace(plain, path=folder + plain.path) if folder else plain
 
     requested = {program.modules[real]: real for real in program.requested & program.modules.keys()}
+    if options.output is None:
+        of_components = own_modules(program, options)
+        requested = {linked: real for linked, real in requested.items() if linked not in of_components}
     roots = {linked: options.output or options.workspace_of(linked.module.path).slice_folder for linked in requested}
 
     for linked in sorted(requested, key=lambda linked: linked.module.path):

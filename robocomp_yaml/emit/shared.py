@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Set
 from robocomp_yaml.emit import runtime
 from robocomp_yaml.emit.layout import ALONE, Layout, fingerprint, runtime_folder
 from robocomp_yaml.emit.options import EmitOptions
-from robocomp_yaml.link.program import LinkedComponent, LinkedModule
+from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import WorkspaceSettings
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 from robocomp_yaml.source.disk import Disk
@@ -72,12 +72,24 @@ class Shared:
                 yield RootPlan(root, owner, tuple(self._slices([scope])), partial=True)
 
 
+def own_modules(program: Program, options: EmitOptions) -> set[LinkedModule]:
+    """The modules of the program that are each the own module of a component."""
+    return {
+        scope for linked in program.components.values() for scope in linked.modules()
+        if _is_below(scope, linked) and _is_own(options.workspace_of(linked.component.path), linked, scope)
+    }  # fmt: skip
+
+
 def _is_own(workspace: WorkspaceSettings, linked: LinkedComponent, scope: LinkedModule) -> bool:
     """Whether a module is the component's own: in a folder below the component's, which is not in the search path."""
     folder = os.path.realpath(os.path.dirname(scope.module.path))
-    own = os.path.realpath(os.path.dirname(linked.component.path))
-    is_below = folder.startswith(f"{own}/")
-    return is_below and all(folder != os.path.realpath(path) for path in workspace.interfaces)
+    return _is_below(scope, linked) and all(folder != os.path.realpath(path) for path in workspace.interfaces)
+
+
+def _is_below(scope: LinkedModule, linked: LinkedComponent) -> bool:
+    """Whether a module is in a folder below that of a component."""
+    folder, own = (os.path.dirname(os.path.abspath(path)) for path in (scope.module.path, linked.component.path))
+    return folder.startswith(f"{own}/")
 
 
 def _is_hidden(workspace: WorkspaceSettings, scope: LinkedModule, disk: Disk) -> bool:

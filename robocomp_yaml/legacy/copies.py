@@ -36,12 +36,12 @@ def from_search_path(
         for imported in imports_of(importer.file):
             stem, document = imported.stem, importer.legacy.document(f"{base_name(importer.file.path)}.yaml")
             match, other_case = search.find(stem, document, homes.of(document))
-            beside = interfaces.beside(importer.file)
-            if stem in interfaces.by_stem or stem.lower() in beside or (match and not other_case):
+            is_beside = not importer.legacy.is_pulled and stem.lower() in interfaces.beside(importer.file)
+            if stem in interfaces.by_stem or is_beside or (match and not other_case):
                 continue
             if path := _in_folders(stem, search.extra):
                 root = importer.legacy.root
-                entry = LedgerEntry(LegacyFile(path, root, _home(homes, root), is_named=True), convert(path, known))
+                entry = LedgerEntry(LegacyFile(path, root, _home(homes, root), is_pulled=True), convert(path, known))
                 entry.diagnostics = [
                     codes.FROM_SEARCH_PATH.at(imported.span, name=stem, path=path),
                     *entry.file.diagnostics,

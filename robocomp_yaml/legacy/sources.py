@@ -30,6 +30,8 @@ class LegacyFile(msgspec.Struct, frozen=True):
     folder: str
     is_named: bool = False
     """Whether the file itself was passed, not a folder that contains it."""
+    is_pulled: bool = False
+    """Whether the file is in the search path, and migrated because another file imports it."""
     preferred: str = ""
     """The file in the same folder that this one was generated from; then this one is skipped."""
 
