@@ -37,6 +37,10 @@ def _about_class(root: Root, files: Sequence[UserFile], merge: str) -> Iterator[
     new = [code for file in files if (code := read(file.path, file.new))]
     base = {file.path: code for file in files if file.base and (code := read(file.path, file.base))}
     yours = [code for file in files if (code := read(file.path, file.yours))]
+    for code in yours:
+        if code.older is not None:
+            command = f"`2to3 -w {typed(root.shown(code.path))}` converts it (Python 3.12 and older have 2to3)"
+            yield codes.OLDER_LANGUAGE.at(_span(root, code, code.older), path=root.shown(code.path), hint=command)
     accepted = accepted_in(code for file in files if (code := read(file.path, file.accepted)))
     comparison = compare(new, base, yours, accepted=accepted)
     if comparison.missing or not any(code.location for code in yours):
