@@ -47,8 +47,8 @@ class _Renamed(MetaPathFinder, Loader):
         top, dot, rest = module.__name__.partition(".")
         newer = importlib.import_module(f"PySide6{dot}{rest}")
         if (top, rest) == ("PySide", "QtGui"):  # it had the widgets, too
-            names = {**vars(QtWidgets), **vars(newer)}
-            vars(module).update({name: value for name, value in names.items() if name[:2] != "__"})
+            for source in (QtWidgets, newer):  # their names are found by dir(), and created when they are used
+                vars(module).update({name: getattr(source, name) for name in dir(source) if name[:2] != "__"})
         else:
             sys.modules[module.__name__] = newer
 
