@@ -44,9 +44,11 @@ class _Renamed(MetaPathFinder, Loader):
         return importlib.util.spec_from_loader(name, self, is_package=name == top)
 
     def exec_module(self, module: ModuleType) -> None:
-        top, dot, rest = module.__name__.partition(".")
+        _, dot, rest = module.__name__.partition(".")
         newer = importlib.import_module(f"PySide6{dot}{rest}")
-        if (top, rest) == ("PySide", "QtGui"):  # it had the widgets, too
+        if module.__name__ == "PySide":
+            return  # a package of its own, whose QtGui is another one
+        if module.__name__ == "PySide.QtGui":  # it had the widgets, too
             for source in (QtWidgets, newer):  # their names are found by dir(), and created when they are used
                 vars(module).update({name: getattr(source, name) for name in dir(source) if name[:2] != "__"})
         else:
