@@ -33,6 +33,8 @@ _CMAKE_TARGETS = frozenset(
     "all clean depend edit_cache help install package package_source preinstall rebuild_cache test".split()
 )
 
+_QT_VERSION = "${QT_VERSION_MAJOR}"
+
 
 class View(msgspec.Struct, frozen=True):
     """What the templates show. All files of a component use the same view."""
@@ -170,11 +172,11 @@ def _slices(linked: LinkedComponent) -> list[str]:
 def _parts(linked: LinkedComponent, *, has_topics: bool) -> Iterator[str]:
     """The libraries of the run time that the component links."""
     if linked.component.compatibility:
-        yield "robocomp"
+        yield f"robocomp{_QT_VERSION}"
     if linked.component.gui:
-        yield "widgets"
+        yield f"widgets{_QT_VERSION}"
     elif linked.component.compatibility:
-        yield "qt"
+        yield f"qt{_QT_VERSION}"
     if linked.machine:
         yield "machine"
     if has_topics:
