@@ -11,6 +11,7 @@ from msgspec.structs import replace
 from robocomp_yaml.api.compile_stamps import CompileArguments, keep
 from robocomp_yaml.api.neighbours import ports
 from robocomp_yaml.api.outcome import File, Outcome
+from robocomp_yaml.diag.codes.emitting import CHANGED_CONFIG
 from robocomp_yaml.diag.codes.files import PLUGIN_FAILED
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, has_errors, in_order
 from robocomp_yaml.diag.hidden import Hidden
@@ -86,7 +87,9 @@ class Compilation:
         lasting = self._lasting(own)
         diagnostics = [*lasting, *recovered, *changes.diagnostics]
         outcome = _outcome_of(self._analysis, self._built, changes, in_order(diagnostics), with_diff=False)
-        if not self._merge and not has_errors(one for one in diagnostics if one not in lasting):
+        # A property file of the user is compared with its values document in every run.
+        is_settled = not any(one.severity == ERROR or one.code == CHANGED_CONFIG.id for one in changes.diagnostics)
+        if not self._merge and is_settled and not has_errors(recovered):
             new_stamp = self._stamp(own, changes, schemas, outcome.settled(lasting, changes))
             if new_stamp is not None:
                 keep(new_stamp, self._arguments)

@@ -21,7 +21,7 @@ from robocomp_yaml.digraph import postorder, reachable
 from robocomp_yaml.emit import slice as slice_target
 from robocomp_yaml.emit.layout import is_settings
 from robocomp_yaml.emit.options import EmitOptions
-from robocomp_yaml.emit.shared import Shared
+from robocomp_yaml.emit.shared import Shared, own_modules
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.transactions.plan import FilePlan, RootPlan
 
@@ -53,6 +53,9 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: EmitOpti
             yield replace(plain, path=folder + plain.path) if folder else plain
 
     requested = {program.modules[real]: real for real in program.requested & program.modules.keys()}
+    if options.output is None:
+        of_components = own_modules(program, options)
+        requested = {linked: real for linked, real in requested.items() if linked not in of_components}
     roots = {linked: options.output or options.workspace_of(linked.module.path).slice_folder for linked in requested}
 
     for linked in sorted(requested, key=lambda linked: linked.module.path):
@@ -66,9 +69,14 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: EmitOpti
         files = tuple(slices([linked, *_imports(linked, roots)]))
         result.plans.append(RootPlan(roots[linked], owner, files))
     shared = Shared(options, slices, program.disk)
+    lodgers = _lodgers(program, options)
     for real in sorted(program.requested_components(), key=lambda r: program.components[r].component.path):
         component = program.components[real]
         if options.only and not options.only(component):
+            continue
+        if real in lodgers:
+            result.diagnostics.append(_lodged(component, lodgers[real]))
+            result.skipped.add(real)
             continue
         if _unusable(component.component, next(_causes(component, state), ""), state, result):
             result.skipped.add(real)
@@ -90,6 +98,35 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: EmitOpti
     result.plans += shared.plans({(plan.root, plan.owner) for plan in result.plans})
     result.skipped |= _unused(program, state, result.skipped)
     return result
+
+
+def _lodgers(program: Program, options: EmitOptions) -> dict[str, LinkedComponent]:
+    """The components in the folder of another one, which has the folder's name, with that one."""
+    from robocomp_yaml.emit.component import component_root
+
+    by_root: dict[str, list[str]] = {}
+    for real in program.requested_components():
+        root = component_root(program.components[real].component.path, options)
+        by_root.setdefault(os.path.realpath(root), []).append(real)
+    lodgers: dict[str, LinkedComponent] = {}
+    for root, reals in by_root.items():
+        owners = [real for real in reals if os.path.basename(root).lower() in _names(program.components[real])]
+        if len(owners) == 1:
+            lodgers |= {real: program.components[owners[0]] for real in reals if real not in owners}
+    return lodgers
+
+
+def _names(linked: LinkedComponent) -> tuple[str, str]:
+    """The names of a component and of its document, in lower case."""
+    component = linked.component
+    return component.name.lower(), os.path.basename(component.path).partition(".")[0].lower()
+
+
+def _lodged(linked: LinkedComponent, owner: LinkedComponent) -> Diagnostic:
+    return emitting.LODGED.at(
+        linked.component.span, name=linked.component.name, owner=owner.component.name,
+        related=[Related("the component of this folder", owner.component.span)], hint=emitting.APART,
+    )  # fmt: skip
 
 
 def _documents_of(linked: LinkedComponent) -> tuple[str, ...]:

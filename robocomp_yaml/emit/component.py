@@ -45,7 +45,12 @@ def component_plan(
             files.append(FilePlan(f"{SLICE}/{COMMON}", resources.text(f"templates/slice/{COMMON}")))
     if options.emits(component.language.name):
         with _blaming_plugin(linked, options):
-            files += of_language(linked, layout)
+            # The newest version of RoboComp's own tool generates into the same folder.
+            is_robocomp = bool(component.compatibility)
+            files += (
+                replace(file, takes_over=is_robocomp and file.path.startswith(f"{GENERATED}/"))
+                for file in of_language(linked, layout)
+            )
             if component.sources or component.libraries:
                 from robocomp_yaml.emit import uses
 

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Set
 from robocomp_yaml.emit import runtime
 from robocomp_yaml.emit.layout import ALONE, Layout, fingerprint, runtime_folder
 from robocomp_yaml.emit.options import EmitOptions
-from robocomp_yaml.link.program import LinkedComponent, LinkedModule
+from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import WorkspaceSettings
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 from robocomp_yaml.source.disk import Disk
@@ -35,10 +35,17 @@ class Shared:
             return ALONE
         shared_runtime = os.path.relpath(runtime_folder(workspace, target), root or ".")
         modules = linked.modules()
-        if not all(self._is_of(workspace, one) and not _is_hidden(workspace, one, self._disk) for one in modules):
+        if not all(self._is_shared(workspace, linked, one) for one in modules):
             return Layout(runtime=shared_runtime)
         texts = {file.path: file.text for file in self._slices(modules)}
         return Layout(os.path.relpath(workspace.slice_folder, root or "."), shared_runtime, fingerprint(texts))
+
+    def _is_shared(self, workspace: WorkspaceSettings, linked: LinkedComponent, scope: LinkedModule) -> bool:
+        return (
+            self._is_of(workspace, scope)
+            and not _is_own(workspace, linked, scope)
+            and not _is_hidden(workspace, scope, self._disk)
+        )
 
     def _is_of(self, workspace: WorkspaceSettings, scope: LinkedModule) -> bool:
         other = self._options.workspace_of(scope.module.path)
@@ -63,6 +70,26 @@ class Shared:
             owner = os.path.relpath(scope.module.path, root)
             if (root, owner) not in planned:
                 yield RootPlan(root, owner, tuple(self._slices([scope])), partial=True)
+
+
+def own_modules(program: Program, options: EmitOptions) -> set[LinkedModule]:
+    """The modules of the program that are each the own module of a component."""
+    return {
+        scope for linked in program.components.values() for scope in linked.modules()
+        if _is_below(scope, linked) and _is_own(options.workspace_of(linked.component.path), linked, scope)
+    }  # fmt: skip
+
+
+def _is_own(workspace: WorkspaceSettings, linked: LinkedComponent, scope: LinkedModule) -> bool:
+    """Whether a module is the component's own: in a folder below the component's, which is not in the search path."""
+    folder = os.path.realpath(os.path.dirname(scope.module.path))
+    return _is_below(scope, linked) and all(folder != os.path.realpath(path) for path in workspace.interfaces)
+
+
+def _is_below(scope: LinkedModule, linked: LinkedComponent) -> bool:
+    """Whether a module is in a folder below that of a component."""
+    folder, own = (os.path.dirname(os.path.abspath(path)) for path in (scope.module.path, linked.component.path))
+    return folder.startswith(f"{own}/")
 
 
 def _is_hidden(workspace: WorkspaceSettings, scope: LinkedModule, disk: Disk) -> bool:

@@ -54,7 +54,7 @@ def configs(linked: LinkedComponent, program: Program, table: Callable[[], PortT
         yield FilePlan(
             path, property_text(sections, linked.component.name, source), secrets=secret_keys(sections),
             sources=tuple(layer.document.path for layer in values.layers()),
-            stated_in=f"{CONFIG}.yaml" if path == CONFIG else "",
+            stated_in=f"etc/{source}",
         )  # fmt: skip
 
 

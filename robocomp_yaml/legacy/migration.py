@@ -14,10 +14,19 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy import document as yaml
 from robocomp_yaml.legacy import workspaces
 from robocomp_yaml.legacy.convert import convert
+from robocomp_yaml.legacy.copies import from_search_path, skip_copies
 from robocomp_yaml.legacy.document import Notes
 from robocomp_yaml.legacy.draft import ConfigDraft, DeploymentDraft, MachineDraft
+from robocomp_yaml.legacy.foreign import skip_foreign
 from robocomp_yaml.legacy.ledger import LedgerEntry
-from robocomp_yaml.legacy.linking import InterfaceFiles, name_imports, name_machine, not_searched, resolve_references
+from robocomp_yaml.legacy.linking import (
+    InterfaceFiles,
+    is_copy,
+    name_imports,
+    name_machine,
+    not_searched,
+    resolve_references,
+)
 from robocomp_yaml.legacy.networks.deployment import build_deployments
 from robocomp_yaml.legacy.result import MigrationRun
 from robocomp_yaml.legacy.rules import Formats, with_plugins
@@ -60,22 +69,26 @@ def migrate(
         if file.preferred:
             entry.diagnostics = [codes.PREFERRED.at(Span(file.path), other=file.preferred)]
         run.entries.append(entry)
-    accepted = [entry for entry in run.entries if not entry.skipped and not entry.file.refused]
-
+    run.general += skip_foreign(run.entries, formats)
     known = workspaces.Workspaces()
-    for folder in discovered.workspaces():
-        root = run.root(folder)
-        if workspaces.needs_file(root) and accepted:
-            known.new.append(folder)
+    is_empty = all(entry.skipped or entry.file.refused for entry in run.entries)
+    known.new.extend(
+        folder for folder in discovered.workspaces() if not is_empty and workspaces.needs_file(run.root(folder))
+    )
+    search = ImportSearch(tuple(extra))
+    run.entries += from_search_path([*run.entries], search, formats, known)
+    interfaces = InterfaceFiles.of((entry.file for entry in run.entries if not entry.skipped), search)
+    run.general += skip_copies(run.entries, interfaces, known)
+    accepted = [entry for entry in run.entries if not entry.skipped and not entry.file.refused]
     known_formats = [(entry.legacy, entry.file.rules) for entry in accepted if entry.file.rules is not None]
     documents, diagnostics = assign_documents(known_formats)
     by_path = {entry.file.path: entry for entry in accepted}
     for diagnostic in diagnostics:
         by_path[diagnostic.span.file].diagnostics.append(diagnostic)
-    _link(run, accepted, documents, known, extra)
-    networks = build_deployments(accepted, documents, known)
-    configs, inferred = build_config_documents(accepted, documents, run.was_written, guesses, exact=exact)
-    _plan(run, accepted, documents, known, networks | configs, inferred, force)
+    _link(accepted, documents, known, interfaces)
+    networks, owners = build_deployments(accepted, documents, known)
+    configs, inferred = build_config_documents(accepted, documents, owners, run.was_written, guesses, exact=exact)
+    _plan(run, accepted, documents, known, networks | configs, inferred, interfaces, force)
     upgrade(run, paths)
     return run
 
@@ -126,15 +139,12 @@ def _missing_name(diagnostic: Diagnostic) -> str:
 
 
 def _link(
-    run: MigrationRun, accepted: Sequence[LedgerEntry], documents: dict[str, str], known: workspaces.Workspaces,
-    extra: Sequence[str],
+    accepted: Sequence[LedgerEntry], documents: dict[str, str], known: workspaces.Workspaces,
+    interfaces: InterfaceFiles,
 ) -> None:  # fmt: skip
-    interfaces = InterfaceFiles.of(
-        (entry.file for entry in run.entries if not entry.skipped), ImportSearch(tuple(extra))
-    )
     for entry in accepted:
-        document = documents[entry.file.path]
-        entry.diagnostics += name_imports(entry.file, document, known.of(document), interfaces)
+        workspace = known.of(documents[entry.file.path])
+        entry.diagnostics += name_imports(entry.file, documents, workspace, interfaces)
         entry.diagnostics += name_machine(entry.file, documents)
     reported: set[tuple[str, str]] = set()
     for entry in accepted:
@@ -150,7 +160,7 @@ def _link(
 
 def _plan(
     run: MigrationRun, accepted: Sequence[LedgerEntry], documents: dict[str, str], known: workspaces.Workspaces,
-    settled: Mapping[str, yaml.Map], inferred: Sequence[InferredParameters], force: bool,
+    settled: Mapping[str, yaml.Map], inferred: Sequence[InferredParameters], interfaces: InterfaceFiles, force: bool,
 ) -> None:  # fmt: skip
     """Plan the documents of all files. `settled` are the documents that depend on several files, by the path of
     each."""
@@ -175,11 +185,12 @@ def _plan(
         output = root.add(os.path.relpath(document, entry.legacy.root), text, force=force, sources=(entry.file.path,))
         run.homes.setdefault(home, []).append(output)
         run.add(entry, root, output)
-        if home in written and not raw:
+        if home in written and not raw and not is_copy(entry.file):
             written[home].append((kind, document, content))
     run.report_failures()
     for folder in known.new:
-        run.roots[folder].add(WORKSPACE_FILE, workspaces.file_text(folder, written[folder]), force=force)
+        text = workspaces.file_text(folder, written[folder], interfaces.folders_used(folder))
+        run.roots[folder].add(WORKSPACE_FILE, text, force=force)
 
 
 def _has_reserved_names(content: yaml.Map) -> bool:

@@ -28,8 +28,18 @@ class LegacyFile(msgspec.Struct, frozen=True):
     path: str
     root: str
     folder: str
+    is_named: bool = False
+    """Whether the file itself was passed, not a folder that contains it."""
+    is_pulled: bool = False
+    """Whether the file is in the search path, and migrated because another file imports it."""
     preferred: str = ""
     """The file in the same folder that this one was generated from; then this one is skipped."""
+
+    @property
+    def start(self) -> str:
+        """The folder of the source that corresponds to the output root."""
+        folder = os.path.dirname(self.path)
+        return os.path.normpath(os.path.join(folder, os.path.relpath(os.curdir, self.folder)))
 
     def document(self, name: str) -> str:
         return os.path.normpath(os.path.join(self.root, self.folder, name))
@@ -73,7 +83,7 @@ def discover(paths: Sequence[str], output: str | None, known: Formats) -> Legacy
                 seen.add(real)
                 start = (path if is_folder else os.path.dirname(path)) if output else root
                 folder = os.path.relpath(os.path.dirname(file) or ".", start or ".")
-                discovered.files.append(LegacyFile(file, root, folder))
+                discovered.files.append(LegacyFile(file, root, folder, is_named=not is_folder))
     discovered.files[:] = _preferences(discovered.files, known)
     return discovered
 

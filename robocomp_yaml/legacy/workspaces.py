@@ -47,9 +47,10 @@ def needs_file(root: OutputRoot) -> bool:
     return os.path.realpath(above) == root.root.real and root.is_unchanged(WORKSPACE_FILE)
 
 
-def file_text(root: str, documents: Iterable[tuple[str, str, Map]]) -> str:
+def file_text(root: str, documents: Iterable[tuple[str, str, Map]], others: Iterable[str]) -> str:
     """Return the `rcyaml.yaml` of a migrated folder, for documents as (kind, path, content): the folders of interfaces,
-    and as warnings the errors that are usual in legacy repositories and matter only to compile."""
+    in `documents` and `others`, and as warnings the errors that are usual in legacy repositories and matter only to
+    compile."""
     document, lint = Map(block=True), Map(block=True)
     folders: dict[str, set[str]] = {"idsl": set(), "cdsl": set()}
     components: Counter[str] = Counter()
@@ -57,10 +58,8 @@ def file_text(root: str, documents: Iterable[tuple[str, str, Map]]) -> str:
         components.update(_component(content) if kind == "cdsl" else ())
         folder = os.path.relpath(os.path.dirname(path) or ".", root)
         folders.setdefault(kind, set()).add(folder)
-    if folders["idsl"]:
-        listed = [
-            folder for folder in sorted(folders["idsl"]) if folder.isprintable()
-        ]  # a name that is not UTF-8 is not valid text
+    # A name that is not UTF-8 is not valid text.
+    if listed := [folder for folder in (*sorted(folders["idsl"]), *others) if folder.isprintable()]:
         document.put("interfaces", List.of(listed))
     for row in (idsl.UNRESOLVED_IMPORT, cdsl.UNRESOLVED_IMPORT, machines.UNREADABLE):
         lint.put(row.id, "warning")

@@ -9,6 +9,7 @@ from msgspec.structs import replace
 
 from robocomp_yaml.diag.codes import emitting as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
+from robocomp_yaml.diag.listing import some
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.source import properties
@@ -92,6 +93,7 @@ class _RootPlanner:
         self.steps: list[atomic.FileStep] = []
         self.settled: dict[str, bytes] = {}
         self.once: list[str] = []
+        self.users_settings: dict[str, list[tuple[FilePlan, list[str]]]] = {}
 
     def prepare(self) -> RootChanges:
         manifest_status = self.root.status(manifest.PATH)
@@ -105,6 +107,7 @@ class _RootPlanner:
                 self._once(desired.plan, entry)
             else:
                 self._always(desired.plan, entry)
+        self._warn_settings()
         self._manifest(manifest_status)
         is_refused = has_errors(self.diagnostics) or self.root.real in self.merges.refused
         return self._result().as_refused() if is_refused else self._result()
@@ -178,14 +181,20 @@ class _RootPlanner:
                 self._note(plan.path, changes.UNCHANGED)
         elif self._is_written_inside(plan) or self._is_generated(plan.path, status.data or b"", entry):
             self._write(plan, status, changes.UPDATE)
-        elif entry and not entry.once:
+        elif not self.adopt and plan.stated_in and not self._loses_nothing(plan, status.data or b"", text):
+            self._users_settings(plan, status.data or b"", text, entry)
+            return
+        elif not plan.stated_in and entry and not entry.once:
             change = self._write(plan, status, changes.EDITED)
             self._warn_edited(plan.path, f"your version is kept as '{os.path.basename(change.orig)}'")
-        elif self.adopt or self._loses_nothing(plan, status.data or b"", text):
+        elif self.adopt or plan.stated_in or plan.takes_over:
             self._write(plan, status, changes.ADOPT)
         else:
             self._note(plan.path, changes.REFUSED, status.data, text)
-            self.diagnostics.append(self._refused(plan, status.data or b"", text, entry))
+            adopt = typed("rcyaml", "compile", "--adopt", self._owner(plan.path))
+            hint = f"`{adopt}` overwrites it, and keeps your file as .orig"
+            at = Span(self.root.shown(plan.path))
+            self.diagnostics.append(codes.NOT_GENERATED.at(at, path=plan.path, hint=hint))
             return
         self.settled[plan.path] = text
         self._enter(plan.path, digest(text))
@@ -203,26 +212,32 @@ class _RootPlanner:
 
     def _loses_nothing(self, plan: FilePlan, data: bytes, text: bytes) -> bool:
         """Whether the planned text keeps all properties that the user set in a property file."""
-        if not plan.stated_in:
-            return False
         base = self._base(plan.path)
         return lost(base, data, text) == [] and (base is not None or lost(None, text, data) == [])
 
     def _base(self, path: str) -> bytes | None:
         return self.root.status(f"{manifest.BASE}/{path}").data if path in self.old.files else None
 
-    def _refused(self, plan: FilePlan, data: bytes, text: bytes, entry: ManifestEntry | None) -> Diagnostic:
-        span = Span(self.root.shown(plan.path))
-        adopt = typed("rcyaml", "compile", "--adopt", self.root.shown(self.desired.files[plan.path].owners[0]))
-        if entry is None or not plan.stated_in:
-            hint = f"`{adopt}` overwrites it, and keeps your file as .orig"
-            return codes.NOT_GENERATED.at(span, path=plan.path, hint=hint)
-        keys = ", ".join(lost(self._base(plan.path), data, text) or ["your changes"])
-        hint = (
-            f"move {keys} to {self.root.shown(plan.stated_in)}; then `{adopt}` overwrites the file, and keeps your "
-            "version as .orig"
-        )
-        return codes.CHANGED_CONFIG.at(span, path=plan.path, hint=hint)
+    def _users_settings(self, plan: FilePlan, data: bytes, text: bytes, entry: ManifestEntry | None) -> None:
+        """A property file that the user wrote or edited stays, because programs read it."""
+        self._note(plan.path, changes.KEPT)
+        if entry:
+            self._enter(plan.path, entry.hash, once=entry.once)
+        keys = lost(self._base(plan.path), data, text) or differing(data, text)
+        self.users_settings.setdefault(os.path.dirname(plan.path), []).append((plan, keys))
+
+    def _warn_settings(self) -> None:
+        """One warning for each folder with property files of the user."""
+        for found in self.users_settings.values():
+            plan = found[0][0]
+            files = "; ".join(f"{one.path} ({some(keys) or 'its text'})" for one, keys in found)
+            adopt = typed("rcyaml", "compile", "--adopt", self._owner(plan.path))
+            documents = some([self.root.shown(one.stated_in) for one, _ in found])
+            hint = f"set them in {documents} as well; or `{adopt}` overwrites your files, and keeps them as .orig"
+            self.diagnostics.append(codes.CHANGED_CONFIG.at(Span(self.root.shown(plan.path)), files=files, hint=hint))
+
+    def _owner(self, path: str) -> str:
+        return self.root.shown(self.desired.files[path].owners[0])
 
     def _not_planned(self, path: str, entry: ManifestEntry) -> None:
         """A file of the manifest that is not planned: it stays as long as one of its owners exists."""
@@ -336,3 +351,13 @@ def lost(base: bytes | None, yours: bytes, new: bytes) -> list[str] | None:
     except UnicodeDecodeError:
         return None
     return [key for key, value in mine.items() if value not in (before.get(key, ""), then.get(key, ""))]
+
+
+def differing(yours: bytes, new: bytes) -> list[str]:
+    """The keys of the properties that two property files do not have with the same value; none if one is not UTF-8. For
+    Ice a property without a value is not set."""
+    try:
+        mine, then = (properties.read(data.decode()).values for data in (yours, new))
+    except UnicodeDecodeError:
+        return []
+    return [key for key in {**mine, **then} if mine.get(key, "") != then.get(key, "")]

@@ -154,7 +154,7 @@ public:
 	void Arm_breakDown();
 	void Arm_betray();
 	void Arm_block(const float seconds);
-	Image Hand_grasp(const Image &image);
+	Image grasp(const Image &image);
 
 public slots:
 	void compute();
@@ -263,7 +263,7 @@ void SpecificWorker::Arm_betray()
 
 void SpecificWorker::Arm_block(const float) {}
 
-Image SpecificWorker::Hand_grasp(const Image &image)
+Image SpecificWorker::grasp(const Image &image)
 {
 	return Image(image.rbegin(), image.rend());
 }

@@ -131,7 +131,7 @@ class SpecificWorker(GenericWorker):
 	def Arm_betray(self):
 		self.kill.emit()
 
-	def Hand_grasp(self, image):
+	def grasp(self, image):
 		return image[::-1]
 """
 

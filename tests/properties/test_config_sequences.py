@@ -92,9 +92,9 @@ class Model:
     def compile(self, options: list[str], what: str) -> None:
         result = run("compile", *options, what)
         assert "RC6001" not in result.output
-        if result.exit_code:
-            assert self.is_edited and Path(VALUES).exists(), result.output
-            assert "RC6010" in result.output and "Mine.0" in result.output, result.output
+        assert not result.exit_code, result.output
+        if "RC6010" in result.output:
+            assert self.is_edited and Path(VALUES).exists() and "Mine.0" in result.output, result.output
             return
         if Path(VALUES).exists():
             self.is_edited = False

@@ -53,7 +53,8 @@ class SourceCode(msgspec.Struct, frozen=True):
     """A file. `faults` is the number of syntax errors. `members` are in the class, `definitions` outside. `location` is
     the location of the class's name, None if the file does not contain the class. `body_end` is the line before which
     the class's body ends, and `unit` one step of indentation. `bases` are the base classes. `import_end` is the line
-    after the last import, or the line before which an import can be inserted."""
+    after the last import, or the line before which an import can be inserted. `older` is the location of syntax that
+    only an older version of the language has."""
 
     path: str
     lines: list[str]
@@ -66,6 +67,7 @@ class SourceCode(msgspec.Struct, frozen=True):
     body_end: int = 0
     unit: str = "    "
     bases: tuple[str, ...] = ()
+    older: Span | None = None
 
     @property
     def methods(self) -> tuple[SourceMethod, ...]:

@@ -41,12 +41,28 @@ class Comparison(msgspec.Struct):
     obsolete: list[ObsoleteMethod] = []
 
 
+Accepted = Mapping[str, tuple[SourceMethod, ...]]
+"""Signatures that are right besides those of the skeleton, by the method's name. Such a method may be missing."""
+
+_NOTHING: Accepted = {}
+
+
+def accepted_in(codes: Iterable[SourceCode]) -> Accepted:
+    """The methods that the classes declare, by name."""
+    by_name: dict[str, tuple[SourceMethod, ...]] = {}
+    for code in codes:
+        for method in code.members:
+            by_name[method.name] = (*by_name.get(method.name, ()), method)
+    return by_name
+
+
 def compare(
-    new: Sequence[SourceCode], base: Mapping[str, SourceCode], yours: Sequence[SourceCode], bases: Collection[str] = ()
-) -> Comparison:
+    new: Sequence[SourceCode], base: Mapping[str, SourceCode], yours: Sequence[SourceCode], bases: Collection[str] = (),
+    accepted: Accepted = _NOTHING,
+) -> Comparison:  # fmt: skip
     """Compares the user's files, `yours`, with the new skeleton. `base` are the skeletons that the user's files were
     written from, as far as they are known, by path. `bases` are the base classes of the skeleton's class, in addition
-    to those in `new`."""
+    to those in `new`. `accepted` are further signatures."""
     result = Comparison()
     members, definitions = _by_name(yours, "members"), _by_name(yours, "definitions")
     bodies = {name: [pair for pair in pairs if pair[1].has_body] for name, pairs in members.items()}
@@ -58,9 +74,12 @@ def compare(
             for method in getattr(skeleton, part):
                 mine = known.get(method.name, [])
                 defined = mine or (bodies.get(method.name) if part == "definitions" else None)
-                if not defined and method.name not in elsewhere:
+                others = accepted.get(method.name, ())
+                if accepted and not defined:  # the oldest versions of RoboComp's tool omit the interface's name
+                    defined = known.get(method.name.partition("_")[2])
+                if not defined and method.name not in elsewhere and not others:
                     result.missing.append(MissingMethod(skeleton, method))
-                if mine and not any(_fits(one, method, before.get(method.name)) for _, one in mine):
+                if mine and not any(_fits_any(one, method, before.get(method.name), others) for _, one in mine):
                     result.outdated.append(OutdatedMethod(*mine[0], skeleton, method))
     result.obsolete = list(_obsolete(new, base, members, definitions, result.missing))
     return result
@@ -81,6 +100,12 @@ def _inherited(new: Sequence[SourceCode], yours: Sequence[SourceCode], bases: Co
         return set()
     words = {word for code in yours for line in code.lines for word in re.findall(r"\w+", line)}
     return {method.name for code in new for method in code.methods} & words
+
+
+def _fits_any(
+    mine: SourceMethod, expected: SourceMethod, before: SourceMethod | None, others: Iterable[SourceMethod]
+) -> bool:
+    return _fits(mine, expected, before) or any(_fits(mine, other, None) for other in others)
 
 
 def _fits(mine: SourceMethod, expected: SourceMethod, before: SourceMethod | None) -> bool:

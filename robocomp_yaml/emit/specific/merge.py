@@ -19,7 +19,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.layout import SOURCES
 from robocomp_yaml.emit.specific import config_merge, threeway
 from robocomp_yaml.emit.specific.code import ImportLine, SourceCode
-from robocomp_yaml.emit.specific.compare import compare
+from robocomp_yaml.emit.specific.compare import Accepted, accepted_in, compare
 from robocomp_yaml.emit.specific.insert import insert
 from robocomp_yaml.emit.specific.reading import compiles, others, read
 from robocomp_yaml.emit.specific.threeway import Conflict
@@ -54,9 +54,10 @@ def merge_files(root: Root, files: Sequence[UserFile]) -> tuple[dict[str, Merge]
         else:
             sides.append(replace(file, yours=file.yours.replace("\r\n", "\n")) if _is_dos(file) else file)
     beside = others(root, {side.path for side in sides if side.path.startswith(f"{SOURCES}/")})
+    accepted = accepted_in(code for side in sides if (code := read(side.path, side.accepted)))
     bases = {base for side in sides if (code := read(side.path, side.new)) for base in code.bases}
     for side in sides:
-        result = _merge(side, [one for one in sides if one is not side], beside, bases)
+        result = _merge(side, [one for one in sides if one is not side], beside, bases, accepted)
         if result.reason:
             refusals += _refusals(root.shown(side.path), result)
         else:
@@ -83,8 +84,9 @@ def _refusals(path: str, result: MergeResult) -> list[Diagnostic]:
 
 
 def _merge(
-    side: UserFile, besides: Sequence[UserFile], others: Sequence[SourceCode], bases: Collection[str]
-) -> MergeResult:
+    side: UserFile, besides: Sequence[UserFile], others: Sequence[SourceCode], bases: Collection[str],
+    accepted: Accepted,
+) -> MergeResult:  # fmt: skip
     yours = read(side.path, side.yours)
     new = read(side.path, side.new)
     if yours is None or new is None:
@@ -92,7 +94,7 @@ def _merge(
     old = None if side.base is None else read(side.path, side.base)
     goal = new if old is None else _with_obsolete(new, old, yours)
     elsewhere = [*others, *(code for one in besides if (code := read(one.path, one.yours)))]
-    judge = _Judge(side, yours, goal, old, elsewhere, bases, {code.path for code in others})
+    judge = _Judge(side, yours, goal, old, elsewhere, bases, {code.path for code in others}, accepted)
     lacking = judge.lacking(yours)
     goal_text = "".join(goal.lines)
     if goal_text == side.base and not lacking:
@@ -159,24 +161,24 @@ class _Judge:
 
     def __init__(
         self, side: UserFile, yours: SourceCode, goal: SourceCode, old: SourceCode | None,
-        elsewhere: Sequence[SourceCode], bases: Collection[str], untouched: Collection[str],
+        elsewhere: Sequence[SourceCode], bases: Collection[str], untouched: Collection[str], accepted: Accepted,
     ) -> None:  # fmt: skip
         """`elsewhere` is the code of the user's other files, and `untouched` are those of them that are not merged."""
         self.side, self.yours, self.goal, self.elsewhere, self.bases = side, yours, goal, elsewhere, bases
-        self.untouched = untouched
+        self.untouched, self.accepted = untouched, accepted
         self.base = {} if old is None else {side.path: old}
         self.changed = _changed(old, goal) if old else set()
         self.was_outdated = self._outdated(yours, old) - self.changed
         self.mine = Counter(_lines(side.yours)) - Counter(_lines(side.base or ""))
 
     def lacking(self, code: SourceCode) -> set[str]:
-        comparison = compare([self.goal], self.base, [code, *self.elsewhere], self.bases)
+        comparison = compare([self.goal], self.base, [code, *self.elsewhere], self.bases, self.accepted)
         return {one.method.name for one in comparison.missing}
 
     def _outdated(self, code: SourceCode, against: SourceCode | None) -> set[str]:
         if against is None:
             return set()
-        comparison = compare([against], self.base, [code, *self.elsewhere], self.bases)
+        comparison = compare([against], self.base, [code, *self.elsewhere], self.bases, self.accepted)
         return {one.method.name for one in comparison.outdated if one.code.path in (code.path, *self.untouched)}
 
     def touches_changed(self, conflicts: Sequence[Conflict]) -> bool:

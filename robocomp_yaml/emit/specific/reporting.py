@@ -12,7 +12,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.emit.specific import config_merge
 from robocomp_yaml.emit.specific.code import CLASS, SourceCode, SourceMethod
-from robocomp_yaml.emit.specific.compare import Comparison, MissingMethod, compare
+from robocomp_yaml.emit.specific.compare import Comparison, MissingMethod, accepted_in, compare
 from robocomp_yaml.emit.specific.insert import lead
 from robocomp_yaml.emit.specific.reading import comment_mark, is_code, others, read
 from robocomp_yaml.emit.specific.user_file import UserFile
@@ -37,11 +37,16 @@ def _about_class(root: Root, files: Sequence[UserFile], merge: str) -> Iterator[
     new = [code for file in files if (code := read(file.path, file.new))]
     base = {file.path: code for file in files if file.base and (code := read(file.path, file.base))}
     yours = [code for file in files if (code := read(file.path, file.yours))]
-    comparison = compare(new, base, yours)
+    for code in yours:
+        if code.older is not None:
+            command = f"`2to3 -w {typed(root.shown(code.path))}` converts it (Python 3.12 and older have 2to3)"
+            yield codes.OLDER_LANGUAGE.at(_span(root, code, code.older), path=root.shown(code.path), hint=command)
+    accepted = accepted_in(code for file in files if (code := read(file.path, file.accepted)))
+    comparison = compare(new, base, yours, accepted=accepted)
     if comparison.missing or not any(code.location for code in yours):
         # Other files may contain parts of the class.
         yours += others(root, {file.path for file in files})
-        comparison = compare(new, base, yours)
+        comparison = compare(new, base, yours, accepted=accepted)
     home = next((code for code in yours if code.location), None)
     if home is None or home.location is None:
         homes = {code.path for code in new if code.location}

@@ -84,7 +84,8 @@ def _user_files(plan: RootPlan, root: Root, every: bool, seen: Review) -> Iterat
             continue
         yours = _text(status.data)
         user_file = UserFile(
-            file.path, file.text, status.data, yours or "", is_text=yours is not None, is_link=not status.mode
+            file.path, file.text, status.data, yours or "", accepted=file.accepted,
+            is_text=yours is not None, is_link=not status.mode,
         )  # fmt: skip
         if not user_file.is_up_to_date:
             base, where = root.status(f"{BASE}/{file.path}"), root.shown(f"{BASE}/{file.path}")

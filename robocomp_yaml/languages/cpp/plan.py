@@ -33,6 +33,8 @@ _CMAKE_TARGETS = frozenset(
     "all clean depend edit_cache help install package package_source preinstall rebuild_cache test".split()
 )
 
+_QT_VERSION = "${QT_VERSION_MAJOR}"
+
 
 class View(msgspec.Struct, frozen=True):
     """What the templates show. All files of a component use the same view."""
@@ -102,6 +104,7 @@ def _robocomp(component: LinkedComponent, view: View, parts: list[FilePlan]) -> 
         "generated/component.cmake": "component.cmake",
         "generated/CMakeLists.txt": "robocomp_CMakeLists.txt",
     }
+    accepted = render("cpp/robocomp_accepted.h", view)
     own = {
         "src/specificworker.h": "robocomp_specificworker.h",
         "src/specificworker.cpp": "robocomp_specificworker.cpp",
@@ -111,7 +114,7 @@ def _robocomp(component: LinkedComponent, view: View, parts: list[FilePlan]) -> 
         *parameters.plan(component),
         *parts,
         *(FilePlan(path, render(f"cpp/{name}.j2", view)) for path, name in names.items()),
-        *(FilePlan(path, render(f"cpp/{name}.j2", view), ONCE) for path, name in own.items()),
+        *(FilePlan(path, render(f"cpp/{name}.j2", view), ONCE, accepted=accepted) for path, name in own.items()),
         ignored_program(view.name),
     ]
 
@@ -169,11 +172,11 @@ def _slices(linked: LinkedComponent) -> list[str]:
 def _parts(linked: LinkedComponent, *, has_topics: bool) -> Iterator[str]:
     """The libraries of the run time that the component links."""
     if linked.component.compatibility:
-        yield "robocomp"
+        yield f"robocomp{_QT_VERSION}"
     if linked.component.gui:
-        yield "widgets"
+        yield f"widgets{_QT_VERSION}"
     elif linked.component.compatibility:
-        yield "qt"
+        yield f"qt{_QT_VERSION}"
     if linked.machine:
         yield "machine"
     if has_topics:

@@ -38,10 +38,12 @@ class MethodView(msgspec.Struct, frozen=True):
 
 
 class OperationView(msgspec.Struct, frozen=True):
-    """An operation of a servant."""
+    """An operation of a servant. `calls` is the worker's method that it calls with `arguments`, '' for none."""
 
     declaration: str
     body: str
+    calls: str = ""
+    arguments: str = ""
 
 
 class ServiceView(msgspec.Struct, frozen=True):
@@ -172,6 +174,8 @@ def operation_view(method: Method, scope: LinkedModule, calls: str) -> Operation
     return OperationView(
         declaration=declaration(f"{returns} {ice_name(method.name)}", [*typed, current], " override", IN),
         body=statement if calls else _NOT_PUBLISHED,
+        calls=calls,
+        arguments=", ".join(parameter(name) for _, name in types),
     )
 
 

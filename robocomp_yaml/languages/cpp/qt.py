@@ -10,7 +10,7 @@ from msgspec.structs import replace
 
 from robocomp_yaml.languages._shared.text import IN, declaration
 from robocomp_yaml.languages.cpp.names import ice_name, parameter, qualified
-from robocomp_yaml.languages.cpp.ports import AccessorView, Ports, ServiceView
+from robocomp_yaml.languages.cpp.ports import AccessorView, OperationView, Ports, ServiceView
 from robocomp_yaml.languages.cpp.types import input_type, type_name
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.interface import Enum, Method
@@ -33,7 +33,8 @@ class Enumerators(msgspec.Struct, frozen=True):
 
 class RobocompView(msgspec.Struct, frozen=True):
     """What code for RoboComp's own tool needs. `tie`, `tuple_types` and `map` list the accessors; `methods` are
-    declared for classes that override them; `legacy_sources` are the names of RoboComp's own files in `src/`."""
+    declared for classes that override them, protected, so that nobody else calls them; `legacy_sources` are the names
+    of RoboComp's own files in `src/`."""
 
     base: str
     tuple_types: str
@@ -86,9 +87,17 @@ def _behind_pointer(service: ServiceView) -> ServiceView:
     """RoboComp creates servants before the worker, and the worker has no log."""
     return replace(
         service,
-        operations=[replace(one, body=one.body.replace("worker_.", "worker_->", 1)) for one in service.operations],
+        operations=[replace(one, body=_either(one)) if one.calls else one for one in service.operations],
         new_methods=[replace(method, stub=method.stub[1:]) for method in service.new_methods],
     )
+
+
+def _either(operation: OperationView) -> str:
+    """The call of the worker's method, which the oldest versions of the tool name without the interface."""
+    names = (operation.calls, operation.calls.partition("_")[2])
+    calls = [f"worker.{name}({operation.arguments})" for name in names]
+    ways = [f"[&](auto& worker) -> decltype({call}) {{ return {call}; }}" for call in calls]
+    return declaration("return robocomp::call", ["*worker_", *ways], ";", IN * 2)
 
 
 def _methods(linked: LinkedComponent) -> Iterator[str]:
@@ -110,10 +119,7 @@ def _variants(name: str, method: Method, port: Port) -> Iterator[str]:
     by_reference = [f"{input_type(m.type, scope)} {parameter(m.name)}" for m in method.inputs]
     by_value = [f"{type_name(m.type, scope)} {parameter(m.name)}" for m in method.inputs]
     head = f"virtual {returns} {name}"
-    if by_reference == by_value:
-        yield declaration(head, [*by_value, *outputs], " = 0;", IN)
-        return
-    for inputs in (by_reference, by_value):
+    for inputs in (by_reference, by_value) if by_reference != by_value else (by_value,):
         unnamed = [word.rpartition(" ")[0] for word in (*inputs, *outputs)]
         yield declaration(head, unnamed, f' {{ throw std::logic_error("{name}() is missing"); }}', IN)
 

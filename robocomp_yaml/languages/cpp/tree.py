@@ -25,6 +25,7 @@ _STATUS = re.compile(r"\[ *(\d+)(?:/(\d+)|%)\] (.*)")
 _FAILED = re.compile(r"FAILED: (.*)")
 _ERROR = re.compile(r"CMake Error(?: at (?P<file>.*?):(?P<line>\d+) \(.*\)| in (?P<folder>.*?))?: ?(?P<text>.*)")
 _CALL = re.compile(r"  (?P<file>\S.*?):(?P<line>\d+) \(.*\)")
+_MISSING = re.compile(r"ninja: error: '(?P<file>.*)', needed by '(?P<user>.*)', missing and no known rule to make it")
 _DEPS = "#deps"
 _UNDEFINED = re.compile(r"undefined reference to [`‘'](.*)['’]")
 _LAST = 10  # lines that are shown of a failed step whose output is not understood
@@ -128,6 +129,9 @@ class BuildTree(msgspec.Struct, frozen=True):
         run.flush()
         if run.is_unconfigured:
             return _failure(run.lines, os.path.abspath(self.source))
+        if run.impossible is not None and parts.keys() - {run.impossible}:  # Ninja built nothing
+            rest = self.make(job, {unit: part for unit, part in parts.items() if unit is not run.impossible})
+            return rest if isinstance(rest, Failure) else {run.impossible: ComponentBuild(False, 0, ()), **rest}
         shares = _shares(before, _log(self.folder), ended.cpu)
         read = _read_files(job.processes, self.folder, self.root) if is_ninja else {}
         done: dict[Unit, ComponentBuild] = {}
@@ -185,6 +189,8 @@ class _Run:
         self.lines: list[str] = []
         self.failed: dict[Unit, list[str]] = {}
         self.is_unconfigured = False
+        self.impossible: Unit | None = None
+        """A component that needs a file that nothing makes."""
         self._tree, self._job, self._parts = tree, job, parts
         self._piece: list[str] = []
         self._reader = CompilerOutput(tree.folder, "the C++ compiler")
@@ -198,6 +204,13 @@ class _Run:
         if status:
             done, total, what = int(status[1]), int(status[2] or 100), status[3]
             self._job.report(BuildStep(done, total, what))
+        elif match := _MISSING.fullmatch(line):
+            self.impossible = self._owner([match["user"]])
+            if self.impossible is None:
+                self._unassigned.append(line)
+            else:
+                reason = f"{match['file']} is missing, and nothing in the build makes it"
+                self._job.add_failure(self.impossible, reason)
         elif line.startswith("ninja: error: rebuilding") or "cmake_check_build_system] Error" in line:
             self.is_unconfigured = True
         else:

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from functools import cache
 
 import tree_sitter_python
+from msgspec.structs import replace
 from tree_sitter import Language, Node, Parser
 
 from robocomp_yaml.emit.specific.code import (
@@ -34,6 +35,23 @@ def _parser() -> Parser:
 def read(path: str, source: str) -> SourceCode:
     root = _parser().parse(source.encode()).root_node
     lines = lines_of(source)
+    code = _read(path, root, lines)
+    older = _python_2(root) if not compiles(code) else None
+    return replace(code, older=location(older, lines)) if older is not None else code
+
+
+def _python_2(root: Node) -> Node | None:
+    """The first word of a statement that only Python 2 has."""
+    todo = [root]
+    while todo:
+        node = todo.pop()
+        if node.type in ("print_statement", "exec_statement"):
+            return node.children[0]
+        todo += reversed(node.children)
+    return None
+
+
+def _read(path: str, root: Node, lines: list[str]) -> SourceCode:
     imports = list(_imports(root))
     tops = [node for node in root.children if node.type.startswith(("import", "future_import"))]
     import_end = tops[-1].end_point[0] + 1 if tops else _behind_docstring(root)

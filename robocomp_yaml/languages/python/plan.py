@@ -118,7 +118,12 @@ def _robocomp(view: View) -> list[FilePlan]:
     return [
         FilePlan("generated/robocomp/genericworker.py", render("python/robocomp_genericworker.py.j2", view)),
         FilePlan("generated/robocomp/interfaces.py", render("python/robocomp_interfaces.py.j2", view)),
-        FilePlan("src/specificworker.py", render("python/robocomp_specificworker.py.j2", view), ONCE),
+        FilePlan(
+            "src/specificworker.py",
+            render("python/robocomp_specificworker.py.j2", view),
+            ONCE,
+            accepted=render("python/robocomp_accepted.py", view),
+        ),
     ]
 
 

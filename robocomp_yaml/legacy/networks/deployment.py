@@ -26,12 +26,14 @@ _IP = re.compile(r"[\d.:]+")
 
 def build_deployments(
     accepted: Sequence[LedgerEntry], targets: Mapping[str, str], workspaces: Workspaces
-) -> dict[str, Map]:
-    """Return the document of each network among the accepted files, by the file's path."""
+) -> tuple[dict[str, Map], dict[str, str]]:
+    """Return the document of each network among the accepted files, by the file's path; and the document of each
+    component that a network configures, by the real path of the config."""
     by_file: dict[str, Map] = {}
+    owners: dict[str, str] = {}
     networks = [(entry, entry.file.draft) for entry in accepted if isinstance(entry.file.draft, DeploymentDraft)]
     if not networks:
-        return by_file
+        return by_file, owners
     migrated = of_run((entry.file for entry in accepted), targets)
     by_real_path = {os.path.realpath(path): document for path, document in targets.items()}
     existing: dict[str, list[KnownComponent]] = {}
@@ -44,11 +46,11 @@ def build_deployments(
             existing[home] = of_folder(home, [known.path for known in migrated])
         name = safe_name(os.path.basename(document).removesuffix(rules.document))
         known = [*migrated, *existing[home]]
-        site = Destination(document, by_real_path, f"x-{rules.name}")
+        site = Destination(document, by_real_path, f"x-{rules.name}", entry.legacy.start, owners)
         builder = _DeploymentBuilder(name, draft.network, known, site)
         by_file[entry.file.path] = builder.document()
         entry.diagnostics += builder.diagnostics
-    return by_file
+    return by_file, owners
 
 
 class _DeploymentBuilder(msgspec.Struct, eq=False):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import posixpath
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import msgspec
 
@@ -18,11 +18,14 @@ COMMON = "CommonBehavior"
 
 class Destination(msgspec.Struct, frozen=True):
     """The path of a deployment's document, and the document of each legacy file of the run, by the file's real path.
-    What only an exporter needs is written under `key`."""
+    What only an exporter needs is written under `key`. `sources` is the folder of the legacy repository. `owners` gets
+    the document of each component that a network configures, by the real path of the config."""
 
     document: str
     documents: Mapping[str, str]
     key: str
+    sources: str
+    owners: dict[str, str]
 
     @property
     def folder(self) -> str:
@@ -61,7 +64,7 @@ def component_entry(
     entry.put_some("host", host)
     entry.put_some("args", List.of(command.words[command.words.index(command.program) + 1 :]))
     if command.config:
-        entry.put("config", _config(command, home, site))
+        entry.put("config", _config(command, component, site))
     if node.endpoint is not None:
         problem = _ports(entry, node, component)
     connect = Map()
@@ -91,13 +94,24 @@ def _ports(entry: Map, node: NetworkNode, component: KnownComponent) -> str:
     return ""
 
 
-def _config(command: NodeCommand, home: str, site: Destination) -> str:
+def _config(command: NodeCommand, component: KnownComponent, site: Destination) -> str:
     """Return the path of the component's configuration from its folder: of the migrated document, if there is one."""
+    home = os.path.dirname(component.path) or "."
     below = _relative_to(command.config, command.folder, home)
-    if not below:
-        return command.config
-    document = site.documents.get(os.path.realpath(os.path.join(home, below)))
-    return os.path.relpath(document, home) if document is not None else below
+    paths = [os.path.join(home, below)] if below else []
+    paths += [os.path.join(site.sources, tail) for tail in _tails(posixpath.join(command.folder, command.config))]
+    for real in map(os.path.realpath, paths):
+        if real in site.documents:
+            site.owners.setdefault(real, component.path)
+            return os.path.relpath(site.documents[real], home)
+    existing = next((path for path in paths if os.path.isfile(path)), None)
+    return os.path.relpath(existing, home) if existing is not None else below or command.config
+
+
+def _tails(path: str) -> Iterator[str]:
+    """Yield the ends of a path of another machine, with two names at least, the longest first."""
+    names = [name for name in posixpath.normpath(path).split("/") if name]
+    yield from ("/".join(names[n:]) for n in range(len(names) - 1))
 
 
 def _relative_to(path: str, folder: str, home: str) -> str:

@@ -30,12 +30,13 @@ class InferredParameters(msgspec.Struct, frozen=True):
 
 
 def build_config_documents(
-    accepted: Sequence[LedgerEntry], targets: Mapping[str, str], was_written: Callable[[LedgerEntry, str], bool],
-    corrections: Corrections, *, exact: bool,
+    accepted: Sequence[LedgerEntry], targets: Mapping[str, str], owners: Mapping[str, str],
+    was_written: Callable[[LedgerEntry, str], bool], corrections: Corrections, *, exact: bool,
 ) -> tuple[dict[str, Map], list[InferredParameters]]:  # fmt: skip
-    """Return the values documents by the paths of the configs, and the PDSLs that these imply. `is_ours`: whether an
+    """Return the values documents by the paths of the configs, and the PDSLs that these imply. `owners` are the
+    documents of components by the real paths of configs that a network assigns to them. `was_written`: whether an
     earlier run wrote the document at a path."""
-    components = ConfiguredComponents(accepted, targets, was_written)
+    components = ConfiguredComponents(accepted, targets, owners, was_written)
     components.declare()
     documents: dict[str, Map] = {}
     inferred = [_build(component, targets, corrections, exact, documents) for component in components.all()]

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 import msgspec
 
 from robocomp_yaml.diag.codes import migration as codes
+from robocomp_yaml.diag.listing import some
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy.document import Map, data
 from robocomp_yaml.legacy.draft import ComponentDraft, ConfigDraft, ParametersDraft, ValuesDraft
@@ -40,10 +41,10 @@ class ConfiguredComponents:
     """The components of a run, by the folders of their files."""
 
     def __init__(
-        self, accepted: Sequence[LedgerEntry], documents: Mapping[str, str],
+        self, accepted: Sequence[LedgerEntry], documents: Mapping[str, str], owners: Mapping[str, str],
         was_written: Callable[[LedgerEntry, str], bool],
     ) -> None:  # fmt: skip
-        self.accepted, self.documents, self.was_written = accepted, documents, was_written
+        self.accepted, self.documents, self.owners, self.was_written = accepted, documents, owners, was_written
         self.by_folder: dict[str, list[tuple[str, ConfiguredComponent]]] = {}
         self.used = set(documents.values())
         self.listed: dict[str, list[str]] = {}
@@ -83,22 +84,25 @@ class ConfiguredComponents:
         """Return the components that have configs."""
         components: dict[ConfiguredComponent, None] = {}
         unnamed: dict[str, ConfiguredComponent] = {}
+        alone: dict[str, dict[str, LedgerEntry]] = {}
         configs = {entry.file.path: entry for entry in self.accepted if isinstance(entry.file.draft, ConfigDraft)}
         for config, entry in configs.items():
-            component = self._of(config)
+            component = self._of(config) or self._assigned(config)
             if component is None:
                 first = generic_config(config)
                 name = first if first in configs else config
                 if name not in unnamed:
                     unnamed[name] = self._from_config(config, name)
                 component = unnamed[name]
-                entry.diagnostics.append(codes.OWN_COMPONENT.at(Span(config), name=component.name))
+                alone.setdefault(os.path.dirname(config), {}).setdefault(component.name, entry)
             if not component.configs and component.declared is None and component.document:
                 for path in declared.beside(component.document):
                     if not self.was_written(entry, path):
                         component.declared = declared.of_document(path)
             component.configs.append(entry)
             components[component] = None
+        for entries in alone.values():
+            _report_own(entries)
         return list(components)
 
     def _join(self, path: str, component: ConfiguredComponent) -> None:
@@ -117,6 +121,12 @@ class ConfiguredComponents:
             if known:
                 return None
         return None
+
+    def _assigned(self, config: str) -> ConfiguredComponent | None:
+        """Return the component to which a network assigns a config."""
+        document = self.owners.get(os.path.realpath(config))
+        known = (component for joined in self.by_folder.values() for _, component in joined)
+        return next((each for each in known if document is not None and each.document == document), None)
 
     def _existing(self, folder: str, file: str) -> list[str]:
         """Return the CDSL documents that exist in a folder, if the config's document is written to it or below it."""
@@ -166,3 +176,12 @@ def _of_cdsl(document: str, draft: Map) -> ConfiguredComponent:
 def _ports(listed: object) -> frozenset[str]:
     items = listed if isinstance(listed, list) else []
     return frozenset(str(next(iter(item), "") if isinstance(item, dict) else item) for item in items)
+
+
+def _report_own(entries: Mapping[str, LedgerEntry]) -> None:
+    """Report once that the configs of a folder become components of their own, by their names."""
+    names, first = list(entries), next(iter(entries.values()))
+    what = f"this config becomes the component {names[0]}"
+    if names[1:]:
+        what = f"its configs become components of their own: {some(names)}"
+    first.diagnostics.append(codes.OWN_COMPONENT.at(Span(first.file.path), what=what))

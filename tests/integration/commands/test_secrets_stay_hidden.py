@@ -346,9 +346,9 @@ def test_files_generated_from_a_private_file_are_private(robot: Path, rcyaml: Ca
     assert rcyaml("compile", "speech").exit_code == 0
     assert "canaryNew" in made.read_text() != before
     assert mode(made) == 0o600
-    made.write_text(made.read_text() + "x=1\n")  # edited: it is kept
+    made.write_text(made.read_text() + "x=1\n")  # edited: --adopt keeps it
     made.chmod(OPEN)
-    rcyaml("compile", "speech")
+    rcyaml("compile", "--adopt", "speech")
     assert mode(made) == mode(robot / "speech/etc/config.orig") == 0o600
     made.chmod(OPEN)
     rcyaml("compile", "speech")

@@ -362,9 +362,19 @@ def test_a_second_run_changes_nothing_and_edits_are_kept(rcyaml: Run, tmp_path: 
 ])  # fmt: skip
 def test_files_that_are_not_configs_are_rejected(rcyaml: Run, tmp_path: Path, text: str) -> None:
     write_tree(tmp_path, {"x.conf": text, "good.conf": "Volume = 1\n"})
+    result = rcyaml("migrate", "x.conf")
+    assert result.exit_code == 1 and "error[RC500" in result.output and "x.conf" in result.output
     result = rcyaml("migrate", ".")
-    assert result.exit_code == 1 and "x.conf" in result.output
+    assert result.exit_code == 0 and "note[RC50" in result.output and "x.conf" in result.output
     assert not (tmp_path / "x.config.yaml").exists() and (tmp_path / "good.config.yaml").exists()
+
+
+@pytest.mark.parametrize("path", ["speech/etc/config", "speech/etc/config_real", "a.conf"])
+def test_files_that_configure_components_are_rejected(rcyaml: Run, tmp_path: Path, path: str) -> None:
+    """A folder is migrated without them, and the exit code says so."""
+    write_tree(tmp_path, {path: "Arm.Endpoints = tcp -p 1\nmore\nand more\nand more\n", "good.conf": "Volume = 1\n"})
+    result = rcyaml("migrate", ".")
+    assert result.exit_code == 1 and "error[RC5004]" in result.output and path in result.output
 
 
 def test_other_files_of_a_folder_are_skipped(rcyaml: Run, tmp_path: Path) -> None:

@@ -127,7 +127,7 @@ def test_a_config_with_the_same_properties_is_adopted(tmp_path: Path, mine: str 
     mine = mine.encode() if isinstance(mine, str) else mine
     (tmp_path / CONFIG).write_bytes(mine)
     _, said = carry_out(plan(tmp_path, stated("a=1\nb=2\n")))
-    assert codes(said) == ([] if adopted else ["RC6001"])
+    assert codes(said) == ([] if adopted else ["RC6010"])
     assert (tmp_path / CONFIG).read_bytes() == (b"a=1\nb=2\n" if adopted else mine)
     if adopted:
         assert (tmp_path / "etc/config.orig").read_bytes() == mine
@@ -142,7 +142,8 @@ def test_a_once_file_becomes_a_generated_one(tmp_path: Path) -> None:
     (tmp_path / CONFIG).write_text("a=4\n")
     _, said = carry_out(plan(tmp_path, stated("a=5\n")))
     assert codes(said) == ["RC6010"] and (tmp_path / CONFIG).read_text() == "a=4\n"
-    assert f"move a to {tmp_path / 'etc/config.yaml'};" in said[0].hint
+    assert f"set them in {tmp_path / 'etc/config.yaml'} as well;" in said[0].hint
+    assert "etc/config (a)" in said[0].message
 
 
 def merge(root: Path, text: str, skeleton: str) -> list[Diagnostic]:
@@ -169,7 +170,7 @@ def test_a_merge_keeps_the_users_lines_the_users(tmp_path: Path, first: str) -> 
     assert not merge(tmp_path, f"{first}\nb=1\n\nc=1\n", "a=1\nb=1\nc=1\n")
     _, said = carry_out(plan(tmp_path, stated("a=1\nb=1\n")))
     assert codes(said) == ["RC6010"] and "mine=1" in (tmp_path / CONFIG).read_text()
-    assert "move mine to" in said[0].hint
+    assert "etc/config (mine)" in said[0].message
     _, said = carry_out(plan(tmp_path, stated("mine=1\nz=0\n")))
     assert not said and "mine=1" in (tmp_path / "etc/config.orig").read_text()
 

@@ -77,6 +77,23 @@ private:
     std::atomic_int known_;
 };
 
+/// Calls a method of the worker: by the name that RoboComp's tool gives it, or by the one that its oldest versions gave.
+template <typename Worker, typename Call, typename OldCall>
+decltype(auto) call(Worker& worker, Call byName, OldCall byOldName)
+{
+    if constexpr (std::is_invocable_v<Call, Worker&>)
+    {
+        return byName(worker);
+    }
+    else
+    {
+        static_assert(
+            std::is_invocable_v<OldCall, Worker&>,
+            "SpecificWorker lacks a method of an interface: `rcyaml check` names it, with the text to paste");
+        return byOldName(worker);
+    }
+}
+
 template <typename Worker, typename = void>
 struct InitializesAlone : std::false_type
 {

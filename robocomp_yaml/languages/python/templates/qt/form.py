@@ -7,12 +7,14 @@ import subprocess
 from pathlib import Path
 from typing import Any
 
+import generated
 import PySide6
 from generated.runtime.errors import StartError
 from generated.runtime.settings import shown
 from PySide6.QtWidgets import QWidget
 
-FILE = Path(__file__).resolve().parents[2] / "src" / "mainUI.ui"
+# The first folder is the component's own; the run time may be that of the workspace.
+FILE = Path(generated.__path__[0]).resolve().parent / "src" / "mainUI.ui"
 CLASS = "Ui_guiDlg"
 
 

@@ -10,7 +10,22 @@ import sys
 from generated.runtime.errors import StartError
 
 SCREENS = ("QT_QPA_PLATFORM", "DISPLAY", "WAYLAND_DISPLAY")
-INSTALL = f"'{sys.executable} -m pip install \"PySide6-Essentials<6.11\"'"
+# The modules of PySide6-Essentials; PySide6-Addons has all others.
+ESSENTIALS = frozenset(
+    "QtConcurrent QtCore QtDBus QtDesigner QtGui QtHelp QtNetwork QtOpenGL QtOpenGLWidgets QtPrintSupport QtQml QtQuick "
+    "QtQuickControls2 QtQuickTest QtQuickWidgets QtSql QtStateMachine QtSvg QtSvgWidgets QtTest QtUiTools QtWidgets "
+    "QtXml".split()
+)
+
+
+def install(module: str = "") -> str:
+    """The command that installs a module such as `PySide6.QtCharts`."""
+    name = module.partition(".")[2].partition(".")[0]
+    package = "PySide6-Addons" if name and name not in ESSENTIALS else "PySide6-Essentials"
+    return f"'{sys.executable} -m pip install \"{package}<6.11\"'"
+
+
+INSTALL = install()
 
 
 def require(log: logging.Logger) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+import logging
 import sys
 from collections.abc import Sequence
 from importlib.abc import Loader, MetaPathFinder
@@ -27,17 +28,33 @@ except ImportError:  # a server without the libraries for windows
 
 
 class _Renamed(MetaPathFinder, Loader):
-    """Imports `PySide6.QtCore` for `PySide2.QtCore`."""
+    """Imports `PySide6.QtCore` for `PySide2.QtCore` and `PySide.QtCore`."""
+
+    def __init__(self, log: logging.Logger) -> None:
+        self._log = log
+        self._is_reported = False
 
     def find_spec(self, name: str, path: Sequence[str] | None, target: ModuleType | None = None) -> ModuleSpec | None:
-        if name.partition(".")[0] != "PySide2":
+        top = name.partition(".")[0]
+        if top not in ("PySide", "PySide2"):
             return None
-        return importlib.util.spec_from_loader(name, self, is_package=name == "PySide2")
+        if not self._is_reported:
+            self._is_reported = True
+            self._log.info("src/ imports %s: PySide6 is used, which has most of its names", top)
+        return importlib.util.spec_from_loader(name, self, is_package=name == top)
 
     def exec_module(self, module: ModuleType) -> None:
-        sys.modules[module.__name__] = importlib.import_module(module.__name__.replace("PySide2", "PySide6", 1))
+        _, dot, rest = module.__name__.partition(".")
+        newer = importlib.import_module(f"PySide6{dot}{rest}")
+        if module.__name__ == "PySide":
+            return  # a package of its own, whose QtGui is another one
+        if module.__name__ == "PySide.QtGui":  # it had the widgets, too
+            for source in (QtWidgets, newer):  # their names are found by dir(), and created when they are used
+                vars(module).update({name: getattr(source, name) for name in dir(source) if name[:2] != "__"})
+        else:
+            sys.modules[module.__name__] = newer
 
 
-def rename() -> None:
-    """Makes `import PySide2` import PySide6 from now on."""
-    sys.meta_path.insert(0, _Renamed())
+def rename(log: logging.Logger) -> None:
+    """Makes `import PySide2` and `import PySide` import PySide6 from now on."""
+    sys.meta_path.insert(0, _Renamed(log))

@@ -10,13 +10,15 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from generated.robocomp import values
+import generated
+from generated.robocomp import older, values
 from generated.runtime import stage, worker
 from generated.runtime.errors import StartError
 from generated.runtime.schedule import Schedule
 from generated.runtime.semantics.problems import ParameterError
 
-ROOT = Path(__file__).resolve().parents[2]
+# The first folder is the component's own; the run time may be that of the workspace.
+ROOT = Path(generated.__path__[0]).resolve().parent
 
 
 class Stage(stage.Stage):
@@ -32,7 +34,7 @@ class Stage(stage.Stage):
             pyside.require(self.log)
         from generated.robocomp import qt
 
-        qt.rename()
+        qt.rename(self.log)
         from generated.qt.loop import Loop
 
         kind = qt.QtWidgets.QApplication if self.component.base else qt.QtCore.QCoreApplication
@@ -53,12 +55,17 @@ class Stage(stage.Stage):
         sys.modules["interfaces"] = generated.robocomp.interfaces
         try:
             return super().worker_class()
+        except SyntaxError as error:
+            if older.is_python_2(error):
+                raise StartError(older.python_2(error)) from None
+            raise
         except ImportError as error:
             if not (error.name or "").startswith("PySide"):
                 raise
-            from generated.qt.pyside import INSTALL
+            from generated.qt.pyside import install
 
-            raise StartError(f"src/ needs a part of Qt that is not installed ({error}): run {INSTALL}") from None
+            command = install(error.name or "")
+            raise StartError(f"src/ needs a part of Qt that is not installed ({error}): run {command}") from None
 
     def wait(self) -> None:
         self._loop.run()
@@ -108,6 +115,7 @@ class Stage(stage.Stage):
         given = {
             "startup_check": self.only_check,
             "configData": values.tables(self.settings),
+            "params": values.parameters(self.settings),
         }
         arguments = [given.get(name, given["startup_check"]) for name in names if name in (*given, "startup_check")]
         made = worker_class(values.proxies(self.component, context.proxies), *arguments)
@@ -115,11 +123,12 @@ class Stage(stage.Stage):
             self.log.warning("setParams() has rejected the parameters")
         if self.machine is not None and not self.only_check:
             self.machine.start()  # the user's code may have done so
-        self.period_set(int(made.Period))
+        if hasattr(made, "Period"):  # else its constructor does not call that of GenericWorker
+            self.period_set(int(made.Period))
         context.schedule.on_change = lambda milliseconds: self._loop.post(lambda: self._follow(made, milliseconds))
         return made
 
     def _follow(self, made: Any, milliseconds: int) -> None:
         """Called when CommonBehavior or the parameters have set the period."""
-        if made.Period != milliseconds:
+        if getattr(made, "Period", milliseconds) != milliseconds:
             made.setPeriod(milliseconds)

@@ -1,0 +1,9 @@
+"""The signatures that the versions of RoboComp's own tool wrote or called, and that the generic part calls."""
+
+
+class SpecificWorker(GenericWorker):  # noqa: F821 (it is read, not executed)
+    def __init__(self, proxy_map): ...
+    def __init__(self, proxy_map, startup_check=False): ...  # noqa: F811
+    def __init__(self, proxy_map, configData, startup_check=False): ...  # noqa: F811
+    def setParams(self, params): ...
+    def compute(self): ...

@@ -1,0 +1,121 @@
+"""Imports, constructs and steps the Python component in a folder: a script for the tests of real repositories.
+
+Third parties that are missing are replaced by fakes; so are other components, since they do not run. Prints one line of
+JSON: `{"stage": "import" | "construct" | "step" | "done", "wrong": text}`.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import logging
+import os
+import sys
+import threading
+import traceback
+from importlib.abc import Loader, MetaPathFinder
+from importlib.machinery import ModuleSpec
+from pathlib import Path
+from types import ModuleType
+from unittest.mock import MagicMock
+
+ROOT = Path(sys.argv[1]).resolve()
+SECONDS = 1.5
+OURS = {"generated", "genericworker", "interfaces", "specificworker", "Ice", "IceStorm", "PySide6", "PySide2", "PySide"}
+
+
+class Fake(ModuleType):
+    """A module with every name."""
+
+    __path__: list[str] = []
+
+    def __getattr__(self, name: str) -> object:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        value = MagicMock(name=f"{self.__name__}.{name}")
+        setattr(self, name, value)
+        return value
+
+
+class Fakes(MetaPathFinder, Loader):
+    """Finds what nobody else has found."""
+
+    def find_spec(self, name: str, path: object, target: object = None) -> ModuleSpec | None:
+        top = name.partition(".")[0]
+        if top in OURS or top.startswith("_") or top in sys.stdlib_module_names:
+            return None
+        return importlib.util.spec_from_loader(name, self, is_package=True)
+
+    def create_module(self, spec: ModuleSpec) -> ModuleType:
+        return Fake(spec.name)
+
+    def exec_module(self, module: ModuleType) -> None:
+        pass
+
+
+class Listener(logging.Handler):
+    """Collects the errors of slots."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.heard: list[str] = []
+
+    def emit(self, record: logging.LogRecord) -> None:
+        if record.levelno >= logging.ERROR:
+            self.heard.append(logging.Formatter().format(record))
+
+
+def main() -> None:
+    os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+    sys.path[:0] = [str(ROOT), str(ROOT / "src")]
+    sys.meta_path.append(Fakes())
+    listener = Listener()
+    logging.getLogger().addHandler(listener)
+    stage, wrong = run(listener)
+    sys.stdout.flush()
+    os.write(REPORT, json.dumps({"stage": stage, "wrong": wrong[-3000:]}).encode())
+    os._exit(0)
+
+
+def run(listener: Listener) -> tuple[str, str]:
+    from generated.component import COMPONENT
+    from generated.parameters import TABLE, Parameters
+    from generated.runtime import application, settings, topics
+    from generated.runtime.stage import Stage
+    from generated.runtime.stopping import Stopping
+
+    application.connect = lambda *_: MagicMock(name="proxy")
+    topics.Topics.__init__ = lambda self, *_: None
+    topics.Topics.publisher = lambda self, port: MagicMock(name="publisher")
+    topics.Topics.subscribe = topics.Topics.unsubscribe = lambda self, *_: None
+    settings.Settings.endpoints = settings.Settings.topic_endpoints = lambda self, name: "tcp -h 127.0.0.1"
+    settings.Settings.first = lambda self, *keys: ""
+    at = "import"
+    try:
+        stopping = Stopping()
+        config = [path for path in [ROOT / "etc" / "config"] if path.exists()]
+        stage = (COMPONENT.stage or Stage)(COMPONENT, settings.Settings(config, []), stopping, False)
+        worker_class = stage.worker_class()
+        at = "construct"
+        created = []
+        original = stage.create
+
+        def create(*arguments: object) -> object:
+            created.append(original(*arguments))
+            threading.Timer(SECONDS, stopping.request).start()
+            return created[0]
+
+        stage.create = create
+        app = application.Application(COMPONENT, worker_class, (TABLE, Parameters), stage)
+        threading.Timer(30, lambda: os._exit(3)).start()
+        app.run()
+        if created:
+            at = "step"
+    except BaseException:  # noqa: BLE001 - whatever it is, it is what went wrong
+        return at, traceback.format_exc()
+    return (at, "\n".join(listener.heard)) if listener.heard else ("done" if at == "step" else at, "")
+
+
+REPORT = os.dup(1)
+os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+main()
