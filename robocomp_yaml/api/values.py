@@ -233,12 +233,11 @@ def write_new(file: str, include: Sequence[str] = ()) -> str:
     linked = program.components[real].parameters if real in program.components else program.parameters.get(real)
     if linked is None or linked.broken or has_errors(analysis.diagnostics):
         raise Faulty(analysis.diagnostics, program.documents)
-    from robocomp_yaml.api.neighbours import ports
     from robocomp_yaml.emit.first_values import first_values
 
     try:
         os.makedirs(os.path.dirname(target) or ".", exist_ok=True)
-        whole_file.create(target, first_values(linked, component, target, ports(analysis)))
+        whole_file.create(target, first_values(linked, component, target, analysis.addresses.table))
     except OSError as error:
         raise cannot_write(target, error) from None
     return target

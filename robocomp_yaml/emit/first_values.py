@@ -7,9 +7,9 @@ import os
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from robocomp_yaml.addresses.table import PortTable
 from robocomp_yaml.emit import config
 from robocomp_yaml.emit.layout import CONFIG
-from robocomp_yaml.emit.ports import PortTable
 from robocomp_yaml.link.program import LinkedComponent, LinkedParameters
 from robocomp_yaml.parameters.examples.new import Sections, new_document
 from robocomp_yaml.parameters.kinds import recording

@@ -41,11 +41,14 @@ class Configuration(msgspec.Struct):
     """The configuration of one draft. `text` is None after an error, `secrets` are its secret properties."""
 
     draft: Draft
-    base: ConfigurationBase
     program: Program
     text: str | None = None
     secrets: tuple[str, ...] = ()
     diagnostics: list[Diagnostic] = []
+
+    @property
+    def base(self) -> ConfigurationBase:
+        return self.draft.base
 
     def make(self) -> None:
         values = self.base.values
@@ -68,9 +71,9 @@ class Configuration(msgspec.Struct):
         if self.base.flat is None:
             self.text = head + section_text(sections)
         elif not sections:
-            self.text = self.base.flat  # in any format
+            self.text = self.base.flat.text  # in any format
         else:
-            flat = self.base.flat if self.base.flat.endswith("\n") else f"{self.base.flat}\n"
+            flat = self.base.flat.text.removesuffix("\n") + "\n"
             self.text = f"{flat}\n{head}{section_text(sections)}"
 
     def _on_values(self, linked: LinkedParameters) -> list[Section] | None:

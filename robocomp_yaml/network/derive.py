@@ -7,6 +7,8 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from msgspec.structs import replace
 
+from robocomp_yaml.addresses.interface_comparison import InterfaceComparison
+from robocomp_yaml.addresses.workspaces import Addresses
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
@@ -15,12 +17,11 @@ from robocomp_yaml.link.program import Program
 from robocomp_yaml.model.deployment import PROGRAM
 from robocomp_yaml.model.located import Text
 from robocomp_yaml.network import processes
+from robocomp_yaml.network.assigned_ports import assign_ports
 from robocomp_yaml.network.configuration import Configuration
-from robocomp_yaml.network.configuration_base import ConfigurationBase, base_of
 from robocomp_yaml.network.connections import Connections
-from robocomp_yaml.network.draft import Draft, Drafts, assign_ports, drafts_of, text_fault
+from robocomp_yaml.network.draft import Draft, Drafts, drafts_of, text_fault
 from robocomp_yaml.network.gates import Gates
-from robocomp_yaml.network.interface_comparison import InterfaceComparison
 from robocomp_yaml.network.network import FOLDER, Network, Process
 from robocomp_yaml.network.order import AFTER, Dependence, optional, ordered
 from robocomp_yaml.network.topics import TopicConnections
@@ -29,30 +30,23 @@ from robocomp_yaml.source.ice_endpoint import fixed_endpoint
 from robocomp_yaml.source.ice_options import LAST_PORT, InvalidIceText
 
 
-def derive(linked: LinkedDeployment, program: Program) -> tuple[Network, list[Diagnostic]]:
+def derive(linked: LinkedDeployment, program: Program, addresses: Addresses) -> tuple[Network, list[Diagnostic]]:
     """The network of a deployment, as far as it can be derived, and its diagnostics. Flat configs are read from the
     program's disk."""
     deployment = linked.deployment
     folder = os.path.abspath(os.path.join(os.path.dirname(deployment.path), FOLDER, deployment.name))
-    drafts = drafts_of(linked)
+    drafts = drafts_of(linked, program.disk)
     network = Network(deployment.name, os.path.abspath(deployment.path), folder, drafts.hosts, extra=deployment.extra)
     gates = Gates(drafts)
     gates.add()
-    assign_ports(drafts)
-    bases: dict[Draft, ConfigurationBase] = {}
-
-    def base(draft: Draft) -> ConfigurationBase:
-        if draft not in bases:
-            bases[draft] = base_of(draft.instance, program.disk)
-        return bases[draft]
-
+    port_faults = list(assign_ports(drafts, addresses))
     comparison = InterfaceComparison()
-    connections, topics = Connections(drafts, comparison, gates), TopicConnections(drafts, comparison, base)
+    connections, topics = Connections(drafts, comparison, gates, addresses), TopicConnections(drafts, comparison)
     connections.resolve()
     gates.connect()
     topics.resolve()
     network.connections = [*connections.connections, *gates.connections, *topics.connections]
-    diagnostics = [*endpoint_faults(drafts), *connections.diagnostics, *topics.diagnostics]
+    diagnostics = [*port_faults, *endpoint_faults(drafts), *connections.diagnostics, *topics.diagnostics]
     needs = [*_explicit(drafts, gates), *connections.needs, *gates.needs, *topics.needs]
     enabled = {draft.name for draft in drafts.drafts.values() if draft.instance.entry.enabled}
     needed = {need.target for need in needs if need.source in enabled}
@@ -64,7 +58,7 @@ def derive(linked: LinkedDeployment, program: Program) -> tuple[Network, list[Di
             text: str | None = gates.program(draft)
             hidden: tuple[str, ...] = ()
         else:
-            configuration = Configuration(draft, base(draft), program)
+            configuration = Configuration(draft, program)
             configuration.make()
             diagnostics += configuration.diagnostics
             text, hidden = configuration.text, configuration.secrets
@@ -102,7 +96,7 @@ def _put_in_order(network: Network, needs: Sequence[Dependence]) -> list[Diagnos
 def endpoint_faults(drafts: Drafts) -> Iterator[Diagnostic]:
     usual = f"write a protocol and a port from 1 to {LAST_PORT}, such as `tcp -p 10003`"
     for offer in (offer for draft in drafts.drafts.values() for offer in draft.adapters):
-        if offer.explicit:
+        if offer.explicit and offer.own is None:
             try:
                 fixed_endpoint(offer.explicit)
             except InvalidIceText as refused:

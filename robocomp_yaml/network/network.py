@@ -57,7 +57,7 @@ class EnvironmentVariable(msgspec.Struct, frozen=True):
 class Endpoint(Located, frozen=True):
     """What a process serves: an interface at an address. `identity` is Ice's identity, '' for a plain TCP port.
     `module` is the interface's module, '' if it is unknown. `text` is the value of the adapter's property:
-    `tcp -p 10001`."""
+    `tcp -p 10001`. `own_span` is its location in the component's own configuration, if that sets it."""
 
     interface: str
     identity: str
@@ -66,6 +66,7 @@ class Endpoint(Located, frozen=True):
     protocol: str = "tcp"
     module: str = ""
     span: Span = Span("")
+    own_span: Span = Span("")
 
 
 class Readiness(msgspec.Struct, frozen=True):

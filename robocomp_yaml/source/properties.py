@@ -13,6 +13,10 @@ from robocomp_yaml import secrets
 
 _BLANKS = " \t\r\n"
 
+FIRST_HEAD = "rcyaml wrote it once; it is yours."
+VALUES_HEAD = "written by rcyaml from"
+"""The first line of an `etc/config` says who wrote it, for workspaces without a manifest."""
+
 
 class IceProperty(msgspec.Struct, frozen=True):
     """One `key=value` line. `line` and `column` (of the key) count from 1. `at` is the index in the text after `=`,
