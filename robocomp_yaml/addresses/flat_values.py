@@ -45,12 +45,14 @@ class _ReferenceAt(Unresolved):
 
 
 class FlatValues:
-    """The values of a flat config. `document` is the document, `unread` are the properties that nothing reads, neither
-    the component nor Ice, with the locations of their names."""
+    """The values of a flat config, as the layer `layer`. `unread` are the properties that neither the component nor Ice
+    reads, with the locations of their names; `connections` are the section and the name of each property that connects
+    the component, under all of its spellings."""
 
     def __init__(self, flat: FlatConfig, linked: LinkedParameters, component: LinkedComponent | None) -> None:
         self._path, self._component, self._text_of_file = flat.path, component, flat.text
         self._entries = properties.read(flat.text).last
+        self.connections = self._connections()
         reader = _Reader({key: self._text(entry) for key, entry in self._entries.items()}, linked)
         kind = recording(linked.parameters.root)
         texts = reader.read(kind)
@@ -61,8 +63,7 @@ class FlatValues:
         for name, entries in (("parameters", parameters.entries), *sections.items()):
             if entries:
                 root[name] = (text_at(top, name), mapping_at(top, entries))
-        self.document = ValuesDocument(flat.path, mapping_at(top, root))
-        self.layer = LinkedValues(self.document, parameters=linked)
+        self.layer = LinkedValues(ValuesDocument(flat.path, mapping_at(top, root)), parameters=linked)
 
     def _text(self, entry: IceProperty) -> _TextAt:
         made = _TextAt(entry.value)
@@ -80,20 +81,19 @@ class FlatValues:
         """The entries of the sections of connections, and of other properties."""
         made: dict[str, Entries] = {name: {} for name in ("endpoints", "proxies", "topics", "ice", "properties")}
         unread: dict[str, Span] = {}
-        known = self._known()
         for key, entry in self._entries.items():
             if key in read:
                 continue
             span, where = self._spans(entry)
-            section, name = known.get(key) or (("ice", key[4:]) if key.startswith("Ice.") else ("properties", key))
+            other = ("ice", key.removeprefix("Ice.")) if key.startswith("Ice.") else ("properties", key)
+            section, name = self.connections.get(key, other)
             text = unquoted(entry.value) if section != "properties" else entry.value
             made[section].setdefault(name, (text_at(span, name), text_at(where, text)))
             if section == "properties" and not self._is_of_ice(key):
                 unread[key] = span
         return made, unread
 
-    def _known(self) -> dict[str, tuple[str, str]]:
-        """The section and the name of each property that connects the component, under all of its spellings."""
+    def _connections(self) -> dict[str, tuple[str, str]]:
         linked, found = self._component, dict[str, tuple[str, str]]()
         found |= dict.fromkeys(connections.MANAGER, ("topics", "manager"))
         served = [port.name for port in linked.implements] if linked else []

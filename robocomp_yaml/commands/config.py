@@ -24,6 +24,12 @@ def _values_document(ctx: click.Context, param: click.Parameter, argument: str) 
     return which.values(argument)
 
 
+def _values_or_flat(ctx: click.Context, param: click.Parameter, argument: str) -> str:
+    from robocomp_yaml.api import which
+
+    return which.values(argument, has_flat=True)
+
+
 class _OptionalFile(LibraryCommand):
     """A command whose first argument may be omitted if only one document is possible."""
 
@@ -36,6 +42,7 @@ class _OptionalFile(LibraryCommand):
 
 
 file = click.argument("file", metavar="[FILE]", default="", callback=_values_document)
+read_only = click.argument("file", metavar="[FILE]", default="", callback=_values_or_flat)
 reveal = click.option("--reveal", is_flag=True, help="Also show secrets.")
 
 
@@ -80,26 +87,33 @@ def check(ctx: click.Context, file: str, include: tuple[str, ...], format_: str)
 
 
 @command.command(short_help="Print every effective value, and its location.")
-@file
+@read_only
 @reveal
 @_options.include
 @_options.text_or_json
 @click.pass_context
 def show(ctx: click.Context, file: str, reveal: bool, include: tuple[str, ...], format_: str) -> None:
-    """Print every effective value with the file and line that set it, and the values that it overrides. Secrets are
-    hidden. References to the environment and to files are printed as they are: they are never resolved here."""
+    """Print every effective value with the file and line that set it, and the values that it overrides: parameters,
+    endpoints, proxies, topics, and properties of Ice and others. Secrets are hidden. References to the environment and
+    to files are printed as they are: they are never resolved here. A component without a values document has the values
+    of its etc/config."""
     from robocomp_yaml.api.values import Values
+    from robocomp_yaml.commands._origins import origin, settings_data
 
-    rows = Values(file, include).rows(reveal=reveal)
+    values = Values(file, include)
+    rows, settings = values.rows(reveal=reveal), values.settings(reveal=reveal)
     if format_ == "json":
-        terminal.data(dumps({"values": [_as_json(row) for row in rows]}), json=True)
+        data = {"values": [_as_json(row) for row in rows], "properties": settings_data(settings)}
+        terminal.data(dumps(data), json=True)
         return
-    width = max((min(len(_assignment(row)), 50) for row in rows), default=0)
-    terminal.data("".join(f"{_assignment(row):<{width}}  # {_origin(row)}\n" for row in rows))
+    lines = [(_assignment(row), _origin(row)) for row in rows]
+    lines += [(f"{one.key} = {one.value}", origin(one)) for one in settings]
+    width = max((min(len(assigned), 50) for assigned, _ in lines), default=0)
+    terminal.data("".join(f"{assigned:<{width}}  # {where}\n" for assigned, where in lines))
 
 
 @command.command(short_help="Print one effective value.", cls=_OptionalFile)
-@file
+@read_only
 @click.argument("path")
 @reveal
 @_options.include

@@ -12,7 +12,7 @@ from robocomp_yaml.emit.layout import CONFIG
 from robocomp_yaml.emit.specific.config_merge import spellings
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.parameters.defaults import period
-from robocomp_yaml.semantics.connections import MANAGER, endpoints, proxy, topic_endpoints
+from robocomp_yaml.semantics.connections import ICE_DEFAULTS, MANAGER, endpoints, proxy, topic_endpoints
 from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source.properties import FIRST_HEAD, entry_line, read
 from robocomp_yaml.source.regular import text
@@ -22,21 +22,24 @@ _ICE = (
     ("Ice.Warn.Connections", "0", "1: warn when a connection is lost."),
     ("Ice.Trace.Network", "0", "1 to 3: log opened and closed connections, and more."),
     ("Ice.Trace.Protocol", "0", "1: log every message."),
-    ("Ice.MessageSizeMax", "20004800", "The size limit of messages, in KiB."),
+    ("Ice.MessageSizeMax", ICE_DEFAULTS["Ice.MessageSizeMax"], "The size limit of messages, in KiB."),
 )
+
+EARLIER = {key: value for key, value, _ in _ICE}
+"""What a first `etc/config` of an earlier version of rcyaml sets to the defaults of today: it is not the user's."""
 
 
 def plan(component: LinkedComponent, table: PortTable) -> FilePlan:
     """The plan of a component's first `etc/config`; `table` has the ports of its workspace."""
     compute = period(component.parameters.parameters)
-    ice = [line for key, value, doc in _ICE for line in (f"# {doc}", entry_line(key, value))]
+    ice = [line for key, value, doc in _ICE for line in (f"# {doc}", f"# {entry_line(key, value)}")]
     sections = (
         _head(component),
         _endpoints(component, table),
         _proxies(component, table),
         _topics(component),
         ["# Milliseconds from one call of compute() to the next.", entry_line("period.compute", str(compute))],
-        ["# Ice, the middleware.", *ice],
+        ["# Ice, the middleware. To change a default, remove the # before its name.", *ice],
     )
     text = "\n".join("".join(f"{line}\n" for line in section) for section in map(list, sections) if section)
     return FilePlan(CONFIG, text, ONCE)

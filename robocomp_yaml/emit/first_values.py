@@ -62,7 +62,7 @@ def _connections(linked: LinkedComponent, existing: Mapping[str, str], table: Po
 def _changed(folder: str, existing: Mapping[str, str], generated: str) -> dict[str, str]:
     """The properties of an `etc/config` that the user changed since rcyaml wrote it."""
     before = text(os.path.join(folder, BASE, CONFIG))
-    written = read(generated if before is None else before).values
+    written = {**config.EARLIER, **read(generated).values} if before is None else read(before).values
     return {key: value for key, value in existing.items() if value and written.get(key) != value}
 
 

@@ -22,8 +22,8 @@ class LinkedInstance(msgspec.Struct, frozen=True, eq=False):
     `component` is None for a program, and for a document with errors. `values` is the document that `config:` names, or
     the component's `etc/config.yaml`; `flat` is the path (as opened) of a flat config, which replaces `values`: that of
     `config:`, or the component's `etc/config` if it has no values document or the user changed the file. `folder` is
-    that of the component's document, or the working folder of a program. `host` is None for this machine. `process` is the instance
-    of which a PROCESS entry is a second name.
+    that of the component's document, or the working folder of a program. `host` is None for this machine. `process` is
+    the instance of which a PROCESS entry is a second name.
     """
 
     name: str

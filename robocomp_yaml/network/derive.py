@@ -58,8 +58,10 @@ def derive(linked: LinkedDeployment, program: Program, addresses: Addresses) -> 
             text: str | None = gates.program(draft)
             hidden: tuple[str, ...] = ()
         else:
-            configuration = Configuration(draft, program)
+            outside = {one.port for one in connections.connections if one.source == draft.name and not one.target}
+            configuration = Configuration(draft, program, addresses, outside)
             configuration.make()
+            network.settings[draft.name] = configuration.settings
             diagnostics += configuration.diagnostics
             text, hidden = configuration.text, configuration.secrets
         network.processes[draft.name] = processes.of_draft(draft, text, known, hidden)

@@ -6,13 +6,17 @@ starts, shows or exports a network reads this, and no document. Paths are absolu
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
 
 import msgspec
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.deployment import CONFIG
 from robocomp_yaml.model.located import Located
+
+if TYPE_CHECKING:
+    from robocomp_yaml.parameters.editing.settings import ShownSetting
 
 COMPONENT, PROGRAM, ICESTORM = "component", "program", "icestorm"
 NEVER, ON_FAILURE, ALWAYS = "no", "on-failure", "always"
@@ -180,6 +184,12 @@ class Network(msgspec.Struct):
     order: list[tuple[str, ...]] = []
     extra: tuple[tuple[str, object], ...] = ()
     """What only exports need of the document: the entries of its `x-rcmanager`."""
+    settings: dict[str, Callable[[], list[ShownSetting]]] = {}
+    """By process, what returns the values of its configuration with their origin: most runs need none."""
+
+    def settings_of(self, name: str) -> list[ShownSetting]:
+        """The values of a process's configuration, with their origin."""
+        return self.settings[name]() if name in self.settings else []
 
     def enabled(self) -> Iterator[Process]:
         return (process for process in self.processes.values() if process.enabled)

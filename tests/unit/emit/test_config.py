@@ -69,15 +69,15 @@ HeardTopic.Endpoints=tcp -p 0
 # Milliseconds from one call of compute() to the next.
 period.compute=50
 
-# Ice, the middleware.
+# Ice, the middleware. To change a default, remove the # before its name.
 # 1: warn when a connection is lost.
-Ice.Warn.Connections=0
+# Ice.Warn.Connections=0
 # 1 to 3: log opened and closed connections, and more.
-Ice.Trace.Network=0
+# Ice.Trace.Network=0
 # 1: log every message.
-Ice.Trace.Protocol=0
+# Ice.Trace.Protocol=0
 # The size limit of messages, in KiB.
-Ice.MessageSizeMax=20004800
+# Ice.MessageSizeMax=20004800
 """
     )
 
