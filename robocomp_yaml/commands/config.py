@@ -96,9 +96,10 @@ def show(ctx: click.Context, file: str, reveal: bool, include: tuple[str, ...], 
     """Print every effective value with the file and line that set it, and the values that it overrides: parameters,
     endpoints, proxies, topics, and properties of Ice and others. Secrets are hidden. References to the environment and
     to files are printed as they are: they are never resolved here. A component without a values document has the values
-    of its etc/config."""
+    of its etc/config. With `rcyaml -v`, the endpoints, proxies and properties that nobody sets are printed, too."""
     from robocomp_yaml.api.values import Values
     from robocomp_yaml.commands._origins import origin, settings_data
+    from robocomp_yaml.parameters.editing.settings import SET
 
     values = Values(file, include)
     rows, settings = values.rows(reveal=reveal), values.settings(reveal=reveal)
@@ -106,10 +107,9 @@ def show(ctx: click.Context, file: str, reveal: bool, include: tuple[str, ...], 
         data = {"values": [_as_json(row) for row in rows], "properties": settings_data(settings)}
         terminal.data(dumps(data), json=True)
         return
-    lines = [(_assignment(row), _origin(row)) for row in rows]
-    lines += [(f"{one.key} = {one.value}", origin(one)) for one in settings]
-    width = max((min(len(assigned), 50) for assigned, _ in lines), default=0)
-    terminal.data("".join(f"{assigned:<{width}}  # {where}\n" for assigned, where in lines))
+    chosen = [one for one in settings if one.source == SET or ctx.obj.verbosity > 0]
+    _print_table([(_assignment(row), _origin(row)) for row in rows])
+    _print_table([(f"{one.key} = {one.value}", origin(one)) for one in chosen])
 
 
 @command.command(short_help="Print one effective value.", cls=_OptionalFile)
@@ -172,6 +172,11 @@ def export(ctx: click.Context, file: str, form: str, reveal: bool, include: tupl
     from robocomp_yaml.api.values import Values
 
     terminal.data(Values(file, include).export(form, reveal=reveal or not sys.stdout.isatty()))
+
+
+def _print_table(lines: list[tuple[str, str]]) -> None:
+    width = max((min(len(assigned), 50) for assigned, _ in lines), default=0)
+    terminal.data("".join(f"{assigned:<{width}}  # {where}\n" for assigned, where in lines))
 
 
 def _assignment(row: Value) -> str:
