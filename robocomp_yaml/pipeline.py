@@ -122,6 +122,7 @@ def analyse(
     for check in checks(program, [one.plugins for one in linker.workspaces.values()]):
         diagnostics += check(program)
     diagnostics += check_networks(derived, program)
+    diagnostics += addresses.faults()
     diagnostics += secrets.check(program, linker.documents.read.values())
     texts = DocumentTexts(disk.contents, linker.documents.trees())
     allowed = Allowances.of(texts, program.plugins_of)

@@ -119,7 +119,8 @@ def assign(
         for name in sorted(adapters(linked)):
             result.defaults |= {default_port(linked.component.name, name, each) for each in (USUAL, ports)}
             if (key, name) not in result.endpoints:
-                number = free.assign(linked.component.name, name, ports)
+                # A full range is reported; the ports are valid all the same.
+                number = free.assign(linked.component.name, name, ports) or free.assign(linked.component.name, name)
                 result.endpoints[key, name] = IceEndpoint(number)
                 result.defaults.add(number)
     for _, linked in sorted(distinct.items()):

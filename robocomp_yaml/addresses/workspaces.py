@@ -7,6 +7,7 @@ import os
 from robocomp_yaml.addresses.own import OwnAddresses, OwnText
 from robocomp_yaml.addresses.port_numbers import USUAL, default_port, usable
 from robocomp_yaml.addresses.table import PortTable, assign
+from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import LinkedComponent, Port, Program
 from robocomp_yaml.link.workspace import WorkspaceSettings
@@ -30,6 +31,15 @@ class Addresses:
         """The ports of all components of this run, in the range of the workspace around the working folder."""
         components, values = self._program.components.values(), self._program.values.values()
         return assign(components, self._program.disk, values, self.range_of(""))
+
+    def faults(self) -> list[Diagnostic]:
+        """The diagnostics of the workspaces' own ranges of ports. Without such a range, no port is assigned."""
+        ranged = {}
+        for linked in self._program.components.values():
+            workspace = self._linker.workspace_of(linked.component.path)
+            if workspace.declared and usable(workspace.ports) is not None:
+                ranged[workspace.root] = workspace
+        return [fault for workspace in ranged.values() for fault in self._of(workspace).diagnostics]
 
     def range_of(self, document: str) -> PortRange:
         """The range of default ports of a document's workspace."""
