@@ -47,12 +47,14 @@ class _ReferenceAt(Unresolved):
 class FlatValues:
     """The values of a flat config, as the layer `layer`. `unread` are the properties that neither the component nor Ice
     reads, with the locations of their names; `connections` are the section and the name of each property that connects
-    the component, under all of its spellings."""
+    the component, under all of its spellings. `unknown_ports` are properties that look like these, with the kind and
+    the name of the port."""
 
     def __init__(self, flat: FlatConfig, linked: LinkedParameters, component: LinkedComponent | None) -> None:
         self._path, self._component, self._text_of_file = flat.path, component, flat.text
         self._entries = properties.read(flat.text).last
         self.connections = self._connections()
+        self.unknown_ports: dict[str, tuple[str, str, Span]] = {}
         reader = _Reader({key: self._text(entry) for key, entry in self._entries.items()}, linked)
         kind = recording(linked.parameters.root)
         texts = reader.read(kind)
@@ -89,7 +91,9 @@ class FlatValues:
             section, name = self.connections.get(key, other)
             text = unquoted(entry.value) if section != "properties" else entry.value
             made[section].setdefault(name, (text_at(span, name), text_at(where, text)))
-            if section == "properties" and not self._is_of_ice(key):
+            if section == "properties" and (port := self._port(key)):
+                self.unknown_ports[key] = (*port, span)
+            elif section == "properties" and not self._is_of_ice(key):
                 unread[key] = span
         return made, unread
 
@@ -104,6 +108,15 @@ class FlatValues:
         for port in linked.requires if linked else ():
             found |= dict.fromkeys(connections.proxy(port.name), ("proxies", port.name))
         return found
+
+    @staticmethod
+    def _port(key: str) -> tuple[str, str] | None:
+        """What a property would connect: the kind of a port, and its name."""
+        if key.startswith("Endpoints.") or key.endswith(".Endpoints"):
+            return "interface", key.removeprefix("Endpoints.").removesuffix(".Endpoints")
+        if key.startswith("Proxies.") and not key.endswith("Prefix"):
+            return "proxy", key.removeprefix("Proxies.")
+        return ("proxy", key.removesuffix("Proxy")) if key.endswith("Proxy") and "." not in key else None
 
     def _is_of_ice(self, key: str) -> bool:
         """Whether Ice, or the part of a component that connects it, may read a property."""

@@ -8,7 +8,7 @@ import msgspec
 
 from robocomp_yaml.addresses.port_numbers import COMMON_BEHAVIOR
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.link.flat_configs import FlatConfig, flat_config, replaces_values
+from robocomp_yaml.link.flat_configs import FlatConfig, flat_config
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues
 from robocomp_yaml.semantics import connections
 from robocomp_yaml.semantics.texts import unquoted
@@ -41,9 +41,25 @@ def own_addresses(linked: LinkedComponent, values: LinkedValues | None, disk: Di
     """The addresses of a component's own configuration: its values document, or the flat `etc/config` without such a
     document, or after the user changed that."""
     flat = flat_config(os.path.dirname(linked.component.path), disk)
-    if values is not None and not replaces_values(flat):
+    if values is not None and not replaces_values(flat, values):
         return of_values(values)
     return of_flat(flat, linked) if flat is not None else OwnAddresses()
+
+
+def replaces_values(flat: FlatConfig | None, values: LinkedValues) -> bool:
+    """Whether a component has the values of its flat config instead of those of its values document: the user changed
+    the file, and the document does not contain the changes."""
+    if flat is None or flat.is_unchanged:
+        return False
+    from robocomp_yaml.parameters.layers.effective import effective
+    from robocomp_yaml.parameters.writing.properties import properties as written
+
+    found = effective(values)[0] if values.parameters is not None else None
+    if found is None:
+        return False  # the errors of the document are reported
+    stated = {made.key: made.value for each in written(values, found, beside=True)[0] for made in each.properties}
+    known = (stated, flat.base)
+    return any(value not in [each.get(key) for each in known] for key, value in flat.properties.items())
 
 
 def of_values(values: LinkedValues) -> OwnAddresses:

@@ -34,13 +34,14 @@ class Resolved(msgspec.Struct, frozen=True):
 
 class PortTable(msgspec.Struct):
     """The endpoint of each adapter of a workspace (key: real path of the component's document, name of the interface),
-    and the components that implement an interface. `ports` is the range of defaults, `defaults` are the ports that any
-    name has by default in this range, or in the usual one. `diagnostics` report a full range."""
+    and the components that implement an interface. `ports` is the range of defaults. `wanted` has for each port
+    the adapters that have it, or would have it by default in this range or in the usual one. `diagnostics` report a
+    full range."""
 
     endpoints: dict[tuple[str, str], IceEndpoint] = {}
     implementers: Implementers = msgspec.field(default_factory=Implementers)
     ports: PortRange = USUAL
-    defaults: set[int] = set()
+    wanted: dict[int, set[tuple[str, str]]] = {}
     diagnostics: list[Diagnostic] = []
 
     def endpoint(self, linked: LinkedComponent, name: str) -> IceEndpoint:
@@ -89,13 +90,16 @@ class PortTable(msgspec.Struct):
         name = port.interface.name.lower()
         return own.text in {f"{name}:tcp -h {LOCALHOST} -p {number}" for number in numbers}
 
+    def want(self, owner: str, name: str, port: int) -> None:
+        self.wanted.setdefault(port, set()).add((owner, name))
+
     def _leads_to(self, linked: LinkedComponent, name: str, number: int, ports: PortRange) -> bool:
         """Whether the default of an adapter is this port, or would be if others had its first choice."""
         at = default_port(linked.component.name, name, ports)
         for _ in range(ports.count):
             if at == number:
                 return True
-            if at not in RESERVED and at not in self.defaults:
+            if at not in RESERVED and not self.wanted.get(at, set()) - {(document(linked), name)}:
                 return False
             at = ports.first + (at + 1 - ports.first) % ports.count
         return False
@@ -114,15 +118,16 @@ def assign(
         for name, endpoint in _fixed(linked, configured.get(linked), disk):
             result.endpoints[key, name] = endpoint
             free.taken.add(endpoint.port)
-    result.defaults |= free.taken
+            result.want(key, name, endpoint.port)
     for key, linked in ordered:
         for name in sorted(adapters(linked)):
-            result.defaults |= {default_port(linked.component.name, name, each) for each in (USUAL, ports)}
+            for each in (USUAL, ports):
+                result.want(key, name, default_port(linked.component.name, name, each))
             if (key, name) not in result.endpoints:
                 # A full range is reported; the ports are valid all the same.
                 number = free.assign(linked.component.name, name, ports) or free.assign(linked.component.name, name)
                 result.endpoints[key, name] = IceEndpoint(number)
-                result.defaults.add(number)
+                result.want(key, name, number)
     for _, linked in sorted(distinct.items()):
         result.implementers.add(linked)
     result.diagnostics += free.diagnostics()

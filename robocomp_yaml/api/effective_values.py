@@ -9,9 +9,9 @@ from msgspec.structs import replace
 
 from robocomp_yaml import secrets
 from robocomp_yaml.addresses.flat_values import FlatValues
-from robocomp_yaml.addresses.own import is_own
+from robocomp_yaml.addresses.own import is_own, replaces_values
 from robocomp_yaml.addresses.workspaces import Addresses
-from robocomp_yaml.link.flat_configs import flat_at, flat_config, replaces_values
+from robocomp_yaml.link.flat_configs import flat_at, flat_config
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Program
 from robocomp_yaml.parameters.editing.settings import (
     DEFAULT,
@@ -42,7 +42,7 @@ def replacing(values: LinkedValues, program: Program) -> LinkedValues | None:
     if component is None or values.parameters is None or not is_own(values):
         return None
     flat = flat_config(os.path.dirname(component.component.path), program.disk)
-    if flat is None or not replaces_values(flat):
+    if flat is None or not replaces_values(flat, values):
         return None
     return FlatValues(flat, values.parameters, component).layer
 

@@ -176,9 +176,11 @@ class Workspace:
         analysis = self.analysis
         if analysis.program.components:
             from robocomp_yaml.addresses import clashes
+            from robocomp_yaml.check.cdsl.flat_configs import replaced
             from robocomp_yaml.emit.specific import existing_code
 
             yield from clashes.clashes(analysis.program.components.values(), analysis.disk)
+            yield from replaced(analysis.program, analysis.program.components.values())
             if existing_code.has_code(analysis.program):
                 from robocomp_yaml.api import compile_stamps
 

@@ -25,9 +25,6 @@ _ICE = (
     ("Ice.MessageSizeMax", ICE_DEFAULTS["Ice.MessageSizeMax"], "The size limit of messages, in KiB."),
 )
 
-EARLIER = {key: value for key, value, _ in _ICE}
-"""What a first `etc/config` of an earlier version of rcyaml sets to the defaults of today: it is not the user's."""
-
 
 def plan(component: LinkedComponent, table: PortTable) -> FilePlan:
     """The plan of a component's first `etc/config`; `table` has the ports of its workspace."""

@@ -1,4 +1,4 @@
-"""A component's flat `etc/config`: who wrote it, and whether it replaces the component's values document."""
+"""A component's flat `etc/config`, and who wrote it."""
 
 from __future__ import annotations
 
@@ -17,6 +17,11 @@ from robocomp_yaml.source.text import MAX_DOCUMENT
 from robocomp_yaml.transactions import manifest
 
 FLAT = os.path.join("etc", "config")
+
+EARLIER = {
+    "Ice.Warn.Connections": "0", "Ice.Trace.Network": "0", "Ice.Trace.Protocol": "0", "Ice.MessageSizeMax": "20004800",
+}  # fmt: skip
+"""What earlier versions of rcyaml wrote in every first `etc/config`: defaults of Ice, and of the run time of today."""
 
 _HEAD = pattern(rf"# Configuration of [^\n]*({re.escape(FIRST_HEAD)}|{re.escape(VALUES_HEAD)})")
 
@@ -65,9 +70,4 @@ def _base(path: str, disk: Disk) -> Mapping[str, str]:
     if os.path.relpath(path, root) != FLAT:
         return {}
     raw = disk.peek(os.path.join(root, manifest.BASE, FLAT), MAX_DOCUMENT)
-    return properties.read(raw.decode("utf-8", "replace")).values
-
-
-def replaces_values(flat: FlatConfig | None) -> bool:
-    """Whether a component with a values document reads its flat config instead, because the user changed it."""
-    return flat is not None and not flat.is_unchanged
+    return {**EARLIER, **properties.read(raw.decode("utf-8", "replace")).values}

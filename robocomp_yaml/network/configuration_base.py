@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 
 import msgspec
 
 from robocomp_yaml.addresses.own import MANAGER as DEFAULT_MANAGER
-from robocomp_yaml.addresses.own import OwnAddresses, of_flat, of_values
+from robocomp_yaml.addresses.own import OwnAddresses, of_flat, of_values, replaces_values
 from robocomp_yaml.link.deployments import LinkedInstance
-from robocomp_yaml.link.flat_configs import FlatConfig, flat_at
+from robocomp_yaml.link.flat_configs import FlatConfig, flat_at, flat_config
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues
 from robocomp_yaml.parameters.writing.properties import CLASSIC, FLAT_TOML, dialect, merged_entries
 from robocomp_yaml.semantics import connections
@@ -81,6 +82,9 @@ class ConfigurationBase(msgspec.Struct):
 def base_of(instance: LinkedInstance, disk: Disk) -> ConfigurationBase:
     is_own = instance.entry.config is None
     flat = flat_at(instance.flat, disk) if instance.flat else None
+    if is_own and instance.values is not None and instance.component is not None:
+        own = flat_config(os.path.dirname(instance.component.component.path), disk)
+        flat = own if replaces_values(own, instance.values) else None
     return ConfigurationBase(instance.values, is_own=is_own) if flat is None else ConfigurationBase(None, flat, is_own)
 
 

@@ -1,20 +1,19 @@
-"""A component's flat `etc/config`: one that the user changed beside a values document, and the values of one that
-rcyaml wrote, which are judged like those of a values document."""
+"""The values of a flat `etc/config` that rcyaml wrote, which are judged like those of a values document."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from msgspec.structs import replace
 
-from robocomp_yaml.addresses.own import is_own
+from robocomp_yaml.addresses.own import is_own, replaces_values
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.diag.suggest import did_you_mean
+from robocomp_yaml.diag.suggest import did_you_mean, suggest
 from robocomp_yaml.diag.terminal import typed
-from robocomp_yaml.link.flat_configs import FlatConfig, flat_config, replaces_values
+from robocomp_yaml.link.flat_configs import FlatConfig, flat_config
 from robocomp_yaml.link.program import LinkedComponent, Program
 from robocomp_yaml.parameters.types import BasicType, EnumType, RecordType, Type, below, leaves
 
@@ -30,14 +29,21 @@ def check(program: Program) -> Iterator[Diagnostic]:
         flat = flat_config(os.path.dirname(linked.component.path), program.disk)
         if flat is None:
             continue
-        if linked in own:
-            if not replaces_values(flat):
-                continue
-            document = own[linked].document.path
+        if flat.is_written and (linked not in own or replaces_values(flat, own[linked])):
+            yield from _values(flat, linked)
+
+
+def replaced(program: Program, components: Iterable[LinkedComponent]) -> Iterator[Diagnostic]:
+    """A warning for each of these components that has the values of its flat config instead of those of its values
+    document. A compile, which ends this, reports it in its own way."""
+    own = {one.parameters.component: one for one in program.values.values() if one.parameters and is_own(one)}
+    for linked in components:
+        values = own.get(linked)
+        flat = flat_config(os.path.dirname(linked.component.path), program.disk) if values is not None else None
+        if values is not None and flat is not None and replaces_values(flat, values):
+            document = values.document.path
             hint = f"move your changes to {document}, then `{typed('rcyaml', 'compile', linked.component.path)}`"
             yield codes.CHANGED_FLAT.at(Span(flat.path), path=flat.path, document=document, hint=hint)
-        if flat.is_written:
-            yield from _values(flat, linked)
 
 
 def _values(flat: FlatConfig, linked: LinkedComponent) -> Iterator[Diagnostic]:
@@ -47,6 +53,12 @@ def _values(flat: FlatConfig, linked: LinkedComponent) -> Iterator[Diagnostic]:
     found, root = FlatValues(flat, linked.parameters, linked), linked.parameters.parameters.root
     # A fix edits documents, and this is none.
     yield from (replace(fault, fixes=()) for fault in document_faults(found.layer, linked.parameters))
+    for what, name, span in found.unknown_ports.values():
+        ports = linked.requires if what == "proxy" else linked.implements
+        meant = suggest(name, [port.name for port in ports])
+        if meant and _likeness(name, meant) >= _NEAR:  # another may be one of the component's own code
+            own, similar = linked.component.name, f"did you mean '{meant}'?"
+            yield codes.UNKNOWN_PORT.at(span, component=own, what=what, name=name, hint=similar)
     known = [*(path for path, _ in leaves(root)), *found.connections]
     new = _OWN.format(typed("rcyaml", "config", "new", linked.component.path))
     for key, span in found.unread.items():
