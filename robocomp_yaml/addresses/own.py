@@ -37,12 +37,9 @@ class OwnAddresses(msgspec.Struct, frozen=True):
     manager: OwnText | None = None
 
 
-def own_addresses(linked: LinkedComponent, values: LinkedValues | None, disk: Disk) -> OwnAddresses:
-    """The addresses of a component's own configuration: its values document, or the flat `etc/config` without such a
-    document, or after the user changed that."""
+def flat_addresses(linked: LinkedComponent, disk: Disk) -> OwnAddresses:
+    """The addresses in a component's flat `etc/config`."""
     flat = flat_config(os.path.dirname(linked.component.path), disk)
-    if values is not None and not replaces_values(flat, values):
-        return of_values(values)
     return of_flat(flat, linked) if flat is not None else OwnAddresses()
 
 

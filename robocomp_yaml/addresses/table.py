@@ -12,7 +12,7 @@ from collections.abc import Iterable
 import msgspec
 
 from robocomp_yaml.addresses.interface_comparison import Implementers
-from robocomp_yaml.addresses.own import OwnText, adapters, document, is_own, own_addresses
+from robocomp_yaml.addresses.own import OwnText, adapters, document, flat_addresses, is_own, of_values
 from robocomp_yaml.addresses.port_numbers import RESERVED, USUAL, FreePorts, default_port
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Port
@@ -135,10 +135,10 @@ def assign(
 
 
 def _fixed(linked: LinkedComponent, values: LinkedValues | None, disk: Disk) -> Iterable[tuple[str, IceEndpoint]]:
-    """The fixed endpoints of a component's configuration. What its values document leaves open is as it was compiled
-    last."""
-    endpoints = own_addresses(linked, None, disk).endpoints if values is not None else {}
-    for name, own in {**endpoints, **own_addresses(linked, values, disk).endpoints}.items():
+    """The fixed endpoints of a component, as a compile writes them: those of its values document, which leaves others
+    as they were."""
+    endpoints = flat_addresses(linked, disk).endpoints | (of_values(values).endpoints if values is not None else {})
+    for name, own in endpoints.items():
         if endpoint := parse_endpoint(own.text):
             yield name, endpoint
 

@@ -49,12 +49,6 @@ def test_the_values_of_the_other_count() -> None:
     assert proxy() == proxy("a") == "mouth:ws -h 10.0.0.7 -p 12345"
 
 
-def test_a_flat_config_that_the_user_changed_counts_more() -> None:
-    workspace(PAIR, b="Mouth.Endpoints=tcp -p 12346\n")
-    write_tree(Path(), {"b/etc/config.yaml": "component: ../b.cdsl.yaml\nendpoints: {Mouth: tcp -p 12345}\n"})
-    assert proxy() == "mouth:tcp -h localhost -p 12346"
-
-
 def test_a_copy_of_an_interface_is_the_same_interface() -> None:
     workspace(PAIR, b="Mouth.Endpoints=tcp -p 12345\n")
     write_tree(Path(), {"b/Talk.idsl.yaml": "# a copy\n" + INTERFACES})
