@@ -161,7 +161,7 @@ def set_(
 
 
 @command.command(short_help="Print the values as Ice properties or TOML.")
-@file
+@read_only
 @click.option("--as", "form", type=click.Choice(["ice", "toml"]), default="ice", help="The format.")
 @reveal
 @_options.include
