@@ -19,7 +19,6 @@ from robocomp_yaml.semantics.plain import PlainKind
 from robocomp_yaml.semantics.reading import PropertyReader
 from robocomp_yaml.semantics.references import Unresolved, unresolved
 from robocomp_yaml.semantics.texts import unquoted
-from robocomp_yaml.source import properties
 from robocomp_yaml.source.properties import IceProperty
 from robocomp_yaml.source.tree import Mapping as Tree
 from robocomp_yaml.source.tree import Node, Scalar, mapping_at, scalar_at, sequence_at, text_at
@@ -52,7 +51,7 @@ class FlatValues:
 
     def __init__(self, flat: FlatConfig, linked: LinkedParameters, component: LinkedComponent | None) -> None:
         self._path, self._component, self._text_of_file = flat.path, component, flat.text
-        self._entries = properties.read(flat.text).last
+        self._entries = flat.entries
         self.connections = self._connections()
         self.unknown_ports: dict[str, tuple[str, str, Span]] = {}
         reader = _Reader({key: self._text(entry) for key, entry in self._entries.items()}, linked)
@@ -125,6 +124,11 @@ class FlatValues:
         names = [port.name for port in self._component.ports] if self._component else []
         names = [*names, COMMON_BEHAVIOR]
         return any(key == name or key.startswith((f"{name}.", f"{name}Proxy.", f"{name}Topic.")) for name in names)
+
+
+def flat_values(flat: FlatConfig, linked: LinkedParameters, component: LinkedComponent | None) -> FlatValues:
+    """The values of a flat config, which are read once for its parameters."""
+    return linked.once((flat.path, flat.text), lambda: FlatValues(flat, linked, component))
 
 
 class _Reader(PropertyReader):

@@ -12,7 +12,6 @@ from robocomp_yaml.link.flat_configs import FlatConfig, flat_config
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues
 from robocomp_yaml.semantics import connections
 from robocomp_yaml.semantics.texts import unquoted
-from robocomp_yaml.source import properties
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.tree import Mapping, Scalar
 
@@ -79,11 +78,10 @@ def of_values(values: LinkedValues) -> OwnAddresses:
 
 def of_flat(flat: FlatConfig, linked: LinkedComponent) -> OwnAddresses:
     """The addresses of a flat config, under any spelling of their properties."""
-    last = properties.read(flat.text).last
 
     def first(*keys: str) -> OwnText | None:
         for key in keys:
-            if entry := last.get(key):
+            if entry := flat.entries.get(key):
                 span = Span(flat.path, entry.line, entry.column, entry.line, entry.column + len(entry.key))
                 return OwnText(unquoted(entry.value), span, flat.is_as_written(key))
         return None

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from msgspec.structs import replace
 
 from robocomp_yaml import secrets
-from robocomp_yaml.addresses.flat_values import FlatValues
+from robocomp_yaml.addresses.flat_values import flat_values
 from robocomp_yaml.addresses.own import is_own, replaces_values
 from robocomp_yaml.addresses.workspaces import Addresses
 from robocomp_yaml.link.flat_configs import flat_at, flat_config
@@ -32,7 +32,7 @@ def flat_layer(path: str, program: Program) -> LinkedValues | None:
     flat, home = flat_at(path, program.disk), os.path.realpath(os.path.dirname(os.path.dirname(os.path.abspath(path))))
     for real, linked in program.components.items():
         if os.path.dirname(real) == home and flat is not None:
-            return FlatValues(flat, linked.parameters, linked).layer
+            return flat_values(flat, linked.parameters, linked).layer
     return None
 
 
@@ -44,7 +44,7 @@ def replacing(values: LinkedValues, program: Program) -> LinkedValues | None:
     flat = flat_config(os.path.dirname(component.component.path), program.disk)
     if flat is None or not replaces_values(flat, values):
         return None
-    return FlatValues(flat, values.parameters, component).layer
+    return flat_values(flat, values.parameters, component).layer
 
 
 def overriding(rows: Iterable[Value], others: Iterable[Value]) -> list[Value]:

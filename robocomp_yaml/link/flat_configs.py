@@ -12,7 +12,7 @@ from robocomp_yaml.patterns import pattern
 from robocomp_yaml.source import properties
 from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.disk import Disk
-from robocomp_yaml.source.properties import FIRST_HEAD, VALUES_HEAD
+from robocomp_yaml.source.properties import FIRST_HEAD, VALUES_HEAD, IceProperty
 from robocomp_yaml.source.text import MAX_DOCUMENT
 from robocomp_yaml.transactions import manifest
 
@@ -27,12 +27,13 @@ _HEAD = pattern(rf"# Configuration of [^\n]*({re.escape(FIRST_HEAD)}|{re.escape(
 
 
 class FlatConfig(msgspec.Struct, frozen=True):
-    """A flat config as Ice reads it. `is_written`: rcyaml wrote the file, and the user may have changed it since;
-    `is_unchanged`: nobody did. `base` are the properties of a first `etc/config` as rcyaml wrote it, empty if they are
-    unknown, or come from a values document."""
+    """A flat config as Ice reads it: its effective `entries`, and their values, `properties`. `is_written`: rcyaml
+    wrote the file, and the user may have changed it; `is_unchanged`: nobody did. `base` are the properties of a first
+    `etc/config` as rcyaml wrote it, empty if they are unknown, or come from a values document."""
 
     path: str
     text: str
+    entries: Mapping[str, IceProperty] = {}
     properties: Mapping[str, str] = {}
     base: Mapping[str, str] = {}
     is_written: bool = False
@@ -53,15 +54,20 @@ def flat_at(path: str, disk: Disk) -> FlatConfig | None:
     raw = disk.read(path)[0] if disk.has_file(path) else None
     if raw is None:
         return None
+    return disk.once(("flat config", path, raw), lambda: _read(path, raw, disk))
+
+
+def _read(path: str, raw: bytes, disk: Disk) -> FlatConfig:
     text = raw.decode("utf-8", "replace")
     # What rcyaml wrote last is not part of what a run depends on: only rcyaml changes it.
     entries = list(manifest.entries_of(os.path.realpath(path)))
     head = _HEAD.match(text)
     is_from_values = head is not None and head[1] == VALUES_HEAD
     is_unchanged = any(entry.hash == digest(raw) for entry in entries) if entries else is_from_values
-    values = properties.read(text).values
+    last = properties.read(text).last
+    values = {key: entry.value for key, entry in last.items()}
     before = {} if is_from_values else values if is_unchanged else _base(path, disk)
-    return FlatConfig(path, text, values, before, bool(entries) or head is not None, is_unchanged)
+    return FlatConfig(path, text, last, values, before, bool(entries) or head is not None, is_unchanged)
 
 
 def _base(path: str, disk: Disk) -> Mapping[str, str]:

@@ -14,7 +14,7 @@ from collections.abc import Collection, Iterator
 import msgspec
 from msgspec.structs import replace
 
-from robocomp_yaml.addresses.flat_values import FlatValues
+from robocomp_yaml.addresses.flat_values import flat_values
 from robocomp_yaml.addresses.workspaces import Addresses
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -24,7 +24,8 @@ from robocomp_yaml.network.configuration_base import ConfigurationBase
 from robocomp_yaml.network.draft import Draft, LocatedText, listening
 from robocomp_yaml.network.settings import ProcessSettings
 from robocomp_yaml.parameters.editing.settings import ShownSetting, run_time_defaults
-from robocomp_yaml.parameters.layers.effective import Effective, document_faults
+from robocomp_yaml.parameters.json_schema import EFFECTIVE, fits
+from robocomp_yaml.parameters.layers.effective import document_faults
 from robocomp_yaml.parameters.layers.merge import MergedValue, data_of, merged
 from robocomp_yaml.parameters.layers.overlay import overlay
 from robocomp_yaml.parameters.specification.document import ValuesDocument
@@ -59,7 +60,6 @@ class Configuration(msgspec.Struct):
     secrets: tuple[str, ...] = ()
     diagnostics: list[Diagnostic] = []
     _layers: LinkedValues | None = None
-    _values: Effective | None = None
 
     @property
     def base(self) -> ConfigurationBase:
@@ -105,7 +105,7 @@ class Configuration(msgspec.Struct):
         self.diagnostics += found
         if values is None:
             return None
-        self._layers, self._values = layer, values
+        self._layers = layer
         sections, faults = properties(layer, values)
         self.diagnostics += faults
         written = {made.key for section in sections for made in section.properties}
@@ -116,7 +116,7 @@ class Configuration(msgspec.Struct):
         """The lines of the component's own flat config that nothing overrides, and the other properties."""
         if linked.broken:
             return "", None
-        below = FlatValues(flat, linked, self.draft.instance.component).layer
+        below = flat_values(flat, linked, self.draft.instance.component).layer
         if not self._judged(linked, below):
             return "", None
         dialect = self.base.dialect
@@ -134,13 +134,16 @@ class Configuration(msgspec.Struct):
         return None if linked.broken else [*made, *self._set(linked, None, self.base.dialect)]
 
     def _judged(self, linked: LinkedParameters, below: LinkedValues) -> bool:
-        """Whether the layers of `set:` and of the base have no problems; their values are settings then."""
+        """Whether the layers of `set:` and of the base have no problems."""
         empty = ValuesDocument(self._file, mapping_at(self.draft.span, {}))
         whole = LinkedValues(empty, (below,), linked)
-        layer = replace(whole, document=ValuesDocument(self._file, self._layer(linked, whole)))
+        layer = self._layers = replace(whole, document=ValuesDocument(self._file, self._layer(linked, whole)))
+        if not linked.parameters.constraints and fits(
+            linked, EFFECTIVE, data_of(merged(layer), linked.parameters.root)
+        ):
+            return True  # the values are not needed, and completing them takes long
         values, found = self.program.effective(layer)
         self.diagnostics += found
-        self._layers, self._values = layer, values
         return values is not None
 
     def _set(self, linked: LinkedParameters, below: MergedValue | None, dialect: str) -> list[Section]:
@@ -162,7 +165,7 @@ class Configuration(msgspec.Struct):
         """The values of the configuration, with their origin."""
         made = ProcessSettings(self.draft, self.addresses, self.external)
         if self._layers is not None:
-            found = made.of(self._layers, self._values)
+            found = made.of(self._layers, self.program.effective(self._layers)[0])
         else:
             properties = self._connections(CLASSIC)
             found = made.derived((each.key, each.value, each.span or self.draft.span) for each in properties)

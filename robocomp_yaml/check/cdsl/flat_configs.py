@@ -47,10 +47,10 @@ def replaced(program: Program, components: Iterable[LinkedComponent]) -> Iterato
 
 
 def _values(flat: FlatConfig, linked: LinkedComponent) -> Iterator[Diagnostic]:
-    from robocomp_yaml.addresses.flat_values import FlatValues
+    from robocomp_yaml.addresses.flat_values import flat_values
     from robocomp_yaml.parameters.layers.effective import document_faults
 
-    found, root = FlatValues(flat, linked.parameters, linked), linked.parameters.parameters.root
+    found, root = flat_values(flat, linked.parameters, linked), linked.parameters.parameters.root
     # A fix edits documents, and this is none.
     yield from (replace(fault, fixes=()) for fault in document_faults(found.layer, linked.parameters))
     for what, name, span in found.unknown_ports.values():
