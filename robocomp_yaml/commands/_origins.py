@@ -30,7 +30,8 @@ def settings_data(settings: Iterable[ShownSetting]) -> list[dict[str, Any]]:
 
 
 def is_worth_a_line(one: ShownSetting) -> bool:
-    """Whether a plan shows a value without being asked: it replaces what the user chose, or leads outside."""
+    """Whether a plan shows a value without being asked: it is derived and replaces what the user chose, or leads
+    outside."""
     return one.is_notable or (one.is_outside and one.source != DERIVED)
 
 

@@ -44,7 +44,7 @@ class ProcessSettings:
         found = self._overridden(one.node, one.overrode)
         overrode = tuple(OverriddenValue(secrets.value(one.key, _spelled(node)), node.span) for node in found)
         is_outside = one.section == "proxies" and source == SET and one.name in self._external
-        is_chosen = bool(overrode) and self._is_chosen(one, found)
+        is_chosen = source == DERIVED and bool(overrode) and self._is_chosen(one, found)
         return ShownSetting(
             one.key, secrets.value(one.key, one.text), source, span, overrode, is_outside,
             is_chosen or (is_outside and self._is_own(one.node.span)),
@@ -56,8 +56,7 @@ class ProcessSettings:
             return ShownSetting(row.path, text, DEFAULT, row.default.span if row.default is not None else None)
         source, span = self._source(row.node.span)
         overrode = tuple(OverriddenValue(flow(row.hide(node.data)), node.span) for node in row.overrode)
-        is_chosen = any(self._is_own(one.span) and not self._is_as_written(row.path) for one in overrode)
-        return ShownSetting(row.path, text, source, span, overrode, is_notable=is_chosen)
+        return ShownSetting(row.path, text, source, span, overrode)
 
     def _source(self, span: Span) -> tuple[str, Span | None]:
         return (DERIVED, None) if span == self._draft.span else (SET, span)

@@ -94,7 +94,8 @@ class ShownSetting(msgspec.Struct, frozen=True):
     """One value of a configuration, without secrets. `key` is the path of a parameter, or the name of a
     property. `source` is SET (in the document of `span`), DERIVED (from the deployment), or DEFAULT. `overrode` are the
     replaced values, the latest first. `is_outside`: the proxy of a server that no process of the deployment is.
-    `is_notable`: it replaces what the user chose, or leads outside."""
+    `is_notable`: it is derived and replaces what the user chose, or leads
+    outside."""
 
     key: str
     value: str

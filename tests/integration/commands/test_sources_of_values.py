@@ -100,9 +100,9 @@ def test_a_plan_names_what_replaces_a_choice(tree: Path, rcyaml: Run) -> None:
     assert rcyaml("compile", "mouth").exit_code == 0
     alone = rcyaml("deploy", "plan", "head.ddsl.yaml").stdout
     assert "    MouthProxy = mouth:tcp -h 10.0.0.9 -p 4  # arm/etc/config:3; outside of the deployment\n" in alone
-    assert "    speed = 9  # head.ddsl.yaml:3, overrides 8 (arm/etc/config:1)\n" in alone
-    assert "Speech.Endpoints" not in alone and "hunter2" not in alone
+    assert "Speech.Endpoints" not in alone and "hunter2" not in alone and "speed" not in alone
     every = rcyaml("-v", "deploy", "plan", "head.ddsl.yaml").stdout
+    assert "    speed = 9  # head.ddsl.yaml:3, overrides 8 (arm/etc/config:1)\n" in every
     assert "    Speech.Endpoints = tcp -h 127.0.0.1 -p 12345  # arm/etc/config:2\n" in every
     assert (
         "    token = ***  # arm/etc/config:4\n" in every and "    Ice.MessageSizeMax = 20004800  # default\n" in every
