@@ -18,6 +18,7 @@ from robocomp_yaml.semantics.composite import Kind, ListKind, MapKind, RecordKin
 from robocomp_yaml.semantics.plain import PlainKind
 from robocomp_yaml.semantics.reading import PropertyReader
 from robocomp_yaml.semantics.references import Unresolved, unresolved
+from robocomp_yaml.semantics.spellings import Spelling
 from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source.properties import IceProperty
 from robocomp_yaml.source.tree import Mapping as Tree
@@ -31,16 +32,15 @@ _SPELLED = ("Endpoints.", "Proxies.")
 class _TextAt(str):
     """A text of a property, with its location."""
 
-    key: Span
-    span: Span
+    key: Span = Span("")
+    span: Span = Span("")
 
 
 class _ReferenceAt(Unresolved):
     """A reference in a property, with its location."""
 
-    __slots__ = ("key", "span")
-    key: Span
-    span: Span
+    key: Span = Span("")
+    span: Span = Span("")
 
 
 class FlatValues:
@@ -145,11 +145,16 @@ class _Reader(PropertyReader):
             self._last = text
         return text
 
+    def _row(self, spelling: Spelling, kind: Kind, text: str, separator: str) -> Any:
+        if isinstance(text, _TextAt):
+            self._last = text
+        return super()._row(spelling, kind, text, separator)
+
     def _located(self, text: str) -> Any:
         found = unresolved(text)
         made: Any = _ReferenceAt(found.data) if isinstance(found, Unresolved) else _TextAt(found)
-        assert self._last is not None
-        made.key, made.span = self._last.key, self._last.span
+        if self._last is not None:
+            made.key, made.span = self._last.key, self._last.span
         return made
 
 
