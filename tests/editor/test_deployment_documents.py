@@ -110,8 +110,8 @@ MESSAGES = [
     (D + "ports: {from: 1}", ["2:1 the key 'to' is missing"]),
     (D + "ports: {to: 1}", ["2:1 the key 'from' is missing"]),
     (
-        D + "ports: {from: 0, to: 1.5}",
-        ["2:15 a port is a whole number from 1 to 65535", "2:22 a port is a whole number from 1 to 65535"],
+        D + "ports: {from: 1, to: 1.5}",
+        ["2:22 a port is a whole number from 1 to 65535"],
     ),
     (
         D + "components: [a]",
