@@ -51,7 +51,8 @@ def command() -> None:
     """Check, show, change and export the values of a component's parameters, without a build and without a robot.
 
     FILE is a values document: etc/config.yaml, or NAME.config.yaml. The folder, the document or the name of a component
-    means its etc/config.yaml. If there is only one component, FILE may be omitted.
+    means its etc/config.yaml, or without such a document, for commands that only read, its etc/config. If there is only
+    one component, FILE may be omitted.
     """
 
 
@@ -74,7 +75,7 @@ def new(ctx: click.Context, file: str, include: tuple[str, ...]) -> None:
 
 
 @command.command(short_help="Report everything that is wrong with the values.")
-@file
+@read_only
 @_options.include
 @_options.format_
 @click.pass_context

@@ -64,6 +64,14 @@ def test_whose_port_counts(entry: str, own: str, port: int) -> None:
     assert ports(found)["lips.Mouth"] == port
 
 
+def test_a_default_that_config_new_writes_is_no_choice() -> None:
+    both = "endpoints: {{Mouth: tcp -p {}, CommonBehavior: tcp -p {}}}\n"
+    ours = both.format(*(default_port("MouthComp", name) for name in ("Mouth", "CommonBehavior")))
+    found = network(files(values="component: ../mouth.cdsl.yaml\n" + ours))
+    assert ports(found) == {f"lips.{name}": default_port("lips", name) for name in ("Mouth", "CommonBehavior")}
+    assert not [one for one in found.settings_of("lips") if one.is_notable]
+
+
 def test_the_port_of_a_values_document_counts() -> None:
     values = "component: ../mouth.cdsl.yaml\nendpoints: {Mouth: tcp -p 12345, CommonBehavior: tcp -p 12346}\n"
     found = network(files(values=values))
