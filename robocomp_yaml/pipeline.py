@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING
 import msgspec
 from msgspec.structs import replace
 
+from robocomp_yaml.addresses.workspaces import Addresses
 from robocomp_yaml.check import checks, secrets
 from robocomp_yaml.check.allowed import Allowances, AllowanceVerdict
 from robocomp_yaml.check.networks import check_networks
@@ -42,14 +43,15 @@ if TYPE_CHECKING:
 
 
 class Analysis(msgspec.Struct, frozen=True):
-    """A linked program with its sorted diagnostics, the disk and the texts that they come from, and its networks.
-    `used` are the comments that suppress a diagnostic."""
+    """A linked program with its sorted diagnostics, the disk and the texts that they come from, its networks and
+    the addresses of its components. `used` are the comments that suppress a diagnostic."""
 
     program: Program
     linker: Linker
     discovered: DiscoveredDocuments
     disk: Disk
     derived: DerivedNetworks
+    addresses: Addresses
     texts: DocumentTexts
     allowed: Allowances
     diagnostics: tuple[Diagnostic, ...] = ()
@@ -114,15 +116,17 @@ def analyse(
     discovered = discover(list(paths), disk)
     linker = Linker(Documents(disk, on_read or (lambda path: None)), ImportSearch(search_folders(include), disk))
     program = linker.link(discovered.documents)
-    derived = networks_of(program)
+    addresses = Addresses(linker, program)
+    derived = networks_of(program, addresses)
     diagnostics = [*discovered.diagnostics, *linker.documents.diagnostics, *linker.diagnostics]
     for check in checks(program, [one.plugins for one in linker.workspaces.values()]):
         diagnostics += check(program)
     diagnostics += check_networks(derived, program)
+    diagnostics += addresses.faults()
     diagnostics += secrets.check(program, linker.documents.read.values())
     texts = DocumentTexts(disk.contents, linker.documents.trees())
     allowed = Allowances.of(texts, program.plugins_of)
-    analysis = Analysis(program, linker, discovered, disk, derived, texts, allowed)
+    analysis = Analysis(program, linker, discovered, disk, derived, addresses, texts, allowed)
     judged = analysis.without_suppressed([*diagnostics, *analysis.allowed.faults])
     return replace(analysis, diagnostics=tuple(in_order(analysis.for_users(judged.reported))), used=judged.used)
 

@@ -9,7 +9,6 @@ from functools import cached_property
 from msgspec.structs import replace
 
 from robocomp_yaml.api.compile_stamps import CompileArguments, keep
-from robocomp_yaml.api.neighbours import ports
 from robocomp_yaml.api.outcome import File, Outcome
 from robocomp_yaml.diag.codes.emitting import CHANGED_CONFIG
 from robocomp_yaml.diag.codes.files import PLUGIN_FAILED
@@ -41,7 +40,7 @@ class Compilation:
         self._output = arguments.output
         options = EmitOptions(
             self._output, analysis.discovered.folders, frozenset(arguments.targets), analysis.linker.workspace_of,
-            ports(analysis), standalone=arguments.standalone,
+            analysis.addresses.table, standalone=arguments.standalone,
         )  # fmt: skip
         self._built = build(analysis.program, analysis.diagnostics, options)
         AllowedFolders(arguments.paths, self._output).restrict(self._built)

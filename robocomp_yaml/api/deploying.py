@@ -64,9 +64,12 @@ class Deployment:
         self._engine, self._lock = make_engine(engine, network), ExitStack()
         self._diagnostics: list[Diagnostic] = []
         if not lenient:
+            from robocomp_yaml.check.cdsl.flat_configs import replaced
             from robocomp_yaml.deploy.outdated import outdated
 
-            self._diagnostics = analysis.with_more(outdated(analysis.program.deployments[os.path.realpath(path)]))
+            linked = analysis.program.deployments[os.path.realpath(path)]
+            own = [one.component for one in linked.instances.values() if one.entry.config is None and one.component]
+            self._diagnostics = analysis.with_more([*outdated(linked), *replaced(analysis.program, dict.fromkeys(own))])
 
     @property
     def engine(self) -> str:

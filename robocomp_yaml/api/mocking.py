@@ -6,12 +6,10 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from robocomp_yaml.api.neighbours import workspace_ports
+from robocomp_yaml.addresses.table import PortTable
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, has_errors
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.emit.ports import PortTable
-from robocomp_yaml.network.port_numbers import default_port
 from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.source import schema, text
 from robocomp_yaml.source.ice_endpoint import IceEndpoint
@@ -106,10 +104,9 @@ class Mock:
         if served.endpoint:
             return served.endpoint
         if self._ports is None:
-            self._ports = workspace_ports(self._analysis)
-        found = self._ports.implementers.get((served.interface.scope.module.name, interface.name), ())
-        for linked, adapter in found:
-            endpoint = self._ports.endpoint(linked, adapter)
+            self._ports = self._analysis.addresses.all()
+        for linked, port in self._ports.implementers.of(served.interface):
+            endpoint = self._ports.endpoint(linked, port.name)
             return f"{endpoint.protocol} -h {endpoint.host or LOOPBACK} -p {endpoint.port}"
-        expected = IceEndpoint(default_port("", interface.name))
+        expected = IceEndpoint(self._ports.proposed(interface.name))
         return f"{expected.protocol} -h {LOOPBACK} -p {expected.port}"

@@ -12,7 +12,7 @@ from typing import Any
 import msgspec
 from msgspec.structs import replace
 
-from robocomp_yaml.api import which
+from robocomp_yaml.api import effective_values, which
 from robocomp_yaml.api.refusals import cannot_write, meant
 from robocomp_yaml.check.pdsl import values as check
 from robocomp_yaml.diag.codes import files as file_codes
@@ -20,10 +20,12 @@ from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors, in_order
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues
 from robocomp_yaml.parameters.editing import show
 from robocomp_yaml.parameters.editing.edit import NotEditable
 from robocomp_yaml.parameters.editing.edit import set_value as edit
+from robocomp_yaml.parameters.editing.settings import ShownSetting
 from robocomp_yaml.parameters.editing.show import Value
 from robocomp_yaml.parameters.examples.new import lines_above
 from robocomp_yaml.parameters.hidden import hidden
@@ -79,14 +81,25 @@ class Values:
 
     `file` is its path, `diagnostics` are sorted by location. What needs the effective values raises Faulty if errors
     leave none. Raises Refused if the file is not a values document.
+
+    The file may also be the flat `etc/config` of a component, which can be read, but not changed. If the user changed
+    that file beside a values document, the component has its values: `rows`, `settings` and `get` return these.
     """
 
     def __init__(self, file: str, include: Sequence[str] = (), overlay: Mapping[str, bytes] | None = None) -> None:
         self.file = file
         self._include, self._overlay = tuple(include), dict(overlay or {})
-        self._analysis: Analysis = analyse((file,), self._include, overlay=self._overlay)
+        self._is_flat = _is_flat(file)
+        analysed = which.component_near(file) if self._is_flat else file
+        self._analysis: Analysis = analyse((analysed,), self._include, overlay=self._overlay)
         self.documents_read: int = self._analysis.program.documents
-        self._linked: LinkedValues | None = self._analysis.program.values.get(os.path.realpath(file))
+        program = self._analysis.program
+        self._linked: LinkedValues | None = program.values.get(os.path.realpath(file))
+        self._replacing: LinkedValues | None = None
+        if self._is_flat:
+            self._linked = effective_values.flat_layer(file, program)
+        elif self._linked is not None:
+            self._replacing = effective_values.replacing(self._linked, program)
         if self._linked is None and not has_errors(self._analysis.diagnostics):
             raise Refused(f"{file} is not a values document: its name is config.yaml (in etc/, beside a component) "
                           "or NAME.config.yaml")  # fmt: skip
@@ -99,7 +112,7 @@ class Values:
             own = {layer.document.path for layer in linked.layers()}
             others = {one.document.path for one in self._analysis.program.values.values()} - own
             diagnostics = [one for one in diagnostics if one.span.file not in others]
-            if linked.parameters is not None and check.is_only_a_layer(linked):
+            if linked.parameters is not None and not self._is_flat and check.is_only_a_layer(linked):
                 diagnostics += check.check_document(linked, self._analysis.program, complete=True)
         return in_order(self._analysis.redacted(diagnostics))
 
@@ -117,26 +130,47 @@ class Values:
     @property
     def _effective(self) -> Effective:
         """The effective values of all layers and defaults. Raises Faulty."""
+        return self._effective_of(self._linked)
+
+    @property
+    def _in_effect(self) -> Effective:
+        """The effective values with which the component runs: of the flat config, if that replaces the document. Raises
+        Faulty."""
+        return self._effective_of(self._replacing or self._linked)
+
+    def _effective_of(self, linked: LinkedValues | None) -> Effective:
         if has_errors(self.diagnostics):
             raise Faulty(self.diagnostics, self.documents_read)
-        if self._linked is None or self._linked.parameters is None:
+        if linked is None or linked.parameters is None:
             raise self._unknown()
-        values, found = self._analysis.program.effective(self._linked)
-        if values is None:  # without an error, because the workspace lowers severities
+        values, found = self._analysis.program.effective(linked)
+        if values is None:  # of a flat config, or because the workspace lowers severities
             problem = "the values cannot be completed: `rcyaml check` reports what is wrong with the parameters"
-            found = [*found, file_codes.WRONG_SHAPE.at(Span(self.file), problem=problem)]
-            raise Faulty(found, self.documents_read)
+            more = [] if has_errors(found) else [file_codes.WRONG_SHAPE.at(Span(self.file), problem=problem)]
+            raise Faulty([*found, *more], self.documents_read)
         return values
 
     def rows(self, *, reveal: bool = False) -> list[Value]:
         """All effective values, each with the location that sets it. Secrets are hidden unless `reveal` is set. Raises
         Faulty."""
-        return list(show.shown(self._effective, reveal=reveal))
+        rows = show.shown(self._in_effect, reveal=reveal)
+        if self._replacing is None:
+            return list(rows)
+        return effective_values.overriding(rows, show.shown(self._effective, reveal=reveal))
+
+    def settings(self, *, reveal: bool = False) -> list[ShownSetting]:
+        """The properties that are no parameters, each with the location that sets it: endpoints, proxies, topics, Ice's
+        and others, and what rcyaml and the run time set if nobody does. Secrets are hidden unless `reveal` is set.
+        Raises Faulty."""
+        linked = self._replacing or self._linked
+        if linked is None:
+            raise self._unknown(self.diagnostics)
+        return effective_values.settings_of(linked, self._linked, self._analysis.addresses, reveal=reveal)
 
     def get(self, path: str, *, reveal: bool = False) -> Any:
         """The effective value at a path such as `motors[0].vel`, as plain data; None if it has no value. A secret is
         hidden unless `reveal` is set. Raises Faulty, and Refused if the parameter is unknown."""
-        values = self._effective
+        values = self._in_effect
         steps, _ = _steps(path, values.parameters.root)
         found = show.find(values, steps)
         if found is None:
@@ -168,6 +202,10 @@ class Values:
         """The change of the value at a path. Everything else in the document stays, byte for byte. Text needs no
         quotes; `null` returns to the default. Raises Refused if the parameter is unknown or cannot be set in this
         document, and Faulty if its type or limits reject the value, or the document would have new errors."""
+        if self._is_flat:
+            folder = os.path.dirname(which.component_near(self.file))
+            new = typed("rcyaml", "config", "new", folder or os.curdir)
+            raise Refused(f"{self.file} is not a values document: change it yourself, or write one with `{new}`")
         parameters = self._parameters
         if parameters.broken or self._linked is None:
             raise self._unknown(self.diagnostics)
@@ -216,6 +254,10 @@ class Values:
             raise Faulty(self._analysis.redacted(found), 1)
 
 
+def _is_flat(file: str) -> bool:
+    return os.path.basename(file) == "config" and os.path.basename(os.path.dirname(os.path.abspath(file))) == "etc"
+
+
 def write_new(file: str, include: Sequence[str] = ()) -> str:
     """Writes a first values document, and returns its path: `file` is that document, or names a component as
     `which.component` accepts it. Values and connections of the component's `etc/config` are copied. Raises Refused and
@@ -233,12 +275,11 @@ def write_new(file: str, include: Sequence[str] = ()) -> str:
     linked = program.components[real].parameters if real in program.components else program.parameters.get(real)
     if linked is None or linked.broken or has_errors(analysis.diagnostics):
         raise Faulty(analysis.diagnostics, program.documents)
-    from robocomp_yaml.api.neighbours import ports
     from robocomp_yaml.emit.first_values import first_values
 
     try:
         os.makedirs(os.path.dirname(target) or ".", exist_ok=True)
-        whole_file.create(target, first_values(linked, component, target, ports(analysis)))
+        whole_file.create(target, first_values(linked, component, target, analysis.addresses.table))
     except OSError as error:
         raise cannot_write(target, error) from None
     return target

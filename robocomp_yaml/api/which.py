@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NoReturn
 from robocomp_yaml.api.refusals import meant
 from robocomp_yaml.diag.errors import Refused
 from robocomp_yaml.link.component_references import References, stem
+from robocomp_yaml.link.flat_configs import FLAT
 from robocomp_yaml.source.discover import kind_of, of_kind
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.heading import component_in
@@ -32,14 +33,18 @@ def component(argument: str) -> str:
     return _named(argument)
 
 
-def values(argument: str) -> str:
-    """The values document: the argument itself, or that of the component that it means."""
+def values(argument: str, *, has_flat: bool = False) -> str:
+    """The values document: the argument itself, or that of the component that it means; with `has_flat`, the flat
+    `etc/config` of a component without such a document."""
     if os.path.isfile(argument) and kind_of(argument) not in ("cdsl", "pdsl"):
         return argument
     if os.path.basename(argument) == "config.yaml" or argument.endswith(".config.yaml"):
         raise Refused(f"'{argument}' does not exist")
     document = component(argument)
     path = os.path.normpath(os.path.join(os.path.dirname(document), VALUES))
+    flat = os.path.normpath(os.path.join(os.path.dirname(document), FLAT))
+    if not os.path.isfile(path) and has_flat and os.path.isfile(flat):
+        return flat
     if not os.path.isfile(path):
         raise Refused(f"{path} does not exist yet: `rcyaml config new {document}` writes it")
     return path

@@ -175,10 +175,12 @@ class Workspace:
         deployments."""
         analysis = self.analysis
         if analysis.program.components:
-            from robocomp_yaml.emit import ports
+            from robocomp_yaml.addresses import clashes
+            from robocomp_yaml.check.cdsl.flat_configs import replaced
             from robocomp_yaml.emit.specific import existing_code
 
-            yield from ports.clashes(analysis.program.components.values(), analysis.disk)
+            yield from clashes.clashes(analysis.program.components.values(), analysis.disk)
+            yield from replaced(analysis.program, analysis.program.components.values())
             if existing_code.has_code(analysis.program):
                 from robocomp_yaml.api import compile_stamps
 
@@ -186,7 +188,9 @@ class Workspace:
                 if kept is not None:
                     yield from kept
                 else:
-                    yield from existing_code.check(analysis.program, analysis.diagnostics, analysis.linker)
+                    yield from existing_code.check(
+                        analysis.program, analysis.diagnostics, analysis.linker, analysis.addresses.table
+                    )
         if analysis.networks:
             from robocomp_yaml.check.networks import check_environment
 

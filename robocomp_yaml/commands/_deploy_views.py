@@ -7,6 +7,7 @@ import zlib
 from collections.abc import Collection, Sequence
 from typing import Any
 
+from robocomp_yaml.commands._origins import is_worth_a_line, origin, settings_data
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import OWN, Line, Running
 from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, Result, Status
@@ -20,9 +21,9 @@ _TINTS = {START: "32", STOP: "31", RESTART: "33", CHANGE: "36", KEEP: "2"}
 _LOG_TINTS = ("36", "33", "32", "35", "34", "96", "93", "92", "95", "94")
 
 
-def plan_lines(plan: Plan, color: bool, *, everything: bool) -> list[Shown]:
-    """A line for each process that changes, with its changes, and a summary line. `everything` also prints the other
-    processes."""
+def plan_lines(plan: Plan, network: Network, color: bool, *, everything: bool) -> list[Shown]:
+    """A line for each process that changes, with its changes and the values that replace what the user chose, and a
+    summary line. `everything` also prints the other processes, and all values of all configurations."""
     width = max(map(columns, plan.steps), default=0)
     lines = []
     for step in plan.steps.values():
@@ -31,13 +32,21 @@ def plan_lines(plan: Plan, color: bool, *, everything: bool) -> list[Shown]:
             lines.append(line(paint(head, _TINTS[step.action], color), f": {step.reason}"))
             if len(step.changes) > 1:
                 lines += [shown(f"    {change}") for change in step.changes]
+            settings = network.settings_of(step.name) if step.action != STOP else []
+            chosen = [one for one in settings if everything or is_worth_a_line(one)]
+            lines += [shown(f"    {one.key} = {one.value}  # {origin(one)}") for one in chosen]
     counts = [(len(plan.of(action)), action) for action in (START, STOP, RESTART, CHANGE, KEEP)]
     summary = ", ".join(f"{count} to {action}" for count, action in counts if count)
     return [*lines, shown("nothing to do" if plan.is_empty else summary)]
 
 
-def plan_data(plan: Plan) -> list[dict[str, Any]]:
-    return [_step_data(step) for step in plan.steps.values()]
+def plan_data(plan: Plan, network: Network | None = None) -> list[dict[str, Any]]:
+    """The steps; with a network, also the values of the configurations of what does not stop."""
+    made = [_step_data(step) for step in plan.steps.values()]
+    for step, data in zip(plan.steps.values(), made, strict=True):
+        if network is not None and step.action != STOP:
+            data["config"] = settings_data(network.settings_of(step.name))
+    return made
 
 
 def _step_data(step: PlanStep) -> dict[str, Any]:

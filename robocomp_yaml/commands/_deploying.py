@@ -73,8 +73,8 @@ class DeploySession(msgspec.Struct):
     def plan(self, names: Names) -> None:
         found = self._run(lambda: self.deployment.plan(*names))
         if self.format_ == "json":
-            self._end({"plan": views.plan_data(found)})
-        terminal.say(*views.plan_lines(found, self._color, everything=self.ctx.obj.verbosity > 0))
+            self._end({"plan": views.plan_data(found, self.network)})
+        terminal.say(*views.plan_lines(found, self.network, self._color, everything=self.ctx.obj.verbosity > 0))
         self._end()
 
     def build(self, names: Names) -> None:

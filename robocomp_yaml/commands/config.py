@@ -24,6 +24,12 @@ def _values_document(ctx: click.Context, param: click.Parameter, argument: str) 
     return which.values(argument)
 
 
+def _values_or_flat(ctx: click.Context, param: click.Parameter, argument: str) -> str:
+    from robocomp_yaml.api import which
+
+    return which.values(argument, has_flat=True)
+
+
 class _OptionalFile(LibraryCommand):
     """A command whose first argument may be omitted if only one document is possible."""
 
@@ -36,6 +42,7 @@ class _OptionalFile(LibraryCommand):
 
 
 file = click.argument("file", metavar="[FILE]", default="", callback=_values_document)
+read_only = click.argument("file", metavar="[FILE]", default="", callback=_values_or_flat)
 reveal = click.option("--reveal", is_flag=True, help="Also show secrets.")
 
 
@@ -44,7 +51,8 @@ def command() -> None:
     """Check, show, change and export the values of a component's parameters, without a build and without a robot.
 
     FILE is a values document: etc/config.yaml, or NAME.config.yaml. The folder, the document or the name of a component
-    means its etc/config.yaml. If there is only one component, FILE may be omitted.
+    means its etc/config.yaml, or without such a document, for commands that only read, its etc/config. If there is only
+    one component, FILE may be omitted.
     """
 
 
@@ -67,7 +75,7 @@ def new(ctx: click.Context, file: str, include: tuple[str, ...]) -> None:
 
 
 @command.command(short_help="Report everything that is wrong with the values.")
-@file
+@read_only
 @_options.include
 @_options.format_
 @click.pass_context
@@ -80,26 +88,33 @@ def check(ctx: click.Context, file: str, include: tuple[str, ...], format_: str)
 
 
 @command.command(short_help="Print every effective value, and its location.")
-@file
+@read_only
 @reveal
 @_options.include
 @_options.text_or_json
 @click.pass_context
 def show(ctx: click.Context, file: str, reveal: bool, include: tuple[str, ...], format_: str) -> None:
-    """Print every effective value with the file and line that set it, and the values that it overrides. Secrets are
-    hidden. References to the environment and to files are printed as they are: they are never resolved here."""
+    """Print every effective value with the file and line that set it, and the values that it overrides: parameters,
+    endpoints, proxies, topics, and properties of Ice and others. Secrets are hidden. References to the environment and
+    to files are printed as they are: they are never resolved here. A component without a values document has the values
+    of its etc/config. With `rcyaml -v`, the endpoints, proxies and properties that nobody sets are printed, too."""
     from robocomp_yaml.api.values import Values
+    from robocomp_yaml.commands._origins import origin, settings_data
+    from robocomp_yaml.parameters.editing.settings import SET
 
-    rows = Values(file, include).rows(reveal=reveal)
+    values = Values(file, include)
+    rows, settings = values.rows(reveal=reveal), values.settings(reveal=reveal)
     if format_ == "json":
-        terminal.data(dumps({"values": [_as_json(row) for row in rows]}), json=True)
+        data = {"values": [_as_json(row) for row in rows], "properties": settings_data(settings)}
+        terminal.data(dumps(data), json=True)
         return
-    width = max((min(len(_assignment(row)), 50) for row in rows), default=0)
-    terminal.data("".join(f"{_assignment(row):<{width}}  # {_origin(row)}\n" for row in rows))
+    chosen = [one for one in settings if one.source == SET or ctx.obj.verbosity > 0]
+    _print_table([(_assignment(row), _origin(row)) for row in rows])
+    _print_table([(f"{one.key} = {one.value}", origin(one)) for one in chosen])
 
 
 @command.command(short_help="Print one effective value.", cls=_OptionalFile)
-@file
+@read_only
 @click.argument("path")
 @reveal
 @_options.include
@@ -147,7 +162,7 @@ def set_(
 
 
 @command.command(short_help="Print the values as Ice properties or TOML.")
-@file
+@read_only
 @click.option("--as", "form", type=click.Choice(["ice", "toml"]), default="ice", help="The format.")
 @reveal
 @_options.include
@@ -158,6 +173,11 @@ def export(ctx: click.Context, file: str, form: str, reveal: bool, include: tupl
     from robocomp_yaml.api.values import Values
 
     terminal.data(Values(file, include).export(form, reveal=reveal or not sys.stdout.isatty()))
+
+
+def _print_table(lines: list[tuple[str, str]]) -> None:
+    width = max((min(len(assigned), 50) for assigned, _ in lines), default=0)
+    terminal.data("".join(f"{assigned:<{width}}  # {where}\n" for assigned, where in lines))
 
 
 def _assignment(row: Value) -> str:

@@ -13,7 +13,7 @@ from robocomp_yaml.network.network import Network, Process
 from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.regular import regular
 
-_NOT_KEPT = ("span", "extra", "build")
+_NOT_KEPT = ("span", "own_span", "extra", "build")
 
 
 class ProcessSpec(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

@@ -10,11 +10,11 @@ import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml import resources
+from robocomp_yaml.addresses.table import assign
 from robocomp_yaml.emit import config, runtime
 from robocomp_yaml.emit.layout import ALONE, CONFIG, GENERATED, SLICE, Layout
 from robocomp_yaml.emit.lowering.component import BEHAVIOR, COMMON
 from robocomp_yaml.emit.options import EmitOptions
-from robocomp_yaml.emit.ports import assign
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import WorkspaceSettings
 from robocomp_yaml.parameters.json_schema import DOCUMENT, EFFECTIVE, document_schema

@@ -5,17 +5,16 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping, Sequence
 
-from robocomp_yaml.emit import ports
+from robocomp_yaml.addresses.own import MANAGER as DEFAULT_MANAGER
+from robocomp_yaml.addresses.own import adapters
+from robocomp_yaml.addresses.table import PortTable
 from robocomp_yaml.emit.layout import CONFIG
-from robocomp_yaml.emit.ports import PortTable, interface_key
 from robocomp_yaml.emit.specific.config_merge import spellings
-from robocomp_yaml.link.program import LinkedComponent, Port
-from robocomp_yaml.network.port_numbers import default_port
+from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.parameters.defaults import period
-from robocomp_yaml.semantics.connections import MANAGER, endpoints, proxy, topic_endpoints
+from robocomp_yaml.semantics.connections import ICE_DEFAULTS, MANAGER, endpoints, proxy, topic_endpoints
 from robocomp_yaml.semantics.texts import unquoted
-from robocomp_yaml.source.ice_endpoint import IceEndpoint
-from robocomp_yaml.source.properties import entry_line, read
+from robocomp_yaml.source.properties import FIRST_HEAD, entry_line, read
 from robocomp_yaml.source.regular import text
 from robocomp_yaml.transactions.plan import ONCE, FilePlan
 
@@ -23,21 +22,21 @@ _ICE = (
     ("Ice.Warn.Connections", "0", "1: warn when a connection is lost."),
     ("Ice.Trace.Network", "0", "1 to 3: log opened and closed connections, and more."),
     ("Ice.Trace.Protocol", "0", "1: log every message."),
-    ("Ice.MessageSizeMax", "20004800", "The size limit of messages, in KiB."),
+    ("Ice.MessageSizeMax", ICE_DEFAULTS["Ice.MessageSizeMax"], "The size limit of messages, in KiB."),
 )
 
 
 def plan(component: LinkedComponent, table: PortTable) -> FilePlan:
     """The plan of a component's first `etc/config`; `table` has the ports of its workspace."""
     compute = period(component.parameters.parameters)
-    ice = [line for key, value, doc in _ICE for line in (f"# {doc}", entry_line(key, value))]
+    ice = [line for key, value, doc in _ICE for line in (f"# {doc}", f"# {entry_line(key, value)}")]
     sections = (
         _head(component),
         _endpoints(component, table),
         _proxies(component, table),
         _topics(component),
         ["# Milliseconds from one call of compute() to the next.", entry_line("period.compute", str(compute))],
-        ["# Ice, the middleware.", *ice],
+        ["# Ice, the middleware. To change a default, remove the # before its name.", *ice],
     )
     text = "\n".join("".join(f"{line}\n" for line in section) for section in map(list, sections) if section)
     return FilePlan(CONFIG, text, ONCE)
@@ -45,7 +44,7 @@ def plan(component: LinkedComponent, table: PortTable) -> FilePlan:
 
 def needed(linked: LinkedComponent) -> list[str]:
     """The keys without which a component cannot reach others, or cannot be reached."""
-    keys = [endpoints(name)[0] for name in ports.adapters(linked)]
+    keys = [endpoints(name)[0] for name in adapters(linked)]
     keys += [proxy(port.name)[0] for port in linked.requires]
     if linked.publishes or linked.subscribes:
         keys += [MANAGER[0], *(topic_endpoints(port.name)[0] for port in linked.subscribes)]
@@ -56,11 +55,11 @@ def connections(linked: LinkedComponent, table: PortTable, existing: Mapping[str
     """The needed keys with the values of a first `etc/config`. A proxy of the existing configuration is kept if no
     known component implements the interface."""
     defaults = read(plan(linked, table).text).values
-    values = {key: defaults[key] for key in needed(linked)}
+    values, resolved = {key: defaults[key] for key in needed(linked)}, table.resolve(linked)
     for port in linked.requires:
         key = proxy(port.name)[0]
         value = stated(existing, key)
-        if value is not None and not _others(linked, port, table):
+        if value is not None and resolved[port.name].component is None:
             values[key] = value
     return values
 
@@ -80,22 +79,16 @@ def existing(folder: str) -> dict[str, str]:
     return dict(read(text(os.path.join(folder, CONFIG)) or "").values)
 
 
-def _others(linked: LinkedComponent, port: Port, table: PortTable) -> list[tuple[LinkedComponent, str]]:
-    """The other components that implement the interface of a required port, with the names of their ports."""
-    own = ports.document(linked)
-    return [one for one in table.implementers.get(interface_key(port), ()) if ports.document(one[0]) != own]
-
-
 def _head(linked: LinkedComponent) -> Iterator[str]:
     name = linked.component.name
-    yield f"# Configuration of {name}: one KEY=VALUE per line, as Ice reads it. rcyaml wrote it once; it is yours."
+    yield f"# Configuration of {name}: one KEY=VALUE per line, as Ice reads it. {FIRST_HEAD}"
     yield f"# The command line overrides it: bin/{name} --period.compute=50 --Ice.Trace.Network=1"
 
 
 def _endpoints(linked: LinkedComponent, table: PortTable) -> Iterator[str]:
     yield "# The addresses on which this component listens."
     docs = {port.name: port.interface.doc for port in linked.implements}
-    for name in ports.adapters(linked):
+    for name in adapters(linked):
         doc = docs.get(name, "State, period, properties and orderly stop of every component.")
         yield from _comment(name, doc)
         yield entry_line(endpoints(name)[0], f"tcp -p {table.endpoint(linked, name).port}")
@@ -104,31 +97,21 @@ def _endpoints(linked: LinkedComponent, table: PortTable) -> Iterator[str]:
 def _proxies(linked: LinkedComponent, table: PortTable) -> Iterator[str]:
     if linked.requires:
         yield "# The addresses of the components that it requires."
-    earlier: dict[tuple[str, str], int] = {}
+    resolved = table.resolve(linked)
     for port in linked.requires:
-        key = interface_key(port)
-        identity = port.interface.name.lower()
-        # The second proxy of an interface is for the second component that implements it, if there is one.
-        count = earlier[key] = earlier.get(key, -1) + 1
-        others = _others(linked, port, table)
+        found = resolved[port.name]
         yield from _comment(port.name, port.interface.doc)
-        if others:
-            other, adapter = others[min(count, len(others) - 1)]
-            yield f"# {_implemented(linked, others, other)}"
-            endpoint = table.endpoint(other, adapter)
+        if found.component is not None:
+            yield f"# {_implemented(linked, found.others, found.component)}"
         else:
             yield "# No component of this workspace implements it: set host and port of one that does."
-            endpoint = IceEndpoint(default_port("", port.interface.name))
-        address = f"{endpoint.protocol} -h {endpoint.host or 'localhost'} -p {endpoint.port}"
-        yield entry_line(proxy(port.name)[0], f"{identity}:{address}")
+        yield entry_line(proxy(port.name)[0], found.proxy)
 
 
-def _implemented(
-    linked: LinkedComponent, others: Sequence[tuple[LinkedComponent, str]], chosen: LinkedComponent
-) -> str:
+def _implemented(linked: LinkedComponent, others: Sequence[LinkedComponent], chosen: LinkedComponent) -> str:
     folder = os.path.dirname(linked.component.path) or "."
     text = f"Implemented by {chosen.component.name} ({os.path.relpath(chosen.component.path, folder)})"
-    also = [other.component.name for other, _ in others if other is not chosen]
+    also = [other.component.name for other in others if other is not chosen]
     return f"{text}, also by {', '.join(also)}." if also else f"{text}."
 
 
@@ -136,7 +119,7 @@ def _topics(linked: LinkedComponent) -> Iterator[str]:
     if not (linked.publishes or linked.subscribes):
         return
     yield "# Topics: IceStorm carries them, and its topic manager must be running."
-    yield entry_line(MANAGER[0], "IceStorm/TopicManager:default -p 9999")
+    yield entry_line(MANAGER[0], DEFAULT_MANAGER)
     for port in linked.subscribes:
         yield from _comment(port.name, port.interface.doc)
         yield "# Port 0: any free port, which only IceStorm has to know."

@@ -7,9 +7,10 @@ import os
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from robocomp_yaml.addresses.table import PortTable
 from robocomp_yaml.emit import config
 from robocomp_yaml.emit.layout import CONFIG
-from robocomp_yaml.emit.ports import PortTable
+from robocomp_yaml.link.flat_configs import EARLIER
 from robocomp_yaml.link.program import LinkedComponent, LinkedParameters
 from robocomp_yaml.parameters.examples.new import Sections, new_document
 from robocomp_yaml.parameters.kinds import recording
@@ -62,7 +63,7 @@ def _connections(linked: LinkedComponent, existing: Mapping[str, str], table: Po
 def _changed(folder: str, existing: Mapping[str, str], generated: str) -> dict[str, str]:
     """The properties of an `etc/config` that the user changed since rcyaml wrote it."""
     before = text(os.path.join(folder, BASE, CONFIG))
-    written = read(generated if before is None else before).values
+    written = {**EARLIER, **read(generated).values} if before is None else read(before).values
     return {key: value for key, value in existing.items() if value and written.get(key) != value}
 
 

@@ -11,7 +11,7 @@ from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.link.workspace import WorkspaceSettings
 
 if TYPE_CHECKING:
-    from robocomp_yaml.emit.ports import PortTable
+    from robocomp_yaml.addresses.table import PortTable
 
 
 class EmitOptions(msgspec.Struct):

@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator
 
+from robocomp_yaml.addresses.table import PortTable
 from robocomp_yaml.emit import config
 from robocomp_yaml.emit.layout import CONFIG
-from robocomp_yaml.emit.ports import PortTable
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Program
 from robocomp_yaml.parameters.writing.properties import (
     CLASSIC,

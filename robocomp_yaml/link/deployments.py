@@ -20,9 +20,10 @@ class LinkedInstance(msgspec.Struct, frozen=True, eq=False):
     is the prefix of full names in that document: '' or `arm.`.
 
     `component` is None for a program, and for a document with errors. `values` is the document that `config:` names, or
-    the component's `etc/config.yaml`; `flat` is the path (as opened) of a flat config. `folder` is that of the
-    component's document, or the working folder of a program. `host` is None for this machine. `process` is the instance
-    of which a PROCESS entry is a second name.
+    the component's `etc/config.yaml`; `flat` is the path (as opened) of a flat config: that of `config:`, or
+    the component's `etc/config` if it has no values document. `folder` is that of the component's document, or the
+    working folder of a program. `host` is None for this machine. `process` is the instance of which a PROCESS entry is
+    a second name.
     """
 
     name: str

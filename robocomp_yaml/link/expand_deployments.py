@@ -19,6 +19,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link import deployment_paths as paths
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance, LinkedStorm, Target
+from robocomp_yaml.link.flat_configs import flat_config
 from robocomp_yaml.link.knot import tie
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Tables
 from robocomp_yaml.model.deployment import COMPONENT, INDEX, PROCESS, Deployment, Entry, Host
@@ -145,6 +146,9 @@ class Expansion(msgspec.Struct):
             tie(linked, broken=linked.broken or linked.component is None)
         tie(linked, folder=paths.entry_folder(part.document, entry, component))
         config = self._config(part.document, linked)
+        if not config and entry.config is None and linked.component is not None:
+            flat = flat_config(linked.folder, self.disk)
+            tie(linked, flat=flat.path if flat is not None else "")
         if config and linked.component is not None and paths.is_values(config):
             self._link_values(part, linked, linked.component, config)
         elif config:

@@ -12,6 +12,7 @@ from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import SEVERITIES, Diagnostic
 from robocomp_yaml.link.documents import read_tree
 from robocomp_yaml.model.build_interface import entries, items
+from robocomp_yaml.model.port_range import PortRange, port_range
 from robocomp_yaml.plugins import NONE, Plugins
 from robocomp_yaml.source import schema
 from robocomp_yaml.source.discover import WORKSPACE_FILE
@@ -24,7 +25,8 @@ SUFFIX = ".idsl.yaml"
 class WorkspaceSettings(msgspec.Struct, frozen=True):
     """The settings of a workspace. `root` is its folder; `declared` says whether it has an `rcyaml.yaml`. `interfaces`
     are folders of the search path, `output` maps kinds of output to folders (both joined with the root), `lint` maps
-    codes to severities or 'off'; `plugins` are the plug-ins of the workspace."""
+    codes to severities or 'off'; `plugins` are the plug-ins of the workspace. `ports` is the range of default TCP
+    ports, None if it is not set."""
 
     root: str
     declared: bool = False
@@ -32,6 +34,7 @@ class WorkspaceSettings(msgspec.Struct, frozen=True):
     output: Map[str, str] = {}
     lint: Map[str, str] = {}
     plugins: Plugins = NONE
+    ports: PortRange | None = None
 
     @property
     def slice_folder(self) -> str:
@@ -85,6 +88,7 @@ def read(root: str, disk: Disk | None = None) -> tuple[WorkspaceSettings, list[D
         {kind: os.path.normpath(os.path.join(root, folder)) for kind, folder in output if folder},
         {key.lexeme: str(value.data) for key, value in entries(tree, "lint") if value.data is not None},
         plugins,
+        port_range(tree),
     )
     return workspace, [*diagnostics, *_ineffective_settings(tree, workspace, disk)]
 
@@ -110,6 +114,8 @@ def _ineffective_settings(tree: Mapping, workspace: WorkspaceSettings, disk: Dis
     from robocomp_yaml.diag.codes import table
 
     root = workspace.root
+    if workspace.ports is not None and workspace.ports.is_empty:
+        yield workspace.ports.fault()
     for node in items(tree, "interfaces"):
         if isinstance(node, Scalar) and not disk.has_folder(os.path.join(root, node.lexeme)):
             yield codes.WORKSPACE_SETTING.at(node.span, problem=f"the folder '{node.lexeme}' does not exist")

@@ -10,6 +10,7 @@ from robocomp_yaml.model import deployment as model
 from robocomp_yaml.model.build_component import seconds
 from robocomp_yaml.model.build_interface import as_text, doc, entries, required, span_of, text, texts
 from robocomp_yaml.model.located import Text
+from robocomp_yaml.model.port_range import port_range
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 
@@ -28,6 +29,7 @@ def build(root: Mapping, path: str) -> model.Deployment:
         includes=tuple(texts(root, "include")),
         extra=_extra(root.get("x-rcmanager")),
         doc=doc(root),
+        ports=port_range(root),
         span=span_of(root, "deployment"),
     )
 
@@ -56,8 +58,10 @@ def _storm(key: Scalar, node: Node) -> model.Storm:
         _text(inner, "host"),
         _integer(inner, "port"),
         doc(node),
+        _integer(inner, "publish"),
         span=key.span,
         port_span=span_of(inner, "port"),
+        publish_span=span_of(inner, "publish"),
     )
 
 

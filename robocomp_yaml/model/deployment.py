@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.located import Spanned, Text
+from robocomp_yaml.model.port_range import PortRange
 from robocomp_yaml.source.tree import Mapping
 
 COMPONENT, PROGRAM, PROCESS = "component", "program", "process"
@@ -27,13 +28,16 @@ class Host(Spanned, frozen=True):
 
 
 class Storm(Spanned, frozen=True):
-    """An entry of `services:`: an IceStorm. `port` is None if it is not set."""
+    """An entry of `services:`: an IceStorm. `port` is that of its topic manager, `publish` that of its publishers; None
+    if it is not set."""
 
     name: str
     host: Text | None = None
     port: int | None = None
     doc: str = ""
+    publish: int | None = None
     port_span: Span = Span("")
+    publish_span: Span = Span("")
 
 
 class Variable(Spanned, frozen=True):
@@ -145,7 +149,7 @@ class Group(Spanned, frozen=True):
 
 class Deployment(Spanned, frozen=True):
     """One DDSL document. `includes` are the paths without a name: the entries of those documents count as entries of
-    this one. `extra` is the plain data of `x-rcmanager:`."""
+    this one. `extra` is the plain data of `x-rcmanager:`. `ports` is the range of default TCP ports."""
 
     name: str
     path: str
@@ -156,6 +160,7 @@ class Deployment(Spanned, frozen=True):
     includes: tuple[Text, ...] = ()
     extra: tuple[tuple[str, object], ...] = ()
     doc: str = ""
+    ports: PortRange | None = None
 
     @property
     def all_includes(self) -> tuple[Text, ...]:

@@ -1,22 +1,30 @@
 """The configuration of each process as text: its base, the values of `set:`, and what is derived.
 
-For a values document, what is derived is one more layer, which is judged and written as `compile` does. A flat config
-stays unchanged, and what is derived follows it: of two lines for one property, Ice uses the last.
+What is derived is one more layer on the base. For a values document, all layers are judged and written as `compile`
+does. A flat config that `config:` names stays unchanged, and what is derived follows it: of two lines for one property,
+Ice uses the last. Of the component's own `etc/config`, the lines are used that nothing overrides, and its values are
+judged as those of a values document.
 """
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 import msgspec
 from msgspec.structs import replace
 
+from robocomp_yaml.addresses.flat_values import flat_values
+from robocomp_yaml.addresses.workspaces import Addresses
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.link.flat_configs import FlatConfig
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues, Program
 from robocomp_yaml.network.configuration_base import ConfigurationBase
 from robocomp_yaml.network.draft import Draft, LocatedText, listening
+from robocomp_yaml.network.settings import ProcessSettings
+from robocomp_yaml.parameters.editing.settings import ShownSetting, run_time_defaults
+from robocomp_yaml.parameters.json_schema import EFFECTIVE, fits
 from robocomp_yaml.parameters.layers.effective import document_faults
 from robocomp_yaml.parameters.layers.merge import MergedValue, data_of, merged
 from robocomp_yaml.parameters.layers.overlay import overlay
@@ -30,31 +38,45 @@ from robocomp_yaml.parameters.writing.properties import (
     section_text,
 )
 from robocomp_yaml.parameters.writing.write import Property, Writer
-from robocomp_yaml.semantics import connections
+from robocomp_yaml.semantics import connections, references
+from robocomp_yaml.semantics.texts import unquoted
+from robocomp_yaml.source.properties import entry_line
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, mapping_at, text_at
 
 _PARAMETERS = "What the deployment sets"
 _TITLE = "Where this component and the others are"
+_FILES = "Files, by their absolute paths"
 
 
 class Configuration(msgspec.Struct):
-    """The configuration of one draft. `text` is None after an error, `secrets` are its secret properties."""
+    """The configuration of one draft. `text` is None after an error, `secrets` are its secret properties.
+    `external` are the proxies of servers outside."""
 
     draft: Draft
-    base: ConfigurationBase
     program: Program
+    addresses: Addresses
+    external: Collection[str] = ()
     text: str | None = None
     secrets: tuple[str, ...] = ()
     diagnostics: list[Diagnostic] = []
+    _layers: LinkedValues | None = None
+
+    @property
+    def base(self) -> ConfigurationBase:
+        return self.draft.base
 
     def make(self) -> None:
-        values = self.base.values
-        component = self.draft.instance.component
-        linked = values.parameters if values is not None else component.parameters if component is not None else None
-        if values is not None and linked is None:
-            return  # unknown parameters have been reported
-        if self.base.flat is not None:
-            sections = self._on_flat(linked)
+        base, component = self.base, self.draft.instance.component
+        linked = component.parameters if component is not None else None
+        if base.values is not None:
+            linked = base.values.parameters
+            if linked is None:
+                return  # unknown parameters have been reported
+        lines = ""
+        if base.flat is not None and base.is_own and linked is not None:
+            lines, sections = self._on_own(base.flat, linked)
+        elif base.flat is not None:
+            lines, sections = base.flat.text, self._on_flat(linked)
         elif linked is not None:
             sections = self._on_values(linked)
         else:
@@ -65,13 +87,12 @@ class Configuration(msgspec.Struct):
         self.secrets = secret_keys(sections)
         document = os.path.basename(self.draft.instance.document.path)
         head = f"# Configuration of {self.draft.name}, derived by rcyaml from {document}: change it there.\n"
-        if self.base.flat is None:
-            self.text = head + section_text(sections)
+        if base.flat is None or base.is_own:
+            self.text = head + section_text(sections) + lines
         elif not sections:
-            self.text = self.base.flat  # in any format
+            self.text = lines  # in any format
         else:
-            flat = self.base.flat if self.base.flat.endswith("\n") else f"{self.base.flat}\n"
-            self.text = f"{flat}\n{head}{section_text(sections)}"
+            self.text = lines.removesuffix("\n") + f"\n\n{head}{section_text(sections)}"
 
     def _on_values(self, linked: LinkedParameters) -> list[Section] | None:
         base = self.base.values
@@ -84,28 +105,71 @@ class Configuration(msgspec.Struct):
         self.diagnostics += found
         if values is None:
             return None
+        self._layers = layer
         sections, faults = properties(layer, values)
         self.diagnostics += faults
         written = {made.key for section in sections for made in section.properties}
         more = [made for made in self._connections(CLASSIC) if made.key not in written]
         return [*sections, Section(_TITLE, more)] if more else sections
 
-    def _on_flat(self, linked: LinkedParameters | None) -> list[Section] | None:
-        dialect = self.base.dialect
-        made = [Section(_TITLE, self._connections(dialect))]
-        settings = self.draft.instance.entry.settings
-        if settings is None or linked is None:
-            return made
+    def _on_own(self, flat: FlatConfig, linked: LinkedParameters) -> tuple[str, list[Section] | None]:
+        """The lines of the component's own flat config that nothing overrides, and the other properties."""
         if linked.broken:
-            return None
-        layer = LinkedValues(ValuesDocument(self._file, self._parameters(linked, settings, None)), parameters=linked)
+            return "", None
+        below = flat_values(flat, linked, self.draft.instance.component).layer
+        if not self._judged(linked, below):
+            return "", None
+        dialect = self.base.dialect
+        made = [Section(_TITLE, self._connections(dialect)), Section(_FILES, list(_absolute(flat)))]
+        made += self._set(linked, merged(below), dialect)
+        written = {each.key for section in made for each in section.properties}
+        kept = [entry_line(key, value) for key, value in flat.properties.items() if key not in written]
+        return "".join(f"{line}\n" for line in ["", f"# As in {os.path.basename(flat.path)}.", *kept]), made
+
+    def _on_flat(self, linked: LinkedParameters | None) -> list[Section] | None:
+        """The properties that follow a flat config, which is used as it is."""
+        made = [Section(_TITLE, self._connections(self.base.dialect))]
+        if linked is None or self.draft.instance.entry.settings is None:
+            return made
+        return None if linked.broken else [*made, *self._set(linked, None, self.base.dialect)]
+
+    def _judged(self, linked: LinkedParameters, below: LinkedValues) -> bool:
+        """Whether the layers of `set:` and of the base have no problems."""
+        empty = ValuesDocument(self._file, mapping_at(self.draft.span, {}))
+        whole = LinkedValues(empty, (below,), linked)
+        layer = self._layers = replace(whole, document=ValuesDocument(self._file, self._layer(linked, whole)))
+        if not linked.parameters.constraints and fits(
+            linked, EFFECTIVE, data_of(merged(layer), linked.parameters.root)
+        ):
+            return True  # the values are not needed, and completing them takes long
+        values, found = self.program.effective(layer)
+        self.diagnostics += found
+        return values is not None
+
+    def _set(self, linked: LinkedParameters, below: MergedValue | None, dialect: str) -> list[Section]:
+        """The properties of `set:` on a flat config."""
+        settings = self.draft.instance.entry.settings
+        if settings is None:
+            return []
+        layer = LinkedValues(ValuesDocument(self._file, self._parameters(linked, settings, below)), parameters=linked)
         self.diagnostics += document_faults(layer, linked)
-        if not self.diagnostics:
-            root, place = linked.parameters.root, merged(layer)
-            writer = Writer(linked.parameters, settings.span, True, dialect == FLAT_TOML)
-            made.append(Section(_PARAMETERS, writer.write(data_of(place, root), place)))
-            self.diagnostics += writer.faults
-        return made
+        if any(fault.severity == "error" for fault in self.diagnostics):
+            return []
+        root, place = linked.parameters.root, merged(layer)
+        writer = Writer(linked.parameters, settings.span, True, dialect == FLAT_TOML)
+        section = Section(_PARAMETERS, writer.write(data_of(place, root), place))
+        self.diagnostics += writer.faults
+        return [section]
+
+    def settings(self) -> list[ShownSetting]:
+        """The values of the configuration, with their origin."""
+        made = ProcessSettings(self.draft, self.addresses, self.external)
+        if self._layers is not None:
+            found = made.of(self._layers, self.program.effective(self._layers)[0])
+        else:
+            properties = self._connections(CLASSIC)
+            found = made.derived((each.key, each.value, each.span or self.draft.span) for each in properties)
+        return [*found, *(run_time_defaults() if self.draft.instance.component is not None else ())]
 
     @property
     def _file(self) -> str:
@@ -144,7 +208,7 @@ class Configuration(msgspec.Struct):
     def _endpoints(self) -> Iterator[tuple[str, LocatedText]]:
         draft = self.draft
         for adapter in draft.adapters:
-            yield adapter.adapter.rpartition(".")[2], LocatedText(adapter.text, adapter.span)
+            yield adapter.adapter.rpartition(".")[2], LocatedText(adapter.text, adapter.own or adapter.span)
         component, given = draft.instance.component, {adapter.adapter for adapter in draft.subscribers}
         for port in component.subscribes if component else ():
             if f"{port.name}Topic" not in given:
@@ -189,6 +253,16 @@ class Configuration(msgspec.Struct):
         # an empty value overrides the value in the base
         lines |= {key: Property(key, '""') for key in prefixes if key in self.base.properties}
         return list(lines.values())
+
+
+def _absolute(flat: FlatConfig) -> Iterator[Property]:
+    """The references to files in a flat config, which a copy in another folder would look for elsewhere."""
+    folder = os.path.dirname(os.path.abspath(flat.path))
+    for key, value in flat.properties.items():
+        path = (references.read(unquoted(value)) or {}).get(references.FILE, "")
+        if path and not path.startswith(("/", "~/")):
+            text = references.spelled(references.FILE, os.path.normpath(os.path.join(folder, path)))
+            yield Property(key, _quoted(text) if unquoted(value) != value else text)
 
 
 def _quoted(text: str) -> str:

@@ -2,27 +2,38 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Mapping
+
 import msgspec
 
+from robocomp_yaml.addresses.own import MANAGER as DEFAULT_MANAGER
+from robocomp_yaml.addresses.own import OwnAddresses, of_flat, of_values, replaces_values
 from robocomp_yaml.link.deployments import LinkedInstance
-from robocomp_yaml.link.program import LinkedValues
+from robocomp_yaml.link.flat_configs import FlatConfig, flat_at, flat_config
+from robocomp_yaml.link.program import LinkedComponent, LinkedValues
 from robocomp_yaml.parameters.writing.properties import CLASSIC, FLAT_TOML, dialect, merged_entries
 from robocomp_yaml.semantics import connections
 from robocomp_yaml.semantics.texts import unquoted
-from robocomp_yaml.source import properties
+from robocomp_yaml.source import tree
 from robocomp_yaml.source.disk import Disk
-from robocomp_yaml.source.tree import Mapping, Node, Scalar
+from robocomp_yaml.source.tree import Node, Scalar
 
 _DIALECT_B = ("Endpoints.", "Proxies.", "Period.", "Agent.")
 
 
 class ConfigurationBase(msgspec.Struct):
-    """`values` is None for a flat config: then `flat` is its text, and `properties` are its properties as Ice reads
-    them. Without a base, both are None."""
+    """`values` is None for a flat config, `flat`. Without a base, both are None. `is_own`: no `config:` names it, so
+    that it is the component's own."""
 
     values: LinkedValues | None = None
-    flat: str | None = None
-    properties: dict[str, str] = {}
+    flat: FlatConfig | None = None
+    is_own: bool = False
+
+    @property
+    def properties(self) -> Mapping[str, str]:
+        """The properties of a flat config as Ice reads them."""
+        return self.flat.properties if self.flat is not None else {}
 
     @property
     def dialect(self) -> str:
@@ -32,9 +43,10 @@ class ConfigurationBase(msgspec.Struct):
 
     @property
     def manager(self) -> str:
-        """The proxy of the topic manager in the base, or ''."""
+        """The proxy of the topic manager in the base, or ''. What rcyaml writes if nobody sets one is not a choice."""
         if self.values is None:
-            return self.first(*connections.MANAGER)
+            manager = self.first(*connections.MANAGER)
+            return "" if self.is_own and manager == DEFAULT_MANAGER else manager
         for layer in reversed(self.values.layers()):
             topics = layer.document.section("topics")
             if topics is not None and "manager" in topics.entries:
@@ -57,18 +69,23 @@ class ConfigurationBase(msgspec.Struct):
     def proxy_key(self, name: str) -> Scalar | None:
         """The property that replaces the usual property of a proxy."""
         node = dict(merged_entries(self.values, "proxies")).get(name) if self.values is not None else None
-        key = node.get("key") if isinstance(node, Mapping) else None
+        key = node.get("key") if isinstance(node, tree.Mapping) else None
         return key if isinstance(key, Scalar) else None
+
+    def addresses(self, component: LinkedComponent) -> OwnAddresses:
+        """The endpoints and proxies in the base."""
+        if self.values is not None:
+            return of_values(self.values)
+        return of_flat(self.flat, component) if self.flat is not None else OwnAddresses()
 
 
 def base_of(instance: LinkedInstance, disk: Disk) -> ConfigurationBase:
-    if instance.values is not None:
-        return ConfigurationBase(instance.values)
-    raw = disk.read(instance.flat)[0] if instance.flat and disk.has_file(instance.flat) else None
-    if raw is None:
-        return ConfigurationBase()
-    text = raw.decode("utf-8", "replace")
-    return ConfigurationBase(None, text, properties.read(text).values)
+    is_own = instance.entry.config is None
+    flat = flat_at(instance.flat, disk) if instance.flat else None
+    if is_own and instance.values is not None and instance.component is not None:
+        own = flat_config(os.path.dirname(instance.component.component.path), disk)
+        flat = own if replaces_values(own, instance.values) else None
+    return ConfigurationBase(instance.values, is_own=is_own) if flat is None else ConfigurationBase(None, flat, is_own)
 
 
 def _text(node: Node | None) -> str:

@@ -6,6 +6,8 @@ from collections.abc import Iterator
 
 import msgspec
 
+from robocomp_yaml.addresses.interface_comparison import InterfaceComparison, name_of
+from robocomp_yaml.addresses.workspaces import Addresses
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic, Related
 from robocomp_yaml.diag.span import Span
@@ -16,7 +18,6 @@ from robocomp_yaml.model.component import IGNORE
 from robocomp_yaml.model.deployment import Pair
 from robocomp_yaml.network.draft import Draft, Drafts, LocatedText, Offer, is_broken, text_fault
 from robocomp_yaml.network.gates import Gates
-from robocomp_yaml.network.interface_comparison import InterfaceComparison, name_of
 from robocomp_yaml.network.network import Connection
 from robocomp_yaml.network.order import Dependence
 from robocomp_yaml.source.ice_options import BLANKS, InvalidIceText
@@ -81,6 +82,7 @@ class Connections(msgspec.Struct):
     drafts: Drafts
     comparison: InterfaceComparison
     gates: Gates
+    addresses: Addresses
     connections: list[Connection] = []
     needs: list[Dependence] = []
     diagnostics: list[Diagnostic] = []
@@ -156,7 +158,7 @@ class Connections(msgspec.Struct):
         if offer.port is None:
             module = offer.adapter.rpartition(".")[0]
             return module in ("", *name_of(port)[:1], port.scope.module.stem)
-        return name_of(offer.port) == name_of(port) and self.comparison.difference(port, offer.port) is None
+        return self.comparison.is_equal(port, offer.port)
 
     def _connect(self, draft: Draft, name: str, interface: str, offer: Offer, span: Span, port: Port | None) -> None:
         offer = self.gates.through(offer, draft.instance)
@@ -220,7 +222,12 @@ class Connections(msgspec.Struct):
             )
 
     def _unresolved(self, draft: Draft, port: Port) -> None:
-        linked, name = self.drafts.linked, port.interface.name
+        linked, name, component = self.drafts.linked, port.interface.name, draft.instance.component
+        own = self.addresses.given_proxy(component, draft.own, port) if component is not None else None
+        if own is not None:  # the component's own choice is an external server
+            external = Connection(draft.name, port.name, name, "", proxy=own.text, span=draft.span)
+            self.connections.append(external)
+            return
         self.connections.append(Connection(draft.name, port.name, name, "", span=draft.span))
         if linked.is_included or not self.drafts.complete:
             return

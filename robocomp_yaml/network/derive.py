@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from msgspec.structs import replace
 
+from robocomp_yaml.addresses.interface_comparison import InterfaceComparison
+from robocomp_yaml.addresses.workspaces import Addresses
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
@@ -15,12 +17,11 @@ from robocomp_yaml.link.program import Program
 from robocomp_yaml.model.deployment import PROGRAM
 from robocomp_yaml.model.located import Text
 from robocomp_yaml.network import processes
+from robocomp_yaml.network.assigned_ports import assign_ports
 from robocomp_yaml.network.configuration import Configuration
-from robocomp_yaml.network.configuration_base import ConfigurationBase, base_of
 from robocomp_yaml.network.connections import Connections
-from robocomp_yaml.network.draft import Draft, Drafts, assign_ports, drafts_of, text_fault
+from robocomp_yaml.network.draft import Draft, Drafts, drafts_of, text_fault
 from robocomp_yaml.network.gates import Gates
-from robocomp_yaml.network.interface_comparison import InterfaceComparison
 from robocomp_yaml.network.network import FOLDER, Network, Process
 from robocomp_yaml.network.order import AFTER, Dependence, optional, ordered
 from robocomp_yaml.network.topics import TopicConnections
@@ -29,32 +30,26 @@ from robocomp_yaml.source.ice_endpoint import fixed_endpoint
 from robocomp_yaml.source.ice_options import LAST_PORT, InvalidIceText
 
 
-def derive(linked: LinkedDeployment, program: Program) -> tuple[Network, list[Diagnostic]]:
+def derive(linked: LinkedDeployment, program: Program, addresses: Addresses) -> tuple[Network, list[Diagnostic]]:
     """The network of a deployment, as far as it can be derived, and its diagnostics. Flat configs are read from the
     program's disk."""
     deployment = linked.deployment
     folder = os.path.abspath(os.path.join(os.path.dirname(deployment.path), FOLDER, deployment.name))
-    drafts = drafts_of(linked)
+    drafts = drafts_of(linked, program.disk)
     gates = Gates(drafts)
     gates.add()
-    assign_ports(drafts)
-    bases: dict[Draft, ConfigurationBase] = {}
-
-    def base(draft: Draft) -> ConfigurationBase:
-        if draft not in bases:
-            bases[draft] = base_of(draft.instance, program.disk)
-        return bases[draft]
-
+    port_faults = list(assign_ports(drafts, addresses))
     comparison = InterfaceComparison()
-    connections, topics = Connections(drafts, comparison, gates), TopicConnections(drafts, comparison, base)
+    connections, topics = Connections(drafts, comparison, gates, addresses), TopicConnections(drafts, comparison)
     connections.resolve()
     gates.connect()
     topics.resolve()
-    diagnostics = [*endpoint_faults(drafts), *connections.diagnostics, *topics.diagnostics]
+    diagnostics = [*port_faults, *endpoint_faults(drafts), *connections.diagnostics, *topics.diagnostics]
     needs = [*_explicit(drafts, gates), *connections.needs, *gates.needs, *topics.needs]
     enabled = {draft.name for draft in drafts.drafts.values() if draft.instance.entry.enabled}
     needed = {need.target for need in needs if need.source in enabled}
     made: dict[str, Process] = {}
+    settings: dict[str, Callable[[], list[ShownSetting]]] = {}
     for storm in drafts.storms.values():
         made[storm.name] = processes.of_storm(storm, folder, enabled=storm.name in needed)
     known: dict[str, tuple[str, ...]] = {}
@@ -63,8 +58,10 @@ def derive(linked: LinkedDeployment, program: Program) -> tuple[Network, list[Di
             text: str | None = gates.program(draft)
             hidden: tuple[str, ...] = ()
         else:
-            configuration = Configuration(draft, base(draft), program)
+            outside = {one.port for one in connections.connections if one.source == draft.name and not one.target}
+            configuration = Configuration(draft, program, addresses, outside)
             configuration.make()
+            settings[draft.name] = configuration.settings
             diagnostics += configuration.diagnostics
             text, hidden = configuration.text, configuration.secrets
         made[draft.name] = processes.of_draft(draft, text, known, hidden)
@@ -78,6 +75,7 @@ def derive(linked: LinkedDeployment, program: Program) -> tuple[Network, list[Di
         (*connections.connections, *gates.connections, *topics.connections),
         tuple(order),
         deployment.extra,
+        settings,
     )
     return network, [*diagnostics, *length_faults(linked, drafts, network), *circles]
 
@@ -112,7 +110,7 @@ def _put_in_order(
 def endpoint_faults(drafts: Drafts) -> Iterator[Diagnostic]:
     usual = f"write a protocol and a port from 1 to {LAST_PORT}, such as `tcp -p 10003`"
     for offer in (offer for draft in drafts.drafts.values() for offer in draft.adapters):
-        if offer.explicit:
+        if offer.explicit and offer.own is None:
             try:
                 fixed_endpoint(offer.explicit)
             except InvalidIceText as refused:

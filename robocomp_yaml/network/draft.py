@@ -9,6 +9,8 @@ from typing import Any
 import msgspec
 from msgspec.structs import replace
 
+from robocomp_yaml.addresses.own import OwnAddresses
+from robocomp_yaml.addresses.port_numbers import COMMON_BEHAVIOR
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
@@ -16,16 +18,14 @@ from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance, LinkedStorm
 from robocomp_yaml.link.program import Port
 from robocomp_yaml.model import deployment as model
+from robocomp_yaml.network.configuration_base import ConfigurationBase, base_of
 from robocomp_yaml.network.network import LOOPBACK, Endpoint, NetworkHost, is_loopback
-from robocomp_yaml.network.port_numbers import COMMON_BEHAVIOR, RESERVED, default_port, next_free
+from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.ice_endpoint import IceEndpoint, parse_endpoint, spelled_host
 from robocomp_yaml.source.ice_options import BLANKS, InvalidIceText
 
 MANAGER, PUBLISH = "TopicManager", "Publish"
 STORM_INSTANCE = "IceStorm"
-STORM_PORT = 9999
-"""The port of a topic manager without a port of its own. In an include with a name, which can be included several
-times, a default port replaces it."""
 
 _ANY_TEXT = "for any other text to a program that does not use Ice, use `args:` or `env:`"
 
@@ -42,7 +42,8 @@ def listening(host: NetworkHost, number: int) -> str:
 class Offer(msgspec.Struct, eq=False):
     """An interface that a draft serves on the adapter `adapter`. `port` is the entry of the component's `implements`,
     None for an endpoint of a program and for CommonBehavior, of which only the name is known. `explicit` is the
-    endpoint in the document; without one, `number` is its TCP port, 0 until it is assigned."""
+    endpoint in a document; without one, `number` is its TCP port, 0 until it is assigned. `own` is its location in the
+    component's own configuration, if that sets it."""
 
     owner: Draft
     adapter: str
@@ -51,6 +52,7 @@ class Offer(msgspec.Struct, eq=False):
     port: Port | None = None
     number: int = 0
     explicit: str = ""
+    own: Span | None = None
 
     @property
     def full_name(self) -> str:
@@ -79,7 +81,14 @@ class Offer(msgspec.Struct, eq=False):
         if self.port is None and self.interface == COMMON_BEHAVIOR:
             module = f"RoboComp{COMMON_BEHAVIOR}"
         return Endpoint(
-            self.adapter, self.interface.lower(), endpoint.port, self.text, endpoint.protocol, module, self.span
+            self.adapter,
+            self.interface.lower(),
+            endpoint.port,
+            self.text,
+            endpoint.protocol,
+            module,
+            self.span,
+            self.own or Span(""),
         )
 
 
@@ -94,7 +103,7 @@ class Draft(msgspec.Struct, eq=False):
     """An instance that becomes a process. `aliases` are the entries that are second names of it. `subscribers` are the
     adapters that receive events of topics, if the document sets their ports; no other process needs these. For its
     configuration it has `proxies` (by the proxy's name), `topics` (full names by the port's name), and `manager` (the
-    proxy of its IceStorm)."""
+    proxy of its IceStorm). `base` is the base of that configuration, and `own` what the base says about addresses."""
 
     instance: LinkedInstance
     host: NetworkHost
@@ -104,6 +113,8 @@ class Draft(msgspec.Struct, eq=False):
     proxies: dict[str, LocatedText] = {}
     topics: dict[str, LocatedText] = {}
     manager: LocatedText | None = None
+    base: ConfigurationBase = msgspec.field(default_factory=ConfigurationBase)
+    own: OwnAddresses = msgspec.field(default_factory=OwnAddresses)
 
     @property
     def name(self) -> str:
@@ -148,7 +159,8 @@ class StormDraft(msgspec.Struct, eq=False):
             module="IceStorm",
             span=storm.port_span if storm.port else storm.span,
         )
-        return manager, Endpoint(PUBLISH, "", self.publish, listening(self.host, self.publish), span=storm.span)
+        span = storm.publish_span if storm.publish else storm.span
+        return manager, Endpoint(PUBLISH, "", self.publish, listening(self.host, self.publish), span=span)
 
 
 class Drafts(msgspec.Struct):
@@ -166,7 +178,7 @@ class Drafts(msgspec.Struct):
         return self.drafts.get(instance.process or instance)
 
 
-def drafts_of(linked: LinkedDeployment) -> Drafts:
+def drafts_of(linked: LinkedDeployment, disk: Disk) -> Drafts:
     """Drafts of all processes of a deployment, still without ports and connections."""
     result = Drafts(linked, {name: _host(host) for name, host in linked.hosts.items()})
     result.complete = not (linked.broken or any(map(is_broken, linked.groups.values())))
@@ -177,7 +189,9 @@ def drafts_of(linked: LinkedDeployment) -> Drafts:
         is_known = instance.component is not None or instance.entry.kind != model.COMPONENT
         result.complete &= is_known and not instance.broken
         if is_known and instance.entry.kind != model.PROCESS:
-            draft = result.drafts[instance] = Draft(instance, _placed(result.hosts, instance.host))
+            base = base_of(instance, disk)
+            own = base.addresses(instance.component) if instance.component is not None else OwnAddresses()
+            draft = result.drafts[instance] = Draft(instance, _placed(result.hosts, instance.host), base=base, own=own)
             draft.offers, draft.subscribers = list(_offers(draft)), list(_subscribers(draft))
             result.complete &= instance.component is None or not instance.component.broken
     for instance in linked.instances.values():
@@ -222,10 +236,12 @@ def _subscribers(draft: Draft) -> Iterator[Offer]:
     endpoints = {pair.name: pair for pair in entry.endpoints}
     fixed = {number.name: number for number in entry.ports}
     for port in component.subscribes if component else ():
-        where = endpoints.get(port.name) or fixed.get(port.name)
-        if where is not None:
+        where, adapter = endpoints.get(port.name) or fixed.get(port.name), f"{port.name}Topic"
+        own = draft.own.endpoints.get(adapter)
+        if where is not None or (own is not None and parse_endpoint(own.text) is not None):
             text = endpoints[port.name].text if port.name in endpoints else ""
-            yield Offer(draft, f"{port.name}Topic", port.interface.name, where.span, port, explicit=text)
+            span = where.span if where is not None else draft.span
+            yield Offer(draft, adapter, port.interface.name, span, port, explicit=text)
 
 
 def _endpoints(owner: Draft, instance: LinkedInstance) -> Iterator[Offer]:
@@ -244,59 +260,3 @@ def text_fault(
     if draft.instance.component is None:
         hint = replace(hint, text=f"{hint}; {_ANY_TEXT}")
     return code.at(where, problem=refused.problem, hint=hint, **facts)
-
-
-def assign_ports(drafts: Drafts) -> None:
-    """Assigns a TCP port to everything that is served. A port that the document does not set is a hash of the names of
-    the instance and the adapter. If two are equal on one host, the later name gets the next free port, so that ports
-    depend on names, not on the order of the document."""
-    taken: dict[str, set[int]] = {host.address: set(RESERVED) for host in drafts.hosts.values()}
-    for storm in drafts.storms.values():
-        storm.manager = storm.linked.storm.port or (0 if storm.linked.scope else STORM_PORT)
-        if storm.manager:
-            taken[storm.host.address].add(storm.manager)
-    for draft in drafts.drafts.values():
-        for offer in draft.adapters:
-            _fix(draft, offer)
-            if offer.endpoint is not None and (offer.explicit or offer.number):
-                taken[draft.host.address].add(offer.endpoint.port)
-    for name, served in sorted(_unassigned(drafts), key=lambda pair: pair[0]):
-        ports = taken[served.host.address if isinstance(served, StormDraft) else served.owner.host.address]
-        number = next_free(default_port(*name), ports)
-        ports.add(number)
-        if isinstance(served, Offer):
-            served.number = number
-        elif name[1] == MANAGER:
-            served.manager = number
-        else:
-            served.publish = number
-
-
-def _unassigned(drafts: Drafts) -> Iterator[tuple[tuple[str, str], Offer | StormDraft]]:
-    """Everything without a port, with the names from which its default is computed."""
-    for draft in drafts.drafts.values():
-        for offer in draft.offers:
-            if not offer.explicit and not offer.number:
-                yield (draft.name, offer.adapter), offer
-    for storm in drafts.storms.values():
-        yield (storm.name, f"{MANAGER}.{PUBLISH}"), storm
-        if not storm.manager:
-            yield (storm.name, MANAGER), storm
-
-
-def _fix(draft: Draft, offer: Offer) -> None:
-    """Sets the port that the document sets. `port:` is for the first interface; instances count all ports up."""
-    entry = draft.instance.entry
-    name = offer.adapter.removesuffix("Topic") if offer in draft.subscribers else offer.adapter
-    fixed = next((number for number in entry.ports if number.name == name), None)
-    if fixed is None and entry.port is not None and offer is draft.offers[0] and not offer.explicit:
-        fixed = entry.port
-    if fixed is not None:
-        offer.number = fixed.number + _step(draft.instance)
-        offer.span = fixed.span
-
-
-def _step(instance: LinkedInstance) -> int:
-    """The difference between the ports of an instance and those of the first instance."""
-    entry = instance.entry
-    return (instance.number or 0) * (len(entry.ports) + (1 if entry.port is not None else 0))

@@ -6,13 +6,17 @@ starts, shows or exports a network reads this, and no document. Paths are absolu
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING
 
 import msgspec
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.deployment import CONFIG
 from robocomp_yaml.model.located import Located
+
+if TYPE_CHECKING:
+    from robocomp_yaml.parameters.editing.settings import ShownSetting
 
 COMPONENT, PROGRAM, ICESTORM = "component", "program", "icestorm"
 NEVER, ON_FAILURE, ALWAYS = "no", "on-failure", "always"
@@ -57,7 +61,7 @@ class EnvironmentVariable(msgspec.Struct, frozen=True):
 class Endpoint(Located, frozen=True):
     """What a process serves: an interface at an address. `identity` is Ice's identity, '' for a plain TCP port.
     `module` is the interface's module, '' if it is unknown. `text` is the value of the adapter's property:
-    `tcp -p 10001`."""
+    `tcp -p 10001`. `own_span` is its location in the component's own configuration, if that sets it."""
 
     interface: str
     identity: str
@@ -66,6 +70,7 @@ class Endpoint(Located, frozen=True):
     protocol: str = "tcp"
     module: str = ""
     span: Span = Span("")
+    own_span: Span = Span("")
 
 
 class Readiness(msgspec.Struct, frozen=True):
@@ -179,6 +184,12 @@ class Network(msgspec.Struct, frozen=True):
     order: tuple[tuple[str, ...], ...] = ()
     extra: tuple[tuple[str, object], ...] = ()
     """What only exports need of the document: the entries of its `x-rcmanager`."""
+    settings: Mapping[str, Callable[[], list[ShownSetting]]] = {}
+    """By process, what returns the values of its configuration with their origin: most runs need none."""
+
+    def settings_of(self, name: str) -> list[ShownSetting]:
+        """The values of a process's configuration, with their origin."""
+        return self.settings[name]() if name in self.settings else []
 
     def enabled(self) -> Iterator[Process]:
         return (process for process in self.processes.values() if process.enabled)

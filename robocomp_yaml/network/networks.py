@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
+from robocomp_yaml.addresses.workspaces import Addresses
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.program import Program
 
@@ -23,7 +24,7 @@ class DerivedNetworks(msgspec.Struct, frozen=True):
     judged: tuple[str, ...] = ()
 
 
-def networks_of(program: Program) -> DerivedNetworks:
+def networks_of(program: Program, addresses: Addresses) -> DerivedNetworks:
     if not program.deployments:  # most programs have none
         return DerivedNetworks()
     from robocomp_yaml.network.derive import derive
@@ -32,7 +33,7 @@ def networks_of(program: Program) -> DerivedNetworks:
     diagnostics: list[Diagnostic] = []
     judged: list[str] = []
     for real, linked in sorted(program.deployments.items(), key=lambda item: item[1].deployment.path):
-        networks[real], reported = derive(linked, program)
+        networks[real], reported = derive(linked, program, addresses)
         if not linked.is_included:
             diagnostics += reported
             judged.append(real)

@@ -22,6 +22,7 @@ from robocomp_yaml.network.network import (
     RestartRule,
 )
 from robocomp_yaml.parameters.hidden import secret_names
+from robocomp_yaml.semantics.connections import ICE_DEFAULTS
 from robocomp_yaml.source.properties import entry_line
 
 _DEFAULTS = RestartRule()
@@ -172,6 +173,7 @@ def of_storm(storm: StormDraft, folder: str, *, enabled: bool) -> Process:
         f"{STORM_INSTANCE}.{PUBLISH}.Endpoints": publish.text,
         f"{STORM_INSTANCE}.LMDB.Path": database,
         f"{STORM_INSTANCE}.LMDB.MapSize": "10",
+        "Ice.MessageSizeMax": ICE_DEFAULTS["Ice.MessageSizeMax"],  # what a component can send, it can pass on
     }
     text = "".join(f"{entry_line(key, value)}\n" for key, value in settings.items())
     return Process(

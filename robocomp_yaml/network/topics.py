@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import msgspec
 
+from robocomp_yaml.addresses.interface_comparison import InterfaceComparison
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.deployments import LinkedStorm
 from robocomp_yaml.link.program import Port
-from robocomp_yaml.network.configuration_base import ConfigurationBase
 from robocomp_yaml.network.draft import Draft, Drafts, LocatedText, StormDraft
-from robocomp_yaml.network.interface_comparison import InterfaceComparison
 from robocomp_yaml.network.network import TOPIC, Connection
 from robocomp_yaml.network.order import Dependence
 from robocomp_yaml.network.topic_names import NamedEnd, full_names
@@ -43,7 +40,6 @@ class TopicConnections(msgspec.Struct):
 
     drafts: Drafts
     comparison: InterfaceComparison
-    base_of: Callable[[Draft], ConfigurationBase]
     connections: list[Connection] = []
     needs: list[Dependence] = []
     diagnostics: list[Diagnostic] = []
@@ -80,7 +76,7 @@ class TopicConnections(msgspec.Struct):
         chosen = nearest if len(nearest) == 1 else of_host
         if len(chosen) == 1:
             return self.drafts.storms[chosen[0]], ""
-        manager = self.base_of(draft).manager
+        manager = draft.base.manager
         if nearest and nearest not in self._several:
             self._several.append(nearest)
             hint, storms = "keep only one of them: it serves all hosts", ", ".join(storm.name for storm in nearest)
@@ -110,7 +106,7 @@ class TopicConnections(msgspec.Struct):
         for rename in (pair for pair in draft.instance.entry.topics if pair.name == port.name):
             draft.topics[port.name] = LocatedText(rename.text, rename.span)
             return _TopicEnd(draft, port, is_out, rename.text, rename.span, storm, manager)
-        name = self.base_of(draft).topic(port.name, port.interface.name, is_out=is_out)
+        name = draft.base.topic(port.name, port.interface.name, is_out=is_out)
         return _TopicEnd(draft, port, is_out, name, draft.span, storm, manager)
 
     def _topics(self, every: list[_TopicEnd]) -> list[str]:

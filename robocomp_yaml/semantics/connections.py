@@ -1,5 +1,6 @@
 # Part of rcyaml and of the components that it makes. Do not edit a copy: the next compile overwrites it.
-"""The properties that connect components: the names of endpoints, proxies and topics in a configuration.
+"""The properties that connect components: the names of endpoints, proxies and topics in a configuration, and what Ice
+is set to.
 
 The first name of each is Ice's, the others are RoboComp's. The first one that has a value is used.
 """
@@ -9,6 +10,14 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from .texts import unquoted
+
+ICE_DEFAULTS = {
+    "Ice.MessageSizeMax": "20004800",  # KiB; as in RoboComp, so that an image is not too large
+    "Ice.Warn.UnknownProperties": "0",  # parameters may begin with an adapter's name: `Laser.Device`
+    "CommonBehavior.ThreadPool.Size": "1",  # a thread of its own, so that it answers while a method runs
+}
+"""Ice's defaults are replaced by these, unless the configuration sets them. The run times of other languages have the
+same table."""
 
 MANAGER = ("TopicManager.Proxy", "Proxies.TopicManager")
 """The proxy to IceStorm's topic manager."""

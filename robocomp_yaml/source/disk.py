@@ -9,11 +9,13 @@ from __future__ import annotations
 import os
 import stat
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import Any, TypeVar
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.source.regular import regular
 from robocomp_yaml.source.text import MAX_DOCUMENT, read_bytes
 
+_Made = TypeVar("_Made")
 FILE, FOLDER, OTHER, NOTHING = "file", "folder", "other", ""
 
 
@@ -35,6 +37,14 @@ class Disk:
         self.seen: dict[str, list[str]] = {}
         self.walked: dict[str, list[str]] = {}
         self.unreadable = False
+        self._made: dict[object, Any] = {}
+
+    def once(self, name: object, make: Callable[[], _Made]) -> _Made:
+        """The result of `make`, cached by name: what follows from the contents that the name contains."""
+        if name not in self._made:
+            self._made[name] = make()
+        made: _Made = self._made[name]
+        return made
 
     def read(self, path: str, limit: int = MAX_DOCUMENT) -> tuple[bytes | None, list[Diagnostic]]:
         """The content of a file of at most `limit` bytes; None, with diagnostics, if it cannot be read."""
@@ -60,7 +70,8 @@ class Disk:
             return b""
 
     def state(self, path: str) -> str:
-        """The kind of a path: FILE, FOLDER, OTHER or NOTHING."""
+        """The kind of a path: _Made = TypeVar("_Made")
+        FILE, FOLDER, OTHER or NOTHING."""
         if self._overlay and (real := os.path.realpath(path)) in self._overlay:
             kind = FILE
         elif self._overlay and real in self._folders:

@@ -18,6 +18,10 @@ _BLANK = r"(?:[ \t\r\n]|\\ )*"
 _OF_A_VALUE = re.compile(rf"({_BLANK})((?:{_BLANK}(?:\\[^ ]|[^ \t\r\n#\\]))*)({_BLANK})(\\\Z)?", re.DOTALL)
 _ESCAPED = re.compile(r"\\([\\#= ])")
 
+FIRST_HEAD = "rcyaml wrote it once; it is yours."
+VALUES_HEAD = "written by rcyaml from"
+"""The first line of an `etc/config` says who wrote it, for workspaces without a manifest."""
+
 
 class IceProperty(msgspec.Struct, frozen=True):
     """One `key=value` line. `line` and `column` (of the key) count from 1. `at` is the index in the text after `=`,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 
 import msgspec
@@ -61,17 +61,21 @@ def read(data: bytes | None) -> Manifest:
     raise Unusable("it is damaged")
 
 
-def any_has(file: str, hash_: str) -> bool:
-    """Whether a manifest in a folder above the file lists the file as generated with this digest."""
+def entries_of(file: str) -> Iterator[ManifestEntry]:
+    """The entries that manifests in the folders above a file have for it, the nearest first."""
     above, path = os.path.split(file)
     while path:
         with suppress(OSError, Unusable), open(os.path.join(above, PATH), "rb", opener=regular) as stream:
             entry = read(stream.read()).files.get(path)
-            if entry and not entry.once and entry.hash == hash_:
-                return True
+            if entry:
+                yield entry
         above, name = os.path.split(above)
         path = f"{name}/{path}" if name else ""
-    return False
+
+
+def any_has(file: str, hash_: str) -> bool:
+    """Whether a manifest in a folder above the file lists the file as generated with this digest."""
+    return any(not entry.once and entry.hash == hash_ for entry in entries_of(file))
 
 
 def _json(value: object) -> str:

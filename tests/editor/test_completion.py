@@ -185,7 +185,9 @@ CDSL = [
 ]  # fmt: skip
 
 WORKSPACE = [
-    ("|", ["workspace", "doc", "interfaces", "output", "plugins", "lint"]),
+    ("|", ["workspace", "doc", "interfaces", "output", "ports", "plugins", "lint"]),
+    ("ports: |", ["range of ports"]),
+    ("ports: {f|}", ["from", "to"]),
     ("interfaces: |", ["list of folders"]),
     ("interfaces:\n  - |", ["interfaces/"]),
     ("output: |", ["Slice folder"]),

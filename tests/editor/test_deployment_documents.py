@@ -45,7 +45,8 @@ IN_ENTRY = [
 ]
 COMPLETIONS = [
     ("|", ["deployment document", "hosts: …", "services: …", "components: …", "groups: …", "include: […]", "deployment",
-           "doc", "hosts", "services", "components", "groups", "include"]),
+           "doc", "hosts", "services", "ports", "components", "groups", "include"]),
+    (D + "ports: |", ["range of ports"]),
     ("deployment: |", ["ShellyHead"]),
     (D + "hosts: |", ["host", "host of another user"]),
     (D + "hosts:\n  |", ["host", "host of another user"]),
@@ -104,6 +105,14 @@ MESSAGES = [
     (D + "hosts: {a: {user: me}}", ["2:9 the key 'address' is missing"]),
     (D + "services: {s: icestorm}", ["2:15 a service is {icestorm: {host: onboard, port: 9999}}"]),
     (D + "services: {s: {icestorm: {port: 0}}}", ["2:33 a port is a whole number from 1 to 65535"]),
+    (D + "services: {s: {icestorm: {publish: x}}}", ["2:36 a port is a whole number from 1 to 65535"]),
+    (D + "ports: 12000", ["2:8 ports: is a range of TCP ports, such as {from: 12000, to: 12999}"]),
+    (D + "ports: {from: 1}", ["2:1 the key 'to' is missing"]),
+    (D + "ports: {to: 1}", ["2:1 the key 'from' is missing"]),
+    (
+        D + "ports: {from: 1, to: 1.5}",
+        ["2:22 a port is a whole number from 1 to 65535"],
+    ),
     (
         D + "components: [a]",
         ["2:13 components: is a mapping of names to entries, such as speech: {component: ../speech/speech.cdsl.yaml}"],
@@ -178,6 +187,10 @@ HOVERS = [
     (D + "services: {ss|: {icestorm: }}", "Service"),
     (D + "services: {s: {ice|storm: {port: 1}}}", "IceStorm"),
     (D + "services: {s: {icestorm: {po|rt: 1}}}", "IceStorm's port"),
+    (D + "services: {s: {icestorm: {pub|lish: 1}}}", "Publishers' port"),
+    (D + "po|rts: {from: 1, to: 2}", "Port range"),
+    (D + "ports: {fr|om: 1, to: 2}", "First port"),
+    (D + "ports: {from: 1, t|o: 2}", "Last port"),
     (D + "compo|nents: {a: {program: b}}", "Components"),
     (D + "components: {aa|: {program: b}}", "Entry"),
     (E + "do|c: x", "Documentation"),

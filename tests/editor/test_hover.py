@@ -148,6 +148,9 @@ WORKSPACE = [
     ("output: {run|time: a}", "Run time folder"),
     ("plug|ins: [a]", "Plug-ins"),
     ("plugins: [aa|]", "Plug-in"),
+    ("po|rts: {from: 1, to: 2}", "Port range"),
+    ("ports: {fr|om: 1, to: 2}", "First port"),
+    ("ports: {from: 1, t|o: 2}", "Last port"),
     ("li|nt: {RC2003: note}", "Lint"),
     ("lint: {RC2|003: note}", "Severity"),
 ]

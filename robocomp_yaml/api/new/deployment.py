@@ -8,12 +8,13 @@ from typing import Any
 
 import msgspec
 
+from robocomp_yaml.addresses.interface_comparison import Implementers
 from robocomp_yaml.api.new.documents import NewDocument, free, require_name
 from robocomp_yaml.api.which import VALUES
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.link.documents import Documents
 from robocomp_yaml.link.linker import Linker
-from robocomp_yaml.link.program import LinkedComponent, Port
+from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.link.workspace import ImportSearch
 from robocomp_yaml.link.workspace_files import modeline
 from robocomp_yaml.parameters.types import Parameters
@@ -39,7 +40,10 @@ def deployment_document(root: str, name: str) -> NewDocument:
     path = free(os.path.join(root, "deployments", f"{name.lower()}.ddsl.yaml"))
     components = _components(root)
     names = _names(components)
-    rows = [row for linked in components for row in _entry(linked, path, names, components)]
+    implementers = Implementers()
+    for linked in components:
+        implementers.add(linked)
+    rows = [row for linked in components for row in _entry(linked, path, names, implementers)]
     has_topics = any(linked.component.publishes or linked.component.subscribes for linked in components)
     view = NewDeploymentView(modeline("ddsl", path, root), name, rows, has_topics, bool(components))
     return NewDocument(path, render("new/deployment.ddsl.yaml.j2", view))
@@ -65,7 +69,7 @@ def _names(components: Sequence[LinkedComponent]) -> dict[LinkedComponent, str]:
 
 
 def _entry(
-    linked: LinkedComponent, path: str, names: dict[LinkedComponent, str], components: Sequence[LinkedComponent]
+    linked: LinkedComponent, path: str, names: dict[LinkedComponent, str], implementers: Implementers
 ) -> Iterator[str]:
     document = os.path.relpath(linked.component.path, os.path.dirname(path))
     yield f"  {names[linked]}:"
@@ -74,7 +78,7 @@ def _entry(
     missing = {} if os.path.isfile(values) else _required(linked.parameters.parameters)
     if missing:
         yield f"    set: {flow(missing)}  # examples: these have no default"
-    connect = list(_connections(linked, names, components))
+    connect = list(_connections(linked, names, implementers))
     if connect:
         yield "    connect:"
         yield from connect
@@ -94,24 +98,12 @@ def _required(parameters: Parameters) -> dict[str, Any]:
 
 
 def _connections(
-    linked: LinkedComponent, names: dict[LinkedComponent, str], components: Sequence[LinkedComponent]
+    linked: LinkedComponent, names: dict[LinkedComponent, str], implementers: Implementers
 ) -> Iterator[str]:
-    """The connections that do not follow from the documents: which of several servers to use, and where an external
-    server is."""
+    """The connections that do not follow from the documents: which of several servers to use. `check` reports an
+    interface that nobody serves."""
     for port in linked.requires:
-        serving = [
-            other for other in components if other is not linked
-            for own in other.implements if _interface(own) == _interface(port)
-        ]  # fmt: skip
-        if len(serving) == 1:
-            continue
-        if serving:
+        serving = [other for other, _ in implementers.of(port, besides=linked)]
+        if len(serving) > 1:
             others = ", ".join(dict.fromkeys(names[other] for other in serving[1:]))
             yield f"      {port.name}: {names[serving[0]]}  # or {others}"
-        else:
-            proxy = f'"{port.interface.name.lower()}:tcp -h localhost -p 10000"'
-            yield f"      {port.name}: {proxy}  # no component of this workspace implements it: set its proxy"
-
-
-def _interface(port: Port) -> tuple[str, str]:
-    return port.scope.module.name, port.interface.name

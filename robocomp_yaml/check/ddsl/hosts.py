@@ -85,13 +85,18 @@ def _conflicts(network: Network) -> Iterator[Diagnostic]:
                         other=_name(other, served),
                         host=f"host '{process.host}'" if network.hosts[process.host].span.file else "this machine",
                         hint=_hint(process, endpoint, served),
-                        related=[Related(f"{_name(other, served)} uses it too", served.span)],
+                        related=[
+                            Related(f"{_name(other, served)} uses it too", served.span),
+                            *(Related("set here", one.own_span) for one in (endpoint, served) if one.own_span.file),
+                        ],
                     )
                     break
             others.append((bound, process, endpoint))
 
 
 def _hint(process: Process, endpoint: Endpoint, other: Endpoint) -> str:
+    if endpoint.own_span.file:
+        return f"set another port for '{process.name}', in its entry: `ports: {{{endpoint.interface}: PORT}}`"
     if endpoint.span != other.span:
         return "change one of the two ports"
     if process.component:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from robocomp_yaml.addresses.interface_comparison import Implementers
 from robocomp_yaml.emit.graphs import picture as parts
 from robocomp_yaml.emit.graphs.picture import Picture, PictureLine, PictureNode
 from robocomp_yaml.link.program import LinkedComponent, Port
@@ -13,7 +14,7 @@ def picture_of(name: str, components: Iterable[LinkedComponent]) -> Picture:
     """The picture of these components. Topics are outside, and so are interfaces that no component implements."""
     made = Picture(name)
     listed = list(components)
-    serving: dict[str, list[str]] = {}
+    implementers = Implementers()
     names: dict[LinkedComponent, str] = {}
     for component in listed:
         title = component.component.name
@@ -23,13 +24,12 @@ def picture_of(name: str, components: Iterable[LinkedComponent]) -> Picture:
             serves=tuple((port.interface.name, 0) for port in component.implements),
         )  # fmt: skip
         made.nodes[node.name] = node
-        for port in component.implements:
-            serving.setdefault(_key(port), []).append(node.name)
+        implementers.add(component)
     for component in listed:
         source = names[component]
         for port in component.requires:
             label = port.interface.name if port.name == port.interface.name else f"{port.name}: {port.interface.name}"
-            targets = serving.get(_key(port), [])
+            targets = [names[other] for other, _ in implementers.of(port)]
             if not targets:
                 about = "no component here implements it"
                 made.nodes.setdefault(

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
+from robocomp_yaml.addresses.table import PortTable
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.emit.layout import SOURCES
 from robocomp_yaml.link.linker import Linker
@@ -16,18 +17,19 @@ def has_code(program: Program) -> bool:
     return any(_is_written(program.components[real]) for real in program.requested_components())
 
 
-def check(program: Program, diagnostics: Sequence[Diagnostic], linker: Linker) -> Iterator[Diagnostic]:
-    """The diagnostics about the user's files of components; `diagnostics` are those of the documents."""
+def check(
+    program: Program, diagnostics: Sequence[Diagnostic], linker: Linker, ports: Callable[[LinkedComponent], PortTable]
+) -> Iterator[Diagnostic]:
+    """The diagnostics about the user's files of components; `diagnostics` are those of the documents, `ports` returns
+    the ports of a component's workspace."""
     from robocomp_yaml.emit.build import build
     from robocomp_yaml.emit.options import EmitOptions
-    from robocomp_yaml.emit.ports import assign
     from robocomp_yaml.emit.specific.review import review
     from robocomp_yaml.transactions.plan import RootPlan
 
     languages = {program.components[real].component.language.name for real in program.requested_components()}
     options = EmitOptions(
-        None, (), frozenset({*languages, "config"}), linker.workspace_of, lambda linked: assign([linked], program.disk),
-        only=_is_written,
+        None, (), frozenset({*languages, "config"}), linker.workspace_of, ports, only=_is_written,
     )  # fmt: skip
     plans: Iterable[RootPlan] = build(program, diagnostics, options).plans
     yield from review(plans).diagnostics

@@ -18,7 +18,7 @@ from robocomp_yaml.parameters.writing.write import Property, Writer
 from robocomp_yaml.semantics import connections
 from robocomp_yaml.semantics.spellings import quotes_texts
 from robocomp_yaml.semantics.texts import unquoted
-from robocomp_yaml.source.properties import entry_line, unwritable
+from robocomp_yaml.source.properties import VALUES_HEAD, entry_line, unwritable
 from robocomp_yaml.source.tree import Mapping, Node, Scalar
 
 CLASSIC, FLAT_TOML, TOML = "classic", "flat-toml", "toml"
@@ -93,7 +93,7 @@ def _seems_toml(parameters: Parameters, sections: list[Section]) -> bool:
 
 def property_text(sections: list[Section], name: str, source: str) -> str:
     """The text of `etc/config` of a component. `source` is the path of the values document, relative to the file."""
-    head = f"# Configuration of {name}, written by rcyaml from {source}: change it there, and compile again."
+    head = f"# Configuration of {name}, {VALUES_HEAD} {source}: change it there, and compile again."
     return f"{head}\n{section_text(sections)}"
 
 

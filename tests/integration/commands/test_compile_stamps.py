@@ -16,8 +16,9 @@ from robocomp_yaml.diag.codes import table
 from robocomp_yaml.diag.page import Files, Repeated
 
 # Without a stamp: a file that cannot be read may become readable unnoticed; programs matter only for `check`; of a file
-# that a compile does not write, more is read than is in the stamp; the cause of a failing plug-in is unknown.
-NEVER = {"RC0001", "RC0081", "RC0082", "RC0083", "RC2010", "RC4403", "RC4404"}
+# that a compile does not write, more is read than is in the stamp; the cause of a failing plug-in is unknown; a user's
+# file is in the way.
+NEVER = {"RC0001", "RC0081", "RC0082", "RC0083", "RC2010", "RC3330", "RC4403", "RC4404"}
 
 
 def _paths(row: Code) -> list[str]:

@@ -137,11 +137,13 @@ def test_a_new_deployment_has_the_connections_that_do_not_follow(rcyaml: Run, wo
     assert errors(rcyaml("check")) == []
 
 
-def test_a_new_deployment_has_a_proxy_for_an_external_interface(rcyaml: Run, workspace: Path) -> None:
+def test_a_new_deployment_invents_no_address(rcyaml: Run, workspace: Path) -> None:
     rcyaml("new", "component", "Listener", "--requires", "Speech")
     rcyaml("new", "deployment", "Head")
-    assert '      Speech: "speech:tcp -h localhost -p 10000"  # no component' in components_of(workspace)
-    assert errors(rcyaml("check")) == []
+    assert "connect:" not in components_of(workspace) and "10000" not in components_of(workspace)
+    checked = rcyaml("check")
+    assert [line.partition("]")[0] for line in errors(checked)] == ["error[RC4201"], checked.stdout
+    assert 'connect: {Speech: "speech:tcp -h HOST -p PORT"}' in checked.stdout
 
 
 def test_a_new_deployment_sets_parameters_without_a_default(rcyaml: Run, workspace: Path) -> None:

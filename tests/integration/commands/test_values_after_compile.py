@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 
@@ -138,3 +139,18 @@ def test_the_newer_dialect_is_read(rcyaml: Run, tmp_path: Path) -> None:
     ):
         assert f"  {line}\n" in text, text
     assert rcyaml("config", "check", "speech").exit_code == 0
+
+
+def test_what_an_earlier_version_wrote_is_not_the_users(rcyaml: Run, tmp_path: Path) -> None:
+    """It set defaults of Ice, which are part of the run time today."""
+    write_tree(tmp_path, {**TREE, **WORKSPACE})
+    assert rcyaml("compile").exit_code == 0
+    flat = tmp_path / "speech/etc/config"
+    earlier = flat.read_text(encoding="utf-8").replace("# Ice.", "Ice.")
+    assert "\nIce.MessageSizeMax=20004800\n" in earlier
+    flat.write_text(earlier.replace("Ice.Trace.Network=0", "Ice.Trace.Network=1"), encoding="utf-8")
+    shutil.rmtree(tmp_path / "speech/.rcyaml")
+    assert "RC33" not in rcyaml("check").stdout
+    assert rcyaml("config", "new", "speech").exit_code == 0
+    values = (tmp_path / "speech/etc/config.yaml").read_text(encoding="utf-8")
+    assert 'Trace.Network: "1"' in values and "MessageSizeMax" not in values and "Warn.Connections" not in values

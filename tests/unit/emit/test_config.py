@@ -6,7 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from robocomp_yaml.emit import config, ports
+from robocomp_yaml.addresses.port_numbers import default_port
+from robocomp_yaml.addresses.table import assign
+from robocomp_yaml.emit import config
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.pipeline import analyse
 from robocomp_yaml.source import properties
@@ -21,7 +23,7 @@ def _in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
 
 
 def text(linked: dict[str, LinkedComponent], folder: str) -> str:
-    return config.plan(linked[folder], ports.assign(linked.values(), Disk())).text
+    return config.plan(linked[folder], assign(linked.values(), Disk())).text
 
 
 def values(linked: dict[str, LinkedComponent], folder: str) -> dict[str, str]:
@@ -38,9 +40,9 @@ def test_the_content_of_a_config() -> None:
         }
     )
     mouth = values(linked, "mouth")["Mouth.Endpoints"].removeprefix("tcp -p ")
-    plan = config.plan(linked["speech"], ports.assign(linked.values(), Disk()))
+    plan = config.plan(linked["speech"], assign(linked.values(), Disk()))
     assert (plan.path, plan.policy, plan.executable) == ("etc/config", ONCE, False)
-    speech, behavior = (ports.default_port("SpeechComp", name) for name in ("Speech", "CommonBehavior"))
+    speech, behavior = (default_port("SpeechComp", name) for name in ("Speech", "CommonBehavior"))
     assert (
         plan.text
         == f"""\
@@ -67,15 +69,15 @@ HeardTopic.Endpoints=tcp -p 0
 # Milliseconds from one call of compute() to the next.
 period.compute=50
 
-# Ice, the middleware.
+# Ice, the middleware. To change a default, remove the # before its name.
 # 1: warn when a connection is lost.
-Ice.Warn.Connections=0
+# Ice.Warn.Connections=0
 # 1 to 3: log opened and closed connections, and more.
-Ice.Trace.Network=0
+# Ice.Trace.Network=0
 # 1: log every message.
-Ice.Trace.Protocol=0
+# Ice.Trace.Protocol=0
 # The size limit of messages, in KiB.
-Ice.MessageSizeMax=20004800
+# Ice.MessageSizeMax=20004800
 """
     )
 
@@ -94,13 +96,13 @@ def test_a_proxy_has_the_port_of_the_other_config() -> None:
     linked = workspace(documents, b="Mouth.Endpoints=ws -p 12346:tcp -p 1\n")
     assert values(linked, "a")["MouthProxy"] == "mouth:ws -h localhost -p 12346"
     linked = workspace(documents, b="Mouth.Endpoints=tcp -p 0\n")
-    assert values(linked, "a")["MouthProxy"] == f"mouth:tcp -h localhost -p {ports.default_port('B', 'Mouth')}"
+    assert values(linked, "a")["MouthProxy"] == f"mouth:tcp -h localhost -p {default_port('B', 'Mouth')}"
 
 
 def test_an_interface_without_implementation() -> None:
     linked = workspace({"a": component("A", requires="[Mouth]", implements="[Speech]")})
     assert "No component of this workspace implements it" in text(linked, "a")
-    assert f"MouthProxy=mouth:tcp -h localhost -p {ports.default_port('', 'Mouth')}\n" in text(linked, "a")
+    assert f"MouthProxy=mouth:tcp -h localhost -p {default_port('', 'Mouth')}\n" in text(linked, "a")
 
 
 def test_two_proxies_go_to_two_components() -> None:

@@ -72,7 +72,7 @@ services: {storm: {icestorm: {}}}
 components:
   speech: {component: speech, connect: {Mouth: lips, Eye: face.Mouth}}
   mouth: {component: mouth, after: [storm]}
-  other: {component: mouth}
+  other: {component: mouth, port: 10051}
 groups:
   lips: {components: [mouth], expose: {Mouth: {member: mouth, rate: 5, allow: [moveTo]}}}
   face: {components: [other], expose: {Mouth: other}}
@@ -85,7 +85,7 @@ components:
   own: {component: speech, config: own.conf, connect: {Mouth: mouth, Eye: "mouth:tcp -h 10.0.0.9 -p 4"}}
   values: {component: speech, config: v.config.yaml, connect: {Mouth: mouth, Eye: mouth}, topics: {Heard: said}}
   mouth: {component: mouth, topics: {Heard: said}}
-  hears: {component: mouth, topics: {Heard: robot1/Heard}}
+  hears: {component: mouth, port: 10051, topics: {Heard: robot1/Heard}}
 """,
     "includes": """\
 hosts: {onboard: 10.0.0.2, head: 10.0.0.3}

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from deployments import deployed, faults, network, said
+from robocomp_yaml.addresses.port_numbers import default_port
 from robocomp_yaml.network.network import Network
-from robocomp_yaml.network.port_numbers import default_port
 
 
 @pytest.fixture(autouse=True)
@@ -64,7 +64,7 @@ def test_instances_count_up_by_the_number_of_entries(given: str, expected: list[
 
 
 def test_defaults_depend_on_names_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("robocomp_yaml.network.draft.default_port", lambda owner, interface: 11310)
+    monkeypatch.setattr("robocomp_yaml.addresses.port_numbers.default_port", lambda owner, interface, ports: 11310)
     one = ports(network(deployed("components: {a: {component: mouth}, b: {component: mouth}}\n")))
     assert one == {"a.CommonBehavior": 11310, "a.Mouth": 11312, "b.CommonBehavior": 11313, "b.Mouth": 11314}
     other = ports(network(deployed("components: {b: {component: mouth}, a: {component: mouth}}\n")))

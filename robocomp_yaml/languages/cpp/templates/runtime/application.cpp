@@ -21,6 +21,7 @@ namespace
 
 /// Ice's defaults are replaced by these, unless the config file sets them.
 constexpr std::pair<const char*, const char*> iceDefaults[] = {
+    {"Ice.MessageSizeMax", "20004800"},      // KiB; as in RoboComp, so that an image is not too large
     {"Ice.Warn.UnknownProperties", "0"},     // parameters may begin with an adapter's name: `Laser.Device`
     {"CommonBehavior.ThreadPool.Size", "1"}, // a thread of its own, so that it answers while a method runs
 };

@@ -18,6 +18,7 @@ final class Application {
     private static final String BEHAVIOR = "CommonBehavior";
     /** Ice's defaults are replaced by these, unless the config sets them. */
     private static final Map<String, String> DEFAULTS = Map.of(
+        "Ice.MessageSizeMax", "20004800", // KiB; as in RoboComp, so that an image is not too large
         "Ice.Warn.UnknownProperties", "0", // parameters may begin with an adapter's name: `Laser.Device`
         "CommonBehavior.ThreadPool.Size", "1"); // a thread of its own, so that it answers while a method runs
 

@@ -22,12 +22,6 @@ from generated.runtime.waiting import reason
 
 Parameters = tuple[Table, Callable[[Store], Live]]
 
-# Ice's defaults are replaced by these, unless the config sets them.
-ICE_DEFAULTS = {
-    "Ice.Warn.UnknownProperties": "0",  # parameters may begin with an adapter's name: `Laser.Device`
-    "CommonBehavior.ThreadPool.Size": "1",  # a thread of its own, so that it answers while a method runs
-}
-
 
 class Application:
     """One component in one process.
@@ -176,7 +170,7 @@ def _initialization(settings: Settings) -> Ice.InitializationData:
     data = Ice.InitializationData()
     data.logger = IceLogger()
     data.properties = settings.properties.clone()
-    for key, value in ICE_DEFAULTS.items():
+    for key, value in connections.ICE_DEFAULTS.items():
         if not data.properties.getProperty(key):
             data.properties.setProperty(key, value)
     return data

@@ -6,14 +6,16 @@ both sides have. Documentation and defaults are ignored.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from collections.abc import Sequence as Items
+from typing import Protocol
 
 import msgspec
 
 from robocomp_yaml.diag.diagnostic import Related
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.link.program import Definition, LinkedModule, Port
+from robocomp_yaml.link.program import Definition, LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.interface import (
     Enum,
     ExceptionType,
@@ -39,12 +41,22 @@ class InterfaceDifference(msgspec.Struct, frozen=True):
         return [Related(f"as '{first}' knows it", self.first), Related(f"as '{second}' knows it", self.second)]
 
 
+class HasInterface(Protocol):
+    """A port, or anything else with an interface. `scope` is the module that defines the interface."""
+
+    @property
+    def scope(self) -> LinkedModule: ...
+
+    @property
+    def interface(self) -> Interface: ...
+
+
 class InterfaceComparison(msgspec.Struct):
     """Compares interfaces, and caches the result of each pair."""
 
     _known: dict[tuple[LinkedModule, str, LinkedModule, str], InterfaceDifference | None] = {}
 
-    def difference(self, first: Port, second: Port) -> InterfaceDifference | None:
+    def difference(self, first: HasInterface, second: HasInterface) -> InterfaceDifference | None:
         """The first difference of two interfaces, None if they are equal."""
         if first.scope is second.scope and first.interface is second.interface:
             return None
@@ -54,8 +66,33 @@ class InterfaceComparison(msgspec.Struct):
             self._known[key] = next(found, None)
         return self._known[key]
 
+    def is_equal(self, first: HasInterface, second: HasInterface) -> bool:
+        """Whether two ports have the same interface, by name and content."""
+        return name_of(first) == name_of(second) and self.difference(first, second) is None
 
-def name_of(port: Port) -> tuple[str, str]:
+
+class Implementers(msgspec.Struct):
+    """The components that implement an interface. It may come from different documents with the same content."""
+
+    comparison: InterfaceComparison = msgspec.field(default_factory=InterfaceComparison)
+    _by_name: dict[tuple[str, str], list[tuple[LinkedComponent, Port]]] = {}
+
+    def add(self, linked: LinkedComponent) -> None:
+        for port in linked.implements:
+            self._by_name.setdefault(name_of(port), []).append((linked, port))
+
+    def of(self, port: HasInterface, besides: LinkedComponent | None = None) -> list[tuple[LinkedComponent, Port]]:
+        """The components that implement the interface of a port, each with its own port, in the order in which they
+        were added; without the component of the document that `besides` has."""
+        own = os.path.realpath(besides.component.path) if besides is not None else ""
+        return [
+            (linked, other)
+            for linked, other in self._by_name.get(name_of(port), ())
+            if os.path.realpath(linked.component.path) != own and self.comparison.is_equal(port, other)
+        ]
+
+
+def name_of(port: HasInterface) -> tuple[str, str]:
     """The module and the name of a port's interface."""
     return port.scope.module.name, port.interface.name
 

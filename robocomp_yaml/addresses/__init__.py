@@ -1,0 +1,1 @@
+"""Where components are: TCP ports, own endpoints and proxies, and which components implement an interface."""

@@ -1,0 +1,115 @@
+"""What a component's own configuration says about where it is, and where the others are."""
+
+from __future__ import annotations
+
+import os
+
+import msgspec
+
+from robocomp_yaml.addresses.port_numbers import COMMON_BEHAVIOR
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.link.flat_configs import FlatConfig, flat_config
+from robocomp_yaml.link.program import LinkedComponent, LinkedValues
+from robocomp_yaml.semantics import connections
+from robocomp_yaml.semantics.texts import unquoted
+from robocomp_yaml.source.disk import Disk
+from robocomp_yaml.source.tree import Mapping, Scalar
+
+MANAGER = "IceStorm/TopicManager:default -p 9999"
+"""The proxy of the topic manager in a first `etc/config`."""
+
+
+class OwnText(msgspec.Struct, frozen=True):
+    """An endpoint or a proxy, and its location. `is_as_written`: rcyaml wrote it, and nobody changed it."""
+
+    text: str
+    span: Span
+    is_as_written: bool = False
+
+
+class OwnAddresses(msgspec.Struct, frozen=True):
+    """The endpoints by the names of adapters (`HeardTopic` for a topic), the proxies by the names of ports, and the
+    proxy of the topic manager."""
+
+    endpoints: dict[str, OwnText] = {}
+    proxies: dict[str, OwnText] = {}
+    manager: OwnText | None = None
+
+
+def flat_addresses(linked: LinkedComponent, disk: Disk) -> OwnAddresses:
+    """The addresses in a component's flat `etc/config`."""
+    flat = flat_config(os.path.dirname(linked.component.path), disk)
+    return of_flat(flat, linked) if flat is not None else OwnAddresses()
+
+
+def replaces_values(flat: FlatConfig | None, values: LinkedValues) -> bool:
+    """Whether a component has the values of its flat config instead of those of its values document: the user changed
+    the file, and the document does not contain the changes."""
+    if flat is None or flat.is_unchanged:
+        return False
+    from robocomp_yaml.parameters.layers.effective import effective
+    from robocomp_yaml.parameters.writing.properties import properties as written
+
+    found = effective(values)[0] if values.parameters is not None else None
+    if found is None:
+        return False  # the errors of the document are reported
+    stated = {made.key: made.value for each in written(values, found, beside=True)[0] for made in each.properties}
+    known = (stated, flat.base)
+    return any(value not in [each.get(key) for each in known] for key, value in flat.properties.items())
+
+
+def of_values(values: LinkedValues) -> OwnAddresses:
+    """The addresses of a values document and its layers."""
+    from robocomp_yaml.parameters.writing.properties import merged_entries  # most components have no values document
+
+    found = OwnAddresses()
+    for name, node in merged_entries(values, "endpoints"):
+        if isinstance(node, Scalar):
+            found.endpoints[name] = OwnText(unquoted(node.lexeme), node.span)
+    for name, node in merged_entries(values, "proxies"):
+        text = node.get("proxy") if isinstance(node, Mapping) else node
+        if isinstance(text, Scalar):
+            found.proxies[name] = OwnText(unquoted(text.lexeme), text.span)
+    for name, node in merged_entries(values, "topics"):
+        if name == "manager" and isinstance(node, Scalar):
+            found = OwnAddresses(found.endpoints, found.proxies, OwnText(unquoted(node.lexeme), node.span))
+    return found
+
+
+def of_flat(flat: FlatConfig, linked: LinkedComponent) -> OwnAddresses:
+    """The addresses of a flat config, under any spelling of their properties."""
+
+    def first(*keys: str) -> OwnText | None:
+        for key in keys:
+            if entry := flat.entries.get(key):
+                span = Span(flat.path, entry.line, entry.column, entry.line, entry.column + len(entry.key))
+                return OwnText(unquoted(entry.value), span, flat.is_as_written(key))
+        return None
+
+    endpoints = {name: first(*connections.endpoints(name)) for name in adapters(linked)}
+    endpoints |= {f"{one.name}Topic": first(*connections.topic_endpoints(one.name)) for one in linked.subscribes}
+    proxies = {one.name: first(*connections.proxy(one.name)) for one in linked.requires}
+    return OwnAddresses(
+        {name: text for name, text in endpoints.items() if text is not None},
+        {name: text for name, text in proxies.items() if text is not None},
+        first(*connections.MANAGER),
+    )
+
+
+def adapters(linked: LinkedComponent) -> list[str]:
+    """The names of the adapters of a component."""
+    return list(dict.fromkeys([*(use.name for use in linked.component.implements), COMMON_BEHAVIOR]))
+
+
+def document(linked: LinkedComponent) -> str:
+    """The real path of a component's document, which identifies the component."""
+    return os.path.realpath(linked.component.path)
+
+
+def is_own(values: LinkedValues) -> bool:
+    """Whether a values document is the `etc/config.yaml` of its component."""
+    component = values.parameters.component if values.parameters else None
+    if component is None:
+        return False
+    own = os.path.join(os.path.dirname(component.component.path), "etc", "config.yaml")
+    return os.path.realpath(own) == os.path.realpath(values.document.path)

@@ -1,0 +1,104 @@
+"""The values of a flat `etc/config` that rcyaml wrote are judged at their lines; others are the user's business."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from conftest import write_tree
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.pipeline import analyse
+
+PDSL = """\
+component: arm.cdsl.yaml
+types:
+  Joint: {struct: {name: string, max: {type: float, range: [0, 2], default: 1}}}
+parameters:
+  speed: {type: float, range: {from: 0, below: 1}, default: 0.5, unit: m/s}
+  side: {type: string, values: [left, right], default: left}
+  grip: {group: {force: {type: int, range: [1, 9], default: 3}}}
+  joints: {list: Joint, default: []}
+  gains: {map: float, default: {}}
+"""
+FACE = "module: RoboCompFace\ninterfaces: {Speech: {methods: {say: }}, Mouth: {methods: {open: }}}\n"
+CDSL = "component: ArmComp\nlanguage: python\nimports: [Face]\nimplements: [Speech]\nrequires: [Mouth]\n"
+HEAD = "# Configuration of ArmComp: one KEY=VALUE per line, as Ice reads it. rcyaml wrote it once; it is yours.\n"
+
+
+@pytest.fixture(autouse=True)
+def _in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+
+
+def found(flat: str, **others: str) -> list[Diagnostic]:
+    write_tree(
+        Path(), {"Face.idsl.yaml": FACE, "arm.cdsl.yaml": CDSL, "arm.pdsl.yaml": PDSL, "etc/config": flat, **others}
+    )
+    return [one for one in analyse(["arm.cdsl.yaml"]).diagnostics if one.span.file == "etc/config"]
+
+
+@pytest.mark.parametrize(
+    ("line", "code", "column", "message", "hint"),
+    [
+        ("speed=1", "RC3303", 7, "speed is 1 m/s, and must be at least 0 and below 1 m/s", ""),
+        ("  speed =  1.5  # fast", "RC3303", 12, "speed is 1.5 m/s, and must be at least 0 and below 1 m/s", ""),
+        ("speed=fast", "RC3302", 7, "speed must be a number (m/s), and is the text 'fast'", ""),
+        ("side=leftt", "RC3303", 6, "side is 'leftt', and must be one of left, right", "did you mean 'left'?"),
+        ("grip.force=0", "RC3303", 12, "grip.force is 0, and must be from 1 to 9", ""),
+        ("joints.0.max=3", "RC3303", 14, "joints[0].max is 3, and must be from 0 to 2", ""),
+        ("period.compute=0", "RC3303", 16, "period.compute is 0 ms, and must be at least 1 ms", ""),
+        ("sped=0.3", "RC3301", 1, "unknown parameter 'sped'", "did you mean 'speed'?"),
+        ("Speed=0.3", "RC3301", 1, "unknown parameter 'Speed'", "did you mean 'speed'?"),
+        ("grip.forze=3", "RC3301", 1, "unknown parameter 'grip.forze'", "did you mean 'grip.force'?"),
+        ("period.computer=3", "RC3301", 1, "unknown parameter 'period.computer'", "did you mean 'period.compute'?"),
+        (
+            "Speach.Endpoints=tcp -p 1",
+            "RC3324",
+            1,
+            "component ArmComp has no interface 'Speach'",
+            "did you mean 'Speech'?",
+        ),
+        ("MouthPrxy=mouth:tcp -p 1", "RC3301", 1, "unknown parameter 'MouthPrxy'", "did you mean 'MouthProxy'?"),
+    ],
+)
+def test_an_error_at_its_line(line: str, code: str, column: int, message: str, hint: str) -> None:
+    (one,) = found(f"{HEAD}\n{line}\n")
+    assert (one.code, one.span.line, one.span.column, one.message) == (code, 3, column, message)
+    assert hint in one.hint and one.severity == ("warning" if code == "RC3324" else "error")
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "speed=0.3", "side=right", "grip.force=9", "joints.size=1\njoints.0.name=x", "gains.keys=a\ngains.a=1",
+        "speed=${env:SPEED}", "Ice.Trace.Network=1", "Speech.ThreadPool.Size=3", "CommonBehavior.Endpoints=tcp -p 1",
+        "MouthProxy.ConnectionTimeout=5", "Endpoints.Speech=tcp -p 1", "Proxies.Mouth=mouth:tcp -p 1", "speed=",
+        "IceSSL.DefaultDir=certs", "TopicManager.Proxy=x:tcp -p 1", "Extra.Endpoints=tcp -p 1",
+    ],
+)  # fmt: skip
+def test_what_a_component_reads_is_right(line: str) -> None:
+    assert not found(f"{HEAD}{line}\n")
+
+
+def test_a_property_of_ones_own_is_only_a_warning() -> None:
+    (one,) = found(f"{HEAD}Vendor.Serial=A17\n")
+    assert (one.code, one.severity) == ("RC3301", "warning") and "properties:" in one.hint
+
+
+def test_the_last_line_of_a_property_counts() -> None:
+    assert not found(f"{HEAD}speed=7\nspeed=0.7\n")
+
+
+def test_a_file_that_rcyaml_did_not_write_is_not_judged() -> None:
+    assert not found("speed=7\nsped=1\n")
+
+
+def test_no_fix_edits_it() -> None:
+    assert not found(f"{HEAD}Speed=0.3\n")[0].fixes
+
+
+def test_beside_a_values_document_it_is_judged_if_it_counts() -> None:
+    values = {"etc/config.yaml": "component: ../arm.cdsl.yaml\nparameters: {speed: 0.1}\n"}
+    (one,) = found(f"{HEAD}speed=7\n", **values)
+    assert one.code == "RC3303"
