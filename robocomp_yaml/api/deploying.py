@@ -19,7 +19,7 @@ from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import DeployFailed, Line
 from robocomp_yaml.deploy.engines import ENGINES, LOCAL, make_engine
 from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, STOP_THEM, Choose, Result, Status
-from robocomp_yaml.deploy.plan import RESTART, START, STOP, Plan, with_dependences
+from robocomp_yaml.deploy.plan import RESTART, START, STOP, Plan, unstable, with_dependences
 from robocomp_yaml.deploy.plan import plan as make_plan
 from robocomp_yaml.deploy.probe import ProbedProgram
 from robocomp_yaml.deploy.time_limit import TimeLimit
@@ -142,6 +142,7 @@ class Deployment:
         async def work() -> Plan:
             is_running = await self._engine.open(self.network, create=False)
             found = make_plan(self.network, await self._engine.observe() if is_running else {}, chosen)
+            self._diagnostics += unstable(found)
             specs = [step.spec for step in found.of(START, RESTART) if step.spec]
             self._diagnostics += await self._engine.obstacles(specs, {step.name for step in found.of(STOP, RESTART)})
             await self._engine.close()

@@ -143,7 +143,7 @@ class DeploySession(msgspec.Struct):
 
     def status(self, names: Names) -> None:
         found = self._run(lambda: self.deployment.status(*names))
-        code = 1 if any(one.is_down for one in found) else 0
+        code = 0 if all(one.is_as_desired for one in found) else 1
         if self.format_ == "json":
             self._end({"processes": views.status_data(self.network, found)}, code)
         room = shutil.get_terminal_size().columns if sys.stdout.isatty() else None

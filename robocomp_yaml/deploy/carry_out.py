@@ -12,12 +12,19 @@ from typing import Any
 
 import msgspec
 
-from robocomp_yaml.deploy.engine import LOST, STOPPED, DeployFailed, Engine, Running
+from robocomp_yaml.deploy.engine import DeployFailed, Engine, Running
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, PlanStep, in_order
 from robocomp_yaml.deploy.readiness import RECENT, State, holds, until_ready, why_not
+from robocomp_yaml.deploy.spec import ProcessSpec
+from robocomp_yaml.deploy.states import ALIVE, RUNNING, SILENT, fault, is_done, is_unstable
 from robocomp_yaml.deploy.time_limit import TimeLimit
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
+
+LASTING = 0.5
+"""Seconds that a process which became ready must have run before an operation reports success."""
+
+_AGAIN = 0.1  # seconds between two checks whether a process lasts
 
 STOPPING, GONE, STARTING, READY, FAILED, SKIPPED = "stopping", "stopped", "starting", "ready", "failed", "not started"
 
@@ -97,7 +104,7 @@ async def carry_out(
 async def stop_all(engine: Engine, running: Iterable[Running], report: Report) -> None:
     """Stops processes, each when all that are after it have stopped. Raises DeployFailed if one cannot be stopped, when
     all others have stopped."""
-    leaving = {one.name: one for one in running if one.state not in (STOPPED, LOST)}
+    leaving = {one.name: one for one in running if one.state not in SILENT}
     after = {name: one.spec.process.after if one.spec else () for name, one in leaving.items()}
     tasks: dict[str, asyncio.Task[None]] = {}
 
@@ -157,6 +164,11 @@ class _Starts(msgspec.Struct):
                         task.result()
                 if self._outcome.failed.keys() & starting and not self._keep_going:
                     break
+            if not (self._outcome.failed or self._outcome.is_late):
+                ready = [
+                    step for step in self._plan.of(START, RESTART, CHANGE, KEEP) if self._tasks[step.name].result()
+                ]
+                await asyncio.gather(*(self._lasts(step, step.name in starting) for step in ready))
         finally:
             await _cancel(self._tasks.values())
         if self._outcome.is_late:
@@ -193,7 +205,7 @@ class _Starts(msgspec.Struct):
                 if is_new:
                     self._outcome.began.append(step.name)
                     await self._engine.start(step.name)
-                if is_new or not (step.running and await holds(self._engine, step.spec, step.running)):
+                if is_new or not (step.running and await self._is_ready(step.spec, step.running)):
                     await until_ready(self._engine, step.spec, lines, self._watch.of(step.name))
         except DeployFailed as error:
             self._fail(step.name, error.diagnostic)
@@ -202,6 +214,37 @@ class _Starts(msgspec.Struct):
         if is_new:
             self._report(ProcessEvent(step.name, READY, seconds=took))
         return True
+
+    async def _is_ready(self, spec: ProcessSpec, running: Running) -> bool:
+        return is_done(running, is_server=spec.process.is_server) or await holds(self._engine, spec, running)
+
+    async def _lasts(self, step: PlanStep, is_new: bool) -> None:
+        """Waits until a ready process has run for a moment, so that one that ends right after its start is no success.
+        A process that ended in the meantime must become ready again, and no process may end again and again."""
+        assert step.spec
+        is_server = step.spec.process.is_server
+        end = time.monotonic() + min(step.spec.process.ready.within, self._limit.left or math.inf)
+        running = None if is_new else step.running
+        while True:
+            running = running or await self._watch.of(step.name)(time.monotonic())
+            why = fault(running, is_server=is_server) if running else "it was stopped in the meantime"
+            if running and not why and (running.state != RUNNING or running.uptime >= LASTING):
+                if not (is_new and running.restarts) or await self._is_ready(step.spec, running):
+                    return
+            if time.monotonic() > end or (running and running.state not in ALIVE):
+                break
+            await asyncio.sleep(_AGAIN if why or running is None else max(LASTING - running.uptime, _AGAIN))
+            running = None
+        self._since.setdefault(step.name, time.monotonic())
+        where, how = step.spec.process.span, running.end if running else why
+        if running and is_unstable(running):
+            self._fail(step.name, deploying.UNSTABLE.at(where, name=step.name, how=running.last_exit))
+        elif running is None or running.state not in ALIVE:
+            self._fail(step.name, deploying.ENDED_EARLY.at(where, name=step.name, how=how, hint=""))
+        else:
+            within = f"{step.spec.process.ready.within:g}"
+            reason = why_not(step.spec, running)
+            self._fail(step.name, deploying.NOT_READY.at(where, name=step.name, within=within, why=reason))
 
     async def _report_late(self, step: PlanStep) -> None:
         """Reports a process that was pending when the time limit expired."""

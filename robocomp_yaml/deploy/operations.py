@@ -10,9 +10,10 @@ import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml.deploy.carry_out import Report, StartOutcome, carry_out, stop_all, undo
-from robocomp_yaml.deploy.engine import GIVEN_UP, LOST, STOPPED, WAITING, Engine, Running
+from robocomp_yaml.deploy.engine import LOST, STOPPED, Engine, Running
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, plan, with_dependents
 from robocomp_yaml.deploy.readiness import holds
+from robocomp_yaml.deploy.states import RUNNING, fault, state_of
 from robocomp_yaml.deploy.time_limit import TimeLimit
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
@@ -45,15 +46,21 @@ class Status(msgspec.Struct, frozen=True):
     host: str
     is_ready: bool
     running: Running | None = None
+    is_server: bool = False
 
     @property
     def state(self) -> str:
-        return self.running.state if self.running else STOPPED
+        return state_of(self.running) if self.running else STOPPED
 
     @property
     def is_down(self) -> bool:
-        """Whether it should run and does not."""
-        return self.state in (WAITING, GIVEN_UP, LOST)
+        """Whether it should run and does not, or ends again and again."""
+        return bool(self.running and fault(self.running, is_server=self.is_server))
+
+    @property
+    def is_as_desired(self) -> bool:
+        """Whether it is ready or done, or nobody started it, or somebody stopped it."""
+        return not self.is_down and (self.is_ready or self.state != RUNNING)
 
 
 async def up(
@@ -141,7 +148,8 @@ async def status(engine: Engine, network: Network, names: Collection[str], reach
         one, process = running.get(name), network.processes.get(name)
         host = one.host if one else process.host if process else ""
         is_ready = bool(one and one.spec) and await holds(engine, one.spec, one)  # type: ignore[union-attr, arg-type]
-        return Status(name, host, is_ready, one)
+        process = process or (one.spec.process if one and one.spec else None)
+        return Status(name, host, is_ready, one, process is not None and process.is_server)
 
     known = [process.name for process in network.enabled()]
     every = [*known, *(name for name in running if name not in known)]

@@ -84,6 +84,7 @@ def _entry(key: Scalar, node: Node) -> model.Entry:
         settings=settings if isinstance(settings, Mapping) else None,
         restart=_restart(node.get("restart")),
         ready=_ready(node.get("ready")),
+        role=text(node, "role"),
         endpoints=tuple(_pairs(node, "endpoints")),
         after=tuple(texts(node, "after")),
         enabled=node.data.get("enabled") is not False,  # type: ignore[attr-defined]

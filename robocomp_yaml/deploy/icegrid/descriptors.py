@@ -130,7 +130,7 @@ def restart_rule(process: Process, number: int) -> str:
     number of restarts, and times in milliseconds."""
     rule = process.restart
     times = f"{rule.delay * 1000:.0f} {rule.longest * 1000:.0f} {rule.tries} {rule.window * 1000:.0f}"
-    return f"{number} {rule.policy} {times}"
+    return f"{number} {process.restart_policy} {times}"
 
 
 def encoded(text: str) -> str:

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from msgspec.structs import replace
 
 from robocomp_yaml.deploy import folder as own_folder
-from robocomp_yaml.deploy.engine import ENDED, GIVEN_UP, STOP_WITHIN, STOPPED, DeployFailed, Line, Running
+from robocomp_yaml.deploy.engine import STOP_WITHIN, STOPPED, DeployFailed, Line, Running
 from robocomp_yaml.deploy.icegrid import start_up
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles
 from robocomp_yaml.deploy.local import procfs
@@ -25,6 +25,7 @@ from robocomp_yaml.deploy.local.log_reader import LineReader, LogReader, merged
 from robocomp_yaml.deploy.local.obstacles import CheckedSpecs, is_local, obstacles
 from robocomp_yaml.deploy.readiness import listens
 from robocomp_yaml.deploy.spec import ProcessSpec
+from robocomp_yaml.deploy.states import OVER
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
@@ -350,7 +351,7 @@ async def _used_ports(specs: Sequence[ProcessSpec], running: Mapping[str, Runnin
     own = {
         (one.spec.address, endpoint.port)
         for one in running.values()
-        if one.spec and one.state not in (STOPPED, ENDED, GIVEN_UP)
+        if one.spec and one.state not in (STOPPED, *OVER)
         for endpoint in one.spec.process.endpoints
     }
     ports = [

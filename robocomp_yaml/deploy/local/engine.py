@@ -92,7 +92,8 @@ class LocalEngine:
             except OSError as error:
                 raise self._folder_failed(error.filename or self._network.folder, error.strerror or "") from error
         self._specs.update({spec.name: spec for spec in specs})
-        await self._ask("", "prepare", specs=[spec.as_data() for spec in specs])
+        policies = {spec.name: spec.process.restart_policy for spec in specs}
+        await self._ask("", "prepare", specs=[spec.as_data() for spec in specs], policies=policies)
 
     async def start(self, name: str) -> None:
         spec = self._specs[name]
@@ -162,9 +163,12 @@ _DONE = {"start": "started", "stop": "stopped"}
 
 def _running(entry: dict[str, Any]) -> Running:
     process = entry["spec"]["process"]
-    kept = ("state", "pid", "uptime", "restarts", "last_exit", "memory", "cpu")
+    kept = ("state", "pid", "uptime", "restarts", "last_exit", "memory", "cpu", "spread")
     return Running(
-        process["name"], ProcessSpec.of_data(entry["spec"]), process["host"], **{key: entry[key] for key in kept}
+        process["name"],
+        ProcessSpec.of_data(entry["spec"]),
+        process["host"],
+        **{key: entry[key] for key in kept if key in entry},
     )
 
 

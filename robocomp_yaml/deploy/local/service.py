@@ -113,13 +113,14 @@ class _Service:
         found = []
         for child in self.children.values():
             members = families.get(child.pid, set())
-            facts = {name: getattr(child, name) for name in ("spec", "state", "pid", "restarts", "last_exit")}
+            facts = {name: getattr(child, name) for name in ("spec", "state", "pid", "restarts", "last_exit", "spread")}
             cpu = sum(self._families.alive[pid].cpu for pid in members)
             used = {"memory": procfs.memory(members), "cpu": cpu, "members": sorted(members)}
             found.append({**facts, "uptime": now - child.since, **used})
         return {"processes": found}
 
     async def do_prepare(self, request: Request) -> Request:
+        policies = request.get("policies", {})  # a client of an earlier version sends none
         for spec in request["specs"]:
             name = spec["process"]["name"]
             if name in self.children:
@@ -127,6 +128,7 @@ class _Service:
             else:
                 log = LogFile(f"{self.folder}/logs/{name}.log", self._limit)
                 self.children[name] = ChildProcess(spec, f"{self.folder}:{name}", log, self._families, self._files)
+            self.children[name].policy = policies.get(name, spec["process"]["restart"]["policy"])
         return {}
 
     async def do_start(self, request: Request) -> Request:
