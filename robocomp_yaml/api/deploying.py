@@ -5,14 +5,14 @@ from __future__ import annotations
 import asyncio
 import os
 from collections.abc import Callable, Coroutine, Iterable
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from msgspec.structs import replace
 
 from robocomp_yaml.api.refusals import cannot_write, meant, require
 from robocomp_yaml.building.job import RELEASE
-from robocomp_yaml.deploy import folder, operations
+from robocomp_yaml.deploy import folder, history, operations
 from robocomp_yaml.deploy.attached import Attached, attached
 from robocomp_yaml.deploy.carry_out import Report
 from robocomp_yaml.deploy.differences import shown_path
@@ -183,10 +183,49 @@ class Deployment:
                 if stays and not result.diagnostics:
                     self._lock.close()  # another process may change the running network
                     self._diagnostics += await follow()
+            if not has_errors(result.diagnostics) and not stays and not (result.plan.is_empty and self._has_history):
+                with suppress(OSError):  # a full disk
+                    history.keep(self.network.folder, (await self._engine.observe()).values())
             if result.diagnostics or stays:
                 await operations.end_if_idle(self._engine)
             else:
                 await self._engine.close()
+            return result
+
+        return self._run(work(), change=True)
+
+    @property
+    def _has_history(self) -> bool:
+        return history.is_there(self.network.folder)
+
+    def rollback(
+        self, *, on_failure: str | Choose = STOP_THEM, timeout: float | None = None, report: Report | None = None
+    ) -> Result:
+        """Goes back to the last `up` that was all ready and differs from what runs: its processes, commands and
+        configurations. Programs that were rebuilt since then stay rebuilt. Raises Refused if there was none."""
+        own = self.network.folder
+
+        async def decided(result: Result) -> str:
+            return on_failure if isinstance(on_failure, str) else await on_failure(result)
+
+        async def work() -> Result:
+            is_running = await self._engine.open(self.network, create=False)
+            entries = history.before(own, (await self._engine.observe()).values() if is_running else ())
+            await self._engine.close()
+            if not entries:
+                why = "only what runs now" if self._has_history else "no `up` that was all ready since the last `down`"
+                raise Refused(f"{self.network.name} cannot go back: rcyaml knows {why}")
+            target = history.network_of(self.network.name, self.network.path, own, entries[-1], self.network)
+            self._engine = make_engine(self.engine, target)
+            await self._engine.open(target, create=True)
+            result = await operations.up(
+                self._engine, target, (), (), decided, report or _ignore, keep_going=on_failure == KEEP_GOING,
+                limit=TimeLimit(timeout),
+            )  # fmt: skip
+            self._diagnostics += result.diagnostics
+            if not has_errors(result.diagnostics):
+                history.cut(own, entries)
+            await operations.end_if_idle(self._engine)
             return result
 
         return self._run(work(), change=True)
@@ -231,7 +270,10 @@ class Deployment:
         async def work() -> list[str]:
             if not await self._engine.open(self.network, create=False):
                 return []
-            return await operations.down(self._engine, chosen, report or _ignore)
+            stopped = await operations.down(self._engine, chosen, report or _ignore)
+            if not chosen:
+                history.remove(self.network.folder)
+            return stopped
 
         return self._run(work(), change=True)
 

@@ -19,7 +19,7 @@ from robocomp_yaml.commands import _deploy_views as views
 from robocomp_yaml.commands import _options, _signals
 from robocomp_yaml.commands._progress import Progress
 from robocomp_yaml.deploy.engine import Line
-from robocomp_yaml.deploy.operations import Result
+from robocomp_yaml.deploy.operations import Choose, Result
 from robocomp_yaml.deploy.probe import can_run
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
@@ -95,6 +95,25 @@ class DeploySession(msgspec.Struct):
     def up(
         self, names: Names, on_failure: str, timeout: float | None, *, restart: bool = False, attach: bool = False
     ) -> None:  # fmt: skip
+        def start(progress: Progress, decide: str | Choose) -> Result:
+            return self.deployment.up(
+                *names, restart=restart, timeout=timeout, report=progress.report, on_failure=decide,
+                stays=self._attached(progress) if attach else None,
+            )  # fmt: skip
+
+        self._change(start, on_failure, "interrupted: all processes were stopped" if attach else None, shows=not attach)
+
+    def rollback(self, on_failure: str, timeout: float | None) -> None:
+        def start(progress: Progress, decide: str | Choose) -> Result:
+            return self.deployment.rollback(timeout=timeout, report=progress.report, on_failure=decide)
+
+        self._change(start, on_failure)
+
+    def _change(
+        self, work: Callable[[Progress, str | Choose], Result], on_failure: str, on_interrupt: str | None = None, *,
+        shows: bool = True,
+    ) -> None:  # fmt: skip
+        """Changes what runs, with progress; a user is asked about failures on a terminal."""
         asks_user = on_failure == "ask" and sys.stdin.isatty() and sys.stdout.isatty() and self.format_ == "text"
         progress = self._progress()
 
@@ -108,16 +127,12 @@ class DeploySession(msgspec.Struct):
 
         def start() -> Result:
             with progress:
-                return self.deployment.up(
-                    *names, restart=restart, timeout=timeout, report=progress.report,
-                    on_failure=choose if asks_user else "stop" if on_failure == "ask" else on_failure,
-                    stays=self._attached(progress) if attach else None,
-                )  # fmt: skip
+                return work(progress, choose if asks_user else "stop" if on_failure == "ask" else on_failure)
 
-        result = self._run(start, "interrupted: all processes were stopped" if attach else None)
+        result = self._run(start, on_interrupt)
         if self.format_ == "json":
             self._end(views.result_data(result))
-        if not attach and self._prints_progress:
+        if shows and self._prints_progress:
             terminal.say(views.result_text(self.network, result))
         self._end()
 

@@ -160,6 +160,16 @@ def restart(session: DeploySession, names: tuple[str, ...], on_failure: str, tim
     session.up(names, on_failure, timeout, restart=True)
 
 
+@_subcommand("Go back to the last up that was all ready.", _engine, lenient=True)
+@click.argument("nothing", cls=_DocumentAnd, limit=0, expose_value=False)
+@_on_failure("What happens to the restarted processes if one fails.")
+@_timeout
+def rollback(session: DeploySession, on_failure: str, timeout: float | None) -> None:
+    """Go back to what ran after the last `up` that was all ready, and that differs from what runs now. The document is
+    not changed: the next `up` applies it again. Programs that were rebuilt stay rebuilt."""
+    session.rollback(on_failure, timeout)
+
+
 @_subcommand("Stop the processes, in reverse order.", _names, _engine, lenient=True)
 def down(session: DeploySession, names: tuple[str, ...]) -> None:
     """Stop all running processes of the network, or the processes NAME with all that depend on them. A process is

@@ -99,6 +99,10 @@ class Engine(Protocol):
         """What would prevent these processes from starting on their hosts, checked before anything is started: a port
         that another program uses, a missing executable. `leaving` are processes that will be stopped before."""
 
+    async def stage(self, specs: Sequence[ProcessSpec]) -> None:
+        """Writes and verifies the configurations with which `prepare` will set these specs, beside those that are
+        used, and whatever else could fail for lack of space. Nothing that runs is changed."""
+
     async def prepare(self, specs: Sequence[ProcessSpec]) -> None:
         """Sets the desired state of some processes: writes their configurations (mode 0600, atomically, in the
         network's folder on their hosts) and keeps the specs. A running process goes on; only its `RestartRule`

@@ -7,25 +7,24 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import importlib.util
-import shutil
+import errno
+import os
 import threading
-from collections.abc import AsyncGenerator, Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import AsyncGenerator, Callable, Collection, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from msgspec.structs import replace
 
 from robocomp_yaml.deploy import folder as own_folder
-from robocomp_yaml.deploy.engine import STOP_WITHIN, STOPPED, DeployFailed, Line, Running
+from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
 from robocomp_yaml.deploy.icegrid import start_up
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles
+from robocomp_yaml.deploy.icegrid.obstacles import missing, too_long, used_ports
 from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.local.log_reader import LineReader, LogReader, merged
 from robocomp_yaml.deploy.local.obstacles import CheckedSpecs, is_local, obstacles
-from robocomp_yaml.deploy.readiness import listens
 from robocomp_yaml.deploy.spec import ProcessSpec
-from robocomp_yaml.deploy.states import OVER
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
@@ -36,10 +35,12 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
-_TOO_LONG = "its configuration is longer than the 100,000 bytes that IceGrid carries to another host"
 _RULE_WITHIN = 10.0
 _TIMED_OUT, _NOT_FOUND, _UNKNOWN = 124, 127, 1
 _CODE = "exit code "
+_RESERVE, _RESERVED = "reserve", 1 << 18  # bytes: for specs, rules and the registry's database
+_WRITE = 'head -c "$2" /dev/zero >"$1/.space"; code=$?; rm -f "$1/.space"; exit $code'
+_WRITE_WITHIN = 10.0
 _CALLS = 32  # threads, which mostly wait
 
 
@@ -59,13 +60,14 @@ class IceGridEngine:
         self._nodes: asyncio.Task[None] | None = None  # starts the nodes; what needs no node does not wait
         self._no_node: dict[str, Diagnostic] = {}  # by the name of the host
         self._cleared = CheckedSpecs()
+        self._has_staged = False
         self._lock = threading.Lock()
         self._calls = ThreadPoolExecutor(_CALLS, "icegrid")
 
     async def open(self, network: Network, *, create: bool) -> bool:
         self._network, self._files = network, GridFiles(network.folder)
-        if missing := _missing():
-            raise DeployFailed(deploying.NO_REGISTRY.at(Span(network.path), reason=missing))
+        if lacking := missing():
+            raise DeployFailed(deploying.NO_REGISTRY.at(Span(network.path), reason=lacking))
         self._grid = await self._call("", "reached", self._reach, create)
         if self._grid is None:
             return False
@@ -126,12 +128,32 @@ class IceGridEngine:
         lost = {spec.process.host: self._no_node[spec.process.host] for spec in specs
                 if spec.process.host in self._no_node}  # fmt: skip
         far = [spec for spec in specs if not is_local(spec.address) and spec.process.host not in lost]
-        found += await _used_ports(far, running)
-        return [*lost.values(), *found] + [
-            deploying.CANNOT.at(spec.process.span, name=spec.name, what="started", reason=_TOO_LONG)
-            for spec in specs
-            if _is_too_long(spec)
-        ]
+        found += await used_ports(far, running)
+        return [*lost.values(), *found, *too_long(specs)]
+
+    async def stage(self, specs: Sequence[ProcessSpec]) -> None:
+        await self._beside("", "prepared", self._stage, specs)
+
+    def _stage(self, specs: Sequence[ProcessSpec]) -> None:
+        """Stages the configurations for this machine, and reserves space for the engine's own files, also on other
+        hosts: there, `run` writes the configurations at the start."""
+        self._has_staged = True
+        near = [spec for spec in specs if is_local(spec.address)]
+        files = {spec.process.config.path: spec.process.config.text for spec in near if spec.process.config}
+        own_folder.stage(self._files.folder, files | {_RESERVE: " " * _RESERVED})
+        sizes: dict[str, int] = {}
+        asked: dict[str, ProcessSpec] = {}
+        for spec in specs:
+            if spec not in near and spec.name in self._desired and (known := self._specs.get(spec.name)):
+                asked[spec.process.host] = known
+                size = len(spec.process.config.text.encode(errors="surrogateescape")) if spec.process.config else 0
+                sizes[spec.process.host] = sizes.get(spec.process.host, 0) + size
+        for host, known in asked.items():
+            if known.process.host != host:
+                continue  # it moves there
+            command = ("bash", "-c", _WRITE, "bash", f"{self._files.folder}/config", str(sizes[host]))
+            if self._run(self._reached(), known, command, _WRITE_WITHIN):
+                raise OSError(errno.ENOSPC, f"{os.strerror(errno.ENOSPC)} on the host '{host}'", self._files.folder)
 
     async def prepare(self, specs: Sequence[ProcessSpec]) -> None:
         await self._beside("", "deployed", self._prepare, specs)
@@ -139,6 +161,7 @@ class IceGridEngine:
     def _prepare(self, specs: Sequence[ProcessSpec]) -> None:
         from robocomp_yaml.deploy.icegrid import descriptors, leftovers
 
+        own_folder.remove(self._files.folder, f"{own_folder.STAGED}/{_RESERVE}")
         grid, number = self._reached(), self._files.next_rule()
         before = grid.descriptor(self._network.name)
         deployed = {one.id for node in before.nodes.values() for one in node.servers} if before else set()
@@ -148,7 +171,7 @@ class IceGridEngine:
         starting = [spec for spec in specs if spec not in running]
         for spec in specs:
             if spec.process.config and is_local(spec.address):
-                own_folder.write(self._files.folder, spec.process.config.path, spec.process.config.text)
+                own_folder.put(self._files.folder, spec.process.config.path, spec.process.config.text)
         for spec in starting:
             leftovers.drop(self._files, spec.process.host, spec.name)
             old = self._specs.get(spec.name)
@@ -292,6 +315,8 @@ class IceGridEngine:
 
     async def close(self, *, end: bool = False) -> None:
         grid, self._grid = self._grid, None
+        if self._has_staged:
+            own_folder.drop_staged(self._files.folder)
         if grid and end:
             await self._beside("", "ended", start_up.ended, grid, self._network.name)
         elif grid:
@@ -321,52 +346,3 @@ class IceGridEngine:
             path = error.filename or self._network.folder
             reason = (error.strerror or str(error)).lower()
             raise DeployFailed(deploying.FOLDER.at(Span(self._network.path), path=path, reason=reason)) from error
-
-
-def _is_too_long(spec: ProcessSpec) -> bool:
-    from robocomp_yaml.deploy.icegrid.descriptors import LONGEST_CONFIG, encoded
-
-    config = spec.process.config
-    return bool(config and not is_local(spec.address) and len(encoded(config.text).encode()) > LONGEST_CONFIG)
-
-
-def _missing() -> str:
-    """What the engine needs and this machine lacks, or ''."""
-    # Ice's compiled module works only with the Python that it was compiled for.
-    if not all(map(importlib.util.find_spec, ("Ice", "IceGrid", "IcePy"))):
-        return "Ice for Python is not installed (`pip install 'rcyaml[ice]'`, Debian: python3-zeroc-ice)"
-    for program, package in (("icegridregistry", "zeroc-icegrid"), ("icegridnode", "zeroc-icegrid"),
-                             ("openssl", "openssl"), ("setpriv", "util-linux")):  # fmt: skip
-        if shutil.which(program) is None:
-            return f"{program} is not installed (Debian: {package})"
-    return ""
-
-
-_WITHIN = 1.0  # seconds for an answer
-
-
-async def _used_ports(specs: Sequence[ProcessSpec], running: Mapping[str, Running]) -> list[Diagnostic]:
-    """Diagnostics for ports of `specs` on which something listens. Ports of the deployment's own processes are
-    ignored."""
-    own = {
-        (one.spec.address, endpoint.port)
-        for one in running.values()
-        if one.spec and one.state not in (STOPPED, *OVER)
-        for endpoint in one.spec.process.endpoints
-    }
-    ports = [
-        (spec, endpoint)
-        for spec in specs
-        for endpoint in spec.process.endpoints
-        if endpoint.port and endpoint.protocol != "udp" and (spec.address, endpoint.port) not in own
-    ]
-    answers = await asyncio.gather(*(listens(spec.address, endpoint.port, _WITHIN) for spec, endpoint in ports))
-    return [
-        deploying.PORT_TAKEN.at(
-            endpoint.span if endpoint.span.file else spec.process.span,
-            hint=f"`ss -ltnp` shows it on that host; end it, or choose another port for '{spec.name}'",
-            name=spec.name, port=endpoint.port, program=f"a program on the host '{spec.process.host}'",
-        )
-        for (spec, endpoint), is_taken in zip(ports, answers, strict=True)
-        if is_taken
-    ]  # fmt: skip

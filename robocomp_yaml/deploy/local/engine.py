@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import os
 import signal
-from collections.abc import AsyncGenerator, Collection, Iterable, Sequence
+from collections.abc import AsyncGenerator, Collection, Iterable, Iterator, Sequence
 from functools import partial
 from typing import Any
 
@@ -42,6 +43,7 @@ class LocalEngine:
         self._network = Network("", "", "")
         self._specs: dict[str, ProcessSpec] = {}
         self._cleared = CheckedSpecs()
+        self._has_staged = False
 
     async def open(self, network: Network, *, create: bool) -> bool:
         self._network = network
@@ -81,19 +83,31 @@ class LocalEngine:
             self._cleared.note(specs)
         return found
 
+    async def stage(self, specs: Sequence[ProcessSpec]) -> None:
+        configs = [spec.process.config for spec in specs if spec.process.config]
+        self._has_staged = True
+        with self._writing():
+            own_folder.stage(self._network.folder, {config.path: config.text for config in configs})
+            for path in (path for spec in specs for path in spec.process.folders):
+                os.makedirs(path, mode=0o700, exist_ok=True)
+
     async def prepare(self, specs: Sequence[ProcessSpec]) -> None:
-        for spec in specs:
-            config = spec.process.config
-            try:
+        with self._writing():
+            for config in (spec.process.config for spec in specs):
                 if config:
-                    own_folder.write(self._network.folder, config.path, config.text)
-                for path in spec.process.folders:
-                    os.makedirs(path, mode=0o700, exist_ok=True)
-            except OSError as error:
-                raise self._folder_failed(error.filename or self._network.folder, error.strerror or "") from error
+                    own_folder.put(self._network.folder, config.path, config.text)
+            for path in (path for spec in specs for path in spec.process.folders):
+                os.makedirs(path, mode=0o700, exist_ok=True)
         self._specs.update({spec.name: spec for spec in specs})
         policies = {spec.name: spec.process.restart_policy for spec in specs}
         await self._ask("", "prepare", specs=[spec.as_data() for spec in specs], policies=policies)
+
+    @contextlib.contextmanager
+    def _writing(self) -> Iterator[None]:
+        try:
+            yield
+        except OSError as error:
+            raise self._folder_failed(error.filename or self._network.folder, error.strerror or str(error)) from error
 
     async def start(self, name: str) -> None:
         spec = self._specs[name]
@@ -134,6 +148,8 @@ class LocalEngine:
                 await started.wait()
 
     async def close(self, *, end: bool = False) -> None:
+        if self._has_staged:
+            own_folder.drop_staged(self._network.folder)
         if self._client:
             if end:
                 await self._ask("", "end")
