@@ -12,12 +12,13 @@ from msgspec.structs import replace
 
 from robocomp_yaml.api.refusals import cannot_write, meant, require
 from robocomp_yaml.building.job import RELEASE
-from robocomp_yaml.deploy import folder, history, operations
+from robocomp_yaml.deploy import folder, history, operations, registered
 from robocomp_yaml.deploy.attached import Attached, attached
 from robocomp_yaml.deploy.carry_out import Report
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import DeployFailed, Line
 from robocomp_yaml.deploy.engines import ENGINES, LOCAL, make_engine
+from robocomp_yaml.deploy.local.obstacles import elsewhere
 from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, STOP_THEM, Choose, Result, Status
 from robocomp_yaml.deploy.plan import RESTART, START, STOP, Plan, unstable, with_dependences
 from robocomp_yaml.deploy.plan import plan as make_plan
@@ -55,9 +56,11 @@ class Deployment:
         network = analysis.networks.get(os.path.realpath(path))
         self.unread = network is None
         if network is None and lenient:
-            from robocomp_yaml.deploy.local.engine import stand_in
+            from robocomp_yaml.deploy.stand_in import stand_in
 
-            network = stand_in(path)
+            network, engine = stand_in(path) or (None, engine)
+        elif network and engine is None and (known := registered.of_folder(network.folder)):
+            engine = known.engine if known.engine != LOCAL or not elsewhere(network) else None
         if network is None or (has_errors(analysis.diagnostics) and not lenient):
             raise Faulty(analysis.diagnostics, analysis.program.documents)
         self.network: Network = network

@@ -9,6 +9,7 @@ from typing import Any
 
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import OWN, Line, Running
+from robocomp_yaml.deploy.listing import ListedDeployment
 from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, Result, Status
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, PlanStep
 from robocomp_yaml.deploy.probe import ProbedProgram
@@ -112,6 +113,16 @@ def _state(one: Status) -> str:
     if one.state == "running":
         return "ready" if one.is_ready else "running, not ready"
     return f"{one.state}: {one.running.last_exit}" if one.running.last_exit else one.state
+
+
+def deployment_lines(found: Sequence[ListedDeployment]) -> list[Shown]:
+    """A table of deployments."""
+    rows = [("DEPLOYMENT", "STATE", "ENGINE", "HOSTS", "DOCUMENT")]
+    for one in found:
+        document = shown_path(one.document) + ("" if one.has_document else " (gone)")
+        rows.append((one.name, one.state, one.engine, ", ".join(one.hosts), document))
+    widths = [max(columns(row[column]) for row in rows) for column in range(len(rows[0]))]
+    return [Shown("  ".join(pad(*cell) for cell in zip(row, widths, strict=True)).rstrip()) for row in rows]
 
 
 def status_data(network: Network, found: Sequence[Status]) -> list[dict[str, Any]]:

@@ -19,6 +19,7 @@ from robocomp_yaml.commands import _deploy_views as views
 from robocomp_yaml.commands import _options, _signals
 from robocomp_yaml.commands._progress import Progress
 from robocomp_yaml.deploy.engine import Line
+from robocomp_yaml.deploy.listing import listed
 from robocomp_yaml.deploy.operations import Choose, Result
 from robocomp_yaml.deploy.probe import can_run
 from robocomp_yaml.diag import terminal
@@ -44,8 +45,21 @@ def open_session(
     except Faulty as faulty:
         _options.report(ctx, format_, faulty.diagnostics, faulty.documents)
     if deployment.unread:
-        terminal.say(f"{path} cannot be read (see `rcyaml check`): the running processes are used instead", err=True)
+        why = "cannot be read (see `rcyaml check`)" if os.path.exists(path) else "is gone"
+        terminal.say(f"{path} {why}: the running processes are used instead", err=True)
     return DeploySession(ctx, deployment, format_)
+
+
+def list_running(ctx: click.Context, format_: str) -> NoReturn:
+    """Prints the user's list of deployments."""
+    found = listed()
+    if format_ == "json":
+        terminal.data(dumps({"deployments": msgspec.to_builtins(found)}), json=True)
+    elif found:
+        terminal.say(*views.deployment_lines(found))
+    else:
+        terminal.say("no deployment is running")
+    ctx.exit(0)
 
 
 class DeploySession(msgspec.Struct):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable
 from functools import wraps
 from typing import TYPE_CHECKING, Any
@@ -48,9 +49,48 @@ class _DocumentAnd(click.Argument):
         if is_document:
             return first, words[1:]
         is_path = "/" in first or first.endswith((".yaml", ".yml"))
+        if running := _running(first, is_path=is_path):
+            return running, words[1:]
         if self._limit == 0 or is_path or not of_kind(".", "ddsl"):
             raise click.BadParameter(f"Path '{first}' does not exist.", ctx, self, "'[DDSL]'")
         return ".", words
+
+
+def _running(word: str, *, is_path: bool) -> str:
+    """The document of the running deployment of this name, or at this path, which may be gone; '' if none runs. In a
+    folder with a document, the name of one of its processes or groups goes first. Raises Refused if several run."""
+    from robocomp_yaml.deploy import registered
+    from robocomp_yaml.diag.errors import Refused
+
+    if is_path:
+        return word if registered.of_document(word) else ""
+    found = registered.named(word)
+    if not found or any(_may_name(document, word) for document in _documents_here()):
+        return ""
+    if len(found) > 1:
+        documents = ", ".join(one.document for one in found)
+        raise Refused(f"several deployments '{word}' run: name one of the documents {documents}")
+    return os.path.relpath(found[0].document)
+
+
+def _documents_here() -> list[str]:
+    """The deployments' documents of this folder, and of its workspace."""
+    from robocomp_yaml.link.workspace import root_above
+    from robocomp_yaml.source.discover import kind_of
+
+    root = root_above("")
+    return of_kind(root, "ddsl") if root else [name for name in os.listdir(".") if kind_of(name) == "ddsl"]
+
+
+def _may_name(document: str, word: str) -> bool:
+    """Whether an entry, service or group of a document has this name."""
+    from robocomp_yaml.source.heading import root_of
+    from robocomp_yaml.source.tree import Mapping
+
+    root = root_of(document)
+    sections = [root.get(key) for key in ("components", "services", "groups", "include")] if root else []
+    keys = [key.lexeme for one in sections if isinstance(one, Mapping) for key, _ in one.items()]
+    return any(re.fullmatch(re.escape(key).replace(r"\{i\}", "([0-9]+|{i})"), word) for key in keys)
 
 
 class _Duration(click.ParamType):  # type: ignore[type-arg]  # older ones are not generic
@@ -141,6 +181,16 @@ def status(session: DeploySession, names: tuple[str, ...]) -> None:
     """Show each process: its state, whether it is ready, its host, its uptime, and what it serves. The exit code is 1
     if a process that should run is not running."""
     session.status(names)
+
+
+@command.command(name="ls", short_help="List the running deployments of this user.")
+@_options.text_or_json
+def list_(format_: str) -> None:
+    """List the deployments that this user has started and not taken down, wherever their documents are. `status`,
+    `logs` and `down` accept the names of this list instead of a document."""
+    from robocomp_yaml.commands._deploying import list_running
+
+    list_running(click.get_current_context(), format_)
 
 
 @_subcommand("Print the logs of the processes, merged.", _names, _engine, lenient=True)

@@ -11,9 +11,10 @@ from functools import partial
 from typing import Any
 
 from robocomp_yaml.deploy import folder as own_folder
+from robocomp_yaml.deploy import registered
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
-from robocomp_yaml.deploy.local import client, record
+from robocomp_yaml.deploy.local import client, procfs, record
 from robocomp_yaml.deploy.local.client import Client, RequestFailed, SupervisorGone
 from robocomp_yaml.deploy.local.kernel import die_with
 from robocomp_yaml.deploy.local.log_reader import LogReader, merged
@@ -29,7 +30,7 @@ from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.network.network import FOLDER, Network, NetworkHost
+from robocomp_yaml.network.network import Network
 
 
 class LocalEngine:
@@ -50,7 +51,7 @@ class LocalEngine:
         if diagnostic := elsewhere(network):
             raise DeployFailed(diagnostic)
         try:
-            connection = client.reach(network.folder)
+            connection = client.reach(network.folder) or (None if create else await client.revived(network.folder))
             was_killed = connection is None and record.was_killed(network.folder)
             if was_killed or (connection is None and create):
                 left = [*record.clear_up(network.folder), *(client.last_words(network.folder) if was_killed else ())]
@@ -64,9 +65,17 @@ class LocalEngine:
         if connection is None:
             return False
         self._client = await Client.over(connection)
-        if (await self._ask("", "hello"))["protocol"] != PROTOCOL:
+        hello = await self._ask("", "hello")
+        if hello["protocol"] != PROTOCOL:
             raise self._folder_failed(network.folder, "another version of rcyaml started what runs there")
+        if create:
+            with contextlib.suppress(OSError):  # a full or read-only disk
+                self._register(hello["pid"] if hello.get("restores") else 0)
         return True
+
+    def _register(self, pid: int) -> None:
+        found = procfs.entry(pid) if pid else None
+        registered.keep(registered.entry_of(self._network, self.name, pid, found.start if found else 0))
 
     async def observe(self) -> dict[str, Running]:
         answer = await self._ask("", "observe")
@@ -155,6 +164,7 @@ class LocalEngine:
                 await self._ask("", "end")
                 await self._client.wait_closed()
                 await client.wait_gone(self._network.folder)
+                registered.forget(self._network.folder)
             await self._client.close()
             self._client = None
 
@@ -186,25 +196,3 @@ def _running(entry: dict[str, Any]) -> Running:
         process["host"],
         **{key: entry[key] for key in kept if key in entry},
     )
-
-
-def stand_in(path: str) -> Network | None:
-    """The network of the processes that run on this machine, as they were started, for a document that cannot be read.
-    None if no process runs, or the document does not even contain the name of its deployment."""
-    document, name = os.path.abspath(path), own_folder.deployment_in(path)
-    folder = os.path.join(os.path.dirname(document), FOLDER, name)
-    if not name or not record.is_there(folder) or record.was_killed(folder):
-        return None
-    network = Network(name, document, folder)
-
-    async def fill() -> None:
-        engine = LocalEngine()
-        if await engine.open(network, create=False):
-            for name, running in (await engine.observe()).items():
-                if running.spec:
-                    network.processes[name] = running.spec.process
-                    network.hosts[running.spec.process.host] = NetworkHost(running.spec.process.host)
-        await engine.close()
-
-    asyncio.run(fill())
-    return network

@@ -37,6 +37,19 @@ class LogFile:
         rest, self._rest = self._rest, b""
         self._write([*([rest] if rest else []), f"rcyaml: {text}".encode(errors="surrogateescape")])
 
+    def restore(self) -> None:
+        """Writes the file again if it was deleted while it was open."""
+        if self._file < 0 or os.fstat(self._file).st_nlink:
+            return
+        try:
+            os.makedirs(os.path.dirname(self.path), mode=0o700, exist_ok=True)
+            with open(f"/proc/self/fd/{self._file}", "rb") as old:
+                text = old.read()
+            self.close()
+            self._append(text)
+        except OSError:
+            self.close()
+
     def close(self) -> None:
         if self._file >= 0:
             os.close(self._file)
