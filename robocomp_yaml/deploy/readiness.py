@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import re
 import time
 from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import aclosing, suppress
@@ -11,6 +10,7 @@ from contextlib import aclosing, suppress
 from robocomp_yaml.deploy import ice_ping
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import OWN, STARTED, DeployFailed, Engine, Line, Running
+from robocomp_yaml.deploy.patterns import PatternTooSlow, search
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.deploy.states import ENDED, GIVEN_UP, RUNNING, SILENT
 from robocomp_yaml.diag.codes import deploying
@@ -46,7 +46,9 @@ async def holds(engine: Engine, spec: ProcessSpec, running: Running) -> bool:
             texts = [line.text async for line in lines]
         starts = [number for number, text in enumerate(texts) if text.startswith(STARTED)]
         # A process that has written so many lines since its start is ready.
-        return not starts or any(_matches(ready.log, text) for text in texts[starts[-1] :])
+        with suppress(PatternTooSlow):
+            return not starts or any(_matches(ready.log, text) for text in texts[starts[-1] :])
+        return False
     return await _check(engine, spec, _ONE_TRY) and bool(running.uptime >= SETTLED or ready.pings or ready.port)
 
 
@@ -105,8 +107,12 @@ async def _until_it_ends(spec: ProcessSpec, state: State) -> str:
 async def _until_it_holds(engine: Engine, spec: ProcessSpec, lines: AsyncIterator[Line], state: State) -> None:
     if spec.process.ready.log:
         async for line in lines:
-            if _matches(spec.process.ready.log, line.text):
-                return
+            try:
+                if _matches(spec.process.ready.log, line.text):
+                    return
+            except PatternTooSlow as error:
+                where, pattern = spec.process.span, spec.process.ready.log
+                raise DeployFailed(deploying.TOO_SLOW.at(where, name=spec.name, pattern=pattern)) from error
     has_condition, settled = spec.process.ready.has_condition, _settled(spec)
     pause = _SHORTEST if has_condition else settled
     while True:
@@ -151,7 +157,7 @@ async def listens(host: str, port: int, within: float) -> bool:
 
 
 def _matches(pattern: str, text: str) -> bool:
-    return not text.startswith(OWN) and re.search(pattern, text) is not None
+    return not text.startswith(OWN) and search(pattern, text)
 
 
 def why_not(spec: ProcessSpec, running: Running | None) -> str:

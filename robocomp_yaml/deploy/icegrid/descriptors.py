@@ -105,6 +105,15 @@ def ender(files: GridFiles, names: Iterable[str], user: str) -> Any:
     return IceGrid.ServerDescriptor(**facts)
 
 
+def cleaner(paths: Iterable[str], user: str) -> Any:
+    """A server that removes these files and folders of its host."""
+    facts = _facts(
+        f"{KEEPER}.cleaner", "rm", ["-rf", "--", *map(_literal, paths)], pwd="/", user=user, activation="manual",
+        deactivationTimeout="5", propertySet=_property_set(_QUIET), envs=[], logs=[],
+    )  # fmt: skip
+    return IceGrid.ServerDescriptor(**facts)
+
+
 def package_path() -> str:
     """A PYTHONPATH with which Python imports this package and its dependencies."""
     return os.pathsep.join(path for path in sys.path if path)

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from msgspec.structs import replace
 
 from robocomp_yaml.deploy import folder as own_folder
+from robocomp_yaml.deploy import registered
 from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
 from robocomp_yaml.deploy.icegrid import start_up
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles
@@ -60,7 +61,8 @@ class IceGridEngine:
         self._nodes: asyncio.Task[None] | None = None  # starts the nodes; what needs no node does not wait
         self._no_node: dict[str, Diagnostic] = {}  # by the name of the host
         self._cleared = CheckedSpecs()
-        self._has_staged = False
+        self._has_staged = self._has_changed = False
+        self._unreached: dict[str, set[str]] = {}  # processes that could not be ended, by the name of the host
         self._lock = threading.Lock()
         self._calls = ThreadPoolExecutor(_CALLS, "icegrid")
 
@@ -71,7 +73,10 @@ class IceGridEngine:
         self._grid = await self._call("", "reached", self._reach, create)
         if self._grid is None:
             return False
+        self._has_changed = create
         if create:
+            with contextlib.suppress(OSError):
+                registered.keep(registered.entry_of(network, self.name))
             self._nodes = asyncio.create_task(self._call("", "reached", self._ensure_nodes, self._grid))
             await asyncio.sleep(0)  # so that it starts
         self._specs = self._files.specs()
@@ -169,14 +174,17 @@ class IceGridEngine:
         states |= grid.states([spec.name for spec in specs if spec.name in deployed])
         running = [spec for spec in specs if states[spec.name][0] not in ("", "Inactive")]
         starting = [spec for spec in specs if spec not in running]
-        for spec in specs:
-            if spec.process.config and is_local(spec.address):
-                own_folder.put(self._files.folder, spec.process.config.path, spec.process.config.text)
         for spec in starting:
             leftovers.drop(self._files, spec.process.host, spec.name)
             old = self._specs.get(spec.name)
-            if old and old.process.host != spec.process.host and not states[spec.name][0]:
-                leftovers.note(self._files, old.process.host, spec.name)
+            if old and old.process.host != spec.process.host:
+                if states[spec.name][0]:
+                    leftovers.clean(grid, old.process.host, [spec.name])
+                else:
+                    leftovers.note(self._files, old.process.host, spec.name)
+        for spec in specs:
+            if spec.process.config and is_local(spec.address):
+                own_folder.put(self._files.folder, spec.process.config.path, spec.process.config.text)
         with self._lock:
             self._specs.update({spec.name: spec for spec in specs})
             self._files.keep_specs(self._specs)
@@ -255,10 +263,17 @@ class IceGridEngine:
             for name, spec in gone.items():
                 if spec and not states[name][0]:
                     leftovers.note(self._files, spec.process.host, name)
+                    self._unreached.setdefault(spec.process.host, set()).add(name)
             self._deploy(gone, [])
             self._kept = self._desired = self._desired - names
             self._files.keep_desired(self._desired)
             self._files.keep_specs(self._specs)
+        by_host: dict[str, list[str]] = {}
+        for name, spec in gone.items():
+            if spec and spec.process.config and states[name][0] and not is_local(spec.address):
+                by_host.setdefault(spec.process.host, []).append(name)
+        for host, own in by_host.items():
+            leftovers.clean(self._reached(), host, own)
         for name, spec in gone.items():
             own_folder.remove(self._files.folder, f"state/icegrid/status/{name}")
             if spec and spec.process.config:
@@ -318,10 +333,25 @@ class IceGridEngine:
         if self._has_staged:
             own_folder.drop_staged(self._files.folder)
         if grid and end:
-            await self._beside("", "ended", start_up.ended, grid, self._network.name)
+            lost = await self._beside("", "ended", start_up.ended, grid, self._network.name)
+            self._unreached |= {host: set() for host in lost if host not in self._unreached}
         elif grid:
             await self._beside("", "left", grid.close)
+        self.notes += [self._not_reached(host, sorted(names)) for host, names in self._unreached.items()]
+        self._unreached.clear()
+        if self._has_changed and not end:
+            with contextlib.suppress(OSError):  # a full or read-only disk
+                one = registered.of_folder(self._files.folder)
+                registered.keep(one or registered.entry_of(self._network, self.name))
+                registered.copy(self._files.folder, self._files.copied)
         self._calls.shutdown(wait=False)
+
+    def _not_reached(self, host: str, names: list[str]) -> Diagnostic:
+        one = self._network.hosts.get(host)
+        what = " and ".join(f"'{name}'" for name in names) or "its node"
+        reason = f"it does not answer; {what} there is ended as soon as it does"
+        where = one.span if one and one.span.file else Span(self._network.path)
+        return deploying.NO_NODE.at(where, name=host, address=one.address if one else "", reason=reason, hint="")
 
     def _reached(self) -> GridSession:
         assert self._grid, "open it first"
