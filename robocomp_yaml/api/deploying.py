@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import os
+import re
 from collections.abc import Callable, Coroutine, Iterable
-from contextlib import ExitStack, suppress
+from contextlib import ExitStack, aclosing, suppress
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from msgspec.structs import replace
@@ -19,7 +20,9 @@ from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import DeployFailed, Line
 from robocomp_yaml.deploy.engines import ENGINES, LOCAL, make_engine
 from robocomp_yaml.deploy.local.obstacles import elsewhere
+from robocomp_yaml.deploy.log_filter import LogFilter, selected
 from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, STOP_THEM, Choose, Result, Status
+from robocomp_yaml.deploy.patterns import PatternTooSlow
 from robocomp_yaml.deploy.plan import RESTART, START, STOP, Plan, unstable, with_dependences
 from robocomp_yaml.deploy.plan import plan as make_plan
 from robocomp_yaml.deploy.probe import ProbedProgram
@@ -177,6 +180,14 @@ class Deployment:
 
         async def work() -> Result:
             await self._engine.open(self.network, create=True)
+            try:
+                return await changed()
+            except BaseException:
+                with suppress(Exception):  # no supervisor stays without a process
+                    await operations.end_if_idle(self._engine)
+                raise
+
+        async def changed() -> Result:
             async with attached(self._engine, self.network, stays) as follow:
                 result = await operations.up(
                     self._engine, self.network, chosen, forced, decided, report or _ignore,
@@ -248,21 +259,33 @@ class Deployment:
         return self._run(work())
 
     def logs(
-        self, *names: str, last: int = 20, follow: bool = False, on_line: Callable[[Line], None] | None = None
-    ) -> list[Line]:
-        """The `last` lines of each process, in the order in which they were written. If `on_line` is set, it is called
-        with each line instead; with `follow`, also with each new line, until it raises."""
+        self, *names: str, last: int | None = 20, follow: bool = False, on_line: Callable[[Line], None] | None = None,
+        since: str = "", pattern: str = "",
+    ) -> list[Line]:  # fmt: skip
+        """The `last` lines of each process (None: all), in the order in which they were written. If `on_line` is set,
+        it is called with each line instead; with `follow`, also with each new line, until it raises. `since` is a time
+        in UTC as lines have it, `pattern` a regular expression: other lines are omitted. Raises Refused if the pattern
+        is none, or takes too long."""
         chosen = self.chosen(names) or self.enabled
-        found: list[Line] = []
+        chosen_lines, found = LogFilter(since, pattern), list[Line]()
 
         async def work() -> None:
             await self._engine.open(self.network, create=False)
             requested = [name for name in self.network.processes if name in chosen]
-            async for line in await self._engine.lines(requested, last, follow):
-                (on_line or found.append)(line)
+            async with aclosing(selected(self._engine, requested, last, follow, chosen_lines)) as lines:
+                async for line in lines:
+                    (on_line or found.append)(line)
             await self._engine.close()
 
-        self._run(work())
+        try:
+            re.compile(pattern)
+            self._run(work())
+        except re.error as error:
+            raise Refused(f"'{pattern}' is not a regular expression: {error}") from error
+        except PatternTooSlow as error:
+            raise Refused(
+                f"the pattern '{pattern}' takes too long: write it without a repetition in a repetition"
+            ) from error
         return found
 
     def down(self, *names: str, report: Report | None = None) -> list[str]:

@@ -76,7 +76,7 @@ def status_lines(
     network: Network, found: Sequence[Status], color: bool, room: int | None = None
 ) -> list[Shown]:  # fmt: skip
     """A table of the processes. `room` is the width of a terminal in columns: the last column is cut to fit."""
-    rows = [("PROCESS", "STATE", "PID", "HOST", "UP", "RESTARTS", "MEMORY", "SERVES")]
+    rows = [("PROCESS", "STATE", "PID", "HOST", "UP", "RESTARTS", "MEMORY", "CPU", "SERVES")]
     for status in found:
         running = status.running
         alive = running if running and running.pid else None
@@ -88,7 +88,8 @@ def status_lines(
                 status.host,
                 _duration(alive.uptime) if alive else "-",
                 str(running.restarts) if running else "-",
-                f"{alive.memory / (1 << 20):.0f} MiB" if alive else "-",
+                _memory(alive.memory) if alive else "-",
+                _cpu(alive.cpu) if alive else "-",
                 _endpoints(network, status.name),
             )
         )
@@ -105,6 +106,14 @@ def status_lines(
             cells[1] = paint(cells[1], tint, color)
         lines.append(Shown("  ".join(cells).rstrip()))
     return lines
+
+
+def _memory(size: int | None) -> str:
+    return "unknown" if size is None else f"{size / (1 << 20):.0f} MiB"
+
+
+def _cpu(seconds: float | None) -> str:
+    return "unknown" if seconds is None else f"{seconds:.1f} s" if seconds < 100 else _duration(seconds)
 
 
 def _state(one: Status) -> str:
@@ -131,16 +140,30 @@ def status_data(network: Network, found: Sequence[Status]) -> list[dict[str, Any
 
 def _status_data(network: Network, one: Status, running: Running | None) -> dict[str, Any]:
     process = network.processes.get(one.name)
+    address = network.address(process) if process else ""
     return {
         "name": one.name, "host": one.host, "state": one.state if running else "not started", "ready": one.is_ready,
         "pid": running.pid if running else 0, "uptime": round(running.uptime, 3) if running else 0,
         "restarts": running.restarts if running else 0, "last_exit": running.last_exit if running else "",
         "memory": running.memory if running else 0, "cpu": running.cpu if running else 0,
+        "lost_lines": running.lost_lines if running else 0,
         "endpoints": [
-            {"interface": endpoint.interface, "identity": endpoint.identity, "endpoint": endpoint.text}
+            {
+                "interface": endpoint.interface, "identity": endpoint.identity, "endpoint": endpoint.text,
+                "host": address, "port": endpoint.port,
+            }
             for endpoint in (process.endpoints if process else ())
         ],
     }  # fmt: skip
+
+
+def lost_lines(found: Sequence[Status]) -> list[Shown]:
+    """A line for each process whose log is not written, because the disk is full."""
+    lost = [(one.name, one.running.lost_lines) for one in found if one.running and one.running.lost_lines]
+    return [
+        line(f"{count} line{'' if count == 1 else 's'} of the log of '{name}' could not be written: is the disk full?")
+        for name, count in lost
+    ]
 
 
 def probe_lines(found: Sequence[ProbedProgram], color: bool) -> list[Shown]:

@@ -177,9 +177,11 @@ class DeploySession(msgspec.Struct):
             self._end({"processes": views.status_data(self.network, found)}, code)
         room = shutil.get_terminal_size().columns if sys.stdout.isatty() else None
         terminal.say(*views.status_lines(self.network, found, self._color, room))
+        if lost := views.lost_lines(found):
+            terminal.say(*lost, err=True)
         self._end(code=code)
 
-    def logs(self, names: Names, last: int, *, follow: bool, times: bool) -> None:
+    def logs(self, names: Names, last: int | None, *, follow: bool, times: bool, since: str, pattern: str) -> None:
         chosen = self.deployment.chosen(names) or self.deployment.enabled
         view = views.LogView(chosen, self._color, times)
 
@@ -189,7 +191,12 @@ class DeploySession(msgspec.Struct):
             else:
                 terminal.say(view.text(line))
 
-        self._run(lambda: self.deployment.logs(*names, last=last, follow=follow, on_line=on_line), on_interrupt="")
+        self._run(
+            lambda: self.deployment.logs(
+                *names, last=last, follow=follow, on_line=on_line, since=since, pattern=pattern
+            ),
+            on_interrupt="",
+        )  # fmt: skip
 
     def down(self, names: Names) -> None:
         def stop_all() -> list[str]:

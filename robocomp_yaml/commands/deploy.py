@@ -107,6 +107,30 @@ class _Duration(click.ParamType):  # type: ignore[type-arg]  # older ones are no
         return seconds
 
 
+class _Since(click.ParamType):  # type: ignore[type-arg]  # older ones are not generic
+    """A time, or a duration before now; in UTC as logs have it."""
+
+    name = "time"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        from datetime import UTC, datetime, timedelta
+
+        from robocomp_yaml.model.build_component import duration
+
+        if not value:
+            return ""
+        now = datetime.now(UTC)
+        if seconds := duration(value):
+            when = now - timedelta(seconds=seconds)
+        else:
+            is_time = "-" not in value[:5]
+            try:
+                when = datetime.fromisoformat(f"{now.astimezone():%Y-%m-%d}T{value}" if is_time else value)
+            except ValueError:
+                self.fail(f"'{value}' is neither a duration, such as 5min, nor a time, such as 10:30", param, ctx)
+        return f"{when.astimezone(UTC):%Y-%m-%dT%H:%M:%S}.{when.microsecond // 1000:03}Z"
+
+
 _names = click.argument("names", cls=_DocumentAnd, metavar="[NAME]...")
 _engine = click.option("--engine", type=click.Choice([*ENGINES]),
                        help="The engine: local for one machine, icegrid for several.")  # fmt: skip
@@ -195,11 +219,24 @@ def list_(format_: str) -> None:
 
 @_subcommand("Print the logs of the processes, merged.", _names, _engine, lenient=True)
 @click.option("-f", "--follow", is_flag=True, help="Also print new lines, until Ctrl-C.")
-@click.option("-n", "--lines", "last", type=click.IntRange(min=0), default=20, help="Last lines of each; default: 20.")
+@click.option("-n", "--lines", "last", type=click.IntRange(min=0),
+              help="Last lines of each; default: 20, with --since all.")  # fmt: skip
+@click.option("--since", type=_Since(), default="", help="Only lines since a time, or a duration ago: 10:30, 5min.")
+@click.option("--grep", "pattern", metavar="REGEX", default="", help="Only lines that match a regular expression.")
 @click.option("-t", "--times", is_flag=True, help="Print the time of each line.")
-def logs(session: DeploySession, names: tuple[str, ...], last: int, follow: bool, times: bool) -> None:
-    """Print the last lines of the logs of the processes, in the order in which they were written."""
-    session.logs(names, last, follow=follow, times=times)
+def logs(
+    session: DeploySession,
+    names: tuple[str, ...],
+    last: int | None,
+    since: str,
+    pattern: str,
+    follow: bool,
+    times: bool,
+) -> None:
+    """Print the last lines of the logs of the processes, in the order in which they were written. A time is that of
+    this machine, unless it has an offset, such as Z for UTC; a time without a date is of today."""
+    last = 20 if last is None and not since else last
+    session.logs(names, last, follow=follow, times=times, since=since, pattern=pattern)
 
 
 @_subcommand("Stop processes, and start them again.", _names, _engine)

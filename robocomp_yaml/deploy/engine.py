@@ -38,7 +38,8 @@ class Running(msgspec.Struct, frozen=True):
     current run began, or since the last run ended, by a monotonic clock. `restarts` counts the engine's own restarts.
     `last_exit` is how the last run ended ('exit code 3', 'SIGSEGV', '' if none has). `spread` are the seconds from the
     third last end by itself to the last one, None if it has not ended so often. `memory` are bytes and `cpu` seconds,
-    of the process and all its descendants.
+    of the process and all its descendants, None if they are unknown: on another host. `lost_lines` are lines that could
+    not be written to its log, because the disk is full.
     """
 
     name: str
@@ -49,9 +50,10 @@ class Running(msgspec.Struct, frozen=True):
     uptime: float = 0.0
     restarts: int = 0
     last_exit: str = ""
-    memory: int = 0
-    cpu: float = 0.0
+    memory: int | None = 0
+    cpu: float | None = 0.0
     spread: float | None = None
+    lost_lines: int = 0
 
     @property
     def is_alive(self) -> bool:

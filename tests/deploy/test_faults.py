@@ -328,10 +328,12 @@ def test_a_full_disk(place: Place, small_disk: Path, tmp_path: Path) -> None:
     (small_disk / "ballast").write_bytes(bytes(150_000))
     place.up(shell("a", f"{talk}; {wait}; echo there is room; exec sleep 600"))
     until((tmp_path / "full").exists, "it goes on though nothing can be written")
-    assert place.observe()["a"].restarts == 0
+    now = place.observe()["a"]
+    assert now.restarts == 0 and now.lost_lines > 0
     (small_disk / "ballast").unlink()
     (tmp_path / "go").touch()
     until(lambda: "there is room" in place.log("a"), "what it says then")
+    assert place.observe()["a"].lost_lines == 0
     assert any(line.startswith("rcyaml: ") and line.endswith("they could not be written") for line in place.log("a"))
 
 

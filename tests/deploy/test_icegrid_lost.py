@@ -109,3 +109,29 @@ def test_after_down_no_configuration_is_left(talk: Deployment) -> None:
     assert not list((talk.root / "own" / "rcyaml" / "deployments").iterdir())
     talk.deploy("up")
     talk.until_ready()
+
+
+def test_what_another_host_lacks_is_told_before_anything_starts(talk: Deployment) -> None:
+    talk.hosts.need_a_network("so no other host")
+    before = talk.pids()
+    document = talk.root / "talk.ddsl.yaml"
+    text = document.read_text()
+    lacking = (
+        "  a: {program: no-such-program, host: head}\n"
+        "  b: {program: /no/such/file, host: head}\n"
+        "  c: {program: sleep, args: [1], cwd: gone, host: arm}\n"
+        "  d: {program: sleep, args: [600], host: arm}\n"
+    )
+    document.write_text(text + lacking)
+    said = talk.deploy("up", code=1)
+    assert said.count("error[RC7002]") == 3 and "nothing was changed" in said
+    assert "PATH contains no program 'no-such-program'" in said and "on the host 'head'" in said
+    assert "the file '/no/such/file' is missing" in said and f"its folder '{talk.root}/gone' does not exist" in said
+    assert talk.pids() == {**before, **dict.fromkeys("abcd", 0)}
+    document.write_text(text.replace("blink: {program: sleep", "blink: {program: no-such-program"))
+    assert "error[RC7002]" in talk.deploy("plan", code=1)
+    document.write_text(text)
+    status = talk.status()
+    memory = {name: one["memory"] for name, one in status.items()}
+    assert memory["watch"] > 0 and memory["blink"] is None is memory["pan"] is status["pan"]["cpu"]
+    assert talk.deploy("status").count("unknown") == 4

@@ -21,7 +21,7 @@ from robocomp_yaml.deploy import registered
 from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
 from robocomp_yaml.deploy.icegrid import start_up
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles
-from robocomp_yaml.deploy.icegrid.obstacles import missing, too_long, used_ports
+from robocomp_yaml.deploy.icegrid.obstacles import AT_ONCE, CHECK, MISSING, missing, of_answer, too_long, used_ports
 from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.local.log_reader import LineReader, LogReader, merged
 from robocomp_yaml.deploy.local.obstacles import CheckedSpecs, is_local, obstacles
@@ -134,7 +134,24 @@ class IceGridEngine:
                 if spec.process.host in self._no_node}  # fmt: skip
         far = [spec for spec in specs if not is_local(spec.address) and spec.process.host not in lost]
         found += await used_ports(far, running)
+        if far and self._grid:
+            found += await self._beside("", "asked", self._missing_programs, far)
         return [*lost.values(), *found, *too_long(specs)]
+
+    def _missing_programs(self, specs: Sequence[ProcessSpec]) -> list[Diagnostic]:
+        """Diagnostics for programs and folders that other hosts lack, before anything is started. A program that is
+        looked up in a PATH of its own is not checked."""
+        found: list[Diagnostic] = []
+        for host in dict.fromkeys(spec.process.host for spec in specs):
+            own = [one for one in specs if one.process.host == host and not _has_own_path(one)]
+            while own:
+                rows = [(str(number), one.process.cwd, one.command[0]) for number, one in enumerate(own[:AT_ONCE])]
+                server = replace(own[0], process=replace(own[0].process, name=CHECK, cwd="/", env=()))
+                command = ("bash", "-c", MISSING, "bash", *(word for row in rows for word in row))
+                lacking = of_answer(own[:AT_ONCE], self._run(self._reached(), server, command, _WRITE_WITHIN))
+                found += [lacking[1]] if lacking else []
+                own = own[lacking[0] + 1 if lacking else AT_ONCE :]
+        return found
 
     async def stage(self, specs: Sequence[ProcessSpec]) -> None:
         await self._beside("", "prepared", self._stage, specs)
@@ -376,3 +393,7 @@ class IceGridEngine:
             path = error.filename or self._network.folder
             reason = (error.strerror or str(error)).lower()
             raise DeployFailed(deploying.FOLDER.at(Span(self._network.path), path=path, reason=reason)) from error
+
+
+def _has_own_path(spec: ProcessSpec) -> bool:
+    return "/" not in spec.command[0] and any(variable.name == "PATH" for variable in spec.process.env)

@@ -43,6 +43,24 @@ def missing() -> str:
     return ""
 
 
+CHECK = "rcyaml.check"
+"""The name of the server that runs MISSING. No process can have this name."""
+
+AT_ONCE = 60
+"""Processes that MISSING is asked about at a time: an exit code has one byte."""
+
+_FOLDER, _FILE = 2, 62  # the first exit codes of MISSING; 0, 1, 124 and 127 have other meanings
+
+MISSING = f"""\
+while (( $# )); do
+    cd -- "${{2:-/}}" 2>/dev/null || exit $(( $1 + {_FOLDER} ))
+    found=$(command -v -- "$3") && [[ -f $found && -x $found ]] || exit $(( $1 + {_FILE} ))
+    shift 3
+done
+"""
+"""A script for bash, with a number, a folder and a program for each process. Its exit code has the number of the first
+process whose folder is missing, or whose program is missing or cannot be executed."""
+
 _WITHIN = 1.0  # seconds for an answer
 
 
@@ -71,3 +89,19 @@ async def used_ports(specs: Sequence[ProcessSpec], running: Mapping[str, Running
         for (spec, endpoint), is_taken in zip(ports, answers, strict=True)
         if is_taken
     ]  # fmt: skip
+
+
+def of_answer(specs: Sequence[ProcessSpec], code: int) -> tuple[int, Diagnostic] | None:
+    """What MISSING found, with the number of the process; None if it found nothing."""
+    number, is_folder = (code - _FOLDER, True) if code < _FILE else (code - _FILE, False)
+    if not 0 <= number < len(specs):
+        return None
+    spec = specs[number]
+    program, host = spec.command[0], spec.process.host
+    file = f"the file '{program}' is missing" if "/" in program else f"PATH contains no program '{program}'"
+    what = f"its folder '{spec.process.cwd}' does not exist" if is_folder else f"{file}, or it cannot be executed"
+    reason = f"{what}, on the host '{host}'"
+    found = deploying.CANNOT.at(
+        spec.process.span, hint=spec.process.build, name=spec.name, what="started", reason=reason
+    )  # fmt: skip
+    return number, found

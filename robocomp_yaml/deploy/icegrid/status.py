@@ -98,7 +98,8 @@ def _running(
     alive: dict[int, procfs.ProcessEntry] | None,
 ) -> Running:  # fmt: skip
     if state in _ACTIVE and (last is None or last.runner != runner or last.state not in ALIVE):
-        return Running(name, spec, host, RUNNING, runner)  # it has just been started
+        # It has just been started.
+        return Running(name, spec, host, RUNNING, runner, memory=None, cpu=None)
     if last is None:
         return Running(name, spec, host, WAITING if is_desired else STOPPED)
     if state in _ACTIVE or (last.state in OVER and is_desired):
@@ -108,8 +109,8 @@ def _running(
     members = procfs.descendants({last.pid}, alive) & set(alive) if alive is not None and now == RUNNING else set()
     return Running(
         name, spec, host, now, last.pid if now == RUNNING else 0, _seconds_since(last, alive is not None),
-        last.restarts, last.last_exit, procfs.memory(members), sum(alive[pid].cpu for pid in members) if alive else 0.0,
-        last.spread,
+        last.restarts, last.last_exit, None if alive is None else procfs.memory(members),
+        None if alive is None else sum(alive[pid].cpu for pid in members), last.spread,
     )  # fmt: skip
 
 

@@ -51,6 +51,10 @@ class ChildProcess:
         """Seconds between the last ends by itself; None if there were fewer than ENDS."""
         return self._ends[-1] - self._ends[0] if len(self._ends) == ENDS else None
 
+    @property
+    def lost_lines(self) -> int:
+        return self.log.lost
+
     def start(self, environment: dict[str, str]) -> None:
         """Starts the process, if it does not run. Raises OSError."""
         if self.pid:

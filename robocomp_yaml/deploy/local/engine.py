@@ -189,7 +189,7 @@ _DONE = {"start": "started", "stop": "stopped"}
 
 def _running(entry: dict[str, Any]) -> Running:
     process = entry["spec"]["process"]
-    kept = ("state", "pid", "uptime", "restarts", "last_exit", "memory", "cpu", "spread")
+    kept = ("state", "pid", "uptime", "restarts", "last_exit", "memory", "cpu", "spread", "lost_lines")
     return Running(
         process["name"],
         ProcessSpec.of_data(entry["spec"]),

@@ -19,6 +19,8 @@ from robocomp_yaml.deploy.local.child import ChildProcess
 from robocomp_yaml.deploy.local.kernel import OpenFiles
 from robocomp_yaml.deploy.local.log_file import LIMIT, LogFile
 
+_FACTS = ("spec", "state", "pid", "restarts", "last_exit", "spread", "lost_lines")
+
 PROTOCOL = 2
 """The version of the protocol. A client of another version reports the difference."""
 
@@ -137,7 +139,7 @@ class _Service:
         found = []
         for child in self.children.values():
             members = families.get(child.pid, set())
-            facts = {name: getattr(child, name) for name in ("spec", "state", "pid", "restarts", "last_exit", "spread")}
+            facts = {name: getattr(child, name) for name in _FACTS}
             cpu = sum(self._families.alive[pid].cpu for pid in members)
             used = {"memory": procfs.memory(members), "cpu": cpu, "members": sorted(members)}
             found.append({**facts, "uptime": now - child.since, **used})
