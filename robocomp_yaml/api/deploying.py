@@ -147,7 +147,9 @@ class Deployment:
 
         async def work() -> Plan:
             is_running = await self._engine.open(self.network, create=False)
-            found = make_plan(self.network, await self._engine.observe() if is_running else {}, chosen)
+            running = await self._engine.observe() if is_running else {}
+            alive = {name for name, one in running.items() if one.is_alive}
+            found = make_plan(await operations.without_present(self.network, alive), running, chosen)
             self._diagnostics += unstable(found)
             specs = [step.spec for step in found.of(START, RESTART) if step.spec]
             self._diagnostics += await self._engine.obstacles(specs, {step.name for step in found.of(STOP, RESTART)})

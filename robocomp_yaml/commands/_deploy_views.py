@@ -18,6 +18,9 @@ from robocomp_yaml.network.network import Network
 
 _SIGNS = {START: "+", STOP: "-", RESTART: "~", CHANGE: "*", KEEP: "="}
 _TINTS = {START: "32", STOP: "31", RESTART: "33", CHANGE: "36", KEEP: "2"}
+PRESENT = "another one is around"
+"""The state of a shared IceStorm that is not started, because another one answers at its address."""
+
 _LOG_TINTS = ("36", "33", "32", "35", "34", "96", "93", "92", "95", "94")
 
 
@@ -118,7 +121,7 @@ def _cpu(seconds: float | None) -> str:
 
 def _state(one: Status) -> str:
     if one.running is None:
-        return "not started"
+        return PRESENT if one.is_ready else "not started"
     if one.state == "running":
         return "ready" if one.is_ready else "running, not ready"
     return f"{one.state}: {one.running.last_exit}" if one.running.last_exit else one.state
@@ -142,7 +145,7 @@ def _status_data(network: Network, one: Status, running: Running | None) -> dict
     process = network.processes.get(one.name)
     address = network.address(process) if process else ""
     return {
-        "name": one.name, "host": one.host, "state": one.state if running else "not started", "ready": one.is_ready,
+        "name": one.name, "host": one.host, "state": one.state if running else _state(one), "ready": one.is_ready,
         "pid": running.pid if running else 0, "uptime": round(running.uptime, 3) if running else 0,
         "restarts": running.restarts if running else 0, "last_exit": running.last_exit if running else "",
         "memory": running.memory if running else 0, "cpu": running.cpu if running else 0,

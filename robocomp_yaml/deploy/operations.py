@@ -9,6 +9,7 @@ from contextlib import aclosing
 import msgspec
 from msgspec.structs import replace
 
+from robocomp_yaml.deploy import ice_ping
 from robocomp_yaml.deploy.carry_out import Report, StartOutcome, carry_out, stop_all, undo
 from robocomp_yaml.deploy.engine import LOST, STOPPED, Engine, Running
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, plan, with_dependents
@@ -18,9 +19,11 @@ from robocomp_yaml.deploy.time_limit import TimeLimit
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.network.network import Network
+from robocomp_yaml.network.network import Network, Process
 
 STOP_THEM, ROLL_BACK, KEEP_GOING = "stop", "rollback", "keep"
+
+_PRESENT_WITHIN = 1.0  # seconds
 
 SHOWN_LINES = 10
 """Lines of the log that are shown with a failed process."""
@@ -63,6 +66,22 @@ class Status(msgspec.Struct, frozen=True):
         return not self.is_down and (self.is_ready or self.state != RUNNING)
 
 
+async def without_present(network: Network, running: Collection[str]) -> Network:
+    """The network without shared processes for which another one answers, which is not of this deployment."""
+    shared = [one for one in network.enabled() if one.unless and one.name not in running]
+    present = {one.name for one in shared if await _is_present(one)}
+    if not present:
+        return network
+    processes = {
+        name: replace(one, enabled=one.enabled and name not in present) for name, one in network.processes.items()
+    }
+    return replace(network, processes=processes)
+
+
+async def _is_present(process: Process) -> bool:
+    return all([await ice_ping.answers(proxy, _PRESENT_WITHIN) for proxy in process.unless])
+
+
 async def up(
     engine: Engine, network: Network, names: Iterable[str], forced: Collection[str], choose: Choose, report: Report,
     *, keep_going: bool = False, limit: TimeLimit | None = None,
@@ -76,6 +95,7 @@ async def up(
     """
     limit = limit or TimeLimit()
     before = await engine.observe()
+    network = await without_present(network, {name for name, one in before.items() if one.is_alive})
     result = Result(plan(network, before, names, forced))
     starting = [step.spec for step in result.plan.of(START, RESTART) if step.spec]
     leaving = {step.name for step in result.plan.of(STOP, RESTART)}
@@ -148,6 +168,8 @@ async def status(engine: Engine, network: Network, names: Collection[str], reach
         one, process = running.get(name), network.processes.get(name)
         host = one.host if one else process.host if process else ""
         is_ready = bool(one and one.spec) and await holds(engine, one.spec, one)  # type: ignore[union-attr, arg-type]
+        if process and process.unless and not (one and one.is_alive):
+            is_ready, one = await _is_present(process), None
         process = process or (one.spec.process if one and one.spec else None)
         return Status(name, host, is_ready, one, process is not None and process.is_server)
 

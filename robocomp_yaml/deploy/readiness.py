@@ -53,7 +53,7 @@ async def holds(engine: Engine, spec: ProcessSpec, running: Running) -> bool:
 
 
 def _settled(spec: ProcessSpec) -> float:
-    return max(spec.process.settled, SETTLED)
+    return max(spec.process.settled or 0.0, SETTLED)
 
 
 def _hint_for_127(spec: ProcessSpec) -> str:

@@ -56,6 +56,7 @@ def _storm(key: Scalar, node: Node) -> model.Storm:
         _text(inner, "host"),
         _integer(inner, "port"),
         doc(node),
+        inner.data.get("shared") is True,  # type: ignore[attr-defined]
         span=key.span,
         port_span=span_of(inner, "port"),
     )

@@ -28,12 +28,14 @@ class Host(Spanned, frozen=True):
 
 
 class Storm(Spanned, frozen=True):
-    """An entry of `services:`: an IceStorm. `port` is None if it is not set."""
+    """An entry of `services:`: an IceStorm. `port` is None if it is not set. A `shared` one is not used if there is
+    another."""
 
     name: str
     host: Text | None = None
     port: int | None = None
     doc: str = ""
+    shared: bool = False
     port_span: Span = Span("")
 
 

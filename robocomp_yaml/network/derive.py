@@ -82,7 +82,10 @@ def _explicit(drafts: Drafts, gates: Gates) -> Iterable[Dependence]:
             for gate in gates.before(draft.instance, text.text):
                 yield Dependence(draft.name, gate.name, "", AFTER, text.span)
         for target in draft.instance.after:
-            name = target.name if isinstance(target, LinkedStorm) else (target.process or target).name
+            if isinstance(target, LinkedStorm):
+                name = drafts.linked.storm_instead(target).name
+            else:
+                name = (target.process or target).name
             span = next((text.span for text in texts if text.text == target.name), draft.span)
             if name != draft.name:
                 yield Dependence(draft.name, name, "", AFTER, span)

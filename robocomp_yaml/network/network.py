@@ -115,7 +115,8 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
     `aliases` are further names of the process. When one of the `watched` files changes (executable, code), the process
     is restarted. `is_ice` is False for a program that does not use Ice. `folders` must exist before it starts. `role`
     is SERVER or TASK, '' if the document does not set it. `settled` are the least seconds that a process without a
-    condition must run before it is ready.
+    condition must run before it is ready. It does not start if the proxies of `unless`
+    answer before: then another one is around.
     """
 
     name: str
@@ -137,7 +138,8 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
     enabled: bool = True
     is_ice: bool = True
     role: str = ""
-    settled: float = 0.0
+    settled: float | None = None
+    unless: tuple[str, ...] = ()
     secrets: tuple[str, ...] = ()
     """Names of secret arguments, in addition to names that suggest a secret."""
     component: str = ""

@@ -133,10 +133,10 @@ def _ready(draft: Draft) -> Readiness:
     return Readiness(within, port=ports[0] if ports else None)
 
 
-def _settled(given: model.Ready | None, ready: Readiness) -> float:
+def _settled(given: model.Ready | None, ready: Readiness) -> float | None:
     """For a process without a condition, the time of its `ready:` is the time that it must run, up to some seconds."""
     if ready.has_condition or given is None or given.within is None:
-        return 0.0
+        return None
     return min(given.within, _LONGEST_SETTLED)
 
 
@@ -196,5 +196,6 @@ def of_storm(storm: StormDraft, folder: str, *, enabled: bool) -> Process:
         ready=Readiness(pings=(storm.proxy,)),
         folders=(database,),
         enabled=enabled,
+        unless=(storm.proxy,) if storm.linked.storm.shared else (),
         span=storm.span,
     )

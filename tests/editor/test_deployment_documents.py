@@ -179,6 +179,7 @@ HOVERS = [
     (D + "services: {ss|: {icestorm: }}", "Service"),
     (D + "services: {s: {ice|storm: {port: 1}}}", "IceStorm"),
     (D + "services: {s: {icestorm: {po|rt: 1}}}", "IceStorm's port"),
+    (D + "services: {s: {icestorm: {sha|red: true}}}", "Shared"),
     (D + "compo|nents: {a: {program: b}}", "Components"),
     (D + "components: {aa|: {program: b}}", "Entry"),
     (E + "do|c: x", "Documentation"),
