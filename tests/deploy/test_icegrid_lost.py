@@ -123,6 +123,7 @@ def test_what_another_host_lacks_is_told_before_anything_starts(talk: Deployment
         "  d: {program: sleep, args: [600], host: arm}\n"
     )
     document.write_text(text + lacking)
+    assert f" {talk.folder}, registry 10.99.0.1:" in (talk.state / "nodes" / "arm" / "owner").read_text()
     said = talk.deploy("up", code=1)
     assert said.count("error[RC7002]") == 3 and "nothing was changed" in said
     assert "PATH contains no program 'no-such-program'" in said and "on the host 'head'" in said
