@@ -47,6 +47,19 @@ LONGEST = (
 
 needs_corpus = pytest.mark.skipif(not CORPUS.is_dir(), reason="the corpus of legacy files is not beside the checkout")
 
+
+@pytest.fixture(autouse=True, scope="session")
+def own_state(tmp_path_factory: pytest.TempPathFactory) -> Generator[None]:
+    """Deployments of tests are not in the list of the user who runs the tests."""
+    before = os.environ.get("XDG_STATE_HOME")
+    os.environ["XDG_STATE_HOME"] = str(tmp_path_factory.mktemp("state"))
+    yield
+    if before is None:
+        del os.environ["XDG_STATE_HOME"]
+    else:
+        os.environ["XDG_STATE_HOME"] = before
+
+
 Tree = Mapping[str, "str | bytes | None"]
 
 

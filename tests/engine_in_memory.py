@@ -77,6 +77,9 @@ class InMemory:
             if one.name in self.blocked and one.name not in leaving
         ]
 
+    async def stage(self, specs: Sequence[ProcessSpec]) -> None:
+        self.staged = [one.name for one in specs]
+
     async def prepare(self, specs: Sequence[ProcessSpec]) -> None:
         self.done.append(f"prepare {' '.join(one.name for one in specs)}")
         self.specs.update({one.name: one for one in specs})

@@ -4,22 +4,26 @@ from __future__ import annotations
 
 import asyncio
 import os
+import re
 from collections.abc import Callable, Coroutine, Iterable
-from contextlib import ExitStack
+from contextlib import ExitStack, aclosing, suppress
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from msgspec.structs import replace
 
 from robocomp_yaml.api.refusals import cannot_write, meant, require
 from robocomp_yaml.building.job import RELEASE
-from robocomp_yaml.deploy import folder, operations
+from robocomp_yaml.deploy import folder, history, operations, registered
 from robocomp_yaml.deploy.attached import Attached, attached
 from robocomp_yaml.deploy.carry_out import Report
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import DeployFailed, Line
 from robocomp_yaml.deploy.engines import ENGINES, LOCAL, make_engine
+from robocomp_yaml.deploy.local.obstacles import elsewhere
+from robocomp_yaml.deploy.log_filter import LogFilter, selected
 from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, STOP_THEM, Choose, Result, Status
-from robocomp_yaml.deploy.plan import RESTART, START, STOP, Plan, with_dependences
+from robocomp_yaml.deploy.patterns import PatternTooSlow
+from robocomp_yaml.deploy.plan import RESTART, START, STOP, Plan, unstable, with_dependences
 from robocomp_yaml.deploy.plan import plan as make_plan
 from robocomp_yaml.deploy.probe import ProbedProgram
 from robocomp_yaml.deploy.time_limit import TimeLimit
@@ -55,9 +59,11 @@ class Deployment:
         network = analysis.networks.get(os.path.realpath(path))
         self.unread = network is None
         if network is None and lenient:
-            from robocomp_yaml.deploy.local.engine import stand_in
+            from robocomp_yaml.deploy.stand_in import stand_in
 
-            network = stand_in(path)
+            network, engine = stand_in(path) or (None, engine)
+        elif network and engine is None and (known := registered.of_folder(network.folder)):
+            engine = known.engine if known.engine != LOCAL or not elsewhere(network) else None
         if network is None or (has_errors(analysis.diagnostics) and not lenient):
             raise Faulty(analysis.diagnostics, analysis.program.documents)
         self.network: Network = network
@@ -144,7 +150,10 @@ class Deployment:
 
         async def work() -> Plan:
             is_running = await self._engine.open(self.network, create=False)
-            found = make_plan(self.network, await self._engine.observe() if is_running else {}, chosen)
+            running = await self._engine.observe() if is_running else {}
+            alive = {name for name, one in running.items() if one.is_alive}
+            found = make_plan(await operations.without_present(self.network, alive), running, chosen)
+            self._diagnostics += unstable(found)
             specs = [step.spec for step in found.of(START, RESTART) if step.spec]
             self._diagnostics += await self._engine.obstacles(specs, {step.name for step in found.of(STOP, RESTART)})
             await self._engine.close()
@@ -176,6 +185,14 @@ class Deployment:
 
         async def work() -> Result:
             await self._engine.open(self.network, create=True)
+            try:
+                return await changed()
+            except BaseException:
+                with suppress(Exception):  # no supervisor stays without a process
+                    await operations.end_if_idle(self._engine)
+                raise
+
+        async def changed() -> Result:
             async with attached(self._engine, self.network, stays) as follow:
                 result = await operations.up(
                     self._engine, self.network, chosen, forced, decided, report or _ignore,
@@ -185,10 +202,49 @@ class Deployment:
                 if stays and not result.diagnostics:
                     self._lock.close()  # another process may change the running network
                     self._diagnostics += await follow()
+            if not has_errors(result.diagnostics) and not stays and not (result.plan.is_empty and self._has_history):
+                with suppress(OSError):  # a full disk
+                    history.keep(self.network.folder, (await self._engine.observe()).values())
             if result.diagnostics or stays:
                 await operations.end_if_idle(self._engine)
             else:
                 await self._engine.close()
+            return result
+
+        return self._run(work(), change=True)
+
+    @property
+    def _has_history(self) -> bool:
+        return history.is_there(self.network.folder)
+
+    def rollback(
+        self, *, on_failure: str | Choose = STOP_THEM, timeout: float | None = None, report: Report | None = None
+    ) -> Result:
+        """Goes back to the last `up` that was all ready and differs from what runs: its processes, commands and
+        configurations. Programs that were rebuilt since then stay rebuilt. Raises Refused if there was none."""
+        own = self.network.folder
+
+        async def decided(result: Result) -> str:
+            return on_failure if isinstance(on_failure, str) else await on_failure(result)
+
+        async def work() -> Result:
+            is_running = await self._engine.open(self.network, create=False)
+            entries = history.before(own, (await self._engine.observe()).values() if is_running else ())
+            await self._engine.close()
+            if not entries:
+                why = "only what runs now" if self._has_history else "no `up` that was all ready since the last `down`"
+                raise Refused(f"{self.network.name} cannot go back: rcyaml knows {why}")
+            target = history.network_of(self.network.name, self.network.path, own, entries[-1], self.network)
+            self._engine = make_engine(self.engine, target)
+            await self._engine.open(target, create=True)
+            result = await operations.up(
+                self._engine, target, (), (), decided, report or _ignore, keep_going=on_failure == KEEP_GOING,
+                limit=TimeLimit(timeout),
+            )  # fmt: skip
+            self._diagnostics += result.diagnostics
+            if not has_errors(result.diagnostics):
+                history.cut(own, entries)
+            await operations.end_if_idle(self._engine)
             return result
 
         return self._run(work(), change=True)
@@ -208,21 +264,33 @@ class Deployment:
         return self._run(work())
 
     def logs(
-        self, *names: str, last: int = 20, follow: bool = False, on_line: Callable[[Line], None] | None = None
-    ) -> list[Line]:
-        """The `last` lines of each process, in the order in which they were written. If `on_line` is set, it is called
-        with each line instead; with `follow`, also with each new line, until it raises."""
+        self, *names: str, last: int | None = 20, follow: bool = False, on_line: Callable[[Line], None] | None = None,
+        since: str = "", pattern: str = "",
+    ) -> list[Line]:  # fmt: skip
+        """The `last` lines of each process (None: all), in the order in which they were written. If `on_line` is set,
+        it is called with each line instead; with `follow`, also with each new line, until it raises. `since` is a time
+        in UTC as lines have it, `pattern` a regular expression: other lines are omitted. Raises Refused if the pattern
+        is none, or takes too long."""
         chosen = self.chosen(names) or self.enabled
-        found: list[Line] = []
+        chosen_lines, found = LogFilter(since, pattern), list[Line]()
 
         async def work() -> None:
             await self._engine.open(self.network, create=False)
             requested = [name for name in self.network.processes if name in chosen]
-            async for line in await self._engine.lines(requested, last, follow):
-                (on_line or found.append)(line)
+            async with aclosing(selected(self._engine, requested, last, follow, chosen_lines)) as lines:
+                async for line in lines:
+                    (on_line or found.append)(line)
             await self._engine.close()
 
-        self._run(work())
+        try:
+            re.compile(pattern)
+            self._run(work())
+        except re.error as error:
+            raise Refused(f"'{pattern}' is not a regular expression: {error}") from error
+        except PatternTooSlow as error:
+            raise Refused(
+                f"the pattern '{pattern}' takes too long: write it without a repetition in a repetition"
+            ) from error
         return found
 
     def down(self, *names: str, report: Report | None = None) -> list[str]:
@@ -233,7 +301,10 @@ class Deployment:
         async def work() -> list[str]:
             if not await self._engine.open(self.network, create=False):
                 return []
-            return await operations.down(self._engine, chosen, report or _ignore)
+            stopped = await operations.down(self._engine, chosen, report or _ignore)
+            if not chosen:
+                history.remove(self.network.folder)
+            return stopped
 
         return self._run(work(), change=True)
 

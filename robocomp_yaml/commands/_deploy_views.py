@@ -10,6 +10,7 @@ from typing import Any
 from robocomp_yaml.commands._origins import is_worth_a_line, origin, settings_data
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import OWN, Line, Running
+from robocomp_yaml.deploy.listing import ListedDeployment
 from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, Result, Status
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, PlanStep
 from robocomp_yaml.deploy.probe import ProbedProgram
@@ -18,6 +19,9 @@ from robocomp_yaml.network.network import Network
 
 _SIGNS = {START: "+", STOP: "-", RESTART: "~", CHANGE: "*", KEEP: "="}
 _TINTS = {START: "32", STOP: "31", RESTART: "33", CHANGE: "36", KEEP: "2"}
+PRESENT = "another one is around"
+"""The state of a shared IceStorm that is not started, because another one answers at its address."""
+
 _LOG_TINTS = ("36", "33", "32", "35", "34", "96", "93", "92", "95", "94")
 
 
@@ -84,7 +88,7 @@ def status_lines(
     network: Network, found: Sequence[Status], color: bool, room: int | None = None
 ) -> list[Shown]:  # fmt: skip
     """A table of the processes. `room` is the width of a terminal in columns: the last column is cut to fit."""
-    rows = [("PROCESS", "STATE", "PID", "HOST", "UP", "RESTARTS", "MEMORY", "SERVES")]
+    rows = [("PROCESS", "STATE", "PID", "HOST", "UP", "RESTARTS", "MEMORY", "CPU", "SERVES")]
     for status in found:
         running = status.running
         alive = running if running and running.pid else None
@@ -96,7 +100,8 @@ def status_lines(
                 status.host,
                 _duration(alive.uptime) if alive else "-",
                 str(running.restarts) if running else "-",
-                f"{alive.memory / (1 << 20):.0f} MiB" if alive else "-",
+                _memory(alive.memory) if alive else "-",
+                _cpu(alive.cpu) if alive else "-",
                 _endpoints(network, status.name),
             )
         )
@@ -115,12 +120,30 @@ def status_lines(
     return lines
 
 
+def _memory(size: int | None) -> str:
+    return "unknown" if size is None else f"{size / (1 << 20):.0f} MiB"
+
+
+def _cpu(seconds: float | None) -> str:
+    return "unknown" if seconds is None else f"{seconds:.1f} s" if seconds < 100 else _duration(seconds)
+
+
 def _state(one: Status) -> str:
     if one.running is None:
-        return "not started"
+        return PRESENT if one.is_ready else "not started"
     if one.state == "running":
         return "ready" if one.is_ready else "running, not ready"
     return f"{one.state}: {one.running.last_exit}" if one.running.last_exit else one.state
+
+
+def deployment_lines(found: Sequence[ListedDeployment]) -> list[Shown]:
+    """A table of deployments."""
+    rows = [("DEPLOYMENT", "STATE", "ENGINE", "HOSTS", "DOCUMENT")]
+    for one in found:
+        document = shown_path(one.document) + ("" if one.has_document else " (gone)")
+        rows.append((one.name, one.state, one.engine, ", ".join(one.hosts), document))
+    widths = [max(columns(row[column]) for row in rows) for column in range(len(rows[0]))]
+    return [Shown("  ".join(pad(*cell) for cell in zip(row, widths, strict=True)).rstrip()) for row in rows]
 
 
 def status_data(network: Network, found: Sequence[Status]) -> list[dict[str, Any]]:
@@ -129,16 +152,30 @@ def status_data(network: Network, found: Sequence[Status]) -> list[dict[str, Any
 
 def _status_data(network: Network, one: Status, running: Running | None) -> dict[str, Any]:
     process = network.processes.get(one.name)
+    address = network.address(process) if process else ""
     return {
-        "name": one.name, "host": one.host, "state": one.state if running else "not started", "ready": one.is_ready,
+        "name": one.name, "host": one.host, "state": one.state if running else _state(one), "ready": one.is_ready,
         "pid": running.pid if running else 0, "uptime": round(running.uptime, 3) if running else 0,
         "restarts": running.restarts if running else 0, "last_exit": running.last_exit if running else "",
         "memory": running.memory if running else 0, "cpu": running.cpu if running else 0,
+        "lost_lines": running.lost_lines if running else 0,
         "endpoints": [
-            {"interface": endpoint.interface, "identity": endpoint.identity, "endpoint": endpoint.text}
+            {
+                "interface": endpoint.interface, "identity": endpoint.identity, "endpoint": endpoint.text,
+                "host": address, "port": endpoint.port,
+            }
             for endpoint in (process.endpoints if process else ())
         ],
     }  # fmt: skip
+
+
+def lost_lines(found: Sequence[Status]) -> list[Shown]:
+    """A line for each process whose log is not written, because the disk is full."""
+    lost = [(one.name, one.running.lost_lines) for one in found if one.running and one.running.lost_lines]
+    return [
+        line(f"{count} line{'' if count == 1 else 's'} of the log of '{name}' could not be written: is the disk full?")
+        for name, count in lost
+    ]
 
 
 def probe_lines(found: Sequence[ProbedProgram], color: bool) -> list[Shown]:

@@ -19,7 +19,8 @@ from robocomp_yaml.commands import _deploy_views as views
 from robocomp_yaml.commands import _options, _signals
 from robocomp_yaml.commands._progress import Progress
 from robocomp_yaml.deploy.engine import Line
-from robocomp_yaml.deploy.operations import Result
+from robocomp_yaml.deploy.listing import listed
+from robocomp_yaml.deploy.operations import Choose, Result
 from robocomp_yaml.deploy.probe import can_run
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
@@ -44,8 +45,21 @@ def open_session(
     except Faulty as faulty:
         _options.report(ctx, format_, faulty.diagnostics, faulty.documents)
     if deployment.unread:
-        terminal.say(f"{path} cannot be read (see `rcyaml check`): the running processes are used instead", err=True)
+        why = "cannot be read (see `rcyaml check`)" if os.path.exists(path) else "is gone"
+        terminal.say(f"{path} {why}: the running processes are used instead", err=True)
     return DeploySession(ctx, deployment, format_)
+
+
+def list_running(ctx: click.Context, format_: str) -> NoReturn:
+    """Prints the user's list of deployments."""
+    found = listed()
+    if format_ == "json":
+        terminal.data(dumps({"deployments": msgspec.to_builtins(found)}), json=True)
+    elif found:
+        terminal.say(*views.deployment_lines(found))
+    else:
+        terminal.say("no deployment is running")
+    ctx.exit(0)
 
 
 class DeploySession(msgspec.Struct):
@@ -95,6 +109,25 @@ class DeploySession(msgspec.Struct):
     def up(
         self, names: Names, on_failure: str, timeout: float | None, *, restart: bool = False, attach: bool = False
     ) -> None:  # fmt: skip
+        def start(progress: Progress, decide: str | Choose) -> Result:
+            return self.deployment.up(
+                *names, restart=restart, timeout=timeout, report=progress.report, on_failure=decide,
+                stays=self._attached(progress) if attach else None,
+            )  # fmt: skip
+
+        self._change(start, on_failure, "interrupted: all processes were stopped" if attach else None, shows=not attach)
+
+    def rollback(self, on_failure: str, timeout: float | None) -> None:
+        def start(progress: Progress, decide: str | Choose) -> Result:
+            return self.deployment.rollback(timeout=timeout, report=progress.report, on_failure=decide)
+
+        self._change(start, on_failure)
+
+    def _change(
+        self, work: Callable[[Progress, str | Choose], Result], on_failure: str, on_interrupt: str | None = None, *,
+        shows: bool = True,
+    ) -> None:  # fmt: skip
+        """Changes what runs, with progress; a user is asked about failures on a terminal."""
         asks_user = on_failure == "ask" and sys.stdin.isatty() and sys.stdout.isatty() and self.format_ == "text"
         progress = self._progress()
 
@@ -108,16 +141,12 @@ class DeploySession(msgspec.Struct):
 
         def start() -> Result:
             with progress:
-                return self.deployment.up(
-                    *names, restart=restart, timeout=timeout, report=progress.report,
-                    on_failure=choose if asks_user else "stop" if on_failure == "ask" else on_failure,
-                    stays=self._attached(progress) if attach else None,
-                )  # fmt: skip
+                return work(progress, choose if asks_user else "stop" if on_failure == "ask" else on_failure)
 
-        result = self._run(start, "interrupted: all processes were stopped" if attach else None)
+        result = self._run(start, on_interrupt)
         if self.format_ == "json":
             self._end(views.result_data(result))
-        if not attach and self._prints_progress:
+        if shows and self._prints_progress:
             terminal.say(views.result_text(self.network, result))
         self._end()
 
@@ -143,14 +172,16 @@ class DeploySession(msgspec.Struct):
 
     def status(self, names: Names) -> None:
         found = self._run(lambda: self.deployment.status(*names))
-        code = 1 if any(one.is_down for one in found) else 0
+        code = 0 if all(one.is_as_desired for one in found) else 1
         if self.format_ == "json":
             self._end({"processes": views.status_data(self.network, found)}, code)
         room = shutil.get_terminal_size().columns if sys.stdout.isatty() else None
         terminal.say(*views.status_lines(self.network, found, self._color, room))
+        if lost := views.lost_lines(found):
+            terminal.say(*lost, err=True)
         self._end(code=code)
 
-    def logs(self, names: Names, last: int, *, follow: bool, times: bool) -> None:
+    def logs(self, names: Names, last: int | None, *, follow: bool, times: bool, since: str, pattern: str) -> None:
         chosen = self.deployment.chosen(names) or self.deployment.enabled
         view = views.LogView(chosen, self._color, times)
 
@@ -160,7 +191,12 @@ class DeploySession(msgspec.Struct):
             else:
                 terminal.say(view.text(line))
 
-        self._run(lambda: self.deployment.logs(*names, last=last, follow=follow, on_line=on_line), on_interrupt="")
+        self._run(
+            lambda: self.deployment.logs(
+                *names, last=last, follow=follow, on_line=on_line, since=since, pattern=pattern
+            ),
+            on_interrupt="",
+        )  # fmt: skip
 
     def down(self, names: Names) -> None:
         def stop_all() -> list[str]:

@@ -10,11 +10,11 @@ import time
 from collections.abc import Collection
 from typing import Self
 
-from robocomp_yaml.deploy.carry_out import FAILED, GONE, READY, SKIPPED, STARTING, STOPPING, ProcessEvent
+from robocomp_yaml.deploy.carry_out import FAILED, GONE, READY, SKIPPED, STARTING, STOPPING, UNCHANGED, ProcessEvent
 from robocomp_yaml.diag import terminal
 
 _PERIOD = 0.1
-_COLORS = {READY: "32", GONE: "32", FAILED: "31", SKIPPED: "33"}
+_COLORS = {READY: "32", GONE: "32", FAILED: "31", SKIPPED: "33", UNCHANGED: "33"}
 _SHORT = 0.05  # seconds: shorter durations are not shown
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable
 from functools import wraps
 from typing import TYPE_CHECKING, Any
@@ -48,9 +49,48 @@ class _DocumentAnd(click.Argument):
         if is_document:
             return first, words[1:]
         is_path = "/" in first or first.endswith((".yaml", ".yml"))
+        if running := _running(first, is_path=is_path):
+            return running, words[1:]
         if self._limit == 0 or is_path or not of_kind(".", "ddsl"):
             raise click.BadParameter(f"Path '{first}' does not exist.", ctx, self, "'[DDSL]'")
         return ".", words
+
+
+def _running(word: str, *, is_path: bool) -> str:
+    """The document of the running deployment of this name, or at this path, which may be gone; '' if none runs. In a
+    folder with a document, the name of one of its processes or groups goes first. Raises Refused if several run."""
+    from robocomp_yaml.deploy import registered
+    from robocomp_yaml.diag.errors import Refused
+
+    if is_path:
+        return word if registered.of_document(word) else ""
+    found = registered.named(word)
+    if not found or any(_may_name(document, word) for document in _documents_here()):
+        return ""
+    if len(found) > 1:
+        documents = ", ".join(one.document for one in found)
+        raise Refused(f"several deployments '{word}' run: name one of the documents {documents}")
+    return os.path.relpath(found[0].document)
+
+
+def _documents_here() -> list[str]:
+    """The deployments' documents of this folder, and of its workspace."""
+    from robocomp_yaml.link.workspace import root_above
+    from robocomp_yaml.source.discover import kind_of
+
+    root = root_above("")
+    return of_kind(root, "ddsl") if root else [name for name in os.listdir(".") if kind_of(name) == "ddsl"]
+
+
+def _may_name(document: str, word: str) -> bool:
+    """Whether an entry, service or group of a document has this name."""
+    from robocomp_yaml.source.heading import root_of
+    from robocomp_yaml.source.tree import Mapping
+
+    root = root_of(document)
+    sections = [root.get(key) for key in ("components", "services", "groups", "include")] if root else []
+    keys = [key.lexeme for one in sections if isinstance(one, Mapping) for key, _ in one.items()]
+    return any(re.fullmatch(re.escape(key).replace(r"\{i\}", "([0-9]+|{i})"), word) for key in keys)
 
 
 class _Duration(click.ParamType):  # type: ignore[type-arg]  # older ones are not generic
@@ -65,6 +105,30 @@ class _Duration(click.ParamType):  # type: ignore[type-arg]  # older ones are no
         if not seconds:
             self.fail(f"'{value}' is not a duration, such as 30s or 2min", param, ctx)
         return seconds
+
+
+class _Since(click.ParamType):  # type: ignore[type-arg]  # older ones are not generic
+    """A time, or a duration before now; in UTC as logs have it."""
+
+    name = "time"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        from datetime import UTC, datetime, timedelta
+
+        from robocomp_yaml.model.build_component import duration
+
+        if not value:
+            return ""
+        now = datetime.now(UTC)
+        if seconds := duration(value):
+            when = now - timedelta(seconds=seconds)
+        else:
+            is_time = "-" not in value[:5]
+            try:
+                when = datetime.fromisoformat(f"{now.astimezone():%Y-%m-%d}T{value}" if is_time else value)
+            except ValueError:
+                self.fail(f"'{value}' is neither a duration, such as 5min, nor a time, such as 10:30", param, ctx)
+        return f"{when.astimezone(UTC):%Y-%m-%dT%H:%M:%S}.{when.microsecond // 1000:03}Z"
 
 
 _names = click.argument("names", cls=_DocumentAnd, metavar="[NAME]...")
@@ -143,13 +207,36 @@ def status(session: DeploySession, names: tuple[str, ...]) -> None:
     session.status(names)
 
 
+@command.command(name="ls", short_help="List the running deployments of this user.")
+@_options.text_or_json
+def list_(format_: str) -> None:
+    """List the deployments that this user has started and not taken down, wherever their documents are. `status`,
+    `logs` and `down` accept the names of this list instead of a document."""
+    from robocomp_yaml.commands._deploying import list_running
+
+    list_running(click.get_current_context(), format_)
+
+
 @_subcommand("Print the logs of the processes, merged.", _names, _engine, lenient=True)
 @click.option("-f", "--follow", is_flag=True, help="Also print new lines, until Ctrl-C.")
-@click.option("-n", "--lines", "last", type=click.IntRange(min=0), default=20, help="Last lines of each; default: 20.")
+@click.option("-n", "--lines", "last", type=click.IntRange(min=0),
+              help="Last lines of each; default: 20, with --since all.")  # fmt: skip
+@click.option("--since", type=_Since(), default="", help="Only lines since a time, or a duration ago: 10:30, 5min.")
+@click.option("--grep", "pattern", metavar="REGEX", default="", help="Only lines that match a regular expression.")
 @click.option("-t", "--times", is_flag=True, help="Print the time of each line.")
-def logs(session: DeploySession, names: tuple[str, ...], last: int, follow: bool, times: bool) -> None:
-    """Print the last lines of the logs of the processes, in the order in which they were written."""
-    session.logs(names, last, follow=follow, times=times)
+def logs(
+    session: DeploySession,
+    names: tuple[str, ...],
+    last: int | None,
+    since: str,
+    pattern: str,
+    follow: bool,
+    times: bool,
+) -> None:
+    """Print the last lines of the logs of the processes, in the order in which they were written. A time is that of
+    this machine, unless it has an offset, such as Z for UTC; a time without a date is of today."""
+    last = 20 if last is None and not since else last
+    session.logs(names, last, follow=follow, times=times, since=since, pattern=pattern)
 
 
 @_subcommand("Stop processes, and start them again.", _names, _engine)
@@ -158,6 +245,16 @@ def logs(session: DeploySession, names: tuple[str, ...], last: int, follow: bool
 def restart(session: DeploySession, names: tuple[str, ...], on_failure: str, timeout: float | None) -> None:
     """Restart the processes NAME (by default, all), as the document describes them now."""
     session.up(names, on_failure, timeout, restart=True)
+
+
+@_subcommand("Go back to the last up that was all ready.", _engine, lenient=True)
+@click.argument("nothing", cls=_DocumentAnd, limit=0, expose_value=False)
+@_on_failure("What happens to the restarted processes if one fails.")
+@_timeout
+def rollback(session: DeploySession, on_failure: str, timeout: float | None) -> None:
+    """Go back to what ran after the last `up` that was all ready, and that differs from what runs now. The document is
+    not changed: the next `up` applies it again. Programs that were rebuilt stay rebuilt."""
+    session.rollback(on_failure, timeout)
 
 
 @_subcommand("Stop the processes, in reverse order.", _names, _engine, lenient=True)

@@ -10,7 +10,8 @@ import msgspec
 
 from robocomp_yaml.deploy import operations
 from robocomp_yaml.deploy.carry_out import stop_all
-from robocomp_yaml.deploy.engine import GIVEN_UP, Engine, Line
+from robocomp_yaml.deploy.engine import Engine, Line
+from robocomp_yaml.deploy.states import OVER, fault
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.network.network import Network
@@ -61,7 +62,7 @@ async def _stay(engine: Engine, stays: Attached | None) -> list[Diagnostic]:
     while not ended.is_set():
         running = await engine.observe()
         for one in running.values():
-            if one.state == GIVEN_UP and one.spec:
+            if one.spec and one.state in OVER and fault(one, is_server=one.spec.process.is_server):
                 failed[one.name] = deploying.GIVEN_UP.at(one.spec.process.span, name=one.name, how=one.end)
         if not any(one.is_alive for one in running.values()):
             break

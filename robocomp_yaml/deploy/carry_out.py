@@ -1,5 +1,5 @@
-"""A plan is carried out: first processes stop, in reverse order; then each process starts when all that it is after are
-ready."""
+"""A plan is carried out: first what is no longer desired stops; then each process starts when all that it is after are
+ready. Processes that restart do so one level of the order at a time."""
 
 from __future__ import annotations
 
@@ -12,14 +12,23 @@ from typing import Any
 
 import msgspec
 
-from robocomp_yaml.deploy.engine import LOST, STOPPED, DeployFailed, Engine, Running
+from robocomp_yaml.deploy.engine import DeployFailed, Engine, Running
+from robocomp_yaml.deploy.levels import in_the_way, levels
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, PlanStep, in_order
 from robocomp_yaml.deploy.readiness import RECENT, State, holds, until_ready, why_not
+from robocomp_yaml.deploy.spec import ProcessSpec
+from robocomp_yaml.deploy.states import ALIVE, RUNNING, SILENT, fault, is_done, is_unstable
 from robocomp_yaml.deploy.time_limit import TimeLimit
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
 
+LASTING = 0.5
+"""Seconds that a process which became ready must have run before an operation reports success."""
+
+_AGAIN = 0.1  # seconds between two checks whether a process lasts
+
 STOPPING, GONE, STARTING, READY, FAILED, SKIPPED = "stopping", "stopped", "starting", "ready", "failed", "not started"
+UNCHANGED = "not restarted"
 
 
 class ProcessEvent(msgspec.Struct, frozen=True):
@@ -33,8 +42,8 @@ class ProcessEvent(msgspec.Struct, frozen=True):
 
 class StartOutcome(msgspec.Struct):
     """What came of the starts. `began` are the processes that were started, ready or not. `failed` has the reason for
-    each that is not ready. `skipped` were not started, because others failed or the time limit expired (`is_late`);
-    in the latter case, `late` are the failed ones that were still pending."""
+    each that is not ready. `skipped` were not started or not restarted, because others failed or the
+    time limit expired (`is_late`); in the latter case, `late` are the failed ones that were still pending."""
 
     began: list[str] = []
     failed: dict[str, Diagnostic] = {}
@@ -82,22 +91,28 @@ async def carry_out(
     """Carries out a plan. When a process fails to start, no further process is started; with `keep_going`, only those
     that depend on it are skipped. These are skipped also when a process that ran before is not ready. When the time
     limit expires, nothing more is started, and every process that is not ready has failed. A `blocked` process is not
-    changed, and counts as failed. Raises DeployFailed if a process cannot be stopped or prepared."""
+    changed, and counts as failed. Raises DeployFailed if a process cannot be stopped or prepared, and if not all
+    configurations can be written: then nothing was changed."""
     blocked = blocked or {}
-    leaving = [step.running for step in plan.of(STOP, RESTART) if step.running]
+    early = in_the_way(plan)
+    turns = levels(plan, {*early, *blocked})
+    if specs := [step.spec for step in plan.of(START, RESTART, CHANGE) if step.spec and step.name not in blocked]:
+        await engine.stage(specs)
+    leaving = [step.running for step in plan.of(STOP, RESTART) if step.action == STOP or step.name in early]
     leaving += [step.running for step in plan.of(START) if step.running and step.running.is_alive]
-    await stop_all(engine, [running for running in leaving if running.name not in blocked], report)
+    await stop_all(engine, [running for running in leaving if running and running.name not in blocked], report)
     if gone := [step.name for step in plan.of(STOP)]:
         await engine.forget(gone)
-    if specs := [step.spec for step in plan.of(START, RESTART, CHANGE) if step.spec and step.name not in blocked]:
-        await engine.prepare(specs)
-    return await _Starts(engine, Watch(engine), plan, report, keep_going, limit or TimeLimit(), blocked).run()
+    later = {step.name for steps in turns for step in steps}
+    if now := [spec for spec in specs if spec.name not in later]:
+        await engine.prepare(now)
+    return await _Starts(engine, Watch(engine), plan, report, keep_going, limit or TimeLimit(), blocked, turns).run()
 
 
 async def stop_all(engine: Engine, running: Iterable[Running], report: Report) -> None:
     """Stops processes, each when all that are after it have stopped. Raises DeployFailed if one cannot be stopped, when
     all others have stopped."""
-    leaving = {one.name: one for one in running if one.state not in (STOPPED, LOST)}
+    leaving = {one.name: one for one in running if one.state not in SILENT}
     after = {name: one.spec.process.after if one.spec else () for name, one in leaving.items()}
     tasks: dict[str, asyncio.Task[None]] = {}
 
@@ -120,7 +135,8 @@ async def stop_all(engine: Engine, running: Iterable[Running], report: Report) -
 
 
 class _Starts(msgspec.Struct):
-    """The starts of one plan. `_since` has the time at which the wait for each pending process began."""
+    """The starts of one plan. `_levels` are the steps whose old process still runs. `_before` has for each process the
+    ones that it waits for, and `_since` the time at which the wait for each pending process began."""
 
     _engine: Engine
     _watch: Watch
@@ -129,19 +145,25 @@ class _Starts(msgspec.Struct):
     _keep_going: bool
     _limit: TimeLimit
     _blocked: Mapping[str, Diagnostic]
+    _levels: list[list[PlanStep]]
     _outcome: StartOutcome = msgspec.field(default_factory=StartOutcome)
     _since: dict[str, float] = {}
     _tasks: dict[str, asyncio.Task[bool]] = {}
+    _turns: dict[str, asyncio.Task[set[str]]] = {}
+    _before: dict[str, list[str]] = {}
 
     async def run(self) -> StartOutcome:
         starting = {step.name for step in self._plan.of(START, RESTART)}
         order = in_order({step.name: _after(step) for step in self._plan.of(START, RESTART, CHANGE, KEEP)})
+        for steps in self._levels:
+            turn = asyncio.create_task(self._turn(steps))
+            self._turns |= {step.name: turn for step in steps}
         try:
             for step in (self._plan.steps[name] for name in order):
+                # A process that closes a circle comes later in the order: this one does not wait for it.
+                self._before[step.name] = [name for name in _after(step) if name in self._tasks]
                 if step.name in starting:
-                    # A process that closes a circle comes later in the order: this one does not wait for it.
-                    before = {name: self._tasks[name] for name in _after(step) if name in self._tasks}
-                    self._tasks[step.name] = asyncio.create_task(self._start(step, before))
+                    self._tasks[step.name] = asyncio.create_task(self._start(step))
                 else:  # it already runs, and is usually ready
                     self._tasks[step.name] = asyncio.create_task(self._ends_ready(step, is_new=False))
             pending = set(self._tasks.values())
@@ -155,10 +177,15 @@ class _Starts(msgspec.Struct):
                 for task in done:
                     if not task.cancelled():
                         task.result()
-                if self._outcome.failed.keys() & starting and not self._keep_going:
+                if self._is_over():
                     break
+            if not (self._outcome.failed or self._outcome.is_late):
+                ready = [
+                    step for step in self._plan.of(START, RESTART, CHANGE, KEEP) if self._tasks[step.name].result()
+                ]
+                await asyncio.gather(*(self._lasts(step, step.name in starting) for step in ready))
         finally:
-            await _cancel(self._tasks.values())
+            await _cancel([*self._turns.values(), *self._tasks.values()])
         if self._outcome.is_late:
             self._outcome.late = [*self._since]
             for name in self._outcome.late:
@@ -167,19 +194,46 @@ class _Starts(msgspec.Struct):
         tried = {*self._outcome.began, *self._outcome.failed}
         self._outcome.skipped = [step.name for step in self._plan.of(START, RESTART) if step.name not in tried]
         for name in self._outcome.skipped:
-            self._report(ProcessEvent(name, SKIPPED))
+            self._report(ProcessEvent(name, UNCHANGED if name in self._turns else SKIPPED))
         return self._outcome
 
-    async def _start(self, step: PlanStep, before: Mapping[str, asyncio.Task[bool]]) -> bool:
+    async def _turn(self, steps: list[PlanStep]) -> set[str]:
+        """Stops and prepares one level of restarts, when all earlier levels are ready. A process that is after one
+        which failed goes on as it was. Returns the names of those that stopped."""
+        await asyncio.sleep(0)  # until all tasks are there
+        earlier = {step.name for level in self._levels[: self._levels.index(steps)] for step in level}
+        if tasks := [self._tasks[name] for name in earlier.union(*(self._before[step.name] for step in steps))]:
+            await asyncio.wait(tasks)
+        if self._is_over():
+            return set()
+        going = [step for step in steps if self._may_start(step)]
+        await stop_all(self._engine, [step.running for step in going if step.running], self._report)
+        if going:
+            await self._engine.prepare([step.spec for step in going if step.spec])
+        return {step.name for step in going}
+
+    def _is_over(self) -> bool:
+        """Whether nothing more is started, because a process failed to start."""
+        started = (self._plan.steps[name].action in (START, RESTART) for name in self._outcome.failed)
+        return not self._keep_going and any(started)
+
+    def _may_start(self, step: PlanStep) -> bool:
+        """Whether all that the process waited for are ready, or optional."""
+        optional = step.spec.process.optional if step.spec else ()
+        return all(self._tasks[name].result() or name in optional for name in self._before[step.name])
+
+    async def _start(self, step: PlanStep) -> bool:
         """Starts a process when all that it is after are ready, or are optional and have failed. Returns whether it
         became ready."""
         if step.name in self._blocked:
             self._since[step.name] = time.monotonic()
             self._fail(step.name, self._blocked[step.name])
             return False
-        ready = await asyncio.gather(*(asyncio.shield(task) for task in before.values()))
-        optional = step.spec.process.optional if step.spec else ()
-        if not all(is_ready or name in optional for name, is_ready in zip(before, ready, strict=True)):
+        if before := [self._tasks[name] for name in self._before[step.name]]:
+            await asyncio.wait(before)
+        if not self._may_start(step):
+            return False
+        if step.name in self._turns and step.name not in await asyncio.shield(self._turns[step.name]):
             return False
         self._report(ProcessEvent(step.name, STARTING))
         return await self._ends_ready(step, is_new=True)
@@ -193,7 +247,7 @@ class _Starts(msgspec.Struct):
                 if is_new:
                     self._outcome.began.append(step.name)
                     await self._engine.start(step.name)
-                if is_new or not (step.running and await holds(self._engine, step.spec, step.running)):
+                if is_new or not (step.running and await self._is_ready(step.spec, step.running)):
                     await until_ready(self._engine, step.spec, lines, self._watch.of(step.name))
         except DeployFailed as error:
             self._fail(step.name, error.diagnostic)
@@ -202,6 +256,37 @@ class _Starts(msgspec.Struct):
         if is_new:
             self._report(ProcessEvent(step.name, READY, seconds=took))
         return True
+
+    async def _is_ready(self, spec: ProcessSpec, running: Running) -> bool:
+        return is_done(running, is_server=spec.process.is_server) or await holds(self._engine, spec, running)
+
+    async def _lasts(self, step: PlanStep, is_new: bool) -> None:
+        """Waits until a ready process has run for a moment, so that one that ends right after its start is no success.
+        A process that ended in the meantime must become ready again, and no process may end again and again."""
+        assert step.spec
+        is_server = step.spec.process.is_server
+        end = time.monotonic() + min(step.spec.process.ready.within, self._limit.left or math.inf)
+        running = None if is_new else step.running
+        while True:
+            running = running or await self._watch.of(step.name)(time.monotonic())
+            why = fault(running, is_server=is_server) if running else "it was stopped in the meantime"
+            if running and not why and (running.state != RUNNING or running.uptime >= LASTING):
+                if not (is_new and running.restarts) or await self._is_ready(step.spec, running):
+                    return
+            if time.monotonic() > end or (running and running.state not in ALIVE):
+                break
+            await asyncio.sleep(_AGAIN if why or running is None else max(LASTING - running.uptime, _AGAIN))
+            running = None
+        self._since.setdefault(step.name, time.monotonic())
+        where, how = step.spec.process.span, running.end if running else why
+        if running and is_unstable(running):
+            self._fail(step.name, deploying.UNSTABLE.at(where, name=step.name, how=running.last_exit))
+        elif running is None or running.state not in ALIVE:
+            self._fail(step.name, deploying.ENDED_EARLY.at(where, name=step.name, how=how, hint=""))
+        else:
+            within = f"{step.spec.process.ready.within:g}"
+            reason = why_not(step.spec, running)
+            self._fail(step.name, deploying.NOT_READY.at(where, name=step.name, within=within, why=reason))
 
     async def _report_late(self, step: PlanStep) -> None:
         """Reports a process that was pending when the time limit expired."""
@@ -230,14 +315,19 @@ async def _cancel(tasks: Iterable[asyncio.Task[Any]]) -> None:
     await asyncio.gather(*rest, return_exceptions=True)
 
 
+def _is_same(before: Running, now: Running | None) -> bool:
+    """Whether a process has not been restarted."""
+    return now is not None and (before.pid, before.spec, before.state) == (now.pid, now.spec, now.state)
+
+
 def undo(plan: Plan, before: Mapping[str, Running], now: Mapping[str, Running]) -> Plan:
     """The plan that restores what ran before this plan was carried out, also if only partly. Unchanged processes are
     not in it, so that it does not wait for them."""
     steps: dict[str, PlanStep] = {}
     for name, step in plan.steps.items():
-        if step.action == KEEP:
-            continue
         spec = before[name].spec if name in before and before[name].is_alive else None
+        if step.action == KEEP or (step.action == RESTART and _is_same(before[name], now.get(name))):
+            continue
         if spec is None:
             if name in now:
                 steps[name] = PlanStep(name, STOP, "it did not run before", running=now[name])

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 
 from robocomp_yaml import secrets
 from robocomp_yaml.deploy.spec import ProcessSpec
-from robocomp_yaml.network.network import ConfigFile, EnvironmentVariable, Process
+from robocomp_yaml.network.network import SERVER, TASK, ConfigFile, EnvironmentVariable, Process
 from robocomp_yaml.source import properties
 
 
@@ -94,6 +94,7 @@ def _live(before: Process, after: Process) -> Iterator[Difference]:
     for name, old, new in (("ready", _ready(before), _ready(after)), ("restart", _restart(before), _restart(after))):
         for key in old:
             yield from _field(f"{name}.{key}", old[key], new[key], is_live=True)
+    yield from _field("role", _role(before), _role(after), is_live=True)
     for name in ("after", "aliases", "groups", "folders"):
         yield from _names(name, getattr(before, name), getattr(after, name))
     if before.ready.pings != after.ready.pings and before.endpoints == after.endpoints:
@@ -109,6 +110,10 @@ def _ready(process: Process) -> dict[str, str]:
     ready = process.ready
     port = "" if ready.port is None else str(ready.port)
     return {"within": f"{ready.within:g} s", "port": port, "command": " ".join(ready.command), "log": ready.log}
+
+
+def _role(process: Process) -> str:
+    return SERVER if process.is_server else TASK
 
 
 def _restart(process: Process) -> dict[str, str]:

@@ -12,19 +12,14 @@ from typing import Protocol
 import msgspec
 
 from robocomp_yaml.deploy.spec import ProcessSpec
+from robocomp_yaml.deploy.states import ALIVE, ENDED, GIVEN_UP, LOST, RUNNING, STOPPED, WAITING
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.network.network import Network
 
-RUNNING = "running"
-WAITING = "waiting"
-"""It ended by itself, and is restarted after a delay."""
-GIVEN_UP = "given up"
-"""It ended by itself too often, or in a way after which its policy does not restart it."""
-ENDED = "ended"
-"""It ended by itself with exit code 0, and its policy does not restart it then."""
-STOPPED = "stopped"
-LOST = "lost"
-"""Its state is unknown, because its host does not answer."""
+__all__ = [
+    "ENDED", "GIVEN_UP", "LOST", "OWN", "RUNNING", "STARTED", "STOPPED", "STOP_WITHIN", "WAITING", "DeployFailed",
+    "Engine", "Line", "Running",
+]  # fmt: skip
 
 OWN = "rcyaml: "
 """The beginning of each line in a process's log that the engine wrote."""
@@ -41,8 +36,10 @@ class Running(msgspec.Struct, frozen=True):
 
     `spec` is what it was started with, None if another version of rcyaml started it. `uptime` are seconds since its
     current run began, or since the last run ended, by a monotonic clock. `restarts` counts the engine's own restarts.
-    `last_exit` is how the last run ended ('exit code 3', 'SIGSEGV', '' if none has). `memory` are bytes and `cpu`
-    seconds, of the process and all its descendants.
+    `last_exit` is how the last run ended ('exit code 3', 'SIGSEGV', '' if none has). `spread` are the seconds from the
+    third last end by itself to the last one, None if it has not ended so often. `memory` are bytes and `cpu` seconds,
+    of the process and all its descendants, None if they are unknown: on another host. `lost_lines` are lines that could
+    not be written to its log, because the disk is full.
     """
 
     name: str
@@ -53,13 +50,15 @@ class Running(msgspec.Struct, frozen=True):
     uptime: float = 0.0
     restarts: int = 0
     last_exit: str = ""
-    memory: int = 0
-    cpu: float = 0.0
+    memory: int | None = 0
+    cpu: float | None = 0.0
+    spread: float | None = None
+    lost_lines: int = 0
 
     @property
     def is_alive(self) -> bool:
         """Whether it runs, or will be restarted by the engine."""
-        return self.state in (RUNNING, WAITING)
+        return self.state in ALIVE
 
     @property
     def end(self) -> str:
@@ -101,6 +100,10 @@ class Engine(Protocol):
     async def obstacles(self, specs: Sequence[ProcessSpec], leaving: Collection[str]) -> list[Diagnostic]:
         """What would prevent these processes from starting on their hosts, checked before anything is started: a port
         that another program uses, a missing executable. `leaving` are processes that will be stopped before."""
+
+    async def stage(self, specs: Sequence[ProcessSpec]) -> None:
+        """Writes and verifies the configurations with which `prepare` will set these specs, beside those that are
+        used, and whatever else could fail for lack of space. Nothing that runs is changed."""
 
     async def prepare(self, specs: Sequence[ProcessSpec]) -> None:
         """Sets the desired state of some processes: writes their configurations (mode 0600, atomically, in the

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import fcntl
 import os
 import re
-from collections.abc import Iterator
+import shutil
+from collections.abc import Iterator, Mapping
 
 from robocomp_yaml.deploy.time_limit import until
 from robocomp_yaml.source.discover import kind_of
@@ -15,6 +17,8 @@ from robocomp_yaml.transactions import whole_file
 
 _NAME = re.compile(r"""^["']?deployment["']?[ \t]*:[ \t]*["']?([_A-Za-z][-A-Za-z0-9_]*)""", re.MULTILINE)
 _PARTS = ("config", "logs", "state")
+STAGED = "state/next"
+"""The folder of staged files, which replace the used ones later."""
 
 
 def make(folder: str) -> None:
@@ -33,7 +37,43 @@ def write(folder: str, path: str, text: str) -> None:
     """Writes a file of mode 0600, atomically. Raises OSError."""
     target = f"{folder}/{path}"
     os.makedirs(os.path.dirname(target), mode=0o700, exist_ok=True)
-    whole_file.put(target, text.encode("utf-8", "surrogateescape"), 0o600)
+    whole_file.put(target, _bytes(text), 0o600)
+
+
+def stage(folder: str, files: Mapping[str, str]) -> None:
+    """Writes files beside those that are used, and verifies them. Raises OSError; then none is there."""
+    drop_staged(folder)
+    try:
+        for path, text in files.items():
+            write(folder, f"{STAGED}/{path}", text)
+        for path, text in files.items():
+            with open(f"{folder}/{STAGED}/{path}", "rb") as file:
+                if file.read() != _bytes(text):
+                    raise OSError(errno.EIO, "what was written cannot be read back", f"{folder}/{path}")
+    except OSError:
+        drop_staged(folder)
+        raise
+
+
+def drop_staged(folder: str) -> None:
+    shutil.rmtree(f"{folder}/{STAGED}", ignore_errors=True)
+
+
+def put(folder: str, path: str, text: str) -> None:
+    """Moves a staged file to its place; without one of that content, writes it. Raises OSError."""
+    staged = f"{folder}/{STAGED}/{path}"
+    with contextlib.suppress(FileNotFoundError):
+        with open(staged, "rb") as file:
+            is_it = file.read() == _bytes(text)
+        if is_it:
+            os.makedirs(os.path.dirname(f"{folder}/{path}"), mode=0o700, exist_ok=True)
+            os.replace(staged, f"{folder}/{path}")
+            return
+    write(folder, path, text)
+
+
+def _bytes(text: str) -> bytes:
+    return text.encode("utf-8", "surrogateescape")
 
 
 def remove(folder: str, path: str) -> None:

@@ -9,17 +9,21 @@ from contextlib import aclosing
 import msgspec
 from msgspec.structs import replace
 
+from robocomp_yaml.deploy import ice_ping
 from robocomp_yaml.deploy.carry_out import Report, StartOutcome, carry_out, stop_all, undo
-from robocomp_yaml.deploy.engine import GIVEN_UP, LOST, STOPPED, WAITING, Engine, Running
+from robocomp_yaml.deploy.engine import LOST, STOPPED, Engine, Running
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, plan, with_dependents
 from robocomp_yaml.deploy.readiness import holds
+from robocomp_yaml.deploy.states import RUNNING, fault, state_of
 from robocomp_yaml.deploy.time_limit import TimeLimit
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.network.network import Network
+from robocomp_yaml.network.network import Network, Process
 
 STOP_THEM, ROLL_BACK, KEEP_GOING = "stop", "rollback", "keep"
+
+_PRESENT_WITHIN = 1.0  # seconds
 
 SHOWN_LINES = 10
 """Lines of the log that are shown with a failed process."""
@@ -45,15 +49,37 @@ class Status(msgspec.Struct, frozen=True):
     host: str
     is_ready: bool
     running: Running | None = None
+    is_server: bool = False
 
     @property
     def state(self) -> str:
-        return self.running.state if self.running else STOPPED
+        return state_of(self.running) if self.running else STOPPED
 
     @property
     def is_down(self) -> bool:
-        """Whether it should run and does not."""
-        return self.state in (WAITING, GIVEN_UP, LOST)
+        """Whether it should run and does not, or ends again and again."""
+        return bool(self.running and fault(self.running, is_server=self.is_server))
+
+    @property
+    def is_as_desired(self) -> bool:
+        """Whether it is ready or done, or nobody started it, or somebody stopped it."""
+        return not self.is_down and (self.is_ready or self.state != RUNNING)
+
+
+async def without_present(network: Network, running: Collection[str]) -> Network:
+    """The network without shared processes for which another one answers, which is not of this deployment."""
+    shared = [one for one in network.enabled() if one.unless and one.name not in running]
+    present = {one.name for one in shared if await _is_present(one)}
+    if not present:
+        return network
+    processes = {
+        name: replace(one, enabled=one.enabled and name not in present) for name, one in network.processes.items()
+    }
+    return replace(network, processes=processes)
+
+
+async def _is_present(process: Process) -> bool:
+    return all([await ice_ping.answers(proxy, _PRESENT_WITHIN) for proxy in process.unless])
 
 
 async def up(
@@ -69,6 +95,7 @@ async def up(
     """
     limit = limit or TimeLimit()
     before = await engine.observe()
+    network = await without_present(network, {name for name, one in before.items() if one.is_alive})
     result = Result(plan(network, before, names, forced))
     starting = [step.spec for step in result.plan.of(START, RESTART) if step.spec]
     leaving = {step.name for step in result.plan.of(STOP, RESTART)}
@@ -141,7 +168,10 @@ async def status(engine: Engine, network: Network, names: Collection[str], reach
         one, process = running.get(name), network.processes.get(name)
         host = one.host if one else process.host if process else ""
         is_ready = bool(one and one.spec) and await holds(engine, one.spec, one)  # type: ignore[union-attr, arg-type]
-        return Status(name, host, is_ready, one)
+        if process and process.unless and not (one and one.is_alive):
+            is_ready, one = await _is_present(process), None
+        process = process or (one.spec.process if one and one.spec else None)
+        return Status(name, host, is_ready, one, process is not None and process.is_server)
 
     known = [process.name for process in network.enabled()]
     every = [*known, *(name for name in running if name not in known)]

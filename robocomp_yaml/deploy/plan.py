@@ -12,8 +12,11 @@ from collections.abc import Collection, Iterable, Mapping
 import msgspec
 
 from robocomp_yaml.deploy.differences import Difference, differences
-from robocomp_yaml.deploy.engine import ENDED, GIVEN_UP, LOST, RUNNING, WAITING, Running
+from robocomp_yaml.deploy.engine import RUNNING, STOPPED, Running
 from robocomp_yaml.deploy.spec import ProcessSpec, spec_of
+from robocomp_yaml.deploy.states import fault, is_unstable
+from robocomp_yaml.diag.codes import deploying
+from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.digraph import postorder, reachable
 from robocomp_yaml.network.network import Network, Process
 
@@ -72,6 +75,16 @@ def plan(
     return Plan(steps)
 
 
+def unstable(plan: Plan) -> list[Diagnostic]:
+    """A diagnostic for each process that goes on although it ends again and again: no step of a plan helps it."""
+    kept = [(step, step.running, step.spec) for step in plan.of(CHANGE, KEEP)]
+    return [
+        deploying.UNSTABLE.at(spec.process.span, name=step.name, how=running.last_exit)
+        for step, running, spec in kept
+        if running and spec and is_unstable(running)
+    ]
+
+
 def with_dependences(network: Network, names: Iterable[str]) -> set[str]:
     """The enabled ones of these processes, and of all that they are after, directly or not."""
 
@@ -107,11 +120,11 @@ def _step(spec: ProcessSpec, running: Running | None, forced: Collection[str], f
     name = spec.name
     if running is None:
         return PlanStep(name, START, "it does not run yet", spec=spec)
-    if running.state in (WAITING, GIVEN_UP, LOST):
-        how = f": {running.last_exit}" if running.last_exit else ""
-        return PlanStep(name, START, _STATES[running.state] + how, spec=spec, running=running)
-    if running.state not in (RUNNING, ENDED):
+    if running.state == STOPPED:
         return PlanStep(name, START, "it was stopped", spec=spec, running=running)
+    why = fault(running, is_server=spec.process.is_server)
+    if why and running.state != RUNNING:
+        return PlanStep(name, START, why, spec=spec, running=running)
     if running.spec is None:
         return PlanStep(name, RESTART, "another version of rcyaml started it", spec=spec, running=running)
     changes = tuple(differences(running.spec, spec))
@@ -123,14 +136,7 @@ def _step(spec: ProcessSpec, running: Running | None, forced: Collection[str], f
         return PlanStep(name, RESTART, f"it is after {follows}, which restarts", changes, spec, running)
     if changes:
         return PlanStep(name, CHANGE, _first(changes), changes, spec, running)
-    return PlanStep(name, KEEP, "nothing changed", spec=spec, running=running)
-
-
-_STATES = {
-    WAITING: "it ended by itself",
-    GIVEN_UP: "it was given up",
-    LOST: "its host did not answer",
-}
+    return PlanStep(name, KEEP, why or "nothing changed", spec=spec, running=running)
 
 
 def _first(changes: tuple[Difference, ...]) -> str:

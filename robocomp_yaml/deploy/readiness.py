@@ -3,33 +3,21 @@
 from __future__ import annotations
 
 import asyncio
-import re
 import time
 from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import aclosing, suppress
 
 from robocomp_yaml.deploy import ice_ping
 from robocomp_yaml.deploy.differences import shown_path
-from robocomp_yaml.deploy.engine import (
-    ENDED,
-    GIVEN_UP,
-    LOST,
-    OWN,
-    RUNNING,
-    STARTED,
-    STOPPED,
-    DeployFailed,
-    Engine,
-    Line,
-    Running,
-)  # fmt: skip
+from robocomp_yaml.deploy.engine import OWN, STARTED, DeployFailed, Engine, Line, Running
+from robocomp_yaml.deploy.patterns import PatternTooSlow, search
 from robocomp_yaml.deploy.spec import ProcessSpec
+from robocomp_yaml.deploy.states import ENDED, GIVEN_UP, RUNNING, SILENT
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.terminal import typed
-from robocomp_yaml.network.network import ALWAYS
 
 SETTLED = 0.1
-"""Seconds that a process without a condition must run before it counts as ready."""
+"""Seconds that a process without a condition must run before it counts as ready, unless the document sets more."""
 
 LOG_LINES = 1000
 """Lines of the log in which the line that makes a running process ready is looked up."""
@@ -50,7 +38,7 @@ async def holds(engine: Engine, spec: ProcessSpec, running: Running) -> bool:
     """Whether a process is ready now. Raises DeployFailed."""
     ready = spec.process.ready
     if running.state == ENDED:
-        return not ready.has_condition
+        return not (ready.has_condition or spec.process.is_server)
     if running.state != RUNNING:
         return False
     if ready.log:
@@ -58,8 +46,14 @@ async def holds(engine: Engine, spec: ProcessSpec, running: Running) -> bool:
             texts = [line.text async for line in lines]
         starts = [number for number, text in enumerate(texts) if text.startswith(STARTED)]
         # A process that has written so many lines since its start is ready.
-        return not starts or any(_matches(ready.log, text) for text in texts[starts[-1] :])
+        with suppress(PatternTooSlow):
+            return not starts or any(_matches(ready.log, text) for text in texts[starts[-1] :])
+        return False
     return await _check(engine, spec, _ONE_TRY) and bool(running.uptime >= SETTLED or ready.pings or ready.port)
+
+
+def _settled(spec: ProcessSpec) -> float:
+    return max(spec.process.settled or 0.0, SETTLED)
 
 
 def _hint_for_127(spec: ProcessSpec) -> str:
@@ -74,8 +68,8 @@ async def until_ready(engine: Engine, spec: ProcessSpec, lines: AsyncIterator[Li
     end = asyncio.create_task(_until_it_ends(spec, state))
     ready = asyncio.create_task(_until_it_holds(engine, spec, lines, state))
     try:
-        done, _ = await asyncio.wait((end, ready), timeout=spec.process.ready.within,
-                                     return_when=asyncio.FIRST_COMPLETED)  # fmt: skip
+        limit = spec.process.ready.within + (0 if spec.process.ready.has_condition else _settled(spec))
+        done, _ = await asyncio.wait((end, ready), timeout=limit, return_when=asyncio.FIRST_COMPLETED)
         if ready in done:
             return ready.result()
         running = await state(time.monotonic() - _NEW)
@@ -102,9 +96,9 @@ async def _until_it_ends(spec: ProcessSpec, state: State) -> str:
         # Before the first check: most processes are ready by then, and the others share one observation.
         await asyncio.sleep(_END)
         running = await state(max(began, time.monotonic() - RECENT))
-        if running is None or running.state in (GIVEN_UP, STOPPED, LOST):
+        if running is None or running.state in (GIVEN_UP, *SILENT):
             return (running.end if running else "") or "it was stopped in the meantime"
-        if running.state == ENDED and spec.process.ready.has_condition:
+        if running.state == ENDED and (spec.process.ready.has_condition or spec.process.is_server):
             # Its last line can make it ready, and is read a little later.
             await asyncio.sleep(2 * _LONGEST if spec.process.ready.log else 0)
             return running.last_exit
@@ -113,10 +107,14 @@ async def _until_it_ends(spec: ProcessSpec, state: State) -> str:
 async def _until_it_holds(engine: Engine, spec: ProcessSpec, lines: AsyncIterator[Line], state: State) -> None:
     if spec.process.ready.log:
         async for line in lines:
-            if _matches(spec.process.ready.log, line.text):
-                return
-    has_condition = spec.process.ready.has_condition
-    pause = _SHORTEST if has_condition else SETTLED
+            try:
+                if _matches(spec.process.ready.log, line.text):
+                    return
+            except PatternTooSlow as error:
+                where, pattern = spec.process.span, spec.process.ready.log
+                raise DeployFailed(deploying.TOO_SLOW.at(where, name=spec.name, pattern=pattern)) from error
+    has_condition, settled = spec.process.ready.has_condition, _settled(spec)
+    pause = _SHORTEST if has_condition else settled
     while True:
         await asyncio.sleep(pause)
         pause = min(pause * _SLOWER, _LONGEST)
@@ -124,12 +122,12 @@ async def _until_it_holds(engine: Engine, spec: ProcessSpec, lines: AsyncIterato
             if await _check(engine, spec, min(_ONE_TRY, spec.process.ready.within)):
                 return
         elif running := await state(time.monotonic() - _NEW):
-            if running.state == ENDED and spec.process.restart.policy != ALWAYS:
+            if running.state == ENDED and not spec.process.is_server:
                 return
-            if running.state == RUNNING and running.uptime >= SETTLED:
+            if running.state == RUNNING and running.uptime >= settled:
                 return
             if running.state == RUNNING:
-                pause = max(SETTLED - running.uptime, _SHORTEST)
+                pause = max(settled - running.uptime, _SHORTEST)
 
 
 async def _check(engine: Engine, spec: ProcessSpec, within: float) -> bool:
@@ -159,7 +157,7 @@ async def listens(host: str, port: int, within: float) -> bool:
 
 
 def _matches(pattern: str, text: str) -> bool:
-    return not text.startswith(OWN) and re.search(pattern, text) is not None
+    return not text.startswith(OWN) and search(pattern, text)
 
 
 def why_not(spec: ProcessSpec, running: Running | None) -> str:

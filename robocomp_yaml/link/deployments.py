@@ -163,10 +163,28 @@ class LinkedDeployment(msgspec.Struct, frozen=True, eq=False):
     def storms_for(self, source: LinkedInstance) -> list[LinkedStorm]:
         """The IceStorms in the scopes around `source`, the innermost scope first."""
         storms = [storm for storm in self.storms.values() if source.scope.startswith(storm.scope)]
-        return sorted(storms, key=lambda storm: -len(storm.scope))
+        used = dict.fromkeys(self.storm_instead(storm) for storm in storms)
+        return sorted(used, key=lambda storm: -len(storm.scope))
+
+    def storm_instead(self, storm: LinkedStorm) -> LinkedStorm:
+        """The IceStorm that is used instead of a shared one: the nearest one around it that is not shared, else the
+        outermost shared one, around it or at the same address. Without one of these, the same."""
+        if not storm.storm.shared:
+            return storm
+        around = [one for one in self.storms.values() if storm.scope.startswith(one.scope)]
+        if own := [one for one in around if not one.storm.shared]:
+            return max(own, key=lambda one: len(one.scope))
+        return min((one for one in self.storms.values() if one in around or _is_same(one, storm)),
+                   key=lambda one: len(one.scope))  # fmt: skip
 
 
 def _instances(target: Target) -> tuple[LinkedInstance, ...]:
     if isinstance(target, LinkedGroup):
         return target.members
     return (target,) if isinstance(target, LinkedInstance) else ()
+
+
+def _is_same(one: LinkedStorm, other: LinkedStorm) -> bool:
+    """Whether two shared IceStorms have the same address."""
+    is_set = one.storm.shared and one.storm.port is not None and one.storm.port == other.storm.port
+    return is_set and (one.host.name if one.host else "") == (other.host.name if other.host else "")

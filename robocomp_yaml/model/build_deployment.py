@@ -59,6 +59,7 @@ def _storm(key: Scalar, node: Node) -> model.Storm:
         _integer(inner, "port"),
         doc(node),
         _integer(inner, "publish"),
+        inner.data.get("shared") is True,  # type: ignore[attr-defined]
         span=key.span,
         port_span=span_of(inner, "port"),
         publish_span=span_of(inner, "publish"),
@@ -88,6 +89,7 @@ def _entry(key: Scalar, node: Node) -> model.Entry:
         settings=settings if isinstance(settings, Mapping) else None,
         restart=_restart(node.get("restart")),
         ready=_ready(node.get("ready")),
+        role=text(node, "role"),
         endpoints=tuple(_pairs(node, "endpoints")),
         after=tuple(texts(node, "after")),
         enabled=node.data.get("enabled") is not False,  # type: ignore[attr-defined]

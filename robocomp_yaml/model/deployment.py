@@ -12,6 +12,7 @@ from robocomp_yaml.source.tree import Mapping
 
 COMPONENT, PROGRAM, PROCESS = "component", "program", "process"
 NEVER, ON_FAILURE, ALWAYS = "no", "on-failure", "always"
+SERVER, TASK = "server", "task"
 ARGUMENT = "argument"
 INDEX = "{i}"
 CONFIG = "{config}"
@@ -29,13 +30,14 @@ class Host(Spanned, frozen=True):
 
 class Storm(Spanned, frozen=True):
     """An entry of `services:`: an IceStorm. `port` is that of its topic manager, `publish` that of its publishers; None
-    if it is not set."""
+    if it is not set. A `shared` one is not used if there is another."""
 
     name: str
     host: Text | None = None
     port: int | None = None
     doc: str = ""
     publish: int | None = None
+    shared: bool = False
     port_span: Span = Span("")
     publish_span: Span = Span("")
 
@@ -88,8 +90,9 @@ class Entry(Spanned, frozen=True):
     """An entry of `components:`. `kind` is the key that defines the entry: COMPONENT, PROGRAM, or PROCESS (a second
     name of another entry's process); `target` is that key's value. `executable` replaces the program of a component.
 
-    `settings` is the tree of `set:`. `config_as` is ARGUMENT or an option such as `--Ice.Config`. `instances` is None
-    if the key is missing. `extra` is the data of `x-rcmanager:`, every scalar as spelled.
+    `role` is SERVER or TASK, '' if it is not set. `settings` is the tree of `set:`. `config_as` is ARGUMENT or an
+    option such as `--Ice.Config`. `instances` is None if the key is missing. `extra` is the data of
+    `x-rcmanager:`, every scalar as spelled.
     """
 
     name: str
@@ -109,6 +112,7 @@ class Entry(Spanned, frozen=True):
     settings: Mapping | None = None
     restart: Restart | None = None
     ready: Ready | None = None
+    role: str = ""
     endpoints: tuple[Pair, ...] = ()
     after: tuple[Text, ...] = ()
     enabled: bool = True

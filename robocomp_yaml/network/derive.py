@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
@@ -28,6 +29,9 @@ from robocomp_yaml.network.topics import TopicConnections
 from robocomp_yaml.source.file_names import LONGEST_NAME, is_too_long, path_fault, shortened, size
 from robocomp_yaml.source.ice_endpoint import fixed_endpoint
 from robocomp_yaml.source.ice_options import LAST_PORT, InvalidIceText
+
+if TYPE_CHECKING:
+    from robocomp_yaml.parameters.editing.settings import ShownSetting
 
 
 def derive(linked: LinkedDeployment, program: Program, addresses: Addresses) -> tuple[Network, list[Diagnostic]]:
@@ -88,7 +92,10 @@ def _explicit(drafts: Drafts, gates: Gates) -> Iterable[Dependence]:
             for gate in gates.before(draft.instance, text.text):
                 yield Dependence(draft.name, gate.name, "", AFTER, text.span)
         for target in draft.instance.after:
-            name = target.name if isinstance(target, LinkedStorm) else (target.process or target).name
+            if isinstance(target, LinkedStorm):
+                name = drafts.linked.storm_instead(target).name
+            else:
+                name = (target.process or target).name
             span = next((text.span for text in texts if text.text == target.name), draft.span)
             if name != draft.name:
                 yield Dependence(draft.name, name, "", AFTER, span)

@@ -183,6 +183,8 @@ def drafts_of(linked: LinkedDeployment, disk: Disk) -> Drafts:
     result = Drafts(linked, {name: _host(host) for name, host in linked.hosts.items()})
     result.complete = not (linked.broken or any(map(is_broken, linked.groups.values())))
     for storm in linked.storms.values():
+        if linked.storm_instead(storm) is not storm:
+            continue
         result.storms[storm] = StormDraft(storm, _placed(result.hosts, storm.host))
         result.complete &= not storm.broken
     for instance in linked.instances.values():

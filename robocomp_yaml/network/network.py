@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 COMPONENT, PROGRAM, ICESTORM = "component", "program", "icestorm"
 NEVER, ON_FAILURE, ALWAYS = "no", "on-failure", "always"
+SERVER, TASK = "server", "task"
 PROXY, TOPIC = "proxy", "topic"
 LOOPBACK = "localhost"
 FOLDER = ".rcyaml/deployments"
@@ -117,7 +118,10 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
     resolved in PATH. CONFIG in an argument is replaced by the absolute path of `config`. `after` are the processes that
     must be ready before this one starts; if one of them fails that is also in `optional`, this one starts anyway.
     `aliases` are further names of the process. When one of the `watched` files changes (executable, code), the process
-    is restarted. `is_ice` is False for a program that does not use Ice. `folders` must exist before it starts.
+    is restarted. `is_ice` is False for a program that does not use Ice. `folders` must exist before it starts. `role`
+    is SERVER or TASK, '' if the document does not set it. `settled` are the least seconds that a process without a
+    condition must run before it is ready. It does not start if the proxies of `unless`
+    answer before: then another one is around.
     """
 
     name: str
@@ -138,6 +142,9 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
     groups: tuple[str, ...] = ()
     enabled: bool = True
     is_ice: bool = True
+    role: str = ""
+    settled: float | None = None
+    unless: tuple[str, ...] = ()
     secrets: tuple[str, ...] = ()
     """Names of secret arguments, in addition to names that suggest a secret."""
     component: str = ""
@@ -147,6 +154,18 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
     extra: tuple[tuple[str, object], ...] = ()
     """What only exports need: the entries of `x-rcmanager`; those of its aliases are below `aliases`."""
     span: Span = Span("")
+
+    @property
+    def is_server(self) -> bool:
+        """Whether it runs until it is stopped; a task is done when it exits with 0. By default, a process that serves
+        something is a server, as is every component."""
+        serves = self.kind in (COMPONENT, ICESTORM) or bool(self.endpoints or self.ready.port)
+        return self.role == SERVER if self.role else serves
+
+    @property
+    def restart_policy(self) -> str:
+        """The policy for engines, which do not know roles: the end of a server is a failure, whatever its exit code."""
+        return ALWAYS if self.is_server and self.restart.policy == ON_FAILURE else self.restart.policy
 
     def words(self, config: str) -> tuple[str, ...]:
         """The program and its arguments, with the path of its configuration, `config`."""

@@ -26,6 +26,7 @@ from robocomp_yaml.semantics.connections import ICE_DEFAULTS
 from robocomp_yaml.source.properties import entry_line
 
 _DEFAULTS = RestartRule()
+_LONGEST_SETTLED = 3.0  # seconds
 
 
 def of_draft(
@@ -41,6 +42,7 @@ def of_draft(
         folder = os.path.abspath(os.path.join(os.path.dirname(instance.document.path), entry.cwd.text))
     command = tuple(_command(draft, program))
     reads_config = any(CONFIG in part for part in command[1:])
+    ready = _ready(draft)
     of_aliases = {alias.name: dict(alias.entry.extra) for alias in draft.aliases if alias.entry.extra}
     return Process(
         draft.name,
@@ -51,13 +53,15 @@ def of_draft(
         env=tuple(_variable(one, instance.document.path) for one in entry.env),
         config=ConfigFile(f"config/{draft.name}", text, secrets) if text is not None and reads_config else None,
         endpoints=tuple(adapter.resolved() for adapter in draft.adapters),
-        ready=_ready(draft),
+        ready=ready,
         restart=_restart(entry.restart),
         watched=(program, *_code(instance.folder, component, known)) if os.path.isabs(program) else (),
         aliases=tuple(alias.name for alias in draft.aliases),
         groups=tuple(group.name for group in instance.groups),
         enabled=entry.enabled,
         is_ice=component is not None or bool(draft.offers or entry.config_as or entry.connect),
+        role=entry.role,
+        settled=_settled(entry.ready, ready),
         secrets=tuple(sorted(set(secret_names(component.parameters.parameters.root)))) if component is not None else (),
         component=component.component.name if component is not None else "",
         build=_build(draft),
@@ -130,6 +134,13 @@ def _ready(draft: Draft) -> Readiness:
     return Readiness(within, port=ports[0] if ports else None)
 
 
+def _settled(given: model.Ready | None, ready: Readiness) -> float | None:
+    """For a process without a condition, the time of its `ready:` is the time that it must run, up to some seconds."""
+    if ready.has_condition or given is None or given.within is None:
+        return None
+    return min(given.within, _LONGEST_SETTLED)
+
+
 def _restart(given: model.Restart | None) -> RestartRule:
     if given is None:
         return _DEFAULTS
@@ -187,5 +198,6 @@ def of_storm(storm: StormDraft, folder: str, *, enabled: bool) -> Process:
         ready=Readiness(pings=(storm.proxy,)),
         folders=(database,),
         enabled=enabled,
+        unless=(storm.proxy,) if storm.linked.storm.shared else (),
         span=storm.span,
     )

@@ -59,6 +59,78 @@ def test_up_status_and_down(robot: Path, rcyaml: Rcyaml) -> None:
     assert deploy(rcyaml, "down").stdout == "Robot: nothing was running\n"
 
 
+COUNTS = """\
+deployment: Robot
+components:
+  base: {program: sh, args: [-c, "for i in 1 2 3 4 5 6 7 8; do echo base $i; done; echo 'a b'; exec sleep 600"]}
+  arm: {program: sh, args: [-c, "for i in 1 2 3 4 5 6 7 8; do echo arm $i; done; exec sleep 600"], after: [base]}
+"""
+
+
+def test_logs_since_a_time_and_with_a_pattern(robot: Path, rcyaml: Rcyaml) -> None:
+    write_tree(robot, {"robot.ddsl.yaml": COUNTS})
+    deploy(rcyaml, "up")
+    until(lambda: "arm 8" in deploy(rcyaml, "logs").stdout, "the last line")
+    assert deploy(rcyaml, "logs", "--grep", "[me] [57]$").stdout.splitlines() == [
+        "base | base 5", "base | base 7", "arm  | arm 5", "arm  | arm 7",
+    ]  # fmt: skip
+    assert deploy(rcyaml, "logs", "--grep", "[me] [57]$", "-n", "1").stdout == "base | base 7\narm  | arm 7\n"
+    assert deploy(rcyaml, "logs", "base", "--grep", "nothing").stdout == ""
+    every = deploy(rcyaml, "logs", "-n", "1000", "-t").stdout
+    for since in ("1h", "2020-01-01", "2020-01-01T00:00:00Z", "90 min"):
+        assert deploy(rcyaml, "logs", "--since", since, "-t").stdout == every
+    assert deploy(rcyaml, "logs", "--since", "2100-01-01").stdout == ""
+    last = every.splitlines()[-1].split()[0]
+    assert every.splitlines()[-1] in deploy(rcyaml, "logs", "--since", last, "-t").stdout.splitlines()
+    followed = subprocess.run(
+        ["timeout", "3", sys.executable, "-m", "robocomp_yaml", "deploy", "logs", "-f", "--grep", "arm [12]$"],
+        cwd=robot, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert followed.stdout == "arm  | arm 1\narm  | arm 2\n"
+    deploy(rcyaml, "down")
+
+
+@pytest.mark.parametrize(
+    ("args", "said"),
+    [
+        (("--grep", "("), "'(' is not a regular expression"),
+        (("--since", "yesterday"), "neither a duration, such as 5min, nor a time, such as 10:30"),
+    ],
+)
+def test_wrong_selections_of_lines(robot: Path, rcyaml: Rcyaml, args: tuple[str, ...], said: str) -> None:
+    result = deploy(rcyaml, "logs", *args)
+    assert result.exit_code == 2 and said in result.stderr
+
+
+def test_cpu_and_hosts_in_the_output(robot: Path, rcyaml: Rcyaml, free_port: Ports) -> None:
+    port = free_port()
+    busy = f"import socket,time; s = socket.create_server(('127.0.0.1', {port})); sum(range(10**7)); time.sleep(600)"
+    write_tree(robot, {"robot.ddsl.yaml": (
+        "deployment: Robot\ncomponents:\n"
+        f'  busy: {{program: python3, args: [-c, "{busy}"], endpoints: {{Laser: tcp -h 127.0.0.1 -p {port}}}}}\n'
+    )})  # fmt: skip
+    deploy(rcyaml, "up")
+    (one,) = json.loads(deploy(rcyaml, "status", "--format", "json").stdout)["processes"]
+    assert one["endpoints"][0]["host"] == "localhost" and one["endpoints"][0]["port"] == port and one["cpu"] > 0
+    head, row = deploy(rcyaml, "status").stdout.splitlines()
+    assert head.split()[-2:] == ["CPU", "SERVES"] and row.split()[-2] == "s" and float(row.split()[-3]) > 0
+    deploy(rcyaml, "down")
+
+
+def test_an_up_that_failed_leaves_no_supervisor(robot: Path, rcyaml: Rcyaml, place: Place) -> None:
+    write_tree(robot, {"robot.ddsl.yaml": FAILING})
+    deploy(rcyaml, "up")
+    place.wait_gone()
+    with_config = ROBOT.replace(
+        "components:\n", "components:\n  hand: {program: cat, args: ['{config}'], config: hand.conf}\n"
+    )
+    write_tree(
+        robot, {".rcyaml/deployments/Robot/state/next": "in the way", "robot.ddsl.yaml": with_config, "hand.conf": ""}
+    )
+    assert "error[RC7005]" in deploy(rcyaml, "up").stderr
+    place.wait_gone()
+
+
 def test_all_output_as_json(robot: Path, rcyaml: Rcyaml) -> None:
     def data(what: str, *args: str) -> dict[str, object]:
         return json.loads(deploy(rcyaml, what, *args, "--format", "json").stdout)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import contextlib
 import os
 import shutil
 import signal
@@ -19,7 +20,7 @@ from processes import Ports, until
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy import operations
 from robocomp_yaml.deploy.carry_out import SKIPPED
-from robocomp_yaml.deploy.engine import GIVEN_UP, RUNNING
+from robocomp_yaml.deploy.engine import GIVEN_UP, RUNNING, DeployFailed
 from robocomp_yaml.deploy.local import channel, procfs
 from robocomp_yaml.network.network import NEVER, Endpoint, EnvironmentVariable, Process, Readiness, RestartRule
 from small_networks import Place, config_of, is_alive, listener, shell, sleeper
@@ -327,10 +328,12 @@ def test_a_full_disk(place: Place, small_disk: Path, tmp_path: Path) -> None:
     (small_disk / "ballast").write_bytes(bytes(150_000))
     place.up(shell("a", f"{talk}; {wait}; echo there is room; exec sleep 600"))
     until((tmp_path / "full").exists, "it goes on though nothing can be written")
-    assert place.observe()["a"].restarts == 0
+    now = place.observe()["a"]
+    assert now.restarts == 0 and now.lost_lines > 0
     (small_disk / "ballast").unlink()
     (tmp_path / "go").touch()
     until(lambda: "there is room" in place.log("a"), "what it says then")
+    assert place.observe()["a"].lost_lines == 0
     assert any(line.startswith("rcyaml: ") and line.endswith("they could not be written") for line in place.log("a"))
 
 
@@ -368,3 +371,29 @@ def test_nonsense_on_the_control_socket_is_ignored(place: Place) -> None:
             connection.setblocking(True)
             connection.sendall(text)
     assert place.pids() == before
+
+
+def test_a_full_disk_changes_nothing(place: Place, small_disk: Path) -> None:
+    """The new configurations are written before the first process stops."""
+    place.root = small_disk
+
+    def network(text: str) -> tuple[Process, ...]:
+        return tuple(
+            shell(name, 'cat "$0"; exec sleep 600', *after, config=config_of(name, text))
+            for name, after in (("a", ()), ("b", ("a",)))
+        )
+
+    place.up(*network("x=1\n"))
+    before = place.pids()
+    with contextlib.suppress(OSError), open(small_disk / "ballast", "wb") as file:
+        while True:
+            file.write(bytes(4096))
+            file.flush()
+    with pytest.raises(DeployFailed) as failed:
+        place.up(*network("x=2\n" * 2000))
+    assert failed.value.diagnostic.code == "RC7005" and "no space left" in failed.value.diagnostic.message
+    assert place.pids() == before and place.events == []
+    assert not Path(place.folder, "state", "next").exists()
+    (small_disk / "ballast").unlink()
+    assert not place.up(*network("x=2\n" * 2000)).diagnostics
+    assert place.log("b")[-1] == "x=2" and place.order("ready") == ["a", "b"]

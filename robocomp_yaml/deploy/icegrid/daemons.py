@@ -8,9 +8,11 @@ the node already runs.
 from __future__ import annotations
 
 import fcntl
+import getpass
 import os
 import shlex
 import signal
+import socket
 import subprocess
 from collections.abc import Mapping
 
@@ -80,9 +82,11 @@ def last_words(folder: str) -> str:
 def write_script(files: GridFiles, host: NetworkHost, registry: Registry) -> str:
     """The path of the script that starts the host's node."""
     address = "127.0.0.1" if host.address == LOOPBACK else host.address
+    who = f"{getpass.getuser()}@{socket.gethostname()}"
     facts = {
         "folder": files.folder,
         "host": host.name,
+        "owner": f"{who} {files.folder}, registry {registry.address}:{registry.port}",
         "certificate": _text(files.certificate),
         "key": _text(files.key),
         "settings": as_text(settings.of_node(files, host.name, address, registry)),

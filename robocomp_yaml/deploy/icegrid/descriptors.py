@@ -105,6 +105,15 @@ def ender(files: GridFiles, names: Iterable[str], user: str) -> Any:
     return IceGrid.ServerDescriptor(**facts)
 
 
+def cleaner(paths: Iterable[str], user: str) -> Any:
+    """A server that removes these files and folders of its host."""
+    facts = _facts(
+        f"{KEEPER}.cleaner", "rm", ["-rf", "--", *map(_literal, paths)], pwd="/", user=user, activation="manual",
+        deactivationTimeout="5", propertySet=_property_set(_QUIET), envs=[], logs=[],
+    )  # fmt: skip
+    return IceGrid.ServerDescriptor(**facts)
+
+
 def package_path() -> str:
     """A PYTHONPATH with which Python imports this package and its dependencies."""
     return os.pathsep.join(path for path in sys.path if path)
@@ -130,7 +139,7 @@ def restart_rule(process: Process, number: int) -> str:
     number of restarts, and times in milliseconds."""
     rule = process.restart
     times = f"{rule.delay * 1000:.0f} {rule.longest * 1000:.0f} {rule.tries} {rule.window * 1000:.0f}"
-    return f"{number} {rule.policy} {times}"
+    return f"{number} {process.restart_policy} {times}"
 
 
 def encoded(text: str) -> str:

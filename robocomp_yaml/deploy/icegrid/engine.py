@@ -7,23 +7,24 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import importlib.util
-import shutil
+import errno
+import os
 import threading
-from collections.abc import AsyncGenerator, Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import AsyncGenerator, Callable, Collection, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from msgspec.structs import replace
 
 from robocomp_yaml.deploy import folder as own_folder
-from robocomp_yaml.deploy.engine import ENDED, GIVEN_UP, STOP_WITHIN, STOPPED, DeployFailed, Line, Running
+from robocomp_yaml.deploy import registered
+from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
 from robocomp_yaml.deploy.icegrid import start_up
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles
+from robocomp_yaml.deploy.icegrid.obstacles import AT_ONCE, CHECK, MISSING, missing, of_answer, too_long, used_ports
 from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.local.log_reader import LineReader, LogReader, merged
 from robocomp_yaml.deploy.local.obstacles import CheckedSpecs, is_local, obstacles
-from robocomp_yaml.deploy.readiness import listens
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -35,10 +36,12 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
-_TOO_LONG = "its configuration is longer than the 100,000 bytes that IceGrid carries to another host"
 _RULE_WITHIN = 10.0
 _TIMED_OUT, _NOT_FOUND, _UNKNOWN = 124, 127, 1
 _CODE = "exit code "
+_RESERVE, _RESERVED = "reserve", 1 << 18  # bytes: for specs, rules and the registry's database
+_WRITE = 'head -c "$2" /dev/zero >"$1/.space"; code=$?; rm -f "$1/.space"; exit $code'
+_WRITE_WITHIN = 10.0
 _CALLS = 32  # threads, which mostly wait
 
 
@@ -58,17 +61,22 @@ class IceGridEngine:
         self._nodes: asyncio.Task[None] | None = None  # starts the nodes; what needs no node does not wait
         self._no_node: dict[str, Diagnostic] = {}  # by the name of the host
         self._cleared = CheckedSpecs()
+        self._has_staged = self._has_changed = False
+        self._unreached: dict[str, set[str]] = {}  # processes that could not be ended, by the name of the host
         self._lock = threading.Lock()
         self._calls = ThreadPoolExecutor(_CALLS, "icegrid")
 
     async def open(self, network: Network, *, create: bool) -> bool:
         self._network, self._files = network, GridFiles(network.folder)
-        if missing := _missing():
-            raise DeployFailed(deploying.NO_REGISTRY.at(Span(network.path), reason=missing))
+        if lacking := missing():
+            raise DeployFailed(deploying.NO_REGISTRY.at(Span(network.path), reason=lacking))
         self._grid = await self._call("", "reached", self._reach, create)
         if self._grid is None:
             return False
+        self._has_changed = create
         if create:
+            with contextlib.suppress(OSError):
+                registered.keep(registered.entry_of(network, self.name))
             self._nodes = asyncio.create_task(self._call("", "reached", self._ensure_nodes, self._grid))
             await asyncio.sleep(0)  # so that it starts
         self._specs = self._files.specs()
@@ -125,12 +133,49 @@ class IceGridEngine:
         lost = {spec.process.host: self._no_node[spec.process.host] for spec in specs
                 if spec.process.host in self._no_node}  # fmt: skip
         far = [spec for spec in specs if not is_local(spec.address) and spec.process.host not in lost]
-        found += await _used_ports(far, running)
-        return [*lost.values(), *found] + [
-            deploying.CANNOT.at(spec.process.span, name=spec.name, what="started", reason=_TOO_LONG)
-            for spec in specs
-            if _is_too_long(spec)
-        ]
+        found += await used_ports(far, running)
+        if far and self._grid:
+            found += await self._beside("", "asked", self._missing_programs, far)
+        return [*lost.values(), *found, *too_long(specs)]
+
+    def _missing_programs(self, specs: Sequence[ProcessSpec]) -> list[Diagnostic]:
+        """Diagnostics for programs and folders that other hosts lack, before anything is started. A program that is
+        looked up in a PATH of its own is not checked."""
+        found: list[Diagnostic] = []
+        for host in dict.fromkeys(spec.process.host for spec in specs):
+            own = [one for one in specs if one.process.host == host and not _has_own_path(one)]
+            while own:
+                rows = [(str(number), one.process.cwd, one.command[0]) for number, one in enumerate(own[:AT_ONCE])]
+                server = replace(own[0], process=replace(own[0].process, name=CHECK, cwd="/", env=()))
+                command = ("bash", "-c", MISSING, "bash", *(word for row in rows for word in row))
+                lacking = of_answer(own[:AT_ONCE], self._run(self._reached(), server, command, _WRITE_WITHIN))
+                found += [lacking[1]] if lacking else []
+                own = own[lacking[0] + 1 if lacking else AT_ONCE :]
+        return found
+
+    async def stage(self, specs: Sequence[ProcessSpec]) -> None:
+        await self._beside("", "prepared", self._stage, specs)
+
+    def _stage(self, specs: Sequence[ProcessSpec]) -> None:
+        """Stages the configurations for this machine, and reserves space for the engine's own files, also on other
+        hosts: there, `run` writes the configurations at the start."""
+        self._has_staged = True
+        near = [spec for spec in specs if is_local(spec.address)]
+        files = {spec.process.config.path: spec.process.config.text for spec in near if spec.process.config}
+        own_folder.stage(self._files.folder, files | {_RESERVE: " " * _RESERVED})
+        sizes: dict[str, int] = {}
+        asked: dict[str, ProcessSpec] = {}
+        for spec in specs:
+            if spec not in near and spec.name in self._desired and (known := self._specs.get(spec.name)):
+                asked[spec.process.host] = known
+                size = len(spec.process.config.text.encode(errors="surrogateescape")) if spec.process.config else 0
+                sizes[spec.process.host] = sizes.get(spec.process.host, 0) + size
+        for host, known in asked.items():
+            if known.process.host != host:
+                continue  # it moves there
+            command = ("bash", "-c", _WRITE, "bash", f"{self._files.folder}/config", str(sizes[host]))
+            if self._run(self._reached(), known, command, _WRITE_WITHIN):
+                raise OSError(errno.ENOSPC, f"{os.strerror(errno.ENOSPC)} on the host '{host}'", self._files.folder)
 
     async def prepare(self, specs: Sequence[ProcessSpec]) -> None:
         await self._beside("", "deployed", self._prepare, specs)
@@ -138,6 +183,7 @@ class IceGridEngine:
     def _prepare(self, specs: Sequence[ProcessSpec]) -> None:
         from robocomp_yaml.deploy.icegrid import descriptors, leftovers
 
+        own_folder.remove(self._files.folder, f"{own_folder.STAGED}/{_RESERVE}")
         grid, number = self._reached(), self._files.next_rule()
         before = grid.descriptor(self._network.name)
         deployed = {one.id for node in before.nodes.values() for one in node.servers} if before else set()
@@ -145,14 +191,17 @@ class IceGridEngine:
         states |= grid.states([spec.name for spec in specs if spec.name in deployed])
         running = [spec for spec in specs if states[spec.name][0] not in ("", "Inactive")]
         starting = [spec for spec in specs if spec not in running]
-        for spec in specs:
-            if spec.process.config and is_local(spec.address):
-                own_folder.write(self._files.folder, spec.process.config.path, spec.process.config.text)
         for spec in starting:
             leftovers.drop(self._files, spec.process.host, spec.name)
             old = self._specs.get(spec.name)
-            if old and old.process.host != spec.process.host and not states[spec.name][0]:
-                leftovers.note(self._files, old.process.host, spec.name)
+            if old and old.process.host != spec.process.host:
+                if states[spec.name][0]:
+                    leftovers.clean(grid, old.process.host, [spec.name])
+                else:
+                    leftovers.note(self._files, old.process.host, spec.name)
+        for spec in specs:
+            if spec.process.config and is_local(spec.address):
+                own_folder.put(self._files.folder, spec.process.config.path, spec.process.config.text)
         with self._lock:
             self._specs.update({spec.name: spec for spec in specs})
             self._files.keep_specs(self._specs)
@@ -231,10 +280,17 @@ class IceGridEngine:
             for name, spec in gone.items():
                 if spec and not states[name][0]:
                     leftovers.note(self._files, spec.process.host, name)
+                    self._unreached.setdefault(spec.process.host, set()).add(name)
             self._deploy(gone, [])
             self._kept = self._desired = self._desired - names
             self._files.keep_desired(self._desired)
             self._files.keep_specs(self._specs)
+        by_host: dict[str, list[str]] = {}
+        for name, spec in gone.items():
+            if spec and spec.process.config and states[name][0] and not is_local(spec.address):
+                by_host.setdefault(spec.process.host, []).append(name)
+        for host, own in by_host.items():
+            leftovers.clean(self._reached(), host, own)
         for name, spec in gone.items():
             own_folder.remove(self._files.folder, f"state/icegrid/status/{name}")
             if spec and spec.process.config:
@@ -291,11 +347,28 @@ class IceGridEngine:
 
     async def close(self, *, end: bool = False) -> None:
         grid, self._grid = self._grid, None
+        if self._has_staged:
+            own_folder.drop_staged(self._files.folder)
         if grid and end:
-            await self._beside("", "ended", start_up.ended, grid, self._network.name)
+            lost = await self._beside("", "ended", start_up.ended, grid, self._network.name)
+            self._unreached |= {host: set() for host in lost if host not in self._unreached}
         elif grid:
             await self._beside("", "left", grid.close)
+        self.notes += [self._not_reached(host, sorted(names)) for host, names in self._unreached.items()]
+        self._unreached.clear()
+        if self._has_changed and not end:
+            with contextlib.suppress(OSError):  # a full or read-only disk
+                one = registered.of_folder(self._files.folder)
+                registered.keep(one or registered.entry_of(self._network, self.name))
+                registered.copy(self._files.folder, self._files.copied)
         self._calls.shutdown(wait=False)
+
+    def _not_reached(self, host: str, names: list[str]) -> Diagnostic:
+        one = self._network.hosts.get(host)
+        what = " and ".join(f"'{name}'" for name in names) or "its node"
+        reason = f"it does not answer; {what} there is ended as soon as it does"
+        where = one.span if one and one.span.file else Span(self._network.path)
+        return deploying.NO_NODE.at(where, name=host, address=one.address if one else "", reason=reason, hint="")
 
     def _reached(self) -> GridSession:
         assert self._grid, "open it first"
@@ -322,50 +395,5 @@ class IceGridEngine:
             raise DeployFailed(deploying.FOLDER.at(Span(self._network.path), path=path, reason=reason)) from error
 
 
-def _is_too_long(spec: ProcessSpec) -> bool:
-    from robocomp_yaml.deploy.icegrid.descriptors import LONGEST_CONFIG, encoded
-
-    config = spec.process.config
-    return bool(config and not is_local(spec.address) and len(encoded(config.text).encode()) > LONGEST_CONFIG)
-
-
-def _missing() -> str:
-    """What the engine needs and this machine lacks, or ''."""
-    # Ice's compiled module works only with the Python that it was compiled for.
-    if not all(map(importlib.util.find_spec, ("Ice", "IceGrid", "IcePy"))):
-        return "Ice for Python is not installed (`pip install 'rcyaml[ice]'`, Debian: python3-zeroc-ice)"
-    for program, package in (("icegridregistry", "zeroc-icegrid"), ("icegridnode", "zeroc-icegrid"),
-                             ("openssl", "openssl"), ("setpriv", "util-linux")):  # fmt: skip
-        if shutil.which(program) is None:
-            return f"{program} is not installed (Debian: {package})"
-    return ""
-
-
-_WITHIN = 1.0  # seconds for an answer
-
-
-async def _used_ports(specs: Sequence[ProcessSpec], running: Mapping[str, Running]) -> list[Diagnostic]:
-    """Diagnostics for ports of `specs` on which something listens. Ports of the deployment's own processes are
-    ignored."""
-    own = {
-        (one.spec.address, endpoint.port)
-        for one in running.values()
-        if one.spec and one.state not in (STOPPED, ENDED, GIVEN_UP)
-        for endpoint in one.spec.process.endpoints
-    }
-    ports = [
-        (spec, endpoint)
-        for spec in specs
-        for endpoint in spec.process.endpoints
-        if endpoint.port and endpoint.protocol != "udp" and (spec.address, endpoint.port) not in own
-    ]
-    answers = await asyncio.gather(*(listens(spec.address, endpoint.port, _WITHIN) for spec, endpoint in ports))
-    return [
-        deploying.PORT_TAKEN.at(
-            endpoint.span if endpoint.span.file else spec.process.span,
-            hint=f"`ss -ltnp` shows it on that host; end it, or choose another port for '{spec.name}'",
-            name=spec.name, port=endpoint.port, program=f"a program on the host '{spec.process.host}'",
-        )
-        for (spec, endpoint), is_taken in zip(ports, answers, strict=True)
-        if is_taken
-    ]  # fmt: skip
+def _has_own_path(spec: ProcessSpec) -> bool:
+    return "/" not in spec.command[0] and any(variable.name == "PATH" for variable in spec.process.env)

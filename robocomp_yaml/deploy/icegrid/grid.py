@@ -144,6 +144,11 @@ class GridSession:
         with contextlib.suppress(GridFailed):
             self._call(self.admin.shutdownNode, host)
 
+    def shut_down(self) -> None:
+        """Ends the registry."""
+        with contextlib.suppress(GridFailed):
+            self._call(self.admin.shutdown)
+
     def _call(self, operation: Callable[..., Any], *arguments: Any) -> Any:
         with _failures():
             return operation(*arguments)

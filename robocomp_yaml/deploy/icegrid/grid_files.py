@@ -6,7 +6,10 @@ files, a folder for each node, the status files of the `run` scripts, and the de
 
 from __future__ import annotations
 
+import contextlib
 import json
+import os
+import shutil
 import socket
 from collections.abc import Iterable, Mapping
 from typing import Any
@@ -100,6 +103,25 @@ class GridFiles(msgspec.Struct, frozen=True):
     def keep_specs(self, specs: dict[str, ProcessSpec | None]) -> None:
         kept = self._read(_SPECS, {})
         self._write(_SPECS, {name: spec.as_data() if spec else kept.get(name) for name, spec in specs.items()})
+
+    def drop_configurations(self, *, with_key: bool) -> None:
+        """Removes all that contains a configuration, after the registry has ended; `with_key` also the key. Without
+        the key, the registry gets another port, too."""
+        for name in ("registry/data", "rules") + (("hosts", "nodes") if with_key else ()):
+            shutil.rmtree(f"{self.root}/{name}", ignore_errors=True)
+        own_folder.remove(self.folder, _SPECS)
+        if with_key:
+            for path in (self.key, self.certificate, f"{self.folder}/{_REGISTRY}"):
+                with contextlib.suppress(OSError):
+                    os.unlink(path)
+        with contextlib.suppress(OSError):
+            for name in os.listdir(f"{self.folder}/config"):
+                own_folder.remove(self.folder, f"config/{name}")
+
+    @property
+    def copied(self) -> list[str]:
+        """The files that the user's list of deployments keeps, so that the deployment is reached without its folder."""
+        return [f"{_ROOT}/key.pem", f"{_ROOT}/certificate.pem", _REGISTRY, _NODES, _SPECS, _DESIRED]
 
     def _read(self, path: str, missing: Any) -> Any:
         """The content of a file; `missing` without a file, or with one of another version in another format."""

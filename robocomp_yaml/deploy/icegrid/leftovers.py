@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import contextlib
 import os
+from collections.abc import Iterable
+from typing import Any
 
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy.icegrid import descriptors
@@ -29,6 +31,10 @@ def drop(files: GridFiles, host: str, name: str) -> None:
     own_folder.remove(files.folder, f"{_FOLDER}/{host}/{name}")
 
 
+def of_host(files: GridFiles, host: str) -> list[str]:
+    return _listed(f"{files.folder}/{_FOLDER}/{host}")
+
+
 def end_all(grid: GridSession) -> None:
     """Ends the noted processes of all hosts that answer. Raises GridFailed."""
     folder = f"{grid.files.folder}/{_FOLDER}"
@@ -42,13 +48,28 @@ def end_all(grid: GridSession) -> None:
 
 def _end(grid: GridSession, host: str, names: list[str]) -> None:
     """Ends processes with a server for this only, in an application of its own, which no command changes."""
-    server = descriptors.ender(grid.files, names, grid.user_of(host))
+    _run(grid, host, descriptors.ender(grid.files, names, grid.user_of(host)))
+
+
+def _run(grid: GridSession, host: str, server: Any) -> None:
     grid.remove(_APPLICATION)
     grid.deploy(descriptors.application(_APPLICATION, [(host, server)]), is_new=True)
     try:
         grid.run(server.id, _WITHIN)
     finally:
         grid.remove(_APPLICATION)
+
+
+def clean(grid: GridSession, host: str, names: Iterable[str] = (), *, with_key: bool = False) -> None:
+    """Removes configurations from a host that answers: those of these processes, or all. `with_key` also removes the
+    key of its node, which runs on without the file. A failure is ignored."""
+    from robocomp_yaml.deploy.icegrid.grid import GridFailed
+
+    own = f"{grid.files.root}/nodes/{host}"
+    paths = [f"{grid.files.folder}/config/{name}" for name in names] or [f"{grid.files.folder}/config"]
+    paths += [f"{own}/key.pem", f"{own}/certificate.pem", f"{own}/settings"] if with_key else []
+    with contextlib.suppress(GridFailed):
+        _run(grid, host, descriptors.cleaner(paths, grid.user_of(host)))
 
 
 def _listed(folder: str) -> list[str]:

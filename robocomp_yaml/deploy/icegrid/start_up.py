@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import os
+import socket
 import time
 from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -11,9 +12,10 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from robocomp_yaml.deploy import folder as own_folder
+from robocomp_yaml.deploy import registered
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import DeployFailed
-from robocomp_yaml.deploy.icegrid import daemons, settings
+from robocomp_yaml.deploy.icegrid import daemons, ending, settings
 from robocomp_yaml.deploy.icegrid.daemons import NodeStart, outcome
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry, free_port, registry_address
 from robocomp_yaml.deploy.local.obstacles import is_local
@@ -37,7 +39,11 @@ def reached(files: GridFiles, network: Network) -> GridSession | None:
     """A session with the running registry. If processes should run, a registry that was killed with its guard is
     started again; else None. Raises DeployFailed."""
     registry = files.registry()
-    if registry is None or not (files.desired() or daemons.is_alive(files.registry_folder)):
+    one = registered.of_folder(files.folder)
+    if registry is None and one and registered.restore(files.folder):  # the folder was deleted
+        registry = files.registry()
+    is_pending = one is not None and bool(one.pending)
+    if registry is None or not (is_pending or files.desired() or daemons.is_alive(files.registry_folder)):
         return None
     return _session(files, registry, network)
 
@@ -45,6 +51,7 @@ def reached(files: GridFiles, network: Network) -> GridSession | None:
 def created(files: GridFiles, network: Network) -> GridSession:
     """A session with the registry, which is started if none runs at an address that all hosts reach. Raises
     DeployFailed."""
+    ending.stop(files)
     address = registry_address(network.hosts.values())
     registry = files.registry()
     if registry is None or registry.address != address:
@@ -62,7 +69,7 @@ def created(files: GridFiles, network: Network) -> GridSession:
 
 
 def _session(files: GridFiles, registry: Registry, network: Network) -> GridSession:
-    if not daemons.is_alive(files.registry_folder):
+    if not (daemons.is_alive(files.registry_folder) or _answers(registry)):
         try:
             daemons.start_registry(files, registry)
         except OSError as error:
@@ -75,6 +82,15 @@ def _session(files: GridFiles, registry: Registry, network: Network) -> GridSess
         return reach(files, registry, _PATIENCE)
     except Unreachable as error:
         raise _failed(network, daemons.last_words(files.registry_folder) or str(error)) from error
+
+
+def _answers(registry: Registry) -> bool:
+    """Whether something listens at the registry's port: also a registry whose files were deleted."""
+    try:
+        with socket.create_connection((registry.address, registry.port), 1.0):
+            return True
+    except OSError:
+        return False
 
 
 def ensure_nodes(
@@ -120,21 +136,52 @@ def _started(hosts: Sequence[NetworkHost], scripts: Mapping[str, str]) -> dict[s
         return {host.name: outcome for host, outcome in zip(hosts, outcomes, strict=True)}
 
 
-def ended(grid: GridSession, application: str) -> None:
-    """Ends what the engine runs: servers, the nodes that it started, and the registry."""
+def ended(grid: GridSession, application: str) -> list[str]:
+    """Ends what the engine runs: servers, the nodes that it started, and the registry. Returns the hosts that do not
+    answer: these are ended later, by a process that also ends the registry then."""
+    from robocomp_yaml.deploy.icegrid import leftovers
     from robocomp_yaml.deploy.icegrid.grid import GridFailed
 
-    with suppress(GridFailed):  # a node does not answer: its servers have ended, or end when it is back
-        grid.remove(application)
     files = grid.files
     nodes = files.nodes()
-    for host, is_started in nodes.items():
-        if is_started:
-            grid.shut_down_node(host)
+    lost = [host for host, is_started in nodes.items() if is_started or leftovers.of_host(files, host)]
+    lost = [host for host in lost if not grid.has_node(host)]
+    with suppress(GridFailed):  # a node does not answer: its servers have ended, or end when it is back
+        grid.remove(application)
     files.keep_desired(())
+    for host, is_started in nodes.items():
+        if host not in lost:
+            end_node(grid, host, is_started=is_started)
+    if not (lost or daemons.is_alive(files.registry_folder)):
+        grid.shut_down()  # its files were deleted, so that its guard is unknown
     grid.close()
+    if lost:
+        ending.begin(files, lost)
+    else:
+        end_here(files)
+        registered.forget(files.folder)
+    return lost
+
+
+def end_node(grid: GridSession, host: str, *, is_started: bool | None = None) -> None:
+    """Removes the configurations of this deployment from a host, and ends its node, with its key, if rcyaml started it.
+    A node that was started by hand stays."""
+    from robocomp_yaml.deploy.icegrid import leftovers
+
+    files = grid.files
+    is_started = files.nodes().get(host, False) if is_started is None else is_started
+    leftovers.clean(grid, host, with_key=is_started)
+    if is_started:
+        grid.shut_down_node(host)
+
+
+def end_here(files: GridFiles) -> None:
+    """Ends what runs on this machine. The deployment's key stays only if a node needs it that was started by hand."""
+    nodes = files.nodes()
     _end_local(files)
-    files.keep_nodes({host: is_started for host, is_started in nodes.items() if not is_started})
+    left = {host: is_started for host, is_started in nodes.items() if not is_started}
+    files.keep_nodes(left)
+    files.drop_configurations(with_key=not left)
 
 
 def _end_local(files: GridFiles) -> None:

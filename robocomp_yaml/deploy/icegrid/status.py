@@ -7,28 +7,21 @@ from collections.abc import Mapping
 
 import msgspec
 
-from robocomp_yaml.deploy.engine import (
-    ENDED,
-    GIVEN_UP,
-    LOST,
-    RUNNING,
-    STOPPED,
-    WAITING,
-    Running,
-)
+from robocomp_yaml.deploy.engine import LOST, RUNNING, STOPPED, WAITING, Running
 from robocomp_yaml.deploy.icegrid.grid import GridSession
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles
 from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.local.obstacles import is_local
 from robocomp_yaml.deploy.spec import ProcessSpec
+from robocomp_yaml.deploy.states import ALIVE, OVER
 
-_ALIVE = ("Active", "Activating", "Deactivating")
-_FINAL = (GIVEN_UP, ENDED)
+_ACTIVE = ("Active", "Activating", "Deactivating")
 
 
 class RunStatus(msgspec.Struct, frozen=True):
     """The status file of a `run` script. `runner` is the pid of the script, `pid` that of its process. The time of the
-    last change is `since`, in milliseconds since the host booted, and `at`, in microseconds of the host's clock."""
+    last change is `since`, in milliseconds since the host booted, and `at`, in microseconds of the host's clock.
+    `spread` is as in `Running`."""
 
     state: str
     runner: int
@@ -37,14 +30,19 @@ class RunStatus(msgspec.Struct, frozen=True):
     at: int
     restarts: int
     last_exit: str
+    spread: float | None = None
 
 
 def of_text(text: str) -> RunStatus | None:
     """The status in a text, None if the text is not valid."""
-    parts = text.strip().split("|", 6)
     try:
-        return RunStatus(parts[0], *map(int, parts[1:6]), parts[6])  # type: ignore[call-arg, arg-type]
-    except (IndexError, ValueError):
+        state, runner, pid, since, at, counts, last_exit = text.strip().split("|", 6)
+        restarts, _, spread = counts.partition("/")
+        return RunStatus(
+            state, int(runner), int(pid), int(since), int(at), int(restarts), last_exit,
+            int(spread) / 1000 if spread else None,
+        )  # fmt: skip
+    except ValueError:
         return None
 
 
@@ -63,7 +61,7 @@ def run_status(grid: GridSession, name: str, *, is_local: bool) -> RunStatus | N
 def is_over(grid: GridSession, name: str, *, is_local: bool) -> bool:
     """Whether a process has ended for good, by its policy."""
     last = run_status(grid, name, is_local=is_local)
-    return last is not None and last.state in _FINAL
+    return last is not None and last.state in OVER
 
 
 def observe(grid: GridSession, specs: Mapping[str, ProcessSpec | None], hosts: Mapping[str, str]) -> dict[str, Running]:
@@ -91,7 +89,7 @@ def observe(grid: GridSession, specs: Mapping[str, ProcessSpec | None], hosts: M
 
 def _is_alive(files: GridFiles, name: str, last: RunStatus, alive: Mapping[int, procfs.ProcessEntry]) -> bool:
     """Whether the `run` of a status runs now: its pid can be reused."""
-    is_alive = last.state in (RUNNING, WAITING) and last.runner in alive
+    is_alive = last.state in ALIVE and last.runner in alive
     return is_alive and procfs.command(last.runner)[2:4] == [name, files.folder]
 
 
@@ -99,18 +97,20 @@ def _running(
     name: str, spec: ProcessSpec | None, host: str, state: str, runner: int, last: RunStatus | None, is_desired: bool,
     alive: dict[int, procfs.ProcessEntry] | None,
 ) -> Running:  # fmt: skip
-    if state in _ALIVE and (last is None or last.runner != runner or last.state not in (RUNNING, WAITING)):
-        return Running(name, spec, host, RUNNING, runner)  # it has just been started
+    if state in _ACTIVE and (last is None or last.runner != runner or last.state not in ALIVE):
+        # It has just been started.
+        return Running(name, spec, host, RUNNING, runner, memory=None, cpu=None)
     if last is None:
         return Running(name, spec, host, WAITING if is_desired else STOPPED)
-    if state in _ALIVE or (last.state in _FINAL and is_desired):
+    if state in _ACTIVE or (last.state in OVER and is_desired):
         now = last.state
     else:  # its `run` or its node was killed, and the keeper will restart it
         now = WAITING if is_desired else STOPPED
     members = procfs.descendants({last.pid}, alive) & set(alive) if alive is not None and now == RUNNING else set()
     return Running(
         name, spec, host, now, last.pid if now == RUNNING else 0, _seconds_since(last, alive is not None),
-        last.restarts, last.last_exit, procfs.memory(members), sum(alive[pid].cpu for pid in members) if alive else 0.0,
+        last.restarts, last.last_exit, None if alive is None else procfs.memory(members),
+        None if alive is None else sum(alive[pid].cpu for pid in members), last.spread,
     )  # fmt: skip
 
 

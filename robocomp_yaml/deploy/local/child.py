@@ -15,8 +15,8 @@ from typing import Any
 from robocomp_yaml.deploy.local import procfs, program
 from robocomp_yaml.deploy.local.kernel import OpenFiles, die_with, tie
 from robocomp_yaml.deploy.local.log_file import LogFile
+from robocomp_yaml.deploy.states import ENDED, ENDS, GIVEN_UP, RUNNING, STOPPED, WAITING
 
-RUNNING, WAITING, GIVEN_UP, ENDED, STOPPED = "running", "waiting", "given up", "ended", "stopped"
 _NEVER, _ALWAYS = "no", "always"
 
 _AFTER_KILL = 5.0  # seconds in which the kernel removes a killed process, unless that hangs in the kernel
@@ -27,21 +27,33 @@ SpecData = dict[str, Any]  # a `deploy.spec.ProcessSpec` as data, because the su
 
 class ChildProcess:
     """`spec` is what it was started with, or will be. `root` is the pid of its last run, as long as descendants of that
-    can be running. Times are those of the event loop, a monotonic clock."""
+    can be running. `policy` is the restart policy that applies, which also depends on the process's role. Times
+    are those of the event loop, a monotonic clock."""
 
     def __init__(self, spec: SpecData, mark: str, log: LogFile, families: procfs.Families, files: OpenFiles) -> None:
         self.spec, self.mark, self.log, self._families, self._files = spec, mark, log, families, files
         self.state, self.pid, self.restarts, self.last_exit = STOPPED, 0, 0, ""
+        self.policy: str = spec["process"]["restart"]["policy"]
         self.root = 0
         self.lock = asyncio.Lock()
         self._loop = asyncio.get_running_loop()
         self.since = self._loop.time()
         self._environment: dict[str, str] = {}
         self._failures: deque[float] = deque()
+        self._ends: deque[float] = deque(maxlen=ENDS)
         self._timer: asyncio.TimerHandle | None = None
         self._exited = asyncio.Event()
         self._output = -1
         self._is_stopping = False
+
+    @property
+    def spread(self) -> float | None:
+        """Seconds between the last ends by itself; None if there were fewer than ENDS."""
+        return self._ends[-1] - self._ends[0] if len(self._ends) == ENDS else None
+
+    @property
+    def lost_lines(self) -> int:
+        return self.log.lost
 
     def start(self, environment: dict[str, str]) -> None:
         """Starts the process, if it does not run. Raises OSError."""
@@ -50,6 +62,7 @@ class ChildProcess:
         self._cancel_timer()
         self._environment = environment
         self._failures.clear()
+        self._ends.clear()
         self.restarts, self.last_exit = 0, ""
         self._spawn()
 
@@ -106,16 +119,16 @@ class ChildProcess:
 
     def _after_end(self, *, is_failure: bool) -> None:
         """Applies the restart policy to a process that ended by itself."""
-        rule = self.spec["process"]["restart"]
-        if rule["policy"] != _ALWAYS and not is_failure:
+        rule, now = self.spec["process"]["restart"], self._loop.time()
+        self._ends.append(now)
+        if self.policy != _ALWAYS and not is_failure:
             self.log.note(f"ended by itself: {self.last_exit}")
             self._set_state(ENDED)
             return
-        if rule["policy"] == _NEVER:
+        if self.policy == _NEVER:
             self.log.note(f"ended by itself: {self.last_exit}; not restarted")
             self._set_state(GIVEN_UP)
             return
-        now = self._loop.time()
         self._failures.append(now)
         while now - self._failures[0] > rule["window"]:
             self._failures.popleft()

@@ -11,8 +11,9 @@ import subprocess
 import sys
 from typing import Any
 
+from robocomp_yaml.deploy import registered
 from robocomp_yaml.deploy.local import channel, procfs, record
-from robocomp_yaml.deploy.local.service import LONGEST
+from robocomp_yaml.deploy.local.service import LONGEST, RESTORE
 
 _LINES = 10
 _PATIENCE = 20.0  # seconds: far more than is needed, also on a busy machine
@@ -84,6 +85,19 @@ class Client:
 def reach(folder: str) -> socket.socket | None:
     """A connection to the supervisor, None if none runs. Raises OSError if the folder cannot be opened."""
     return channel.connect(f"{folder}/state") if os.path.isdir(f"{folder}/state") else None
+
+
+async def revived(folder: str) -> socket.socket | None:
+    """A connection to a supervisor whose folder was deleted: it writes the folder again. None if none runs."""
+    one = registered.of_folder(folder)
+    if one is None or not one.is_supervised:
+        return None
+    os.kill(one.supervisor, RESTORE)
+    for _ in range(int(_PATIENCE / 0.02)):
+        if connection := reach(folder):
+            return connection
+        await asyncio.sleep(0.02)
+    return None
 
 
 def last_words(folder: str) -> list[str]:

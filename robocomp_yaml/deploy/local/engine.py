@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import os
 import signal
-from collections.abc import AsyncGenerator, Collection, Iterable, Sequence
+from collections.abc import AsyncGenerator, Collection, Iterable, Iterator, Sequence
 from functools import partial
 from typing import Any
 
-from msgspec.structs import replace
-
 from robocomp_yaml.deploy import folder as own_folder
+from robocomp_yaml.deploy import registered
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
-from robocomp_yaml.deploy.local import client, record
+from robocomp_yaml.deploy.local import client, procfs, record
 from robocomp_yaml.deploy.local.client import Client, RequestFailed, SupervisorGone
 from robocomp_yaml.deploy.local.kernel import die_with
 from robocomp_yaml.deploy.local.log_reader import LogReader, merged
@@ -30,7 +30,7 @@ from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.network.network import FOLDER, Network, NetworkHost, Process
+from robocomp_yaml.network.network import Network
 
 
 class LocalEngine:
@@ -44,13 +44,14 @@ class LocalEngine:
         self._network = Network("", "", "")
         self._specs: dict[str, ProcessSpec] = {}
         self._cleared = CheckedSpecs()
+        self._has_staged = False
 
     async def open(self, network: Network, *, create: bool) -> bool:
         self._network = network
         if diagnostic := elsewhere(network):
             raise DeployFailed(diagnostic)
         try:
-            connection = client.reach(network.folder)
+            connection = client.reach(network.folder) or (None if create else await client.revived(network.folder))
             was_killed = connection is None and record.was_killed(network.folder)
             if was_killed or (connection is None and create):
                 left = [*record.clear_up(network.folder), *(client.last_words(network.folder) if was_killed else ())]
@@ -64,9 +65,17 @@ class LocalEngine:
         if connection is None:
             return False
         self._client = await Client.over(connection)
-        if (await self._ask("", "hello"))["protocol"] != PROTOCOL:
+        hello = await self._ask("", "hello")
+        if hello["protocol"] != PROTOCOL:
             raise self._folder_failed(network.folder, "another version of rcyaml started what runs there")
+        if create:
+            with contextlib.suppress(OSError):  # a full or read-only disk
+                self._register(hello["pid"] if hello.get("restores") else 0)
         return True
+
+    def _register(self, pid: int) -> None:
+        found = procfs.entry(pid) if pid else None
+        registered.keep(registered.entry_of(self._network, self.name, pid, found.start if found else 0))
 
     async def observe(self) -> dict[str, Running]:
         answer = await self._ask("", "observe")
@@ -83,18 +92,31 @@ class LocalEngine:
             self._cleared.note(specs)
         return found
 
+    async def stage(self, specs: Sequence[ProcessSpec]) -> None:
+        configs = [spec.process.config for spec in specs if spec.process.config]
+        self._has_staged = True
+        with self._writing():
+            own_folder.stage(self._network.folder, {config.path: config.text for config in configs})
+            for path in (path for spec in specs for path in spec.process.folders):
+                os.makedirs(path, mode=0o700, exist_ok=True)
+
     async def prepare(self, specs: Sequence[ProcessSpec]) -> None:
-        for spec in specs:
-            config = spec.process.config
-            try:
+        with self._writing():
+            for config in (spec.process.config for spec in specs):
                 if config:
-                    own_folder.write(self._network.folder, config.path, config.text)
-                for path in spec.process.folders:
-                    os.makedirs(path, mode=0o700, exist_ok=True)
-            except OSError as error:
-                raise self._folder_failed(error.filename or self._network.folder, error.strerror or "") from error
+                    own_folder.put(self._network.folder, config.path, config.text)
+            for path in (path for spec in specs for path in spec.process.folders):
+                os.makedirs(path, mode=0o700, exist_ok=True)
         self._specs.update({spec.name: spec for spec in specs})
-        await self._ask("", "prepare", specs=[spec.as_data() for spec in specs])
+        policies = {spec.name: spec.process.restart_policy for spec in specs}
+        await self._ask("", "prepare", specs=[spec.as_data() for spec in specs], policies=policies)
+
+    @contextlib.contextmanager
+    def _writing(self) -> Iterator[None]:
+        try:
+            yield
+        except OSError as error:
+            raise self._folder_failed(error.filename or self._network.folder, error.strerror or str(error)) from error
 
     async def start(self, name: str) -> None:
         spec = self._specs[name]
@@ -135,11 +157,14 @@ class LocalEngine:
                 await started.wait()
 
     async def close(self, *, end: bool = False) -> None:
+        if self._has_staged:
+            own_folder.drop_staged(self._network.folder)
         if self._client:
             if end:
                 await self._ask("", "end")
                 await self._client.wait_closed()
                 await client.wait_gone(self._network.folder)
+                registered.forget(self._network.folder)
             await self._client.close()
             self._client = None
 
@@ -164,27 +189,10 @@ _DONE = {"start": "started", "stop": "stopped"}
 
 def _running(entry: dict[str, Any]) -> Running:
     process = entry["spec"]["process"]
-    kept = ("state", "pid", "uptime", "restarts", "last_exit", "memory", "cpu")
+    kept = ("state", "pid", "uptime", "restarts", "last_exit", "memory", "cpu", "spread", "lost_lines")
     return Running(
-        process["name"], ProcessSpec.of_data(entry["spec"]), process["host"], **{key: entry[key] for key in kept}
+        process["name"],
+        ProcessSpec.of_data(entry["spec"]),
+        process["host"],
+        **{key: entry[key] for key in kept if key in entry},
     )
-
-
-def stand_in(path: str) -> Network | None:
-    """The network of the processes that run on this machine, as they were started, for a document that cannot be read.
-    None if no process runs, or the document does not even contain the name of its deployment."""
-    document, name = os.path.abspath(path), own_folder.deployment_in(path)
-    folder = os.path.join(os.path.dirname(document), FOLDER, name)
-    if not name or not record.is_there(folder) or record.was_killed(folder):
-        return None
-    network = Network(name, document, folder)
-
-    async def observed() -> list[Process]:
-        engine = LocalEngine()
-        states = await engine.observe() if await engine.open(network, create=False) else {}
-        await engine.close()
-        return [running.spec.process for running in states.values() if running.spec]
-
-    processes = {process.name: process for process in asyncio.run(observed())}
-    hosts = {process.host: NetworkHost(process.host) for process in processes.values()}
-    return replace(network, hosts=hosts, processes=processes)

@@ -19,7 +19,7 @@ class LogFile:
     def __init__(self, path: str, limit: int = LIMIT) -> None:
         self.path, self.limit = path, limit
         self._rest = b""
-        self._lost = 0
+        self.lost = 0
         self._file = -1
         self._size = 0
 
@@ -37,6 +37,19 @@ class LogFile:
         rest, self._rest = self._rest, b""
         self._write([*([rest] if rest else []), f"rcyaml: {text}".encode(errors="surrogateescape")])
 
+    def restore(self) -> None:
+        """Writes the file again if it was deleted while it was open."""
+        if self._file < 0 or os.fstat(self._file).st_nlink:
+            return
+        try:
+            os.makedirs(os.path.dirname(self.path), mode=0o700, exist_ok=True)
+            with open(f"/proc/self/fd/{self._file}", "rb") as old:
+                text = old.read()
+            self.close()
+            self._append(text)
+        except OSError:
+            self.close()
+
     def close(self) -> None:
         if self._file >= 0:
             os.close(self._file)
@@ -46,17 +59,17 @@ class LogFile:
         # The time is only shown, never used.
         now = time.time()
         stamp = time.strftime(f"%Y-%m-%dT%H:%M:%S.{int(now % 1 * 1000):03}Z ", time.gmtime(now)).encode()
-        if self._lost:
-            lines = [f"rcyaml: {self._lost} lines are missing here: they could not be written".encode(), *lines]
+        if self.lost:
+            lines = [f"rcyaml: {self.lost} lines are missing here: they could not be written".encode(), *lines]
         texts = [stamp + line.rstrip(b"\r") + b"\n" for line in lines]
         while texts:
             count = self._fitting(texts)
             try:
                 self._append(b"".join(texts[:count]))
             except OSError:
-                self._lost += len(texts) - bool(self._lost)
+                self.lost += len(texts) - bool(self.lost)
                 return
-            self._lost = 0
+            self.lost = 0
             texts = texts[count:]
 
     def _fitting(self, texts: list[bytes]) -> int:

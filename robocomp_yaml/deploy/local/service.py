@@ -7,6 +7,7 @@ A request is a line `{"id", "do", …}`. Its answer is a line `{"id", …}` with
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import json
 import os
 import signal
@@ -18,11 +19,16 @@ from robocomp_yaml.deploy.local.child import ChildProcess
 from robocomp_yaml.deploy.local.kernel import OpenFiles
 from robocomp_yaml.deploy.local.log_file import LIMIT, LogFile
 
+_FACTS = ("spec", "state", "pid", "restarts", "last_exit", "spread", "lost_lines")
+
 PROTOCOL = 2
 """The version of the protocol. A client of another version reports the difference."""
 
 LONGEST = 1 << 28  # bytes of a request, which contains configurations
 END_WITHIN = 5.0
+
+RESTORE = signal.SIGUSR1
+"""The signal upon which a supervisor makes itself reachable again, because its folder was deleted."""
 
 Request = dict[str, Any]
 
@@ -39,6 +45,7 @@ class _Service:
         self._files = OpenFiles()
         self._limit = int(os.environ.get("RCYAML_LOG_LIMIT") or LIMIT)
         self._over = asyncio.Event()
+        self._servers: list[asyncio.Server] = []
         self._families = procfs.Families(
             lambda: {child.root: child.mark for child in self.children.values() if child.root}
         )
@@ -49,19 +56,38 @@ class _Service:
         loop.add_signal_handler(signal.SIGCHLD, self._reap)
         for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
             loop.add_signal_handler(number, self._over.set)
-        server = await asyncio.start_unix_server(
-            self._serve_client, sock=channel.listen(f"{self.folder}/state"), limit=LONGEST
-        )
         keeper = os.getppid()
-        record.write(self.folder, keeper)
+        await self._listen(keeper)
+        loop.add_signal_handler(RESTORE, lambda: asyncio.ensure_future(self._restore(keeper)))
         await self._over.wait()
-        server.close()
+        for server in self._servers:
+            server.close()
         stops = (self._stop(child, END_WITHIN) for child in self.children.values())
         await asyncio.gather(*stops, return_exceptions=True)  # the keeper kills what does not end
         for child in self.children.values():
             child.log.close()
         if os.getppid() != keeper:  # the keeper was killed, and cannot remove the record
             record.remove(self.folder)
+
+    async def _listen(self, keeper: int) -> None:
+        self._servers.append(
+            await asyncio.start_unix_server(
+                self._serve_client, sock=channel.listen(f"{self.folder}/state"), limit=LONGEST
+            )
+        )
+        record.write(self.folder, keeper)
+
+    async def _restore(self, keeper: int) -> None:
+        """Makes the supervisor reachable again if its folder was deleted, and writes the logs again."""
+        with contextlib.suppress(OSError):
+            if os.path.lexists(f"{self.folder}/state/{channel.SOCKET}"):
+                return
+            for part in ("config", "logs", "state"):
+                os.makedirs(f"{self.folder}/{part}", mode=0o700, exist_ok=True)
+            os.chmod(self.folder, 0o700)
+            for child in self.children.values():
+                child.log.restore()
+            await self._listen(keeper)
 
     def _reap(self) -> None:
         """Collects the exit codes of ended processes: children, and adopted orphans of them."""
@@ -106,20 +132,21 @@ class _Service:
             pass
 
     async def do_hello(self, request: Request) -> Request:
-        return {"protocol": PROTOCOL, "pid": os.getpid()}
+        return {"protocol": PROTOCOL, "pid": os.getpid(), "restores": True}
 
     async def do_observe(self, request: Request) -> Request:
         now, families = asyncio.get_running_loop().time(), self._families.now()
         found = []
         for child in self.children.values():
             members = families.get(child.pid, set())
-            facts = {name: getattr(child, name) for name in ("spec", "state", "pid", "restarts", "last_exit")}
+            facts = {name: getattr(child, name) for name in _FACTS}
             cpu = sum(self._families.alive[pid].cpu for pid in members)
             used = {"memory": procfs.memory(members), "cpu": cpu, "members": sorted(members)}
             found.append({**facts, "uptime": now - child.since, **used})
         return {"processes": found}
 
     async def do_prepare(self, request: Request) -> Request:
+        policies = request.get("policies", {})  # a client of an earlier version sends none
         for spec in request["specs"]:
             name = spec["process"]["name"]
             if name in self.children:
@@ -127,6 +154,7 @@ class _Service:
             else:
                 log = LogFile(f"{self.folder}/logs/{name}.log", self._limit)
                 self.children[name] = ChildProcess(spec, f"{self.folder}:{name}", log, self._families, self._files)
+            self.children[name].policy = policies.get(name, spec["process"]["restart"]["policy"])
         return {}
 
     async def do_start(self, request: Request) -> Request:

@@ -1,6 +1,6 @@
 """RC7xxx: deploying. Why a network does not start, and what to know about a running one.
 
-The codes up to RC7019 are for all engines and for the local one.
+The codes up to RC7019, and those from RC7040, are for all engines and for the local one.
 """
 
 from __future__ import annotations
@@ -22,5 +22,7 @@ EXPIRED = _PAGE.code("RC7011")
 OUTDATED = _PAGE.code("RC7012")
 STALE = _PAGE.code("RC7016")
 NO_ANSWER = _PAGE.code("RC7010")
+UNSTABLE = _PAGE.code("RC7040")
+TOO_SLOW = _PAGE.code("RC7041")
 NO_REGISTRY = _PAGE.code("RC7020")
 NO_NODE = _PAGE.code("RC7021")

@@ -48,7 +48,7 @@ def running(process: Process, state: str = RUNNING) -> Running:
 
 @pytest.mark.parametrize(
     ("state", "action"),
-    [(RUNNING, KEEP), (ENDED, KEEP), (WAITING, START), (GIVEN_UP, START), (STOPPED, START), (LOST, START)],
+    [(RUNNING, KEEP), (ENDED, START), (WAITING, START), (GIVEN_UP, START), (STOPPED, START), (LOST, START)],
 )
 def test_an_unchanged_process(state: str, action: str) -> None:
     assert plan(network(A), {"a": running(A, state)}).steps["a"].action == action

@@ -21,7 +21,7 @@ from robocomp_yaml.deploy.plan import (
     with_dependences,
     with_dependents,
 )
-from robocomp_yaml.network.network import RestartRule
+from robocomp_yaml.network.network import PROGRAM, RestartRule
 
 MOTORS, BASE, ARM = process("motors"), process("base", "motors"), process("arm", "base")
 CAMERA = process("camera")
@@ -79,7 +79,7 @@ def test_with_names_no_other_process_stops() -> None:
     ("state", "last_exit", "action", "reason"),
     [
         (RUNNING, "", KEEP, "nothing changed"),
-        (ENDED, "", KEEP, "nothing changed"),
+        (ENDED, "exit code 0", START, "it ended by itself: exit code 0"),
         (WAITING, "exit code 3", START, "it ended by itself: exit code 3"),
         (WAITING, "", START, "it ended by itself"),
         (GIVEN_UP, "SIGSEGV", START, "it was given up: SIGSEGV"),
@@ -117,7 +117,7 @@ def test_the_reason_is_the_change_that_needs_a_restart_and_the_number_of_others(
     assert (step.action, step.reason) == (CHANGE, "aliases: m (new)")
 
 
-PLAIN = replace(BASE, is_ice=False)
+PLAIN = replace(BASE, is_ice=False, kind=PROGRAM)
 
 
 @pytest.mark.parametrize(

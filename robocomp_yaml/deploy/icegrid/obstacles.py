@@ -1,0 +1,107 @@
+"""Obstacles that only the engine icegrid has: what this machine lacks, and the ports and configurations of other
+hosts."""
+
+from __future__ import annotations
+
+import asyncio
+import importlib.util
+import shutil
+from collections.abc import Mapping, Sequence
+
+from robocomp_yaml.deploy.engine import STOPPED, Running
+from robocomp_yaml.deploy.local.obstacles import is_local
+from robocomp_yaml.deploy.readiness import listens
+from robocomp_yaml.deploy.spec import ProcessSpec
+from robocomp_yaml.deploy.states import OVER
+from robocomp_yaml.diag.codes import deploying
+from robocomp_yaml.diag.diagnostic import Diagnostic
+
+_TOO_LONG = "its configuration is longer than the 100,000 bytes that IceGrid carries to another host"
+
+
+def too_long(specs: Sequence[ProcessSpec]) -> list[Diagnostic]:
+    """Diagnostics for processes on other hosts, whose configurations are too long for IceGrid."""
+    from robocomp_yaml.deploy.icegrid.descriptors import LONGEST_CONFIG, encoded
+
+    return [
+        deploying.CANNOT.at(spec.process.span, name=spec.name, what="started", reason=_TOO_LONG)
+        for spec in specs
+        if (config := spec.process.config) and not is_local(spec.address)
+        and len(encoded(config.text).encode()) > LONGEST_CONFIG
+    ]  # fmt: skip
+
+
+def missing() -> str:
+    """What the engine needs and this machine lacks, or ''."""
+    # Ice's compiled module works only with the Python that it was compiled for.
+    if not all(map(importlib.util.find_spec, ("Ice", "IceGrid", "IcePy"))):
+        return "Ice for Python is not installed (`pip install 'rcyaml[ice]'`, Debian: python3-zeroc-ice)"
+    for program, package in (("icegridregistry", "zeroc-icegrid"), ("icegridnode", "zeroc-icegrid"),
+                             ("openssl", "openssl"), ("setpriv", "util-linux")):  # fmt: skip
+        if shutil.which(program) is None:
+            return f"{program} is not installed (Debian: {package})"
+    return ""
+
+
+CHECK = "rcyaml.check"
+"""The name of the server that runs MISSING. No process can have this name."""
+
+AT_ONCE = 60
+"""Processes that MISSING is asked about at a time: an exit code has one byte."""
+
+_FOLDER, _FILE = 2, 62  # the first exit codes of MISSING; 0, 1, 124 and 127 have other meanings
+
+MISSING = f"""\
+while (( $# )); do
+    cd -- "${{2:-/}}" 2>/dev/null || exit $(( $1 + {_FOLDER} ))
+    found=$(command -v -- "$3") && [[ -f $found && -x $found ]] || exit $(( $1 + {_FILE} ))
+    shift 3
+done
+"""
+"""A script for bash, with a number, a folder and a program for each process. Its exit code has the number of the first
+process whose folder is missing, or whose program is missing or cannot be executed."""
+
+_WITHIN = 1.0  # seconds for an answer
+
+
+async def used_ports(specs: Sequence[ProcessSpec], running: Mapping[str, Running]) -> list[Diagnostic]:
+    """Diagnostics for ports of `specs` on which something listens. Ports of the deployment's own processes are
+    ignored."""
+    own = {
+        (one.spec.address, endpoint.port)
+        for one in running.values()
+        if one.spec and one.state not in (STOPPED, *OVER)
+        for endpoint in one.spec.process.endpoints
+    }
+    ports = [
+        (spec, endpoint)
+        for spec in specs
+        for endpoint in spec.process.endpoints
+        if endpoint.port and endpoint.protocol != "udp" and (spec.address, endpoint.port) not in own
+    ]
+    answers = await asyncio.gather(*(listens(spec.address, endpoint.port, _WITHIN) for spec, endpoint in ports))
+    return [
+        deploying.PORT_TAKEN.at(
+            endpoint.span if endpoint.span.file else spec.process.span,
+            hint=f"`ss -ltnp` shows it on that host; end it, or choose another port for '{spec.name}'",
+            name=spec.name, port=endpoint.port, program=f"a program on the host '{spec.process.host}'",
+        )
+        for (spec, endpoint), is_taken in zip(ports, answers, strict=True)
+        if is_taken
+    ]  # fmt: skip
+
+
+def of_answer(specs: Sequence[ProcessSpec], code: int) -> tuple[int, Diagnostic] | None:
+    """What MISSING found, with the number of the process; None if it found nothing."""
+    number, is_folder = (code - _FOLDER, True) if code < _FILE else (code - _FILE, False)
+    if not 0 <= number < len(specs):
+        return None
+    spec = specs[number]
+    program, host = spec.command[0], spec.process.host
+    file = f"the file '{program}' is missing" if "/" in program else f"PATH contains no program '{program}'"
+    what = f"its folder '{spec.process.cwd}' does not exist" if is_folder else f"{file}, or it cannot be executed"
+    reason = f"{what}, on the host '{host}'"
+    found = deploying.CANNOT.at(
+        spec.process.span, hint=spec.process.build, name=spec.name, what="started", reason=reason
+    )  # fmt: skip
+    return number, found

@@ -1,0 +1,43 @@
+"""The order of restarts: one level of the network's order at a time, so that at any time as little as possible is down.
+
+All processes of a level stop together, and the next level stops only when they are ready again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from robocomp_yaml.deploy.plan import RESTART, START, Plan, PlanStep, in_order
+from robocomp_yaml.deploy.spec import ProcessSpec
+
+
+def levels(plan: Plan, skipped: Collection[str]) -> list[list[PlanStep]]:
+    """The steps that restart a running process, by level: each step is in a later level than all steps that it is
+    after. In a circle, the step that closes it counts as after none."""
+    after = {step.name: step.spec.process.after for step in plan.steps.values() if step.spec}
+    depth: dict[str, int] = {}
+    for name in in_order(after):
+        depth[name] = 1 + max((depth[other] for other in after[name] if other in depth), default=0)
+    found: dict[int, list[PlanStep]] = {}
+    for step in plan.of(RESTART):
+        if step.name not in skipped:
+            found.setdefault(depth[step.name], []).append(step)
+    return [found[level] for level in sorted(found)]
+
+
+def in_the_way(plan: Plan) -> set[str]:
+    """The processes that restart and now listen on a port at which another process will start. They stop before
+    anything starts, and so does a process of which the ports are unknown."""
+    taken: dict[tuple[str, int], set[str]] = {}
+    for step in plan.of(START, RESTART):
+        for port in _ports(step.spec):
+            taken.setdefault(port, set()).add(step.name)
+    return {
+        step.name
+        for step in plan.of(RESTART)
+        if step.before is None or any(taken.get(port, set()) - {step.name} for port in _ports(step.before))
+    }
+
+
+def _ports(spec: ProcessSpec | None) -> set[tuple[str, int]]:
+    return {(spec.address, one.port) for one in spec.process.endpoints if one.port} if spec else set()
