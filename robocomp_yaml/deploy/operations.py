@@ -10,9 +10,10 @@ import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml.deploy.carry_out import Report, StartOutcome, carry_out, stop_all, undo
-from robocomp_yaml.deploy.engine import GIVEN_UP, LOST, STOPPED, WAITING, Engine, Running
+from robocomp_yaml.deploy.engine import GIVEN_UP, LOST, RUNNING, STOPPED, WAITING, Engine, Running
+from robocomp_yaml.deploy.introspection import OwnState
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, plan, with_dependents
-from robocomp_yaml.deploy.readiness import holds
+from robocomp_yaml.deploy.readiness import holds, own_state
 from robocomp_yaml.deploy.time_limit import TimeLimit
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
@@ -45,6 +46,8 @@ class Status(msgspec.Struct, frozen=True):
     host: str
     is_ready: bool
     running: Running | None = None
+    own: OwnState | None = None
+    """What a component says of itself, if it is not ready."""
 
     @property
     def state(self) -> str:
@@ -140,8 +143,12 @@ async def status(engine: Engine, network: Network, names: Collection[str], reach
     async def status_of(name: str) -> Status:
         one, process = running.get(name), network.processes.get(name)
         host = one.host if one else process.host if process else ""
-        is_ready = bool(one and one.spec) and await holds(engine, one.spec, one)  # type: ignore[union-attr, arg-type]
-        return Status(name, host, is_ready, one)
+        if one is None or one.spec is None:
+            return Status(name, host, False, one)
+        if one.state != RUNNING:
+            return Status(name, host, await holds(engine, one.spec, one), one)
+        is_ready, own = await asyncio.gather(holds(engine, one.spec, one), own_state(one.spec))
+        return Status(name, host, is_ready, one, own)
 
     known = [process.name for process in network.enabled()]
     every = [*known, *(name for name in running if name not in known)]

@@ -8,7 +8,7 @@ import time
 from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import aclosing, suppress
 
-from robocomp_yaml.deploy import ice_ping
+from robocomp_yaml.deploy import ice_ping, introspection
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import (
     ENDED,
@@ -23,10 +23,12 @@ from robocomp_yaml.deploy.engine import (
     Line,
     Running,
 )  # fmt: skip
+from robocomp_yaml.deploy.introspection import OwnState
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.network.network import ALWAYS
+from robocomp_yaml.wire.introspection import WAITING
 
 SETTLED = 0.1
 """Seconds that a process without a condition must run before it counts as ready."""
@@ -83,11 +85,8 @@ async def until_ready(engine: Engine, spec: ProcessSpec, lines: AsyncIterator[Li
             how = end.result()
             hint = _hint_for_127(spec) if "exit code 127" in how else ""
             raise DeployFailed(deploying.ENDED_EARLY.at(spec.process.span, name=spec.name, how=how, hint=hint))
-        raise DeployFailed(
-            deploying.NOT_READY.at(
-                spec.process.span, name=spec.name, within=f"{spec.process.ready.within:g}", why=why_not(spec, running)
-            )
-        )
+        why, within = await why_not(spec, running), f"{spec.process.ready.within:g}"
+        raise DeployFailed(deploying.NOT_READY.at(spec.process.span, name=spec.name, within=within, why=why))
     finally:
         for task in (end, ready):
             task.cancel()
@@ -136,15 +135,35 @@ async def _check(engine: Engine, spec: ProcessSpec, within: float) -> bool:
     """Checks any condition but that of the log, once."""
     ready = spec.process.ready
     if ready.pings:
-        for proxy in ready.pings:
-            if not await ice_ping.answers(proxy, within):
-                return False
-        return True
+        return await _serves(spec, within)
     if ready.port:
         return await listens(spec.address, ready.port, within)
     if ready.command:
         return await engine.run(spec.name, ready.command, within) == 0
     return True
+
+
+async def _serves(spec: ProcessSpec, within: float) -> bool:
+    """Whether a component runs, as it says itself, and everything that it serves answers a ping."""
+    pings, own = spec.process.ready.pings, spec.process.introspection
+    if own:
+        with suppress(introspection.NoFacet):
+            state = await introspection.state(own, within)
+            if state is None or not state.is_running:
+                return False
+            pings = tuple(proxy for proxy in pings if proxy != own)
+    for proxy in pings:
+        if not await ice_ping.answers(proxy, within):
+            return False
+    return True
+
+
+async def own_state(spec: ProcessSpec, within: float = _ONE_TRY) -> OwnState | None:
+    """What a component says of itself; None if it does not answer, or does not describe itself."""
+    proxy = spec.process.introspection
+    with suppress(introspection.NoFacet):
+        return await introspection.state(proxy, within) if proxy else None
+    return None
 
 
 async def listens(host: str, port: int, within: float) -> bool:
@@ -162,11 +181,14 @@ def _matches(pattern: str, text: str) -> bool:
     return not text.startswith(OWN) and re.search(pattern, text) is not None
 
 
-def why_not(spec: ProcessSpec, running: Running | None) -> str:
+async def why_not(spec: ProcessSpec, running: Running | None) -> str:
     """Why a process is not ready."""
     ready = spec.process.ready
     if running and running.restarts:
         return f"it ended in the meantime: {running.end}"
+    own = await own_state(spec) if ready.pings else None
+    if own is not None and not own.is_running:
+        return f"it is {own.words}" + (f" ({own.why})" if own.state == WAITING and own.why else "")
     if ready.pings:
         return "no answer from " + ", ".join(proxy.partition(":")[0].split()[0] for proxy in ready.pings)
     if ready.port:

@@ -139,6 +139,8 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
     """The component's name in its CDSL document, '' for other programs."""
     build: str = ""
     """How to build a component whose executable is missing: a hint with commands, relative to the working folder."""
+    introspection: str = ""
+    """The proxy of the object with which a generated component describes itself, '' for other programs."""
     extra: tuple[tuple[str, object], ...] = ()
     """What only exports need: the entries of `x-rcmanager`; those of its aliases are below `aliases`."""
     span: Span = Span("")

@@ -21,6 +21,7 @@ from robocomp_yaml.network.network import (
     Readiness,
     RestartRule,
 )
+from robocomp_yaml.network.port_numbers import COMMON_BEHAVIOR
 from robocomp_yaml.parameters.hidden import secret_names
 from robocomp_yaml.source.properties import entry_line
 
@@ -60,6 +61,7 @@ def of_draft(
         secrets=tuple(sorted(set(secret_names(component.parameters.parameters.root)))) if component is not None else (),
         component=component.component.name if component is not None else "",
         build=_build(draft),
+        introspection=_introspection(draft),
         extra=(*entry.extra, ("aliases", of_aliases)) if of_aliases else entry.extra,
         span=entry.span,
     )
@@ -127,6 +129,12 @@ def _ready(draft: Draft) -> Readiness:
         return Readiness(within, tuple(offer.proxy for offer in draft.offers if offer.endpoint))
     ports = [offer.endpoint.port for offer in draft.offers if offer.endpoint and offer.endpoint.protocol != "udp"]
     return Readiness(within, port=ports[0] if ports else None)
+
+
+def _introspection(draft: Draft) -> str:
+    """The facet is beside CommonBehavior, unless the component implements that itself."""
+    own = (offer for offer in draft.offers if offer.interface == COMMON_BEHAVIOR and offer.port is None)
+    return next((offer.proxy for offer in own if draft.instance.component is not None and offer.endpoint), "")
 
 
 def _restart(given: model.Restart | None) -> RestartRule:

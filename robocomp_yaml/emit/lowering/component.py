@@ -5,9 +5,9 @@ from __future__ import annotations
 import msgspec
 
 from robocomp_yaml.emit.slice import file_name
+from robocomp_yaml.languages.record import PORTS
 from robocomp_yaml.link.interface_hash import interface_hash
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.languages.record import PORTS
 from robocomp_yaml.parameters.defaults import period
 
 BEHAVIOR = "RoboCompCommonBehavior"

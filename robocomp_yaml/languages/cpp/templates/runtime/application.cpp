@@ -149,6 +149,7 @@ void Application::start()
     services_.implementIfConfigured("CommonBehavior", "commonbehavior", behavior, facet);
     warnOfProperties(worker_->store_, settings_, log_);
     worker_->connect(connections_, services_);
+    vitals_.become("starting", {{"in", "initialize()"}});
     worker_->initialize();
     gate_.open();
     services_.ready();

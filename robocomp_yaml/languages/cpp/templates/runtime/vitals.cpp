@@ -182,7 +182,7 @@ void Vitals::become(const std::string& state, Texts texts)
         const auto now = texts.find(key);
         return (before == texts_.end() ? "" : before->second) == (now == texts.end() ? "" : now->second);
     };
-    if (!isSame("state") || !isSame("for") || !isSame("at"))
+    if (!isSame("state") || !isSame("in") || !isSame("for") || !isSame("at"))
     {
         since_ = Clock::now();
     }

@@ -163,6 +163,7 @@ final class Application {
         Worker worker = component.worker();
         worker.connect(connections);
         List<Runnable> subscriptions = listen(services);
+        vitals.become(Vitals.STARTING, "in", "initialize()");
         worker.initialize();
         gate.open(worker);
         synchronized (connections) {

@@ -44,7 +44,7 @@ final class Vitals {
         if (old.equals(FAILED) || (old.equals(STOPPING) && !state.equals(FAILED))) {
             return;
         }
-        for (String key : List.of("state", "for", "at")) {
+        for (String key : List.of("state", "in", "for", "at")) {
             if (!Objects.equals(texts.get(key), changed.get(key))) {
                 since = System.nanoTime();
             }

@@ -18,7 +18,7 @@ from generated.runtime.semantics import connections
 from generated.runtime.settings import Settings
 from generated.runtime.stage import Stage, WorkerClass
 from generated.runtime.topics import Topics
-from generated.runtime.vitals import FAILED, RUNNING, STOPPING, Tally, Vitals
+from generated.runtime.vitals import FAILED, RUNNING, STARTING, STOPPING, Tally, Vitals
 from generated.runtime.waiting import Waiting, reason
 
 Parameters = tuple[Table, Callable[[Store], Live]]
@@ -118,6 +118,7 @@ class Application:
         context = worker.Context(
             self._component.name, self._communicator, self._schedule, self._stopping, self._parameters, proxies
         )
+        self._vitals.become(STARTING, **{"in": "initialize()"})
         running = self._stage.create(self._worker_class, context)
         self._gate.open(running)
         for port, subscriber in subscribers:
