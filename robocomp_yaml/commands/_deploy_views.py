@@ -114,6 +114,8 @@ def _state(one: Status) -> str:
     if one.state == "running":
         if one.is_ready:
             return "ready"
+        if one.running.not_alive:
+            return f"not alive: {one.running.not_alive}"
         return one.own.words if one.own and not one.own.is_running else "running, not ready"
     return f"{one.state}: {one.running.last_exit}" if one.running.last_exit else one.state
 
@@ -128,7 +130,7 @@ def _status_data(network: Network, one: Status, running: Running | None) -> dict
         "name": one.name, "host": one.host, "state": one.state if running else "not started", "ready": one.is_ready,
         "pid": running.pid if running else 0, "uptime": round(running.uptime, 3) if running else 0,
         "restarts": running.restarts if running else 0, "last_exit": running.last_exit if running else "",
-        "own": msgspec.to_builtins(one.own),
+        "not_alive": running.not_alive if running else "", "own": msgspec.to_builtins(one.own),
         "memory": running.memory if running else 0, "cpu": running.cpu if running else 0,
         "endpoints": [
             {"interface": endpoint.interface, "identity": endpoint.identity, "endpoint": endpoint.text}

@@ -42,7 +42,7 @@ class Running(msgspec.Struct, frozen=True):
     `spec` is what it was started with, None if another version of rcyaml started it. `uptime` are seconds since its
     current run began, or since the last run ended, by a monotonic clock. `restarts` counts the engine's own restarts.
     `last_exit` is how the last run ended ('exit code 3', 'SIGSEGV', '' if none has). `memory` are bytes and `cpu`
-    seconds, of the process and all its descendants.
+    seconds, of the process and all its descendants. `not_alive` is why it runs and is not alive, '' if it is.
     """
 
     name: str
@@ -55,6 +55,7 @@ class Running(msgspec.Struct, frozen=True):
     last_exit: str = ""
     memory: int = 0
     cpu: float = 0.0
+    not_alive: str = ""
 
     @property
     def is_alive(self) -> bool:

@@ -1,6 +1,6 @@
-"""Calls of Ice objects, in Ice's own protocol, over one plain connection each.
+"""Calls of Ice objects, over one connection each.
 
-This needs neither the Ice runtime nor its threads, so that many processes can be called at once, also where Ice is not
+Most need neither the Ice runtime nor its threads, so that many processes can be called at once, also where Ice is not
 installed. Proxies without an address, or with another protocol than TCP, need the Ice runtime.
 """
 
@@ -8,29 +8,12 @@ from __future__ import annotations
 
 import asyncio
 import functools
-import struct
 
 import msgspec
 
 from robocomp_yaml.source.ice_proxy import proxy_at
-from robocomp_yaml.wire.introspection import text
-
-_MAGIC = b"IceP\x01\x00\x01\x00"  # protocol 1.0, encoding 1.0
-_REQUEST, _REPLY, _VALIDATE, _CLOSE = 0, 2, 3, 4
-_HEADER = struct.Struct("<8sBBi")
-_ENCAPSULATION = struct.Struct("<iBB")
-_IDEMPOTENT = 2
-_LONGEST = 1 << 20
-
-OK, NO_OBJECT, NO_FACET, NO_OPERATION = 0, 2, 3, 4
-
-
-class Reply(msgspec.Struct, frozen=True):
-    """The answer to a call. `status` is OK, or another number of Ice's protocol; `result` are the bytes of the results
-    if it is OK."""
-
-    status: int
-    result: bytes = b""
+from robocomp_yaml.wire import protocol
+from robocomp_yaml.wire.protocol import NO_FACET, NO_OBJECT, NO_OPERATION, OK, Reply
 
 
 class IceCall(msgspec.Struct, frozen=True):
@@ -56,51 +39,14 @@ def address_of(proxy: str) -> tuple[str, str, int] | None:
 async def answer(proxy: str, call: IceCall, within: float) -> Reply | None:
     """The answer of a proxy's object within so many seconds; None if there is none, whatever is at the other end."""
     address = address_of(proxy)
+    if address is not None:
+        identity, host, port = address
+        return await protocol.ask(host, port, protocol.request(identity, *msgspec.structs.astuple(call)), within)
     try:
         async with asyncio.timeout(within):
-            if address is None:
-                return await asyncio.to_thread(_answer_by_ice, proxy, call, within)
-            identity, host, port = address
-            # To resolve a name takes a thread, which costs more than the call.
-            reader, writer = await asyncio.open_connection("127.0.0.1" if host == "localhost" else host, port)
-            try:
-                return await _exchange(identity, call, reader, writer)
-            finally:
-                writer.close()
-    except (OSError, asyncio.IncompleteReadError, struct.error):
+            return await asyncio.to_thread(_answer_by_ice, proxy, call, within)
+    except TimeoutError:
         return None
-
-
-def request(identity: str, call: IceCall) -> bytes:
-    """The message of a call, with the number 1."""
-    category, _, name = identity.rpartition("/")
-    body = struct.pack("<i", 1) + text(name) + text(category)
-    body += (b"\1" + text(call.facet) if call.facet else b"\0") + text(call.operation) + bytes([_IDEMPOTENT, 0])
-    body += _ENCAPSULATION.pack(_ENCAPSULATION.size + len(call.arguments), 1, 1) + call.arguments
-    return _HEADER.pack(_MAGIC, _REQUEST, 0, _HEADER.size + len(body)) + body
-
-
-async def _exchange(
-    identity: str, call: IceCall, reader: asyncio.StreamReader, writer: asyncio.StreamWriter
-) -> Reply | None:
-    if await _message(reader) != (_VALIDATE, b""):
-        return None
-    writer.write(request(identity, call))
-    kind, reply = await _message(reader)
-    # Ice expects a message before a connection is closed.
-    writer.write(_HEADER.pack(_MAGIC, _CLOSE, 0, _HEADER.size))
-    if kind != _REPLY or reply[:4] != struct.pack("<i", 1):
-        return None
-    status = reply[4]
-    return Reply(status, reply[5 + _ENCAPSULATION.size :] if status == OK else b"")
-
-
-async def _message(reader: asyncio.StreamReader) -> tuple[int, bytes]:
-    """The kind and the body of the next message; (-1, b"") if it is not a message of Ice."""
-    magic, kind, _, size = _HEADER.unpack(await reader.readexactly(_HEADER.size))
-    if magic[:4] != _MAGIC[:4] or not _HEADER.size <= size <= _LONGEST:
-        return -1, b""
-    return kind, await reader.readexactly(size - _HEADER.size)
 
 
 def _answer_by_ice(proxy: str, call: IceCall, within: float) -> Reply | None:
@@ -109,11 +55,12 @@ def _answer_by_ice(proxy: str, call: IceCall, within: float) -> Reply | None:
         import Ice
     except ImportError:
         return None
-    arguments = _ENCAPSULATION.pack(_ENCAPSULATION.size + len(call.arguments), 1, 1) + call.arguments
     try:
         with Ice.initialize([f"--Ice.Default.InvocationTimeout={int(within * 1000)}"]) as communicator:
             called = communicator.stringToProxy(proxy).ice_facet(call.facet)
-            is_ok, result = called.ice_invoke(call.operation, Ice.OperationMode.Idempotent, arguments)
+            is_ok, result = called.ice_invoke(
+                call.operation, Ice.OperationMode.Idempotent, protocol.encapsulated(call.arguments)
+            )
     except Ice.ObjectNotExistException:
         return Reply(NO_OBJECT)
     except Ice.FacetNotExistException:
@@ -122,4 +69,4 @@ def _answer_by_ice(proxy: str, call: IceCall, within: float) -> Reply | None:
         return Reply(NO_OPERATION)
     except Ice.Exception:
         return None
-    return Reply(OK if is_ok else 1, bytes(result)[_ENCAPSULATION.size :])
+    return Reply(OK if is_ok else 1, protocol.content(bytes(result)))

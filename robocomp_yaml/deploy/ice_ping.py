@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from robocomp_yaml.deploy import ice_call
 from robocomp_yaml.deploy.ice_call import IceCall
+from robocomp_yaml.wire.protocol import OK
 
 PING = IceCall("ice_ping")
 
@@ -12,4 +13,4 @@ async def answers(proxy: str, within: float) -> bool:
     """Whether the object of a proxy answers a ping within so many seconds. Any failure of the other end returns
     False."""
     reply = await ice_call.answer(proxy, PING, within)
-    return reply is not None and reply.status == ice_call.OK
+    return reply is not None and reply.status == OK

@@ -7,10 +7,11 @@ from collections.abc import Iterable
 import msgspec
 
 from robocomp_yaml.deploy import ice_call
-from robocomp_yaml.deploy.ice_call import NO_FACET, NO_OBJECT, NO_OPERATION, OK, IceCall
+from robocomp_yaml.deploy.ice_call import IceCall
 from robocomp_yaml.source.ice_proxy import proxy_at
 from robocomp_yaml.wire import introspection as wire
 from robocomp_yaml.wire.introspection import FAILED, RUNNING, STARTING, STATE, STOPPING, WAITING, Heartbeat, Sections
+from robocomp_yaml.wire.protocol import NO_FACET, NO_OBJECT, NO_OPERATION, OK
 
 
 class NoFacet(Exception):

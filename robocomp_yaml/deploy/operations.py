@@ -56,7 +56,7 @@ class Status(msgspec.Struct, frozen=True):
     @property
     def is_down(self) -> bool:
         """Whether it should run and does not."""
-        return self.state in (WAITING, GIVEN_UP, LOST)
+        return self.state in (WAITING, GIVEN_UP, LOST) or bool(self.running and self.running.not_alive)
 
 
 async def up(

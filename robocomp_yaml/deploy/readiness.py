@@ -53,7 +53,7 @@ async def holds(engine: Engine, spec: ProcessSpec, running: Running) -> bool:
     ready = spec.process.ready
     if running.state == ENDED:
         return not ready.has_condition
-    if running.state != RUNNING:
+    if running.state != RUNNING or running.not_alive:
         return False
     if ready.log:
         async with aclosing(await engine.lines([spec.name], LOG_LINES, False)) as lines:

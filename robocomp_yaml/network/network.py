@@ -96,6 +96,25 @@ class RestartRule(msgspec.Struct, frozen=True):
     window: float = 60.0
 
 
+class Liveness(msgspec.Struct, frozen=True):
+    """How it is checked that a process answers while it runs: `proxy` is asked `every` so many seconds, and must answer
+    `within` so many; after `misses` missing answers in a row it is not alive. Then it `restarts`, or that is only
+    shown.
+
+    `worker` is the number of seconds for which the worker of a component may show no life: AUTO for ten periods and at
+    least 10 s, FOREVER for any time, and for programs that do not describe themselves."""
+
+    proxy: str
+    every: float = 5.0
+    within: float = 2.0
+    misses: int = 2
+    restarts: bool = True
+    worker: float = -1.0
+
+
+AUTO, FOREVER = -1.0, 0.0
+
+
 class ConfigFile(msgspec.Struct, frozen=True):
     """The configuration of one process. `path` is relative to the deployment's own folder, and below `config/`. The
     file may contain secrets: its mode is 0600. `secrets` are the names of its secret properties."""
@@ -127,6 +146,7 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
     optional: tuple[str, ...] = ()
     ready: Readiness = Readiness()
     restart: RestartRule = RestartRule()
+    alive: Liveness | None = None
     watched: tuple[str, ...] = ()
     folders: tuple[str, ...] = ()
     aliases: tuple[str, ...] = ()

@@ -10,6 +10,7 @@ from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.link.workspace import component_argument
 from robocomp_yaml.model import deployment as model
 from robocomp_yaml.model.deployment import CONFIG
+from robocomp_yaml.network import liveness
 from robocomp_yaml.network.draft import MANAGER, PUBLISH, STORM_INSTANCE, Draft, StormDraft
 from robocomp_yaml.network.network import (
     COMPONENT,
@@ -21,7 +22,6 @@ from robocomp_yaml.network.network import (
     Readiness,
     RestartRule,
 )
-from robocomp_yaml.network.port_numbers import COMMON_BEHAVIOR
 from robocomp_yaml.parameters.hidden import secret_names
 from robocomp_yaml.source.properties import entry_line
 
@@ -53,6 +53,7 @@ def of_draft(
         endpoints=tuple(adapter.resolved() for adapter in draft.adapters),
         ready=_ready(draft),
         restart=_restart(entry.restart),
+        alive=liveness.of_draft(draft),
         watched=(program, *_code(instance.folder, component, known)) if os.path.isabs(program) else (),
         aliases=tuple(alias.name for alias in draft.aliases),
         groups=tuple(group.name for group in instance.groups),
@@ -61,7 +62,7 @@ def of_draft(
         secrets=tuple(sorted(set(secret_names(component.parameters.parameters.root)))) if component is not None else (),
         component=component.component.name if component is not None else "",
         build=_build(draft),
-        introspection=_introspection(draft),
+        introspection=liveness.introspection(draft),
         extra=(*entry.extra, ("aliases", of_aliases)) if of_aliases else entry.extra,
         span=entry.span,
     )
@@ -129,12 +130,6 @@ def _ready(draft: Draft) -> Readiness:
         return Readiness(within, tuple(offer.proxy for offer in draft.offers if offer.endpoint))
     ports = [offer.endpoint.port for offer in draft.offers if offer.endpoint and offer.endpoint.protocol != "udp"]
     return Readiness(within, port=ports[0] if ports else None)
-
-
-def _introspection(draft: Draft) -> str:
-    """The facet is beside CommonBehavior, unless the component implements that itself."""
-    own = (offer for offer in draft.offers if offer.interface == COMMON_BEHAVIOR and offer.port is None)
-    return next((offer.proxy for offer in own if draft.instance.component is not None and offer.endpoint), "")
 
 
 def _restart(given: model.Restart | None) -> RestartRule:

@@ -1,7 +1,6 @@
 """The facet with which generated components describe themselves (`templates/slice/RcYaml.ice`), as bytes of Ice.
 
-This needs no Ice: many processes are asked at once, also where Ice is not installed. Numbers are little-endian, and
-sizes have one byte, or five: https://doc.zeroc.com/ice/3.7/ice-protocol-and-encoding
+This needs no Ice: many processes are asked at once, also where Ice is not installed.
 """
 
 from __future__ import annotations
@@ -11,6 +10,8 @@ from collections.abc import Callable, Iterable
 from typing import TypeVar
 
 import msgspec
+
+from robocomp_yaml.wire.protocol import size, text
 
 FACET = "rcyaml"
 REPORT, HEARTBEAT = "report", "getHeartbeat"
@@ -40,16 +41,10 @@ class Heartbeat(msgspec.Struct, frozen=True):
 Sections = dict[str, list[Facts]]
 
 
-def text(content: str) -> bytes:
-    """A string of Ice."""
-    data = content.encode(errors="surrogateescape")
-    return _size(len(data)) + data
-
-
 def names(sections: Iterable[str]) -> bytes:
     """The parameter of `report`."""
     texts = [text(section) for section in sections]
-    return _size(len(texts)) + b"".join(texts)
+    return size(len(texts)) + b"".join(texts)
 
 
 def sections_of(result: bytes) -> Sections:
@@ -60,10 +55,6 @@ def sections_of(result: bytes) -> Sections:
 def heartbeat_of(result: bytes) -> Heartbeat:
     """What `getHeartbeat` returned. Raises ValueError if it is not valid."""
     return _read(result, lambda reader: Heartbeat(reader.integer() / 1000, reader.integer() / 1000))
-
-
-def _size(number: int) -> bytes:
-    return struct.pack("<Bi", 255, number) if number > 254 else bytes([number])
 
 
 def _read(data: bytes, content: Callable[[_Reader], Value]) -> Value:

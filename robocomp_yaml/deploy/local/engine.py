@@ -10,6 +10,7 @@ from functools import partial
 from typing import Any
 
 from robocomp_yaml.deploy import folder as own_folder
+from robocomp_yaml.deploy import liveness
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
 from robocomp_yaml.deploy.local import client, record
@@ -92,7 +93,8 @@ class LocalEngine:
             except OSError as error:
                 raise self._folder_failed(error.filename or self._network.folder, error.strerror or "") from error
         self._specs.update({spec.name: spec for spec in specs})
-        await self._ask("", "prepare", specs=[spec.as_data() for spec in specs])
+        questions = {spec.name: asked for spec in specs if (asked := liveness.question(spec.process.alive))}
+        await self._ask("", "prepare", specs=[spec.as_data() for spec in specs], questions=questions)
 
     async def start(self, name: str) -> None:
         spec = self._specs[name]
@@ -164,8 +166,9 @@ def _running(entry: dict[str, Any]) -> Running:
     process = entry["spec"]["process"]
     kept = ("state", "pid", "uptime", "restarts", "last_exit", "memory", "cpu")
     return Running(
-        process["name"], ProcessSpec.of_data(entry["spec"]), process["host"], **{key: entry[key] for key in kept}
-    )
+        process["name"], ProcessSpec.of_data(entry["spec"]), process["host"], **{key: entry[key] for key in kept},
+        not_alive=entry.get("not_alive", ""),
+    )  # fmt: skip
 
 
 def stand_in(path: str) -> Network | None:

@@ -14,6 +14,7 @@ from collections.abc import Awaitable
 from typing import Any
 
 from robocomp_yaml.deploy.local import channel, procfs, record
+from robocomp_yaml.deploy.local.alive import AliveWatch, Question
 from robocomp_yaml.deploy.local.child import ChildProcess
 from robocomp_yaml.deploy.local.kernel import OpenFiles
 from robocomp_yaml.deploy.local.log_file import LIMIT, LogFile
@@ -23,6 +24,8 @@ PROTOCOL = 2
 
 LONGEST = 1 << 28  # bytes of a request, which contains configurations
 END_WITHIN = 5.0
+
+_OBSERVED = ("spec", "state", "pid", "restarts", "last_exit", "not_alive")
 
 Request = dict[str, Any]
 
@@ -36,6 +39,7 @@ class _Service:
     def __init__(self, folder: str) -> None:
         self.folder = folder
         self.children: dict[str, ChildProcess] = {}
+        self._watches: dict[str, asyncio.Task[None]] = {}
         self._files = OpenFiles()
         self._limit = int(os.environ.get("RCYAML_LOG_LIMIT") or LIMIT)
         self._over = asyncio.Event()
@@ -56,6 +60,8 @@ class _Service:
         record.write(self.folder, keeper)
         await self._over.wait()
         server.close()
+        for name in list(self._watches):
+            self._watch(name, None)
         stops = (self._stop(child, END_WITHIN) for child in self.children.values())
         await asyncio.gather(*stops, return_exceptions=True)  # the keeper kills what does not end
         for child in self.children.values():
@@ -113,7 +119,7 @@ class _Service:
         found = []
         for child in self.children.values():
             members = families.get(child.pid, set())
-            facts = {name: getattr(child, name) for name in ("spec", "state", "pid", "restarts", "last_exit")}
+            facts = {name: getattr(child, name) for name in _OBSERVED}
             cpu = sum(self._families.alive[pid].cpu for pid in members)
             used = {"memory": procfs.memory(members), "cpu": cpu, "members": sorted(members)}
             found.append({**facts, "uptime": now - child.since, **used})
@@ -127,7 +133,17 @@ class _Service:
             else:
                 log = LogFile(f"{self.folder}/logs/{name}.log", self._limit)
                 self.children[name] = ChildProcess(spec, f"{self.folder}:{name}", log, self._families, self._files)
+            self._watch(name, request.get("questions", {}).get(name))
         return {}
+
+    def _watch(self, name: str, question: list[Any] | None) -> None:
+        """From now on, asks whether a process is alive. `question` is None if it is not asked."""
+        if watch := self._watches.pop(name, None):
+            watch.cancel()
+        if question:
+            host, port, message = question
+            asked = Question(host, port, bytes.fromhex(message))
+            self._watches[name] = asyncio.create_task(AliveWatch(self.children[name], asked).run())
 
     async def do_start(self, request: Request) -> Request:
         child = self.children[request["name"]]
@@ -146,6 +162,7 @@ class _Service:
 
     async def do_forget(self, request: Request) -> Request:
         for name in request["names"]:
+            self._watch(name, None)
             if child := self.children.pop(name, None):
                 child.log.close()
         return {}
