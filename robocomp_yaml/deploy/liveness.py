@@ -10,6 +10,10 @@ from robocomp_yaml.deploy import ice_call
 from robocomp_yaml.network.network import Liveness
 from robocomp_yaml.wire import introspection, protocol
 
+START, READY = 60.0, 3
+"""Seconds that a process has for its first answer after a start; and that many times the limit of `ready:`, if that is
+longer."""
+
 
 def question(alive: Liveness | None) -> tuple[str, int, str] | None:
     """The host, port and message, in hexadecimal digits. None if nothing is asked, also because the process serves

@@ -28,7 +28,8 @@ _FINAL = (GIVEN_UP, ENDED)
 
 class RunStatus(msgspec.Struct, frozen=True):
     """The status file of a `run` script. `runner` is the pid of the script, `pid` that of its process. The time of the
-    last change is `since`, in milliseconds since the host booted, and `at`, in microseconds of the host's clock."""
+    last change is `since`, in milliseconds since the host booted, and `at`, in microseconds of the host's clock.
+    `not_alive` says why a running process is not alive."""
 
     state: str
     runner: int
@@ -37,13 +38,15 @@ class RunStatus(msgspec.Struct, frozen=True):
     at: int
     restarts: int
     last_exit: str
+    not_alive: str = ""
 
 
 def of_text(text: str) -> RunStatus | None:
     """The status in a text, None if the text is not valid."""
     parts = text.strip().split("|", 6)
     try:
-        return RunStatus(parts[0], *map(int, parts[1:6]), parts[6])  # type: ignore[call-arg, arg-type]
+        state, _, not_alive = parts[0].partition(", ")
+        return RunStatus(state, *map(int, parts[1:6]), parts[6], not_alive)  # type: ignore[call-arg, arg-type]
     except (IndexError, ValueError):
         return None
 
@@ -111,6 +114,7 @@ def _running(
     return Running(
         name, spec, host, now, last.pid if now == RUNNING else 0, _seconds_since(last, alive is not None),
         last.restarts, last.last_exit, procfs.memory(members), sum(alive[pid].cpu for pid in members) if alive else 0.0,
+        last.not_alive if now == RUNNING else "",
     )  # fmt: skip
 
 

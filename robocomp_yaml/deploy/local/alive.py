@@ -16,7 +16,7 @@ AUTO, FOREVER = -1.0, 0.0
 SILENCE, PERIODS = 10.0, 10
 
 _AT_START = 0.5  # seconds between two questions until the first answer
-_START, _READY = 60.0, 3  # seconds for the first answer; and that many times the limit of `ready:`
+_START, _READY = 60.0, 3  # see `deploy.liveness`, which the supervisor does not import
 _LATE = 1.0  # seconds: if the supervisor itself was halted for so long, the other processes were, too
 
 
