@@ -39,6 +39,7 @@ makeCommunicator(const Settings& settings, Gate& gate, const std::shared_ptr<Pub
             data.properties->setProperty(key, value);
         }
     }
+    Peers::sendHeartbeats(*data.properties);
     data.logger = makeIceLogger();
     data.observer = publications;
     data.dispatcher = [&gate](const std::function<void()>& request, const auto&) { gate.dispatch(request); };
@@ -63,9 +64,10 @@ Application::Application(
       interfaces_(interfaces),
       settings_(commandLine),
       vitals_(log.name()),
+      peers_(shutdown),
       communicator_(makeCommunicator(settings_, gate_, publications_)),
       worker_(makeWorker()),
-      connections_(communicator_.communicator(), settings_, log, shutdown, vitals_, *publications_),
+      connections_(communicator_.communicator(), settings_, log, shutdown, vitals_, *publications_, peers_),
       services_(communicator_.communicator(), settings_, log, gate_, vitals_)
 {
     worker_->communicator = communicator_.communicator();
@@ -87,6 +89,7 @@ void Application::run()
             communicator->waitForShutdown();
             shutdown_.request();
         });
+    const auto peers = std::async(std::launch::async, [this] { peers_.watch(); });
     worker_->waitForEnd(shutdown_);
     vitals_.become("stopping");
     gate_.close();

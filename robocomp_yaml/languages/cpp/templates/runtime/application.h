@@ -5,6 +5,7 @@
 #include "connections.h"
 #include "gate.h"
 #include "log.h"
+#include "peers.h"
 #include "program.h"
 #include "publications.h"
 #include "services.h"
@@ -45,6 +46,7 @@ private:
     const Interfaces& interfaces_;
     const Settings settings_;
     Vitals vitals_;
+    Peers peers_;
     const std::shared_ptr<Publications> publications_ = std::make_shared<Publications>();
     Gate gate_;
     const Ice::CommunicatorHolder communicator_;

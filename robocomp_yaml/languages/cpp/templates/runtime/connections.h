@@ -23,6 +23,7 @@ class Communicator;
 namespace runtime
 {
 
+class Peers;
 class Publications;
 class Vitals;
 
@@ -48,13 +49,15 @@ class Connections
 public:
     Connections(
         std::shared_ptr<Ice::Communicator> communicator, const Settings& settings, const Log& log,
-        const Shutdown& shutdown, Vitals& vitals, Publications& publications);
+        const Shutdown& shutdown, Vitals& vitals, Publications& publications, Peers& peers);
 
     /// The configured proxy, as soon as the server answers, or at once if `absent` is Absent::ignore.
     template <typename Proxy>
     std::shared_ptr<Proxy> require(const Requirement& requirement) const
     {
-        return Ice::uncheckedCast<Proxy>(connect(requirement));
+        const auto proxy = Ice::uncheckedCast<Proxy>(connect(requirement));
+        watch(proxy); // each proxy has its own connection, after it was closed
+        return proxy;
     }
 
     /// IceStorm's topic manager, as soon as it answers.
@@ -68,6 +71,7 @@ public:
 private:
     using Milliseconds = std::chrono::milliseconds;
 
+    void watch(const std::shared_ptr<Ice::ObjectPrx>& proxy) const;
     std::shared_ptr<Ice::ObjectPrx> connect(const Requirement& requirement) const;
     std::shared_ptr<Ice::ObjectPrx> parse(const std::string& label, const std::string& text) const;
 
@@ -85,6 +89,7 @@ private:
     const Shutdown& shutdown_;
     Vitals& vitals_;
     Publications& publications_;
+    Peers& peers_;
 };
 
 }

@@ -46,7 +46,7 @@ final class Application {
         schedule = new Schedule(store.number(component.period(), "period", "compute"), stopping, vitals.turns);
         store.listen(change -> schedule.setPeriod(store.number(schedule.period(), "period", "compute")));
         communicator = initialized(settings, vitals);
-        connections = new Connections(communicator, settings, new Waiting(log, stopping, vitals), vitals);
+        connections = new Connections(communicator, settings, new Waiting(log, stopping, vitals), vitals, new Peers(stopping));
     }
 
     private static Communicator initialized(Settings settings, Vitals vitals) {
@@ -59,6 +59,7 @@ final class Application {
                 data.properties.setProperty(key, value);
             }
         });
+        Peers.sendHeartbeats(data.properties);
         data.properties.setProperty("Ice.Default.Package", "slice"); // the package of the Java code of all Slice
         return Util.initialize(data);
     }

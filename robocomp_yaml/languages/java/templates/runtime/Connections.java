@@ -10,9 +10,11 @@ public final class Connections {
     private final Settings settings;
     private final Waiting waiting;
     private final Vitals vitals;
+    private final Peers peers;
     private Topics topics;
 
-    Connections(Communicator communicator, Settings settings, Waiting waiting, Vitals vitals) {
+    Connections(Communicator communicator, Settings settings, Waiting waiting, Vitals vitals, Peers peers) {
+        this.peers = peers;
         this.communicator = communicator;
         this.settings = settings;
         this.waiting = waiting;
@@ -35,6 +37,12 @@ public final class Connections {
             }
         }
         return timeout < 0 ? proxy : proxy.ice_invocationTimeout(timeout);
+    }
+
+    /** The proxy, whose connections are watched: each proxy has its own one, after it was closed. */
+    public <P extends ObjectPrx> P watched(P proxy) {
+        peers.add(proxy);
+        return proxy;
     }
 
     /** The proxy that publishes to a topic. */

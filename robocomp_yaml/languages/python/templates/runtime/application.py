@@ -12,6 +12,7 @@ from generated.runtime.errors import StartError
 from generated.runtime.log import IceLogger
 from generated.runtime.parameters import Live, Store, Table
 from generated.runtime.ports import Component, Subscribed
+from generated.runtime.peers import ACM, SENT, Peers
 from generated.runtime.proxies import connect
 from generated.runtime.schedule import Schedule
 from generated.runtime.semantics import connections
@@ -52,6 +53,7 @@ class Application:
         self._store = configuration.load(table, settings)
         self._parameters = live(self._store)
         self._vitals = Vitals(component.name)
+        self._peers = Peers(stopping)
         self._waiting = Waiting(stage.log, stopping, self._vitals)
         self._schedule = Schedule(component.period, stopping, self._vitals.turns)
         configuration.drive(self._schedule, self._store)
@@ -172,6 +174,8 @@ class Application:
         }
         if component.publishes or component.subscribes:
             self._topics = Topics(self._communicator, settings, self._waiting, self._vitals)
+        for port in component.requires:
+            self._peers.add(proxies[port.accessor])
         for port in component.publishes:
             proxies[port.accessor] = self._topics.publisher(port)
         return proxies
@@ -192,7 +196,8 @@ def _initialization(settings: Settings) -> Ice.InitializationData:
     data = Ice.InitializationData()
     data.logger = IceLogger()
     data.properties = settings.properties.clone()
-    for key, value in ICE_DEFAULTS.items():
+    heartbeats = {} if data.properties.getPropertiesForPrefix(ACM) else SENT
+    for key, value in {**ICE_DEFAULTS, **heartbeats}.items():
         if not data.properties.getProperty(key):
             data.properties.setProperty(key, value)
     return data
