@@ -181,7 +181,7 @@ class _ModulePair(msgspec.Struct):
             case ExceptionType(), ExceptionType():
                 yield from self.members(name, first.members, second.members, first.span, second.span)
             case Enum(), Enum():
-                if _values(first) != _values(second):
+                if list(first.numbered()) != list(second.numbered()):
                     yield InterfaceDifference(f"the enumerators of {name} differ", first.span, second.span)
             case Sequence(), Sequence():
                 yield from self.types(f"an element of {name}", first.element, second.element)
@@ -195,15 +195,6 @@ class _ModulePair(msgspec.Struct):
 
 def _qualified(scope: LinkedModule, definition: Definition) -> str:
     return f"{scope.module.name}.{definition.name}"
-
-
-def _values(enum: Enum) -> list[tuple[str, int]]:
-    """Every enumerator with its value, explicit or counted."""
-    found, value = [], -1
-    for enumerator in enum.enumerators:
-        value = value + 1 if enumerator.value is None else enumerator.value
-        found.append((enumerator.name, value))
-    return found
 
 
 def _units(what: str, first: str, second: str, here: Span, there: Span) -> Iterator[InterfaceDifference]:

@@ -7,6 +7,8 @@ import zlib
 from collections.abc import Collection, Sequence
 from typing import Any
 
+import msgspec
+
 from robocomp_yaml.commands._origins import is_worth_a_line, origin, settings_data
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import OWN, Line, Running
@@ -132,7 +134,11 @@ def _state(one: Status) -> str:
     if one.running is None:
         return PRESENT if one.is_ready else "not started"
     if one.state == "running":
-        return "ready" if one.is_ready else "running, not ready"
+        if one.is_ready:
+            return "ready"
+        if one.running.not_alive:
+            return f"not alive: {one.running.not_alive}"
+        return one.own.words if one.own and not one.own.is_running else "running, not ready"
     return f"{one.state}: {one.running.last_exit}" if one.running.last_exit else one.state
 
 
@@ -157,6 +163,7 @@ def _status_data(network: Network, one: Status, running: Running | None) -> dict
         "name": one.name, "host": one.host, "state": one.state if running else _state(one), "ready": one.is_ready,
         "pid": running.pid if running else 0, "uptime": round(running.uptime, 3) if running else 0,
         "restarts": running.restarts if running else 0, "last_exit": running.last_exit if running else "",
+        "not_alive": running.not_alive if running else "", "own": msgspec.to_builtins(one.own),
         "memory": running.memory if running else 0, "cpu": running.cpu if running else 0,
         "lost_lines": running.lost_lines if running else 0,
         "endpoints": [

@@ -291,7 +291,7 @@ class _Starts(msgspec.Struct):
     async def _report_late(self, step: PlanStep) -> None:
         """Reports a process that was pending when the time limit expired."""
         assert step.spec
-        why = why_not(step.spec, await self._watch.of(step.name)(time.monotonic() - RECENT))
+        why = await why_not(step.spec, await self._watch.of(step.name)(time.monotonic() - RECENT))
         where = step.spec.process.span
         self._fail(step.name, deploying.NOT_READY.at(where, name=step.name, within=self._limit, why=why))
 

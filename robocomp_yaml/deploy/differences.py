@@ -10,7 +10,15 @@ from msgspec.structs import replace
 
 from robocomp_yaml import secrets
 from robocomp_yaml.deploy.spec import ProcessSpec
-from robocomp_yaml.network.network import SERVER, TASK, ConfigFile, EnvironmentVariable, Process
+from robocomp_yaml.network.network import (
+    AUTO,
+    FOREVER,
+    SERVER,
+    TASK,
+    ConfigFile,
+    EnvironmentVariable,
+    Process,
+)
 from robocomp_yaml.source import properties
 
 
@@ -91,9 +99,10 @@ def _live(before: Process, after: Process) -> Iterator[Difference]:
     if before.endpoints != after.endpoints:
         served = list(_entries("serves", _served(before), _served(after), ()))
         yield from (replace(one, is_live=True) for one in served or [Difference("endpoints")])
-    for name, old, new in (("ready", _ready(before), _ready(after)), ("restart", _restart(before), _restart(after))):
-        for key in old:
-            yield from _field(f"{name}.{key}", old[key], new[key], is_live=True)
+    for name, view in (("ready", _ready), ("restart", _restart), ("alive", _alive)):
+        old, new = view(before), view(after)
+        for key in dict.fromkeys([*old, *new]):
+            yield from _field(f"{name}.{key}", old.get(key, ""), new.get(key, ""), is_live=True)
     yield from _field("role", _role(before), _role(after), is_live=True)
     for name in ("after", "aliases", "groups", "folders"):
         yield from _names(name, getattr(before, name), getattr(after, name))
@@ -122,6 +131,16 @@ def _restart(process: Process) -> dict[str, str]:
     return {
         "policy": restart.policy, "tries": str(restart.tries), **{key: f"{time:g} s" for key, time in times.items()}
     }  # fmt: skip
+
+
+def _alive(process: Process) -> dict[str, str]:
+    """Without the proxy, which follows from what is served."""
+    alive = process.alive
+    if alive is None:
+        return {}
+    worker = {AUTO: "ten periods", FOREVER: "off"}.get(alive.worker, f"{alive.worker:g} s")
+    times = {"every": f"{alive.every:g} s", "within": f"{alive.within:g} s", "misses": str(alive.misses)}
+    return {**times, "then": "restart" if alive.restarts else "tell", "worker": worker}
 
 
 def _names(name: str, old: tuple[str, ...], new: tuple[str, ...]) -> Iterator[Difference]:

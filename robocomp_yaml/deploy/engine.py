@@ -39,7 +39,7 @@ class Running(msgspec.Struct, frozen=True):
     `last_exit` is how the last run ended ('exit code 3', 'SIGSEGV', '' if none has). `spread` are the seconds from the
     third last end by itself to the last one, None if it has not ended so often. `memory` are bytes and `cpu` seconds,
     of the process and all its descendants, None if they are unknown: on another host. `lost_lines` are lines that could
-    not be written to its log, because the disk is full.
+    not be written to its log, because the disk is full. `not_alive` is why it runs and is not alive, '' if it is.
     """
 
     name: str
@@ -54,6 +54,7 @@ class Running(msgspec.Struct, frozen=True):
     cpu: float | None = 0.0
     spread: float | None = None
     lost_lines: int = 0
+    not_alive: str = ""
 
     @property
     def is_alive(self) -> bool:

@@ -12,8 +12,9 @@ from msgspec.structs import replace
 from robocomp_yaml.deploy import ice_ping
 from robocomp_yaml.deploy.carry_out import Report, StartOutcome, carry_out, stop_all, undo
 from robocomp_yaml.deploy.engine import LOST, STOPPED, Engine, Running
+from robocomp_yaml.deploy.introspection import OwnState
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, plan, with_dependents
-from robocomp_yaml.deploy.readiness import holds
+from robocomp_yaml.deploy.readiness import holds, own_state
 from robocomp_yaml.deploy.states import RUNNING, fault, state_of
 from robocomp_yaml.deploy.time_limit import TimeLimit
 from robocomp_yaml.diag.codes import deploying
@@ -50,6 +51,8 @@ class Status(msgspec.Struct, frozen=True):
     is_ready: bool
     running: Running | None = None
     is_server: bool = False
+    own: OwnState | None = None
+    """What a component says of itself, if it is not ready."""
 
     @property
     def state(self) -> str:
@@ -167,11 +170,16 @@ async def status(engine: Engine, network: Network, names: Collection[str], reach
     async def status_of(name: str) -> Status:
         one, process = running.get(name), network.processes.get(name)
         host = one.host if one else process.host if process else ""
-        is_ready = bool(one and one.spec) and await holds(engine, one.spec, one)  # type: ignore[union-attr, arg-type]
-        if process and process.unless and not (one and one.is_alive):
-            is_ready, one = await _is_present(process), None
         process = process or (one.spec.process if one and one.spec else None)
-        return Status(name, host, is_ready, one, process is not None and process.is_server)
+        is_server = process is not None and process.is_server
+        if process and process.unless and not (one and one.is_alive):
+            return Status(name, host, await _is_present(process), None, is_server)
+        if one is None or one.spec is None:
+            return Status(name, host, False, one, is_server)
+        if one.state != RUNNING:
+            return Status(name, host, await holds(engine, one.spec, one), one, is_server)
+        is_ready, own = await asyncio.gather(holds(engine, one.spec, one), own_state(one.spec))
+        return Status(name, host, is_ready, one, is_server, own)
 
     known = [process.name for process in network.enabled()]
     every = [*known, *(name for name in running if name not in known)]

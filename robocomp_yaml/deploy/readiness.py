@@ -7,14 +7,16 @@ import time
 from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import aclosing, suppress
 
-from robocomp_yaml.deploy import ice_ping
+from robocomp_yaml.deploy import ice_ping, introspection
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import OWN, STARTED, DeployFailed, Engine, Line, Running
+from robocomp_yaml.deploy.introspection import OwnState
 from robocomp_yaml.deploy.patterns import PatternTooSlow, search
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.deploy.states import ENDED, GIVEN_UP, RUNNING, SILENT
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.terminal import typed
+from robocomp_yaml.wire.introspection import WAITING
 
 SETTLED = 0.1
 """Seconds that a process without a condition must run before it counts as ready, unless the document sets more."""
@@ -39,7 +41,7 @@ async def holds(engine: Engine, spec: ProcessSpec, running: Running) -> bool:
     ready = spec.process.ready
     if running.state == ENDED:
         return not (ready.has_condition or spec.process.is_server)
-    if running.state != RUNNING:
+    if running.state != RUNNING or running.not_alive:
         return False
     if ready.log:
         async with aclosing(await engine.lines([spec.name], LOG_LINES, False)) as lines:
@@ -77,11 +79,8 @@ async def until_ready(engine: Engine, spec: ProcessSpec, lines: AsyncIterator[Li
             how = end.result()
             hint = _hint_for_127(spec) if "exit code 127" in how else ""
             raise DeployFailed(deploying.ENDED_EARLY.at(spec.process.span, name=spec.name, how=how, hint=hint))
-        raise DeployFailed(
-            deploying.NOT_READY.at(
-                spec.process.span, name=spec.name, within=f"{spec.process.ready.within:g}", why=why_not(spec, running)
-            )
-        )
+        why, within = await why_not(spec, running), f"{spec.process.ready.within:g}"
+        raise DeployFailed(deploying.NOT_READY.at(spec.process.span, name=spec.name, within=within, why=why))
     finally:
         for task in (end, ready):
             task.cancel()
@@ -134,15 +133,35 @@ async def _check(engine: Engine, spec: ProcessSpec, within: float) -> bool:
     """Checks any condition but that of the log, once."""
     ready = spec.process.ready
     if ready.pings:
-        for proxy in ready.pings:
-            if not await ice_ping.answers(proxy, within):
-                return False
-        return True
+        return await _serves(spec, within)
     if ready.port:
         return await listens(spec.address, ready.port, within)
     if ready.command:
         return await engine.run(spec.name, ready.command, within) == 0
     return True
+
+
+async def _serves(spec: ProcessSpec, within: float) -> bool:
+    """Whether a component runs, as it says itself, and everything that it serves answers a ping."""
+    pings, own = spec.process.ready.pings, spec.process.introspection
+    if own:
+        with suppress(introspection.NoFacet):
+            state = await introspection.state(own, within)
+            if state is None or not state.is_running:
+                return False
+            pings = tuple(proxy for proxy in pings if proxy != own)
+    for proxy in pings:
+        if not await ice_ping.answers(proxy, within):
+            return False
+    return True
+
+
+async def own_state(spec: ProcessSpec, within: float = _ONE_TRY) -> OwnState | None:
+    """What a component says of itself; None if it does not answer, or does not describe itself."""
+    proxy = spec.process.introspection
+    with suppress(introspection.NoFacet):
+        return await introspection.state(proxy, within) if proxy else None
+    return None
 
 
 async def listens(host: str, port: int, within: float) -> bool:
@@ -160,11 +179,14 @@ def _matches(pattern: str, text: str) -> bool:
     return not text.startswith(OWN) and search(pattern, text)
 
 
-def why_not(spec: ProcessSpec, running: Running | None) -> str:
+async def why_not(spec: ProcessSpec, running: Running | None) -> str:
     """Why a process is not ready."""
     ready = spec.process.ready
     if running and running.restarts:
         return f"it ended in the meantime: {running.end}"
+    own = await own_state(spec) if ready.pings else None
+    if own is not None and not own.is_running:
+        return f"it is {own.words}" + (f" ({own.why})" if own.state == WAITING and own.why else "")
     if ready.pings:
         return "no answer from " + ", ".join(proxy.partition(":")[0].split()[0] for proxy in ready.pings)
     if ready.port:

@@ -60,6 +60,8 @@ def fault(one: Running, *, is_server: bool) -> str:
     how = f": {one.last_exit}" if one.last_exit else ""
     if is_unstable(one):
         return f"it ends again and again{how}"
+    if one.state == RUNNING and one.not_alive:
+        return f"it is not alive: {one.not_alive}"
     if one.state in (RUNNING, STOPPED) or is_done(one, is_server=is_server):
         return ""
     return _FAULTS[one.state] + how

@@ -19,6 +19,9 @@ from robocomp_yaml.source.digest import digest
 from robocomp_yaml.transactions.plan import FilePlan
 
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/|\s+", re.DOTALL)
+OWN = "RcYaml.ice"
+"""The Slice of the facet with which components describe themselves."""
+
 VERSION = "@RUNTIME_VERSION@"
 """The placeholder for the version in files of the run time."""
 
@@ -47,7 +50,7 @@ def _texts(name: str) -> tuple[tuple[str, str], ...]:
         source = os.path.dirname(import_module(folder).__file__ or "") if package else f"{target.templates}/{folder}"
         target_folder = f"runtime/{last}" if package else folder
         texts += [(f"{target_folder}/{file}", text) for file, text in resources.files(source)]
-    return (*texts, (f"slice/{COMMON}", _common()))
+    return (*texts, *((f"slice/{file}", resources.text(f"templates/slice/{file}")) for file in (COMMON, OWN)))
 
 
 def has_common(linked: LinkedComponent) -> bool:

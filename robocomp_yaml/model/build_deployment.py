@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import shlex
 from collections.abc import Iterator
 
@@ -28,6 +29,7 @@ def build(root: Mapping, path: str) -> model.Deployment:
         ),
         includes=tuple(texts(root, "include")),
         extra=_extra(root.get("x-rcmanager")),
+        alive=_alive(root.get("alive")),
         doc=doc(root),
         ports=port_range(root),
         span=span_of(root, "deployment"),
@@ -90,6 +92,7 @@ def _entry(key: Scalar, node: Node) -> model.Entry:
         restart=_restart(node.get("restart")),
         ready=_ready(node.get("ready")),
         role=text(node, "role"),
+        alive=_alive(node.get("alive")),
         endpoints=tuple(_pairs(node, "endpoints")),
         after=tuple(texts(node, "after")),
         enabled=node.data.get("enabled") is not False,  # type: ignore[attr-defined]
@@ -138,6 +141,25 @@ def _ready(node: Node | None) -> model.Ready | None:
         _command(node.get("command")),
         text(node, "log"),
         span=next((node.entries[key][1].span for key in ("port", "command", "log") if key in node.entries), node.span),
+    )
+
+
+def _alive(node: Node | None) -> model.Alive | None:
+    if node is None:
+        return None
+    if not isinstance(node, Mapping):
+        return model.Alive(isinstance(node, Scalar) and node.lexeme == "on", span=node.span)
+    worker = node.get("worker")
+    is_off = isinstance(worker, Scalar) and worker.lexeme == "off"
+    then = text(node, "then")
+    return model.Alive(
+        None,
+        seconds(node.get("every")),
+        seconds(node.get("within")),
+        _integer(node, "misses"),
+        then == "restart" if then else None,
+        math.inf if is_off else seconds(worker),
+        span=node.span,
     )
 
 

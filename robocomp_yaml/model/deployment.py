@@ -86,6 +86,19 @@ class Restart(Spanned, frozen=True):
     within: float | None = None
 
 
+class Alive(Spanned, frozen=True):
+    """How it is checked that a process answers while it runs; None for what is not set. `is_on` is set by a scalar.
+    Times are in seconds. `restarts` says what happens if it does not answer. `worker` is the time for which the worker
+    may show no life, infinite for `off`."""
+
+    is_on: bool | None = None
+    every: float | None = None
+    within: float | None = None
+    misses: int | None = None
+    restarts: bool | None = None
+    worker: float | None = None
+
+
 class Entry(Spanned, frozen=True):
     """An entry of `components:`. `kind` is the key that defines the entry: COMPONENT, PROGRAM, or PROCESS (a second
     name of another entry's process); `target` is that key's value. `executable` replaces the program of a component.
@@ -113,6 +126,7 @@ class Entry(Spanned, frozen=True):
     restart: Restart | None = None
     ready: Ready | None = None
     role: str = ""
+    alive: Alive | None = None
     endpoints: tuple[Pair, ...] = ()
     after: tuple[Text, ...] = ()
     enabled: bool = True
@@ -162,6 +176,7 @@ class Deployment(Spanned, frozen=True):
     entries: tuple[Entry, ...] = ()
     groups: tuple[Group, ...] = ()
     includes: tuple[Text, ...] = ()
+    alive: Alive | None = None
     extra: tuple[tuple[str, object], ...] = ()
     doc: str = ""
     ports: PortRange | None = None

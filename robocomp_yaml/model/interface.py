@@ -68,6 +68,13 @@ class Enum(Spanned, frozen=True):
     doc: str = ""
     list_span: Span = Span("")
 
+    def numbered(self) -> Iterator[tuple[str, int]]:
+        """Every enumerator with its value, explicit or counted."""
+        value = -1
+        for enumerator in self.enumerators:
+            value = value + 1 if enumerator.value is None else enumerator.value
+            yield enumerator.name, value
+
 
 class Sequence(Spanned, frozen=True):
     name: str

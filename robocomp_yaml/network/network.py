@@ -102,6 +102,25 @@ class RestartRule(msgspec.Struct, frozen=True):
     window: float = 60.0
 
 
+class Liveness(msgspec.Struct, frozen=True):
+    """How it is checked that a process answers while it runs: `proxy` is asked `every` so many seconds, and must answer
+    `within` so many; after `misses` missing answers in a row it is not alive. Then it `restarts`, or that is only
+    shown.
+
+    `worker` is the number of seconds for which the worker of a component may show no life: AUTO for ten periods and at
+    least 10 s, FOREVER for any time, and for programs that do not describe themselves."""
+
+    proxy: str
+    every: float = 5.0
+    within: float = 2.0
+    misses: int = 2
+    restarts: bool = True
+    worker: float = -1.0
+
+
+AUTO, FOREVER = -1.0, 0.0
+
+
 class ConfigFile(msgspec.Struct, frozen=True):
     """The configuration of one process. `path` is relative to the deployment's own folder, and below `config/`. The
     file may contain secrets: its mode is 0600. `secrets` are the names of its secret properties."""
@@ -136,6 +155,7 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
     optional: tuple[str, ...] = ()
     ready: Readiness = Readiness()
     restart: RestartRule = RestartRule()
+    alive: Liveness | None = None
     watched: tuple[str, ...] = ()
     folders: tuple[str, ...] = ()
     aliases: tuple[str, ...] = ()
@@ -151,6 +171,8 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
     """The component's name in its CDSL document, '' for other programs."""
     build: str = ""
     """How to build a component whose executable is missing: a hint with commands, relative to the working folder."""
+    introspection: str = ""
+    """The proxy of the object with which a generated component describes itself, '' for other programs."""
     extra: tuple[tuple[str, object], ...] = ()
     """What only exports need: the entries of `x-rcmanager`; those of its aliases are below `aliases`."""
     span: Span = Span("")

@@ -10,6 +10,7 @@ from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.link.workspace import component_argument
 from robocomp_yaml.model import deployment as model
 from robocomp_yaml.model.deployment import CONFIG
+from robocomp_yaml.network import liveness
 from robocomp_yaml.network.draft import MANAGER, PUBLISH, STORM_INSTANCE, Draft, StormDraft
 from robocomp_yaml.network.network import (
     COMPONENT,
@@ -55,6 +56,7 @@ def of_draft(
         endpoints=tuple(adapter.resolved() for adapter in draft.adapters),
         ready=ready,
         restart=_restart(entry.restart),
+        alive=liveness.of_draft(draft),
         watched=(program, *_code(instance.folder, component, known)) if os.path.isabs(program) else (),
         aliases=tuple(alias.name for alias in draft.aliases),
         groups=tuple(group.name for group in instance.groups),
@@ -65,6 +67,7 @@ def of_draft(
         secrets=tuple(sorted(set(secret_names(component.parameters.parameters.root)))) if component is not None else (),
         component=component.component.name if component is not None else "",
         build=_build(draft),
+        introspection=liveness.introspection(draft),
         extra=(*entry.extra, ("aliases", of_aliases)) if of_aliases else entry.extra,
         span=entry.span,
     )

@@ -15,6 +15,7 @@ ICE_DEFAULTS = {
     "Ice.MessageSizeMax": "20004800",  # KiB; as in RoboComp, so that an image is not too large
     "Ice.Warn.UnknownProperties": "0",  # parameters may begin with an adapter's name: `Laser.Device`
     "CommonBehavior.ThreadPool.Size": "1",  # a thread of its own, so that it answers while a method runs
+    "CommonBehavior.ThreadPool.SizeMax": "4",  # more, so that a new parameter's listener does not silence it
 }
 """Ice's defaults are replaced by these, unless the configuration sets them. The run times of other languages have the
 same table."""

@@ -216,6 +216,22 @@ def test_without_the_registry_all_processes_go_on(talk: Deployment, ready: dict[
     assert talk.copies("mouth") == 1
 
 
+def test_a_halted_component_is_restarted_without_the_registry(talk: Deployment, ready: dict[str, int]) -> None:
+    """Its own host asks it."""
+    talk.kill_daemon("registry", for_good=True)
+    os.kill(ready["mouth"], signal.SIGSTOP)
+
+    def told() -> list[str]:
+        return (talk.state / "status" / "mouth").read_text().split("|")
+
+    until(lambda: int(told()[2]) not in (0, ready["mouth"]), lambda: "|".join(told()))
+    assert told()[6].strip() == "not alive: it does not answer"
+    pids = {name: one["pid"] for name, one in talk.until_ready().items()}
+    assert _without(pids, "mouth") == _without(ready, "mouth")
+    assert talk.copies("mouth") == 1
+    assert "rcyaml: not alive: it does not answer" in talk.logs("mouth")
+
+
 def test_a_killed_keeper_is_restarted_and_works(talk: Deployment, ready: dict[str, int]) -> None:
     def keepers() -> list[int]:
         return [int(path.parent.name) for path in Path("/proc").glob("[0-9]*/cmdline") if _is_keeper(path, talk.folder)]

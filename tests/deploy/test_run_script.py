@@ -5,16 +5,23 @@ from __future__ import annotations
 import os
 import re
 import signal
+import socket
 import subprocess
+import sys
+import time
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from processes import until
+from processes import Ports, until
 from robocomp_yaml import resources
-from robocomp_yaml.deploy.icegrid.status import of_text
+from robocomp_yaml.deploy.icegrid.descriptors import alive_rule
+from robocomp_yaml.deploy.icegrid.status import RunStatus, of_text
+from robocomp_yaml.deploy.local import procfs
+from robocomp_yaml.network.network import AUTO, FOREVER, Liveness, Process
 
 SCRIPT = Path(resources.folder("templates")) / "icegrid" / "run"
 ONCE = "1 no 10 100 5 60000"
@@ -291,3 +298,161 @@ def _is_alive(pid: int) -> bool:
         return "\nState:\tZ" not in Path("/proc", str(pid), "status").read_text()
     except OSError:
         return False
+
+
+# Whether the process is alive
+
+SERVER = """\
+import os, sys
+import Ice
+Ice.loadSlice("", ["--all", sys.argv[2]])
+import RcYaml
+
+class Facet(RcYaml.Introspection):
+    def report(self, names, current):
+        return {}
+
+    def getHeartbeat(self, current):
+        return RcYaml.Heartbeat(int(open("age").read()) if os.path.exists("age") else 0, 100)
+
+with Ice.initialize() as ice:
+    adapter = ice.createObjectAdapterWithEndpoints("C", f"tcp -h 127.0.0.1 -p {sys.argv[1]}")
+    adapter.add(type("C", (Ice.Object,), {})(), ice.stringToIdentity("commonbehavior"))
+    if sys.argv[3] == "facet":
+        adapter.addFacet(Facet(), ice.stringToIdentity("commonbehavior"), "rcyaml")
+    adapter.activate()
+    print(f"it is {os.getpid()}.", flush=True)
+    ice.waitForShutdown()
+"""
+AGAIN = "1 on-failure 10 100 5 60000"
+
+
+@dataclass
+class Asked:
+    """A server of Ice that `run` asks whether it is alive."""
+
+    runner: Runner
+    port: int
+
+    def start(self, facet: str = "facet", rule: str = AGAIN, **alive: Any) -> int:
+        """Starts it; returns its pid."""
+        pytest.importorskip("Ice", reason="Ice's Python module is not installed")
+        proxy = f"commonbehavior:tcp -h 127.0.0.1 -p {self.port}"
+        process = Process("arm", "here", (), "", alive=Liveness(proxy, **{"every": 0.3, "within": 0.5, **alive}))
+        slice_ = str(SCRIPT.parents[1] / "slice" / "RcYaml.ice")
+        words = (f"={sys.executable}", "=-c", f"={SERVER}", f"={self.port}", f"={slice_}", f"={facet}")
+        self.runner.start(*words, rule=rule, RCYAML_ALIVE=alive_rule(process), RCYAML_PORTS=str(self.port))
+        pid = self.runner.said_pid()
+        time.sleep(1)  # it has answered once
+        return pid
+
+    @property
+    def status(self) -> RunStatus:
+        found = of_text((self.runner.folder / "state" / "icegrid" / "status" / "arm").read_text())
+        assert found
+        return found
+
+
+@pytest.fixture
+def asked(runner: Runner, free_port: Ports, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Asked:
+    monkeypatch.chdir(tmp_path)
+    return Asked(runner, free_port())
+
+
+def test_a_halted_process_is_restarted(asked: Asked) -> None:
+    pid = asked.start()
+    assert asked.status.pid == pid and not asked.status.not_alive
+    os.kill(pid, signal.SIGSTOP)
+    until(lambda: asked.status.restarts == 1 and asked.status.state == "running", lambda: asked.runner.log)
+    assert asked.status.last_exit == "not alive: it does not answer"
+    assert "rcyaml: not alive: it does not answer" in asked.runner.log
+    assert "rcyaml: ended by itself: not alive: it does not answer; restarting in 10 ms" in asked.runner.log
+    time.sleep(2)
+    assert asked.status.restarts == 1, "the new one answers"
+
+
+def test_it_is_only_told(asked: Asked) -> None:
+    pid = asked.start(restarts=False)
+    os.kill(pid, signal.SIGSTOP)
+    until(lambda: asked.status.not_alive == "it does not answer", lambda: asked.runner.log)
+    since = asked.status.since
+    os.kill(pid, signal.SIGCONT)
+    until(lambda: not asked.status.not_alive, lambda: asked.runner.log)
+    assert (asked.status.pid, asked.status.since) == (pid, since)
+    assert "rcyaml: alive again" in asked.runner.log
+
+
+@pytest.mark.parametrize(
+    ("worker", "age", "is_noticed"),
+    [(AUTO, 9000, False), (AUTO, 11000, True), (60.0, 50000, False), (3.0, 4000, True), (FOREVER, 10**9, False)],
+)
+def test_a_worker_without_heartbeat(asked: Asked, tmp_path: Path, worker: float, age: int, is_noticed: bool) -> None:
+    asked.start(worker=worker, restarts=False)
+    (tmp_path / "age").write_text(str(age))
+    if is_noticed:
+        why = f"its worker has shown no life for {age // 1000} s"
+        until(lambda: asked.status.not_alive == why, lambda: asked.runner.log)
+    else:
+        time.sleep(1.5)
+        assert not asked.status.not_alive
+
+
+def test_a_deadlocked_worker_is_restarted(asked: Asked, tmp_path: Path) -> None:
+    asked.start()
+    (tmp_path / "age").write_text("30000")
+    until(lambda: asked.status.restarts >= 1, lambda: asked.runner.log)
+    (tmp_path / "age").unlink()
+    assert "its worker has shown no life" in asked.runner.log
+
+
+def test_a_program_without_the_facet_is_pinged(asked: Asked) -> None:
+    pid = asked.start("none")
+    time.sleep(1)
+    assert asked.status.pid == pid and not asked.status.not_alive
+    os.kill(pid, signal.SIGSTOP)
+    until(lambda: asked.status.restarts == 1, lambda: asked.runner.log)
+
+
+def test_it_is_not_ended_if_nobody_would_start_it(asked: Asked) -> None:
+    pid = asked.start(rule=ONCE)
+    os.kill(pid, signal.SIGSTOP)
+    until(lambda: asked.status.not_alive, lambda: asked.runner.log)
+    time.sleep(1)
+    assert asked.status.pid == pid and os.path.exists(f"/proc/{pid}")
+
+
+def test_a_newer_rule_applies_at_once(asked: Asked) -> None:
+    pid = asked.start()
+    rules = asked.runner.folder / "state" / "icegrid" / "rules"
+    rules.mkdir(parents=True)
+    (rules / "arm").write_text(f"2{AGAIN[1:]}\n\n")
+    time.sleep(1)
+    os.kill(pid, signal.SIGSTOP)
+    time.sleep(2)
+    assert not asked.status.not_alive, "it is not asked any more"
+
+
+def test_a_restart_waits_for_its_port(asked: Asked) -> None:
+    with socket.socket() as thief:
+        thief.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        pid = asked.start(rule="1 on-failure 500 1000 5 60000")
+        os.kill(pid, signal.SIGKILL)
+        until(lambda: not os.path.exists(f"/proc/{pid}"), "its end")
+        thief.bind(("127.0.0.1", asked.port))
+        thief.listen()
+        until(lambda: f"port {asked.port} is used by another program" in asked.runner.log, lambda: asked.runner.log)
+        assert asked.status.state == "waiting" and asked.status.restarts == 0
+    until(lambda: asked.status.restarts == 1 and asked.status.state == "running", lambda: asked.runner.log)
+
+
+def test_nothing_of_it_is_left(asked: Asked) -> None:
+    """Also if the script itself is killed."""
+    asked.start(every=0.2)
+    runner = asked.runner.started[0]
+
+    def scripts() -> list[int]:
+        return [pid for pid in procfs.pids() if str(asked.runner.folder) in procfs.command(pid)]
+
+    assert len(scripts()) > 1
+    runner.kill()
+    until(lambda: not scripts(), lambda: str([procfs.command(pid) for pid in scripts()]))

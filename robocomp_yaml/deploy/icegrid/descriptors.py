@@ -18,6 +18,7 @@ from typing import Any
 
 import IceGrid
 
+from robocomp_yaml.deploy import liveness
 from robocomp_yaml.deploy.engine import STOP_WITHIN
 from robocomp_yaml.deploy.icegrid.grid_files import KEEPER, GridFiles
 from robocomp_yaml.deploy.local.procfs import MARK
@@ -52,7 +53,11 @@ def server(files: GridFiles, spec: ProcessSpec, user: str, number: int, *, is_lo
     process = spec.process
     is_storm = process.kind == ICESTORM and process.config is not None
     words = [process.name, files.folder, *(f"f{path}" for path in process.folders)]
-    environment = [f"RCYAML_STOP_WITHIN={STOP_WITHIN:g}", f"RCYAML_RESTART={restart_rule(process, number)}"]
+    ports = {one.port for one in process.endpoints if one.port and one.protocol != "udp"}
+    environment = [
+        f"RCYAML_STOP_WITHIN={STOP_WITHIN:g}", f"RCYAML_RESTART={restart_rule(process, number)}",
+        f"RCYAML_ALIVE={alive_rule(process)}", f"RCYAML_PORTS={' '.join(map(str, sorted(ports)))}",
+    ]  # fmt: skip
     for place, variable in enumerate(process.env):
         if variable.source:
             words.append(f"s{variable.name}={variable.source}")
@@ -140,6 +145,21 @@ def restart_rule(process: Process, number: int) -> str:
     rule = process.restart
     times = f"{rule.delay * 1000:.0f} {rule.longest * 1000:.0f} {rule.tries} {rule.window * 1000:.0f}"
     return f"{number} {process.restart_policy} {times}"
+
+
+def alive_rule(process: Process) -> str:
+    """How `run` asks a process whether it is alive, '' if it does not: times in milliseconds (the last one is the limit
+    for the first answer), host and port, and the message for `printf`."""
+    alive, asked = process.alive, liveness.question(process.alive)
+    if alive is None or asked is None:
+        return ""
+    host, port, message = asked
+    late = max(liveness.START, liveness.READY * process.ready.within)
+    times = [alive.every, alive.within, alive.worker, late]
+    every, within, worker, late_ms = (f"{1000 * time:.0f}" for time in times)
+    then = "restart" if alive.restarts else "tell"
+    escaped = re.sub("..", r"\\x\g<0>", message)
+    return f"{every} {within} {alive.misses} {then} {worker} {late_ms} {host} {port} {escaped}"
 
 
 def encoded(text: str) -> str:

@@ -218,12 +218,13 @@ class IceGridEngine:
             self._pass_rule(grid, spec, number)
 
     def _pass_rule(self, grid: GridSession, spec: ProcessSpec, number: int) -> None:
-        """Passes the restart rule of a running process to its `run`."""
-        from robocomp_yaml.deploy.icegrid.descriptors import restart_rule
+        """Passes the rules of a running process to its `run`."""
+        from robocomp_yaml.deploy.icegrid.descriptors import alive_rule, restart_rule
 
         path = self._files.rule(spec.name)
         script = 'mkdir -p -- "${2%/*}" && printf "%s\\n" "$1" >"$2.new" && mv -- "$2.new" "$2"'
-        command = ("bash", "-c", script, "bash", restart_rule(spec.process, number), path)
+        rules = f"{restart_rule(spec.process, number)}\n{alive_rule(spec.process)}"
+        command = ("bash", "-c", script, "bash", rules, path)
         self._run(grid, spec, command, _RULE_WITHIN)
 
     def _deploy(self, replaced: Collection[str], servers: list[tuple[str, Any]]) -> None:

@@ -21,7 +21,7 @@ _ACTIVE = ("Active", "Activating", "Deactivating")
 class RunStatus(msgspec.Struct, frozen=True):
     """The status file of a `run` script. `runner` is the pid of the script, `pid` that of its process. The time of the
     last change is `since`, in milliseconds since the host booted, and `at`, in microseconds of the host's clock.
-    `spread` is as in `Running`."""
+    `spread` is as in `Running`, and `not_alive` says why a running process is not alive."""
 
     state: str
     runner: int
@@ -31,6 +31,7 @@ class RunStatus(msgspec.Struct, frozen=True):
     restarts: int
     last_exit: str
     spread: float | None = None
+    not_alive: str = ""
 
 
 def of_text(text: str) -> RunStatus | None:
@@ -38,9 +39,10 @@ def of_text(text: str) -> RunStatus | None:
     try:
         state, runner, pid, since, at, counts, last_exit = text.strip().split("|", 6)
         restarts, _, spread = counts.partition("/")
+        state, _, not_alive = state.partition(", ")
         return RunStatus(
             state, int(runner), int(pid), int(since), int(at), int(restarts), last_exit,
-            int(spread) / 1000 if spread else None,
+            int(spread) / 1000 if spread else None, not_alive,
         )  # fmt: skip
     except ValueError:
         return None
@@ -111,6 +113,7 @@ def _running(
         name, spec, host, now, last.pid if now == RUNNING else 0, _seconds_since(last, alive is not None),
         last.restarts, last.last_exit, None if alive is None else procfs.memory(members),
         None if alive is None else sum(alive[pid].cpu for pid in members), last.spread,
+        not_alive=last.not_alive if now == RUNNING else "",
     )  # fmt: skip
 
 

@@ -20,6 +20,8 @@ from robocomp_yaml.deploy.states import ENDED, ENDS, GIVEN_UP, RUNNING, STOPPED,
 _NEVER, _ALWAYS = "no", "always"
 
 _AFTER_KILL = 5.0  # seconds in which the kernel removes a killed process, unless that hangs in the kernel
+_PORT_DELAY = 0.5  # seconds between the first two checks whether a port is free
+_REPLACED_WITHIN = 3.0  # seconds in which a process that is not alive may end in order
 _CHUNK = 1 << 16
 
 SpecData = dict[str, Any]  # a `deploy.spec.ProcessSpec` as data, because the supervisor imports as little as possible
@@ -27,14 +29,15 @@ SpecData = dict[str, Any]  # a `deploy.spec.ProcessSpec` as data, because the su
 
 class ChildProcess:
     """`spec` is what it was started with, or will be. `root` is the pid of its last run, as long as descendants of that
-    can be running. `policy` is the restart policy that applies, which also depends on the process's role. Times
-    are those of the event loop, a monotonic clock."""
+    can be running. `policy` is the restart policy that applies, which also depends on the process's role. `not_alive`
+    says why a running process is not alive. Times are those of the event loop, a monotonic clock."""
 
     def __init__(self, spec: SpecData, mark: str, log: LogFile, families: procfs.Families, files: OpenFiles) -> None:
         self.spec, self.mark, self.log, self._families, self._files = spec, mark, log, families, files
         self.state, self.pid, self.restarts, self.last_exit = STOPPED, 0, 0, ""
         self.policy: str = spec["process"]["restart"]["policy"]
         self.root = 0
+        self.not_alive = ""
         self.lock = asyncio.Lock()
         self._loop = asyncio.get_running_loop()
         self.since = self._loop.time()
@@ -45,6 +48,8 @@ class ChildProcess:
         self._exited = asyncio.Event()
         self._output = -1
         self._is_stopping = False
+        self._is_replaced = False
+        self._taken = 0  # tries to restart it while its ports were used
 
     @property
     def spread(self) -> float | None:
@@ -63,6 +68,7 @@ class ChildProcess:
         self._environment = environment
         self._failures.clear()
         self._ends.clear()
+        self._taken = 0
         self.restarts, self.last_exit = 0, ""
         self._spawn()
 
@@ -93,6 +99,30 @@ class ChildProcess:
         self.root = 0
         self._set_state(STOPPED)
 
+    def family(self) -> set[int]:
+        """The pids of the process and its descendants."""
+        return self._families.recent(self.root)
+
+    def note_alive(self, why_not: str) -> None:
+        """Sets whether the process is alive, and logs a change."""
+        if bool(why_not) != bool(self.not_alive):
+            self.log.note(f"not alive: {why_not}" if why_not else "alive again")
+        self.not_alive = why_not
+
+    async def replace(self) -> None:
+        """Ends a process that is not alive. That counts as a failure, so that the restart policy applies; if the policy
+        does not restart it, it is not ended."""
+        async with self.lock:
+            if self.spec["process"]["restart"]["policy"] == _NEVER or self.state != RUNNING or not self.pid:
+                return
+            self._is_replaced = True
+            self._terminate()
+            try:
+                await asyncio.wait_for(self._exited.wait(), _REPLACED_WITHIN)
+            except TimeoutError:
+                _signal([self.root], signal.SIGKILL)
+                await asyncio.wait_for(self._exited.wait(), _AFTER_KILL)
+
     def _terminate(self) -> None:
         """Sends SIGTERM to the process group, and to members of the family outside it. SIGCONT lets a halted one
         end."""
@@ -115,7 +145,9 @@ class ChildProcess:
             return
         _signal(self._families.now().get(self.root, set()), signal.SIGKILL)
         self.root = 0
-        self._after_end(is_failure=code != 0)
+        if self._is_replaced:
+            self.last_exit = f"not alive: {self.not_alive}"
+        self._after_end(is_failure=code != 0 or self._is_replaced)
 
     def _after_end(self, *, is_failure: bool) -> None:
         """Applies the restart policy to a process that ended by itself."""
@@ -146,12 +178,31 @@ class ChildProcess:
 
     def _restart(self) -> None:
         self._timer = None
+        if pids := procfs.listeners(self._ports()):
+            self._wait_for_ports(pids)
+            return
+        self._taken = 0
         self.restarts += 1
         try:
             self._spawn()
         except OSError as error:
             self.last_exit = error.strerror or str(error)
             self._after_end(is_failure=True)
+
+    def _ports(self) -> set[int]:
+        endpoints = self.spec["process"]["endpoints"]
+        return {one["port"] for one in endpoints if one["port"] and one["protocol"] != "udp"}
+
+    def _wait_for_ports(self, taken: dict[int, list[int]]) -> None:
+        """Waits until the ports of the process are free: it would only fail again, and be given up."""
+        delay = min(_PORT_DELAY * 2**self._taken, self.spec["process"]["restart"]["longest"])
+        if self._taken == 0:
+            port, pids = next(iter(taken.items()))
+            who = f"{procfs.command_line(pids[0])} (pid {pids[0]})" if pids else "a program of another user"
+            self.last_exit = f"port {port} is used by {who}"
+            self.log.note(f"{self.last_exit}: waiting until it is free")
+        self._taken += 1
+        self._timer = self._loop.call_later(delay, self._restart)
 
     def _spawn(self) -> None:
         command, folder = self.spec["command"], self.spec["process"]["cwd"]
@@ -209,6 +260,7 @@ class ChildProcess:
             self._timer = None
 
     def _set_state(self, state: str) -> None:
+        self.not_alive, self._is_replaced = "", False
         self.state, self.since = state, self._loop.time()
 
 

@@ -11,7 +11,7 @@ from functools import partial
 from typing import Any
 
 from robocomp_yaml.deploy import folder as own_folder
-from robocomp_yaml.deploy import registered
+from robocomp_yaml.deploy import liveness, registered
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
 from robocomp_yaml.deploy.local import client, procfs, record
@@ -109,7 +109,8 @@ class LocalEngine:
                 os.makedirs(path, mode=0o700, exist_ok=True)
         self._specs.update({spec.name: spec for spec in specs})
         policies = {spec.name: spec.process.restart_policy for spec in specs}
-        await self._ask("", "prepare", specs=[spec.as_data() for spec in specs], policies=policies)
+        questions = {spec.name: asked for spec in specs if (asked := liveness.question(spec.process.alive))}
+        await self._ask("", "prepare", specs=[spec.as_data() for spec in specs], policies=policies, questions=questions)
 
     @contextlib.contextmanager
     def _writing(self) -> Iterator[None]:
@@ -189,7 +190,7 @@ _DONE = {"start": "started", "stop": "stopped"}
 
 def _running(entry: dict[str, Any]) -> Running:
     process = entry["spec"]["process"]
-    kept = ("state", "pid", "uptime", "restarts", "last_exit", "memory", "cpu", "spread", "lost_lines")
+    kept = ("state", "pid", "uptime", "restarts", "last_exit", "memory", "cpu", "spread", "lost_lines", "not_alive")
     return Running(
         process["name"],
         ProcessSpec.of_data(entry["spec"]),

@@ -135,6 +135,12 @@ def descendants(of: Collection[int], alive: dict[int, ProcessEntry]) -> set[int]
     return set(reachable(of, lambda pid: children.get(pid, ())))
 
 
+def is_traced(members: Collection[int]) -> bool:
+    """Whether a debugger is attached to one of these processes."""
+    lines = (line for pid in members for line in _read(f"/proc/{pid}/status").splitlines())
+    return any(line.startswith(b"TracerPid:") and line.split()[1] != b"0" for line in lines)
+
+
 def memory(members: Collection[int]) -> int:
     """The resident memory of these processes, in bytes."""
     sizes = (_read(f"/proc/{pid}/statm").split() for pid in members)

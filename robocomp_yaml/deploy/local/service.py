@@ -15,11 +15,12 @@ from collections.abc import Awaitable
 from typing import Any
 
 from robocomp_yaml.deploy.local import channel, procfs, record
+from robocomp_yaml.deploy.local.alive import AliveWatch, Question
 from robocomp_yaml.deploy.local.child import ChildProcess
 from robocomp_yaml.deploy.local.kernel import OpenFiles
 from robocomp_yaml.deploy.local.log_file import LIMIT, LogFile
 
-_FACTS = ("spec", "state", "pid", "restarts", "last_exit", "spread", "lost_lines")
+_FACTS = ("spec", "state", "pid", "restarts", "last_exit", "spread", "lost_lines", "not_alive")
 
 PROTOCOL = 2
 """The version of the protocol. A client of another version reports the difference."""
@@ -42,6 +43,7 @@ class _Service:
     def __init__(self, folder: str) -> None:
         self.folder = folder
         self.children: dict[str, ChildProcess] = {}
+        self._watches: dict[str, asyncio.Task[None]] = {}
         self._files = OpenFiles()
         self._limit = int(os.environ.get("RCYAML_LOG_LIMIT") or LIMIT)
         self._over = asyncio.Event()
@@ -62,6 +64,8 @@ class _Service:
         await self._over.wait()
         for server in self._servers:
             server.close()
+        for name in list(self._watches):
+            self._watch(name, None)
         stops = (self._stop(child, END_WITHIN) for child in self.children.values())
         await asyncio.gather(*stops, return_exceptions=True)  # the keeper kills what does not end
         for child in self.children.values():
@@ -155,7 +159,17 @@ class _Service:
                 log = LogFile(f"{self.folder}/logs/{name}.log", self._limit)
                 self.children[name] = ChildProcess(spec, f"{self.folder}:{name}", log, self._families, self._files)
             self.children[name].policy = policies.get(name, spec["process"]["restart"]["policy"])
+            self._watch(name, request.get("questions", {}).get(name))
         return {}
+
+    def _watch(self, name: str, question: list[Any] | None) -> None:
+        """From now on, asks whether a process is alive. `question` is None if it is not asked."""
+        if watch := self._watches.pop(name, None):
+            watch.cancel()
+        if question:
+            host, port, message = question
+            asked = Question(host, port, bytes.fromhex(message))
+            self._watches[name] = asyncio.create_task(AliveWatch(self.children[name], asked).run())
 
     async def do_start(self, request: Request) -> Request:
         child = self.children[request["name"]]
@@ -174,6 +188,7 @@ class _Service:
 
     async def do_forget(self, request: Request) -> Request:
         for name in request["names"]:
+            self._watch(name, None)
             if child := self.children.pop(name, None):
                 child.log.close()
         return {}

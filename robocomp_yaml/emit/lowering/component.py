@@ -5,11 +5,22 @@ from __future__ import annotations
 import msgspec
 
 from robocomp_yaml.emit.slice import file_name
+from robocomp_yaml.languages.record import PORTS
+from robocomp_yaml.link.interface_hash import interface_hash
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.parameters.defaults import period
 
 BEHAVIOR = "RoboCompCommonBehavior"
 COMMON = "CommonBehavior.ice"
+
+
+class InterfaceHash(msgspec.Struct, frozen=True):
+    """The `content` of a port's interface, as a hash. `role` is the key of the component's document."""
+
+    role: str
+    port: str
+    interface: str
+    content: str
 
 
 class LoweredComponent(msgspec.Struct, frozen=True):
@@ -25,6 +36,7 @@ class LoweredComponent(msgspec.Struct, frozen=True):
     files: tuple[str, ...]
     imported: tuple[str, ...]
     is_common: bool
+    interfaces: tuple[InterfaceHash, ...]
 
 
 def lower(linked: LinkedComponent) -> LoweredComponent:
@@ -42,4 +54,9 @@ def lower(linked: LinkedComponent) -> LoweredComponent:
         files=tuple(dict.fromkeys([*map(file_name, scopes), *common])),
         imported=(*map(file_name, linked.imports), *common),
         is_common=is_common,
+        interfaces=tuple(
+            InterfaceHash(role, port.name, f"{port.scope.module.name}.{port.interface.name}", interface_hash(port))
+            for role in PORTS
+            for port in getattr(linked, role)
+        ),
     )

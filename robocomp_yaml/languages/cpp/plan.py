@@ -13,7 +13,7 @@ import msgspec
 
 from robocomp_yaml.emit import runtime, windows
 from robocomp_yaml.emit.layout import Layout, stated
-from robocomp_yaml.emit.lowering.component import BEHAVIOR, COMMON, lower
+from robocomp_yaml.emit.lowering.component import BEHAVIOR, COMMON, InterfaceHash, lower
 from robocomp_yaml.emit.lowering.kinds import pattern_count
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.emit.slice import file_name
@@ -53,6 +53,7 @@ class View(msgspec.Struct, frozen=True):
     version: str
     slice: str
     made_for: str
+    interfaces: tuple[InterfaceHash, ...]
     slices: list[str]
     parts: str
     sources: list[str]
@@ -144,6 +145,7 @@ def _view(linked: LinkedComponent, layout: Layout) -> View:
         version=runtime.version("cpp"),
         slice=layout.slice,
         made_for=stated(layout.made_for) if layout.made_for else "",
+        interfaces=lowered.interfaces,
         slices=_slices(linked),
         parts=" ".join(f"rcyaml::{part}" for part in _parts(linked, has_topics=has_topics)),
         sources=["genericworker.cpp", "parameters.cpp", *(["statemachine.cpp"] if linked.machine else [])],

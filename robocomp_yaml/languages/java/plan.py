@@ -13,7 +13,7 @@ import msgspec
 
 from robocomp_yaml.emit import runtime
 from robocomp_yaml.emit.layout import Layout, stated
-from robocomp_yaml.emit.lowering.component import COMMON, lower
+from robocomp_yaml.emit.lowering.component import COMMON, InterfaceHash, lower
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.languages._shared.views import ignored_program
 from robocomp_yaml.languages.java import parameters
@@ -38,6 +38,7 @@ class View(msgspec.Struct, frozen=True):
     period: int
     ports: Ports
     names: str
+    interfaces: tuple[InterfaceHash, ...]
     needs_storm: bool
 
 
@@ -77,5 +78,6 @@ def _view(linked: LinkedComponent, layout: Layout) -> View:
         period=lowered.period,
         ports=ports,
         names=", ".join(literal(name) for name in dict.fromkeys(port.name for port in every)),
+        interfaces=lowered.interfaces,
         needs_storm=bool(ports.publishes or ports.subscribes),
     )

@@ -17,7 +17,7 @@ from msgspec.structs import replace
 
 from robocomp_yaml.emit import runtime, windows
 from robocomp_yaml.emit.layout import Layout, stated
-from robocomp_yaml.emit.lowering.component import BEHAVIOR, lower
+from robocomp_yaml.emit.lowering.component import BEHAVIOR, InterfaceHash, lower
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.languages.python import LANGUAGE, parameters
 from robocomp_yaml.languages.python.names import ice_name, module_variable, python_name
@@ -63,6 +63,7 @@ class View(msgspec.Struct, frozen=True):
     escape: bool
     behavior: str
     has_behavior: bool
+    interfaces: tuple[InterfaceHash, ...]
     stubs: list[ModuleStub]
     ports: Ports
     stage: str
@@ -160,6 +161,7 @@ def _view(linked: LinkedComponent, layout: Layout) -> View:
         escape=any(name in NOT_ESCAPED for name in _identifiers(linked)),
         behavior=module_variable(BEHAVIOR),
         has_behavior=lowered.is_common,
+        interfaces=lowered.interfaces,
         stubs=[stub(scope) for scope in linked.modules()],
         ports=ports,
         stage=_stage(linked),

@@ -9,7 +9,7 @@ import threading
 
 import pytest
 
-from robocomp_yaml.deploy import ice_ping
+from robocomp_yaml.deploy import ice_call, ice_ping
 
 VALIDATE = b"IceP\x01\x00\x01\x00\x03\x00\x0e\x00\x00\x00"
 OK = b"IceP\x01\x00\x01\x00\x02\x00\x19\x00\x00\x00" + b"\x01\x00\x00\x00" + b"\x00" + b"\x06\x00\x00\x00\x01\x01"
@@ -66,4 +66,4 @@ def test_what_answers(said: bytes, is_there: bool) -> None:
     ],
 )
 def test_the_address_of_a_proxy(proxy: str, address: tuple[str, str, int] | None) -> None:
-    assert ice_ping.address_of(proxy) == address
+    assert ice_call.address_of(proxy) == address

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <future>
 #include <utility>
 
 namespace robocomp
@@ -103,6 +104,19 @@ void Host::initialize()
 
 void Host::compute()
 {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - lastCheck_ >= std::chrono::seconds(1))
+    {
+        try
+        {
+            loop_.call([] {});
+        }
+        catch (const std::future_error&)
+        {
+            return; // the loop is over
+        }
+        lastCheck_ = std::chrono::steady_clock::now();
+    }
     const int period = getPeriod();
     if (known_.exchange(period) != period)
     {

@@ -9,6 +9,7 @@
 #include <CommonBehavior.ice.h>
 
 #include <atomic>
+#include <chrono>
 #include <map>
 #include <memory>
 #include <string>
@@ -52,7 +53,8 @@ public:
 
     void initialize() override;
 
-    /// Called every period: applies a period that CommonBehavior has set.
+    /// Called every period: applies a period that CommonBehavior has set. It also waits for the main thread, which
+    /// calls the worker's compute(), so that the heartbeat is that of the main thread.
     void compute() override;
 
 private:
@@ -75,6 +77,7 @@ private:
     std::map<std::string, std::string> values_;
     bool onlyCheck_ = false;
     std::atomic_int known_;
+    std::chrono::steady_clock::time_point lastCheck_;
 };
 
 /// Calls a method of the worker: by the name that RoboComp's tool gives it, or by the one that its oldest versions gave.

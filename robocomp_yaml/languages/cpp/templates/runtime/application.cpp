@@ -3,6 +3,7 @@
 
 #include "commonbehavior.h"
 #include "configuration.h"
+#include "facet.h"
 
 #include <Ice/Communicator.h>
 #include <Ice/LocalException.h>
@@ -24,9 +25,11 @@ constexpr std::pair<const char*, const char*> iceDefaults[] = {
     {"Ice.MessageSizeMax", "20004800"},      // KiB; as in RoboComp, so that an image is not too large
     {"Ice.Warn.UnknownProperties", "0"},     // parameters may begin with an adapter's name: `Laser.Device`
     {"CommonBehavior.ThreadPool.Size", "1"}, // a thread of its own, so that it answers while a method runs
+    {"CommonBehavior.ThreadPool.SizeMax", "4"}, // more, so that a new parameter's listener does not silence it
 };
 
-Ice::CommunicatorHolder makeCommunicator(const Settings& settings, Gate& gate)
+Ice::CommunicatorHolder
+makeCommunicator(const Settings& settings, Gate& gate, const std::shared_ptr<Publications>& publications)
 {
     Ice::InitializationData data;
     data.properties = settings.properties()->clone();
@@ -37,7 +40,9 @@ Ice::CommunicatorHolder makeCommunicator(const Settings& settings, Gate& gate)
             data.properties->setProperty(key, value);
         }
     }
+    Peers::sendHeartbeats(*data.properties);
     data.logger = makeIceLogger();
+    data.observer = publications;
     data.dispatcher = [&gate](const std::function<void()>& request, const auto&) { gate.dispatch(request); };
     try
     {
@@ -52,15 +57,19 @@ Ice::CommunicatorHolder makeCommunicator(const Settings& settings, Gate& gate)
 }
 
 Application::Application(
-    const CommandLine& commandLine, const Log& log, Shutdown& shutdown, const WorkerFactory& makeWorker)
+    const CommandLine& commandLine, const Log& log, Shutdown& shutdown, const WorkerFactory& makeWorker,
+    const Interfaces& interfaces)
     : commandLine_(commandLine),
       log_(log),
       shutdown_(shutdown),
+      interfaces_(interfaces),
       settings_(commandLine),
-      communicator_(makeCommunicator(settings_, gate_)),
+      vitals_(log.name()),
+      peers_(shutdown),
+      communicator_(makeCommunicator(settings_, gate_, publications_)),
       worker_(makeWorker()),
-      connections_(communicator_.communicator(), settings_, log, shutdown),
-      services_(communicator_.communicator(), settings_, log, gate_)
+      connections_(communicator_.communicator(), settings_, log, shutdown, vitals_, *publications_, peers_),
+      services_(communicator_.communicator(), settings_, log, gate_, vitals_)
 {
     worker_->communicator = communicator_.communicator();
     loadParameters(worker_->store_, settings_);
@@ -81,7 +90,9 @@ void Application::run()
             communicator->waitForShutdown();
             shutdown_.request();
         });
+    const auto peers = std::async(std::launch::async, [this] { peers_.watch(); });
     worker_->waitForEnd(shutdown_);
+    vitals_.become("stopping");
     gate_.close();
     worker_->stop();
     worker.wait_for(500ms);
@@ -110,23 +121,27 @@ void Application::work()
     }
     catch (const StartError& problem)
     {
-        log_.error(problem.what());
-        shutdown_.request(1);
+        fail(problem.what());
     }
     catch (const std::exception& problem)
     {
         if (!shutdown_.isRequested()) // stopping may make the start fail
         {
-            log_.error("cannot start: " + describe(problem));
-            shutdown_.request(1);
+            fail("cannot start: " + describe(problem));
         }
     }
     catch (...)
     {
-        log_.error("cannot start");
-        shutdown_.request(1);
+        fail("cannot start");
     }
     shutdown_.request();
+}
+
+void Application::fail(const std::string& why)
+{
+    vitals_.become("failed", {{"why", why}});
+    log_.error(why);
+    shutdown_.request(1);
 }
 
 /// Serves its own interfaces before it waits for others, so that two components may require each other.
@@ -134,13 +149,17 @@ void Application::start()
 {
     const auto behavior = std::make_shared<CommonBehavior>(
         *worker_, worker_->store_, commandLine_, log_, shutdown_);
-    services_.implementIfConfigured("CommonBehavior", "commonbehavior", behavior);
+    const auto facet = std::make_shared<Facet>(log_.name(), interfaces_, *worker_, vitals_);
+    services_.implementIfConfigured("CommonBehavior", "commonbehavior", behavior, facet);
     warnOfProperties(worker_->store_, settings_, log_);
     worker_->connect(connections_, services_);
+    vitals_.become("starting", {{"in", "initialize()"}});
     worker_->initialize();
     gate_.open();
     services_.ready();
     behavior->setRunning();
+    worker_->turns_.start();
+    vitals_.become("running");
     log_.info(log_.name() + (commandLine_.onlyCheck ? ": the startup check has passed" : " is running"));
 }
 

@@ -5,10 +5,13 @@
 #include "connections.h"
 #include "gate.h"
 #include "log.h"
+#include "peers.h"
 #include "program.h"
+#include "publications.h"
 #include "services.h"
 #include "settings.h"
 #include "shutdown.h"
+#include "vitals.h"
 #include "worker.h"
 
 #include <Ice/Initialize.h>
@@ -25,7 +28,9 @@ namespace runtime
 class Application
 {
 public:
-    Application(const CommandLine& commandLine, const Log& log, Shutdown& shutdown, const WorkerFactory& makeWorker);
+    Application(
+        const CommandLine& commandLine, const Log& log, Shutdown& shutdown, const WorkerFactory& makeWorker,
+        const Interfaces& interfaces);
 
     /// Runs until the component is stopped; returns the exit code.
     void run();
@@ -33,11 +38,16 @@ public:
 private:
     void work();
     void start();
+    void fail(const std::string& why);
 
     const CommandLine& commandLine_;
     const Log& log_;
     Shutdown& shutdown_;
+    const Interfaces& interfaces_;
     const Settings settings_;
+    Vitals vitals_;
+    Peers peers_;
+    const std::shared_ptr<Publications> publications_ = std::make_shared<Publications>();
     Gate gate_;
     const Ice::CommunicatorHolder communicator_;
     const std::unique_ptr<Worker> worker_;

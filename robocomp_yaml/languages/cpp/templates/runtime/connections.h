@@ -23,6 +23,10 @@ class Communicator;
 namespace runtime
 {
 
+class Peers;
+class Publications;
+class Vitals;
+
 /// What to do at start if a required component does not answer.
 enum class Absent
 {
@@ -45,29 +49,35 @@ class Connections
 public:
     Connections(
         std::shared_ptr<Ice::Communicator> communicator, const Settings& settings, const Log& log,
-        const Shutdown& shutdown);
+        const Shutdown& shutdown, Vitals& vitals, Publications& publications, Peers& peers);
 
     /// The configured proxy, as soon as the server answers, or at once if `absent` is Absent::ignore.
     template <typename Proxy>
     std::shared_ptr<Proxy> require(const Requirement& requirement) const
     {
-        return Ice::uncheckedCast<Proxy>(connect(requirement));
+        const auto proxy = Ice::uncheckedCast<Proxy>(connect(requirement));
+        watch(proxy); // each proxy has its own connection, after it was closed
+        return proxy;
     }
 
     /// IceStorm's topic manager, as soon as it answers.
     std::shared_ptr<Ice::ObjectPrx> topicManager() const;
+
+    /// Counts the events of a topic, which the component publishes through the object.
+    void countEvents(const std::string& name, const std::string& topic, const Ice::ObjectPrx& publisher) const;
 
     const Settings& settings() const;
 
 private:
     using Milliseconds = std::chrono::milliseconds;
 
+    void watch(const std::shared_ptr<Ice::ObjectPrx>& proxy) const;
     std::shared_ptr<Ice::ObjectPrx> connect(const Requirement& requirement) const;
     std::shared_ptr<Ice::ObjectPrx> parse(const std::string& label, const std::string& text) const;
 
-    /// Waits until the object answers a ping; `what` is its name in messages.
+    /// Waits until the object answers a ping; `text` is its proxy.
     void waitFor(
-        const std::string& what, const std::shared_ptr<Ice::ObjectPrx>& proxy,
+        const std::string& name, const std::string& text, const std::shared_ptr<Ice::ObjectPrx>& proxy,
         std::optional<Milliseconds> timeout = std::nullopt) const;
 
     /// Why the object does not answer; empty if it does.
@@ -77,6 +87,9 @@ private:
     const Settings& settings_;
     const Log& log_;
     const Shutdown& shutdown_;
+    Vitals& vitals_;
+    Publications& publications_;
+    Peers& peers_;
 };
 
 }

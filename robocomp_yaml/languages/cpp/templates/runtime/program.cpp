@@ -10,7 +10,9 @@
 namespace runtime
 {
 
-int run(const std::string& name, int argc, const char* const* argv, const WorkerFactory& makeWorker)
+int run(
+    const std::string& name, int argc, const char* const* argv, const WorkerFactory& makeWorker,
+    const Interfaces& interfaces)
 {
     // Created before any thread: it masks the signals, and threads inherit the mask.
     IceUtil::CtrlCHandler signals;
@@ -25,7 +27,7 @@ int run(const std::string& name, int argc, const char* const* argv, const Worker
             std::cout << CommandLine::usage(name);
             return 0;
         }
-        Application(commandLine, log, shutdown, makeWorker).run();
+        Application(commandLine, log, shutdown, makeWorker, interfaces).run();
         return shutdown.exitCode();
     }
     catch (const UsageError& problem)

@@ -7,14 +7,28 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace runtime
 {
 
 using WorkerFactory = std::function<std::unique_ptr<Worker>()>;
 
+/// A port with its role (implements, requires, publishes or subscribes), and the hash of its interface's content.
+struct Interface
+{
+    std::string role;
+    std::string port;
+    std::string interface;
+    std::string hash;
+};
+
+using Interfaces = std::vector<Interface>;
+
 /// A component as a process. Returns its exit code.
-int run(const std::string& name, int argc, const char* const* argv, const WorkerFactory& makeWorker);
+int run(
+    const std::string& name, int argc, const char* const* argv, const WorkerFactory& makeWorker,
+    const Interfaces& interfaces = {});
 
 }
 

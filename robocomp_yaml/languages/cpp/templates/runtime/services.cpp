@@ -8,6 +8,9 @@
 #include <Ice/LocalException.h>
 #include <Ice/ObjectAdapter.h>
 
+#include <chrono>
+#include <map>
+
 namespace runtime
 {
 
@@ -18,8 +21,14 @@ namespace
 class Guard : public Ice::DispatchInterceptor
 {
 public:
-    Guard(Service service, std::shared_ptr<Ice::Object> servant, const Log& log, Gate& gate)
-        : service_(std::move(service)), servant_(std::move(servant)), log_(log), gate_(gate)
+    using Tallying = std::function<Tally&(const std::string& operation)>;
+
+    Guard(Service service, std::shared_ptr<Ice::Object> servant, const Log& log, Gate& gate, Tallying tally)
+        : service_(std::move(service)),
+          servant_(std::move(servant)),
+          log_(log),
+          gate_(gate),
+          tally_(std::move(tally))
     {
     }
 
@@ -32,18 +41,24 @@ public:
     }
 
 private:
-    bool watch(const std::function<bool()>& call, const Ice::Current& current) const
+    bool watch(const std::function<bool()>& call, const Ice::Current& current)
     {
+        const auto begin = std::chrono::steady_clock::now();
+        const auto count = [&](Tally::End end) { tallyOf(current.operation).measure(begin, end); };
         try
         {
-            return call();
+            const bool result = call();
+            count(Tally::End::result);
+            return result;
         }
         catch (const Ice::UserException& problem)
         {
             if (service_.declared.count({current.operation, problem.ice_id()}) > 0)
             {
+                count(Tally::End::exception);
                 throw;
             }
+            count(Tally::End::failure);
             fail(current, describe(problem));
         }
         catch (const Ice::RequestFailedException& problem)
@@ -52,14 +67,17 @@ private:
             {
                 throw; // about this call, not about one that the worker made
             }
+            count(Tally::End::failure);
             fail(current, describe(problem));
         }
         catch (const std::exception& problem)
         {
+            count(Tally::End::failure);
             fail(current, describe(problem));
         }
         catch (...)
         {
+            count(Tally::End::failure);
             fail(current, "an exception that is not a std::exception");
         }
     }
@@ -71,17 +89,32 @@ private:
         throw Ice::UnknownException(__FILE__, __LINE__, alreadyLogged + method + ": " + why);
     }
 
+    Tally& tallyOf(const std::string& operation)
+    {
+        const std::lock_guard lock(mutex_);
+        auto& found = tallies_[operation];
+        if (found == nullptr)
+        {
+            found = &tally_(operation);
+        }
+        return *found;
+    }
+
     const Service service_;
     const std::shared_ptr<Ice::Object> servant_;
     const Log& log_;
     Gate& gate_;
+    const Tallying tally_;
+    std::mutex mutex_;
+    std::map<std::string, Tally*> tallies_;
 };
 
 }
 
 Services::Services(
-    std::shared_ptr<Ice::Communicator> communicator, const Settings& settings, const Log& log, Gate& gate)
-    : communicator_(std::move(communicator)), settings_(settings), log_(log), gate_(gate)
+    std::shared_ptr<Ice::Communicator> communicator, const Settings& settings, const Log& log, Gate& gate,
+    Vitals& vitals)
+    : communicator_(std::move(communicator)), settings_(settings), log_(log), gate_(gate), vitals_(vitals)
 {
 }
 
@@ -97,12 +130,15 @@ void Services::implement(const Service& service, const std::shared_ptr<Ice::Obje
         settings_.required("the endpoint of " + name, {name + ".Endpoints", "Endpoints." + name});
     const std::lock_guard lock(mutex_);
     const auto adapter = makeAdapter(name, endpoints);
-    adapter->add(std::make_shared<Guard>(service, servant, log_, gate_), {service.identity, ""});
+    const auto tally = [this, name](const std::string& operation) -> Tally&
+    { return vitals_.call(name + "." + operation); };
+    adapter->add(std::make_shared<Guard>(service, servant, log_, gate_, tally), {service.identity, ""});
     adapter->activate();
 }
 
 void Services::implementIfConfigured(
-    const std::string& name, const std::string& identity, const std::shared_ptr<Ice::Object>& servant)
+    const std::string& name, const std::string& identity, const std::shared_ptr<Ice::Object>& servant,
+    const std::shared_ptr<Ice::Object>& facet)
 {
     const auto endpoints = settings_.first({name + ".Endpoints", "Endpoints." + name});
     if (!endpoints.empty())
@@ -110,19 +146,23 @@ void Services::implementIfConfigured(
         const std::lock_guard lock(mutex_);
         const auto adapter = makeAdapter(name, endpoints);
         adapter->add(servant, {identity, ""});
+        adapter->addFacet(facet, {identity, ""}, "rcyaml");
         adapter->activate();
     }
 }
 
 std::shared_ptr<Ice::ObjectPrx> Services::listen(
-    const std::string& name, const std::string& interface, const std::shared_ptr<Ice::Object>& servant)
+    const std::string& name, const std::string& interface, const std::string& topic,
+    const std::shared_ptr<Ice::Object>& servant)
 {
-    const auto topic = name + "Topic";
-    const auto endpoints = settings_.first({topic + ".Endpoints", "Endpoints." + topic, "Endpoints." + name});
+    const auto own = name + "Topic";
+    const auto endpoints = settings_.first({own + ".Endpoints", "Endpoints." + own, "Endpoints." + name});
     const std::lock_guard lock(mutex_);
-    const auto adapter = makeAdapter(topic, endpoints.empty() ? "tcp -p 0" : endpoints);
+    const auto adapter = makeAdapter(own, endpoints.empty() ? "tcp -p 0" : endpoints);
     // IceStorm identifies subscribers by identity: with a UUID, several components may subscribe to a topic.
-    const auto guard = std::make_shared<Guard>(Service{name, "", interface}, servant, log_, gate_);
+    auto& events = vitals_.topic(name, topic, "in");
+    const auto tally = [&events](const std::string&) -> Tally& { return events; };
+    const auto guard = std::make_shared<Guard>(Service{name, "", interface}, servant, log_, gate_, tally);
     const auto proxy = adapter->addWithUUID(guard);
     adapter->activate();
     return proxy;

@@ -5,6 +5,7 @@
 #include "gate.h"
 #include "log.h"
 #include "settings.h"
+#include "vitals.h"
 
 #include <functional>
 #include <memory>
@@ -39,7 +40,9 @@ struct Service
 class Services
 {
 public:
-    Services(std::shared_ptr<Ice::Communicator> communicator, const Settings& settings, const Log& log, Gate& gate);
+    Services(
+        std::shared_ptr<Ice::Communicator> communicator, const Settings& settings, const Log& log, Gate& gate,
+        Vitals& vitals);
     ~Services();
     Services(const Services&) = delete;
     Services& operator=(const Services&) = delete;
@@ -47,13 +50,15 @@ public:
     /// Serves an interface of the worker.
     void implement(const Service& service, const std::shared_ptr<Ice::Object>& servant);
 
-    /// Serves an interface that needs no worker, if the config has an endpoint for it.
+    /// Serves an interface that needs no worker, and its facet `rcyaml`, if the config has an endpoint for it.
     void implementIfConfigured(
-        const std::string& name, const std::string& identity, const std::shared_ptr<Ice::Object>& servant);
+        const std::string& name, const std::string& identity, const std::shared_ptr<Ice::Object>& servant,
+        const std::shared_ptr<Ice::Object>& facet);
 
-    /// Serves the subscriber of a topic; returns its proxy.
-    std::shared_ptr<Ice::ObjectPrx>
-    listen(const std::string& name, const std::string& interface, const std::shared_ptr<Ice::Object>& servant);
+    /// Serves the subscriber of a topic, whose full name is `topic`; returns its proxy.
+    std::shared_ptr<Ice::ObjectPrx> listen(
+        const std::string& name, const std::string& interface, const std::string& topic,
+        const std::shared_ptr<Ice::Object>& servant);
 
     /// Calls `begin` when the worker has initialized, and `end` when the component stops.
     void whileReady(std::function<void()> begin, std::function<void()> end);
@@ -70,6 +75,7 @@ private:
     const Settings& settings_;
     const Log& log_;
     Gate& gate_;
+    Vitals& vitals_;
     std::mutex mutex_; // the worker's thread may still start while the main thread stops
     std::vector<std::shared_ptr<Ice::ObjectAdapter>> adapters_;
     std::vector<std::function<void()>> begin_;

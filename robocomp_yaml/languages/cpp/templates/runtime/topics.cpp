@@ -40,7 +40,7 @@ void Topics::subscribe(
 {
     const auto fullName = nameOf(name, topic, "Proxies." + name + "Prefix");
     const auto source = ask(fullName, [&] { return find(fullName); });
-    const auto subscriber = services.listen(name, topic, servant)->ice_oneway();
+    const auto subscriber = services.listen(name, topic, fullName, servant)->ice_oneway();
     const auto begin = [=] { ask(fullName, [&] { source->subscribeAndGetPublisher({}, subscriber); }); };
     const auto end = [=]
     {
@@ -59,7 +59,9 @@ void Topics::subscribe(
 std::shared_ptr<Ice::ObjectPrx> Topics::publisher(const std::string& name, const std::string& topic) const
 {
     const auto fullName = nameOf(name, topic, "Proxies." + name + "PubPrefix");
-    return ask(fullName, [&] { return find(fullName)->getPublisher()->ice_oneway(); });
+    const auto publisher = ask(fullName, [&] { return find(fullName)->getPublisher()->ice_oneway(); });
+    connections_.countEvents(name, fullName, *publisher);
+    return publisher;
 }
 
 std::string Topics::nameOf(const std::string& name, const std::string& topic, const std::string& prefixKey) const

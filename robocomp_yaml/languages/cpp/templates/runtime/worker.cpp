@@ -38,7 +38,12 @@ void Worker::followPeriod()
 {
     {
         const std::lock_guard lock(stateMutex_);
+        const auto before = period_;
         period_ = std::chrono::milliseconds(store_.number("period.compute", static_cast<int>(period_.count())));
+        if (period_ != before)
+        {
+            turns_.changePeriod();
+        }
     }
     stateChanged_.notify_all();
 }
@@ -49,6 +54,11 @@ void Worker::killYourSelf()
     {
         requestShutdown_();
     }
+}
+
+void Worker::mayTake(double seconds)
+{
+    turns_.mayTake(std::chrono::duration<double>(seconds));
 }
 
 void Worker::wake()
@@ -72,13 +82,17 @@ void Worker::waitForEnd(Shutdown& shutdown)
 
 void Worker::run()
 {
+    turns_.busy();
     beforeTurns();
+    turns_.idle();
     lastTurn_ = Clock::now();
     while (waitForTurn())
     {
+        bool failed = true;
         try
         {
             takeTurn();
+            failed = false;
         }
         catch (const std::exception& problem)
         {
@@ -88,6 +102,7 @@ void Worker::run()
         {
             log.error("compute() failed");
         }
+        turns_.end(failed);
     }
     afterTurns();
 }
@@ -100,7 +115,9 @@ bool Worker::waitForTurn()
     {
         woken_ = false;
         lock.unlock();
+        turns_.busy();
         const auto pause = betweenTurns();
+        turns_.idle();
         lock.lock();
         const auto next = lastTurn_ + period_;
         if (!stopping_ && !woken_)
@@ -108,7 +125,12 @@ bool Worker::waitForTurn()
             stateChanged_.wait_until(lock, pause ? std::min(next, Clock::now() + *pause) : next);
         }
     }
-    lastTurn_ += (Clock::now() - lastTurn_) / period_ * period_;
+    const auto passed = (Clock::now() - lastTurn_) / period_;
+    lastTurn_ += passed * period_;
+    if (!stopping_)
+    {
+        turns_.begin(passed - 1);
+    }
     return !stopping_;
 }
 

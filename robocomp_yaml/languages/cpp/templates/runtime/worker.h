@@ -4,6 +4,7 @@
 
 #include "log.h"
 #include "store.h"
+#include "vitals.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -58,6 +59,10 @@ public:
     /// Stops the component in order.
     void killYourSelf();
 
+    /// Says that the present turn may take so many seconds from now on. Otherwise a turn of more than ten periods, at
+    /// least 10 s, can be taken for a hang, after which a deployment starts the component again.
+    void mayTake(double seconds);
+
 protected:
     std::recursive_mutex mutex;
     std::shared_ptr<Ice::Communicator> communicator;
@@ -89,6 +94,7 @@ protected:
 
 private:
     friend class Application;
+    friend class Facet;
 
     // Called in the main thread: before the worker's thread starts, and then until the component stops.
 
@@ -116,6 +122,7 @@ private:
     bool stopping_ = false;
     bool woken_ = false;
     Store store_;
+    Turns turns_;
     std::function<void()> requestShutdown_;
 };
 

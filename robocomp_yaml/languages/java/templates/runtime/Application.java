@@ -20,13 +20,15 @@ final class Application {
     private static final Map<String, String> DEFAULTS = Map.of(
         "Ice.MessageSizeMax", "20004800", // KiB; as in RoboComp, so that an image is not too large
         "Ice.Warn.UnknownProperties", "0", // parameters may begin with an adapter's name: `Laser.Device`
-        "CommonBehavior.ThreadPool.Size", "1"); // a thread of its own, so that it answers while a method runs
+        "CommonBehavior.ThreadPool.Size", "1", // a thread of its own, so that it answers while a method runs
+        "CommonBehavior.ThreadPool.SizeMax", "4"); // more, so that a new parameter's listener does not silence it
 
     private final Component component;
     private final Settings settings;
     private final Stopping stopping;
     private final boolean isCheck;
     private final Log log;
+    private final Vitals vitals;
     private final Gate gate;
     private final Store store;
     private final Schedule schedule;
@@ -39,23 +41,26 @@ final class Application {
         this.stopping = stopping;
         this.isCheck = isCheck;
         log = new Log(component.name());
-        gate = new Gate(log);
+        vitals = new Vitals(component.name());
+        gate = new Gate(log, vitals);
         store = Configuration.load(component.table(), settings);
-        schedule = new Schedule(store.number(component.period(), "period", "compute"), stopping);
+        schedule = new Schedule(store.number(component.period(), "period", "compute"), stopping, vitals.turns);
         store.listen(change -> schedule.setPeriod(store.number(schedule.period(), "period", "compute")));
-        communicator = initialized(settings);
-        connections = new Connections(communicator, settings, log, stopping);
+        communicator = initialized(settings, vitals);
+        connections = new Connections(communicator, settings, new Waiting(log, stopping, vitals), vitals, new Peers(stopping));
     }
 
-    private static Communicator initialized(Settings settings) {
+    private static Communicator initialized(Settings settings, Vitals vitals) {
         InitializationData data = new InitializationData();
         data.logger = Log.ofIce("Ice");
+        data.observer = new Observer(vitals);
         data.properties = settings.properties._clone();
         DEFAULTS.forEach((key, value) -> {
             if (data.properties.getProperty(key).isEmpty()) {
                 data.properties.setProperty(key, value);
             }
         });
+        Peers.sendHeartbeats(data.properties);
         data.properties.setProperty("Ice.Default.Package", "slice"); // the package of the Java code of all Slice
         return Util.initialize(data);
     }
@@ -69,6 +74,7 @@ final class Application {
         work.start();
         watch.start();
         stopping.await();
+        vitals.become(Vitals.STOPPING);
         gate.close();
         join(work, 500);
         synchronized (connections) {
@@ -110,6 +116,7 @@ final class Application {
             }
         } catch (StartError error) {
             if (!stopping.isRequested()) {
+                vitals.become(Vitals.FAILED, "why", String.valueOf(error.getMessage()));
                 log.error(error.getMessage());
                 stopping.request(1);
             }
@@ -117,6 +124,7 @@ final class Application {
             return;
         } catch (Throwable error) { // what the user's code may throw
             if (!stopping.isRequested()) { // stopping may make the start fail
+                vitals.become(Vitals.FAILED, "why", error.toString());
                 log.error("cannot start", error);
                 stopping.request(1);
             }
@@ -129,10 +137,14 @@ final class Application {
     private void turns(Worker worker) {
         schedule.restart();
         while (schedule.awaitTurn()) {
+            boolean failed = true;
             try {
                 worker.compute();
+                failed = false;
             } catch (Exception error) {
                 log.error("compute() failed", error);
+            } finally {
+                schedule.turns().end(failed);
             }
         }
     }
@@ -153,6 +165,7 @@ final class Application {
         Worker worker = component.worker();
         worker.connect(connections);
         List<Runnable> subscriptions = listen(services);
+        vitals.become(Vitals.STARTING, "in", "initialize()");
         worker.initialize();
         gate.open(worker);
         synchronized (connections) {
@@ -161,6 +174,8 @@ final class Application {
         if (behavior != null) {
             behavior.setRunning();
         }
+        vitals.turns.start();
+        vitals.become(Vitals.RUNNING);
         return worker;
     }
 
@@ -172,6 +187,8 @@ final class Application {
                 Topics topics = connections.topics();
                 ObjectAdapter adapter = adapter(service.name() + "Topic", settings.topicEndpoints(service.name()));
                 ObjectPrx proxy = adapter.addWithUUID(service.servant());
+                vitals.topic(service.name(), topics.name(service.name(), service.topic()), "in");
+                gate.isSubscriber(proxy.ice_getIdentity(), service.name());
                 adapter.activate();
                 subscriptions.add(() -> topics.subscribe(service.name(), service.topic(), proxy));
             }
@@ -193,6 +210,8 @@ final class Application {
         Behavior behavior = new Behavior(settings, store, schedule, stopping, log);
         ObjectAdapter adapter = adapter(BEHAVIOR, endpoints);
         adapter.add(behavior, Util.stringToIdentity("commonbehavior"));
+        adapter.addFacet(
+            new Facet(component, schedule, vitals), Util.stringToIdentity("commonbehavior"), Facet.NAME);
         adapter.activate();
         return behavior;
     }

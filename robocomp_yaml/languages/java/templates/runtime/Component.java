@@ -17,6 +17,8 @@ public interface Component {
 
     List<Service> services(Gate gate);
 
+    List<Interface> interfaces();
+
     /** The names of all ports. */
     Set<String> ports();
 }

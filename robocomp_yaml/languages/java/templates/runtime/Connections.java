@@ -8,15 +8,17 @@ import com.zeroc.Ice.ObjectPrx;
 public final class Connections {
     private final Communicator communicator;
     private final Settings settings;
-    private final Log log;
-    private final Stopping stopping;
+    private final Waiting waiting;
+    private final Vitals vitals;
+    private final Peers peers;
     private Topics topics;
 
-    Connections(Communicator communicator, Settings settings, Log log, Stopping stopping) {
+    Connections(Communicator communicator, Settings settings, Waiting waiting, Vitals vitals, Peers peers) {
+        this.peers = peers;
         this.communicator = communicator;
         this.settings = settings;
-        this.log = log;
-        this.stopping = stopping;
+        this.waiting = waiting;
+        this.vitals = vitals;
     }
 
     /**
@@ -25,17 +27,22 @@ public final class Connections {
      */
     public ObjectPrx required(String name, String absent, int timeout) {
         String text = settings.proxy(name);
-        String what = name + " at " + text;
         ObjectPrx proxy = fromText("the proxy to " + name, text);
         if (absent.equals("wait")) {
-            Waiting.await(what, proxy, log, stopping, timeout);
+            waiting.await(name, text, proxy, timeout);
         } else if (absent.equals("fail")) {
             String why = Waiting.ping(proxy, timeout < 0 ? Waiting.PATIENCE : timeout);
             if (!why.isEmpty()) {
-                throw new StartError(what + " does not answer (" + why + ")");
+                throw new StartError(name + " at " + text + " does not answer (" + why + ")");
             }
         }
         return timeout < 0 ? proxy : proxy.ice_invocationTimeout(timeout);
+    }
+
+    /** The proxy, whose connections are watched: each proxy has its own one, after it was closed. */
+    public <P extends ObjectPrx> P watched(P proxy) {
+        peers.add(proxy);
+        return proxy;
     }
 
     /** The proxy that publishes to a topic. */
@@ -48,8 +55,8 @@ public final class Connections {
         if (topics == null) {
             String text = settings.topicManager();
             ObjectPrx proxy = fromText("IceStorm's topic manager", text);
-            Waiting.await("TopicManager at " + text, proxy, log, stopping, -1);
-            topics = new Topics(proxy, settings);
+            waiting.await("TopicManager", text, proxy, -1);
+            topics = new Topics(proxy, settings, vitals);
         }
         return topics;
     }

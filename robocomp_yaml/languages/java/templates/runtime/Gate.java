@@ -2,14 +2,19 @@
 package generated.runtime;
 
 import com.zeroc.Ice.Current;
+import com.zeroc.Ice.Identity;
 import com.zeroc.Ice.ObjectPrx;
 import com.zeroc.Ice.OutputStream;
+import com.zeroc.Ice.RequestFailedException;
 import com.zeroc.Ice.UnknownException;
+import com.zeroc.Ice.UserException;
 import com.zeroc.IceInternal.Incoming;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Map;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.CompletionStage;
+import java.util.concurrent.ConcurrentHashMap;
 
 /**
  * Lets calls pass to the worker once it has initialized.
@@ -19,6 +24,8 @@ import java.util.concurrent.CompletionStage;
  */
 public final class Gate {
     private final Log log;
+    private final Vitals vitals;
+    private final Map<Identity, String> ports = new ConcurrentHashMap<>();
     private final List<Early> early = new ArrayList<>();
     private Worker worker;
     private boolean isClosed;
@@ -26,13 +33,60 @@ public final class Gate {
     private record Early(Runnable call, CompletableFuture<OutputStream> answer) {
     }
 
-    Gate(Log log) {
+    Gate(Log log, Vitals vitals) {
+        this.vitals = vitals;
         this.log = log;
     }
 
-    /** Whether a call is executed at once. Calls that do not reach the worker, such as pings, always are. */
-    public synchronized boolean lets(Current current) {
-        return (worker != null && !isClosed) || current.operation.startsWith("ice_");
+    /** What Ice does with a call of a servant. */
+    public interface Dispatch {
+        CompletionStage<OutputStream> call(Incoming incoming, Current current) throws UserException;
+    }
+
+    /** Executes and counts a call, or lets it wait. Calls that do not reach the worker, such as pings, never wait. */
+    public CompletionStage<OutputStream> pass(Incoming incoming, Current current, Dispatch dispatch)
+        throws UserException {
+        if (current.operation.startsWith("ice_")) {
+            return dispatch.call(incoming, current);
+        }
+        return isOpen() ? counted(incoming, current, dispatch) : later(incoming, current);
+    }
+
+    private synchronized boolean isOpen() {
+        return worker != null && !isClosed;
+    }
+
+    private CompletionStage<OutputStream> counted(Incoming incoming, Current current, Dispatch dispatch)
+        throws UserException {
+        long begin = System.nanoTime();
+        Tally.End end = Tally.End.FAILURE;
+        try {
+            CompletionStage<OutputStream> answer = dispatch.call(incoming, current);
+            end = Tally.End.RESULT;
+            return answer;
+        } catch (UserException error) {
+            end = Tally.End.EXCEPTION;
+            throw error;
+        } catch (RequestFailedException error) {
+            end = null; // there is no such operation
+            throw error;
+        } finally {
+            if (end != null) {
+                tally(current).measure(begin, end);
+            }
+        }
+    }
+
+    /** The tally of the method or topic. An adapter has the name of its port. */
+    private Tally tally(Current current) {
+        String port = ports.get(current.id);
+        return port == null
+            ? vitals.call(current.adapter.getName() + "." + current.operation) : vitals.subscribed(port);
+    }
+
+    /** From now on, the calls of this object are events of a subscribed port. */
+    void isSubscriber(Identity identity, String port) {
+        ports.put(identity, port);
     }
 
     /** The worker that an operation calls. */
@@ -44,7 +98,7 @@ public final class Gate {
     }
 
     /** The result of a call that is executed when the gate opens. */
-    public CompletionStage<OutputStream> later(Incoming incoming, Current current) {
+    private CompletionStage<OutputStream> later(Incoming incoming, Current current) {
         byte[] inputs = incoming.readParamEncaps();
         OutputStream cached = incoming.getAndClearCachedOutputStream();
         ObjectPrx self = current.adapter.createProxy(current.id);

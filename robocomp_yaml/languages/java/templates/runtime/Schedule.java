@@ -4,13 +4,19 @@ package generated.runtime;
 /** When compute() is called: every period on the monotonic clock, without drift. */
 final class Schedule {
     private final Stopping stopping;
+    private final Turns turns;
     private long period; // milliseconds
     private long last = System.nanoTime();
 
-    Schedule(long period, Stopping stopping) {
+    Schedule(long period, Stopping stopping, Turns turns) {
+        this.turns = turns;
         this.period = period;
         this.stopping = stopping;
         stopping.wakes(this::wake);
+    }
+
+    Turns turns() {
+        return turns;
     }
 
     synchronized long period() {
@@ -18,6 +24,9 @@ final class Schedule {
     }
 
     synchronized void setPeriod(long milliseconds) {
+        if (milliseconds != period) {
+            turns.changePeriod();
+        }
         period = milliseconds;
         notifyAll();
     }
@@ -40,7 +49,9 @@ final class Schedule {
             long pause = Math.multiplyExact(Math.min(period, 1L << 40), 1_000_000L);
             long late = System.nanoTime() - last - pause;
             if (late >= 0) {
-                last += pause * (1 + late / Math.max(pause, 1));
+                long missed = late / Math.max(pause, 1);
+                last += pause * (1 + missed);
+                turns.begin(missed);
                 return true;
             }
             try {

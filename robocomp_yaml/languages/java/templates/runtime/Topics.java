@@ -17,12 +17,14 @@ import java.util.Map;
 final class Topics {
     private final TopicManagerPrx manager;
     private final Settings settings;
+    private final Vitals vitals;
     private final List<Subscription> subscriptions = new ArrayList<>();
 
     private record Subscription(TopicPrx topic, ObjectPrx subscriber) {
     }
 
-    Topics(ObjectPrx manager, Settings settings) {
+    Topics(ObjectPrx manager, Settings settings, Vitals vitals) {
+        this.vitals = vitals;
         this.manager = TopicManagerPrx.uncheckedCast(manager);
         this.settings = settings;
     }
@@ -30,15 +32,22 @@ final class Topics {
     ObjectPrx publisher(String name, String topic) {
         String called = settings.topicName(name, topic, "Proxies." + name + "PubPrefix");
         try {
-            return topic(called).getPublisher().ice_oneway();
+            ObjectPrx publisher = topic(called).getPublisher().ice_oneway();
+            vitals.countEvents(publisher, vitals.topic(name, called, "out"));
+            return publisher;
         } catch (com.zeroc.Ice.LocalException error) {
             throw cannotAsk(called, error);
         }
     }
 
+    /** The full name of a topic that the component subscribes to. */
+    String name(String port, String topic) {
+        return settings.topicName(port, topic, "Proxies." + port + "Prefix");
+    }
+
     /** Sends the topic's events to the object. */
     void subscribe(String name, String topic, ObjectPrx proxy) {
-        String called = settings.topicName(name, topic, "Proxies." + name + "Prefix");
+        String called = name(name, topic);
         try {
             Subscription made = new Subscription(topic(called), proxy.ice_oneway());
             made.topic.subscribeAndGetPublisher(Map.of(), made.subscriber);

@@ -8,6 +8,10 @@ public final class Version {
     private Version() {
     }
 
+    static String shown() {
+        return THIS;
+    }
+
     /** Stops the program if it was generated for another run time. */
     public static void isOf(String wanted) {
         if (!THIS.equals(wanted)) {

@@ -9,7 +9,14 @@ final class Waiting {
     private static final long PAUSE = 250; // between two attempts
     private static final long REMIND = 5000; // between two log lines about the wait
 
-    private Waiting() {
+    private final Log log;
+    private final Stopping stopping;
+    private final Vitals vitals;
+
+    Waiting(Log log, Stopping stopping, Vitals vitals) {
+        this.log = log;
+        this.stopping = stopping;
+        this.vitals = vitals;
     }
 
     /** Why the object does not answer, or ''. */
@@ -24,15 +31,19 @@ final class Waiting {
         }
     }
 
-    /** Waits until the object answers, at most `timeout` milliseconds, -1 for ever; `what` is its name in messages. */
-    static void await(String what, ObjectPrx proxy, Log log, Stopping stopping, int timeout) {
+    /** Waits until the object answers, at most `timeout` milliseconds, -1 for ever. `text` is its proxy. */
+    void await(String name, String text, ObjectPrx proxy, int timeout) {
+        String what = name + " at " + text;
+        vitals.become(Vitals.WAITING, "for", name, "at", text);
         long begin = System.nanoTime() / 1_000_000;
         long nextLine = begin;
         while (true) {
             String why = ping(proxy, PATIENCE);
             if (why.isEmpty()) {
+                vitals.become(Vitals.STARTING);
                 return;
             }
+            vitals.become(Vitals.WAITING, "for", name, "at", text, "why", why);
             long now = System.nanoTime() / 1_000_000;
             if (timeout >= 0 && now - begin >= timeout) {
                 String seconds = Texts.spelled(timeout / 1000.0);

@@ -49,6 +49,14 @@ public abstract class Worker {
         context.stopping.request(0);
     }
 
+    /**
+     * Says that the present turn may take so many seconds from now on. Otherwise a turn of more than ten periods, at
+     * least 10 s, can be taken for a hang, after which a deployment starts the component again.
+     */
+    public void mayTake(double seconds) {
+        context.schedule.turns().mayTake(seconds);
+    }
+
     /** The store of the generated class Parameters. */
     protected final Store store() {
         return context.store;

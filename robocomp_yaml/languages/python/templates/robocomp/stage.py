@@ -7,6 +7,7 @@ import inspect
 import os
 import sys
 from collections.abc import Callable
+from concurrent.futures import CancelledError
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ from generated.runtime.errors import StartError
 from generated.runtime.schedule import Schedule
 from generated.runtime.semantics.problems import ParameterError
 
+HEARTBEAT = 1.0  # seconds between two checks whether the main thread runs
 # The first folder is the component's own; the run time may be that of the workspace.
 ROOT = Path(generated.__path__[0]).resolve().parent
 
@@ -81,7 +83,14 @@ class Stage(stage.Stage):
         return self._loop.call(lambda: self._make(worker_class, context))
 
     def run(self, running: worker.Worker, schedule: Schedule) -> None:
-        self.stopping.wait()
+        """The heartbeat is that of the main thread, which calls compute()."""
+        while not self.stopping.wait(HEARTBEAT):
+            schedule.turns.busy()
+            try:
+                self._loop.call(lambda: None)
+            except CancelledError:
+                pass  # the loop is over
+            schedule.turns.idle()
 
     def equip(self, made: Any) -> None:
         """Called by the constructor of GenericWorker."""

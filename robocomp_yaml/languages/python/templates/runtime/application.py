@@ -7,18 +7,20 @@ import threading
 from collections.abc import Callable
 
 import Ice
-from generated.runtime import commonbehavior, configuration, servants, worker
+from generated.runtime import commonbehavior, configuration, facet, servants, worker
 from generated.runtime.errors import StartError
 from generated.runtime.log import IceLogger
 from generated.runtime.parameters import Live, Store, Table
 from generated.runtime.ports import Component, Subscribed
+from generated.runtime.peers import ACM, SENT, Peers
 from generated.runtime.proxies import connect
 from generated.runtime.schedule import Schedule
 from generated.runtime.semantics import connections
 from generated.runtime.settings import Settings
 from generated.runtime.stage import Stage, WorkerClass
 from generated.runtime.topics import Topics
-from generated.runtime.waiting import reason
+from generated.runtime.vitals import FAILED, RUNNING, STARTING, STOPPING, Tally, Vitals
+from generated.runtime.waiting import Waiting, reason
 
 Parameters = tuple[Table, Callable[[Store], Live]]
 
@@ -43,7 +45,10 @@ class Application:
         table, live = parameters
         self._store = configuration.load(table, settings)
         self._parameters = live(self._store)
-        self._schedule = Schedule(component.period, stopping)
+        self._vitals = Vitals(component.name)
+        self._peers = Peers(stopping)
+        self._waiting = Waiting(stage.log, stopping, self._vitals)
+        self._schedule = Schedule(component.period, stopping, self._vitals.turns)
         configuration.drive(self._schedule, self._store)
         self._communicator = Ice.initialize(_initialization(settings))
 
@@ -55,6 +60,7 @@ class Application:
             thread.start()
         self._stage.wait()
         self._stopping.request()
+        self._vitals.become(STOPPING)
         self._gate.close()
         work.join(0.5)
         if self._topics:
@@ -78,6 +84,7 @@ class Application:
             running = self._start()
         except Exception as error:
             if not self._stopping.is_requested():  # stopping may make the start fail
+                self._vitals.become(FAILED, why=f"{type(error).__name__}: {error}")
                 if isinstance(error, StartError):
                     self._log.error(error)
                 else:
@@ -98,7 +105,7 @@ class Application:
         self._warn_of_properties()
         for port in self._component.implements:
             adapter = self._adapter(port.name, self._settings.endpoints(port.name))
-            servant = servants.servant(port.interface, port.methods, self._gate)
+            servant = servants.servant(port.interface, port.methods, self._gate, self._calls_of(port.name))
             adapter.add(servant, Ice.stringToIdentity(port.identity))
             adapter.activate()
         proxies = self._connect()
@@ -106,13 +113,19 @@ class Application:
         context = worker.Context(
             self._component.name, self._communicator, self._schedule, self._stopping, self._parameters, proxies
         )
+        self._vitals.become(STARTING, **{"in": "initialize()"})
         running = self._stage.create(self._worker_class, context)
         self._gate.open(running)
         for port, subscriber in subscribers:
             self._topics.subscribe(port, subscriber)
         if behavior:
             behavior.is_running = True
+        self._vitals.turns.start()
+        self._vitals.become(RUNNING)
         return running
+
+    def _calls_of(self, port: str) -> Callable[[str], Tally]:
+        return lambda operation: self._vitals.call(f"{port}.{operation}")
 
     def _warn_of_properties(self) -> None:
         component = self._component
@@ -131,7 +144,9 @@ class Application:
             self._component, self._settings, self._store, self._schedule, self._stopping, self._log
         )
         adapter = self._adapter(name, endpoints)
-        adapter.add(behavior, Ice.stringToIdentity("commonbehavior"))
+        identity = Ice.stringToIdentity("commonbehavior")
+        adapter.add(behavior, identity)
+        adapter.addFacet(facet.servant(self._component, self._schedule, self._vitals), identity, facet.NAME)
         adapter.activate()
         return behavior
 
@@ -147,11 +162,13 @@ class Application:
         """A proxy for each accessor."""
         component, settings = self._component, self._settings
         proxies = {
-            port.accessor: connect(port, self._communicator, settings, self._log, self._stopping)
+            port.accessor: connect(port, self._communicator, settings, self._waiting)
             for port in component.requires
         }
         if component.publishes or component.subscribes:
-            self._topics = Topics(self._communicator, settings, self._log, self._stopping)
+            self._topics = Topics(self._communicator, settings, self._waiting, self._vitals)
+        for port in component.requires:
+            self._peers.add(proxies[port.accessor])
         for port in component.publishes:
             proxies[port.accessor] = self._topics.publisher(port)
         return proxies
@@ -161,7 +178,9 @@ class Application:
         subscribers = []
         for port in self._component.subscribes:
             adapter = self._adapter(f"{port.name}Topic", self._settings.topic_endpoints(port.name))
-            subscribers.append((port, adapter.addWithUUID(servants.servant(port.interface, port.methods, self._gate))))
+            tally = self._vitals.topic(port.name, self._topics.name(port), "in")
+            servant = servants.servant(port.interface, port.methods, self._gate, lambda operation, tally=tally: tally)
+            subscribers.append((port, adapter.addWithUUID(servant)))
             adapter.activate()
         return subscribers
 
@@ -170,7 +189,8 @@ def _initialization(settings: Settings) -> Ice.InitializationData:
     data = Ice.InitializationData()
     data.logger = IceLogger()
     data.properties = settings.properties.clone()
-    for key, value in connections.ICE_DEFAULTS.items():
+    heartbeats = {} if data.properties.getPropertiesForPrefix(ACM) else SENT
+    for key, value in {**connections.ICE_DEFAULTS, **heartbeats}.items():
         if not data.properties.getProperty(key):
             data.properties.setProperty(key, value)
     return data

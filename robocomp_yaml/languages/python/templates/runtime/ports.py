@@ -70,8 +70,8 @@ class Subscribed:
 @dataclass(frozen=True)
 class Component:
     """`period` is in milliseconds; `runtime` is the version that the component was generated for; `behavior` is the
-    Slice module RoboCompCommonBehavior; `stage` is a subclass of `Stage`, None for the default; `base` is the Qt class
-    of the window."""
+    Slice module RoboCompCommonBehavior; `interfaces` has role, port, interface and hash of each port; `stage` is a
+    subclass of `Stage`, None for the default; `base` is the Qt class of the window."""
 
     name: str
     period: int
@@ -81,6 +81,7 @@ class Component:
     requires: tuple[Required, ...] = ()
     publishes: tuple[Published, ...] = ()
     subscribes: tuple[Subscribed, ...] = ()
+    interfaces: tuple[tuple[str, str, str, str], ...] = ()
     stage: Callable[..., Any] | None = None
     base: str = ""
 

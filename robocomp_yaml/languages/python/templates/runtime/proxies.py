@@ -3,15 +3,13 @@
 
 from __future__ import annotations
 
-import logging
 from typing import Any
 
 import Ice
 from generated.runtime.errors import StartError
 from generated.runtime.ports import Required
 from generated.runtime.settings import Settings
-from generated.runtime.stopping import Stopping
-from generated.runtime.waiting import PATIENCE, ping, wait_for
+from generated.runtime.waiting import PATIENCE, Waiting, ping
 
 
 def from_text(communicator: Ice.Communicator, what: str, text: str, where: str) -> Ice.ObjectPrx:
@@ -25,18 +23,15 @@ def from_text(communicator: Ice.Communicator, what: str, text: str, where: str) 
         raise StartError(f"{what} is '{text}' in {where}, which is not a proxy ({why})") from None
 
 
-def connect(
-    port: Required, communicator: Ice.Communicator, settings: Settings, log: logging.Logger, stopping: Stopping
-) -> Any:
+def connect(port: Required, communicator: Ice.Communicator, settings: Settings, waiting: Waiting) -> Any:
     """The proxy of a port, as soon as the server answers, or at once if the port's `absent` is 'ignore'."""
     text = settings.proxy(port.name)
-    what = f"{port.name} at {text}"
     proxy = from_text(communicator, f"the proxy to {port.name}", text, settings.where)
     milliseconds = None if port.timeout is None else max(1, round(port.timeout * 1000))
     if port.absent == "wait":
-        wait_for(what, proxy, log, stopping, port.timeout)
+        waiting.wait_for(port.name, text, proxy, port.timeout)
     elif port.absent == "fail" and (why := ping(proxy, milliseconds or PATIENCE)):
-        raise StartError(f"{what} does not answer ({why})")
+        raise StartError(f"{port.name} at {text} does not answer ({why})")
     if milliseconds is not None:
         proxy = proxy.ice_invocationTimeout(milliseconds)
     return port.proxy.uncheckedCast(proxy)

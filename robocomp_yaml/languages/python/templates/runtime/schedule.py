@@ -8,12 +8,14 @@ import time
 from collections.abc import Callable
 
 from generated.runtime.stopping import Stopping
+from generated.runtime.vitals import Turns
 
 
 class Schedule:
     """The period, which may change at any time, and waiting for the next turn."""
 
-    def __init__(self, period: int, stopping: Stopping) -> None:
+    def __init__(self, period: int, stopping: Stopping, turns: Turns) -> None:
+        self.turns = turns
         self._period = period
         self._stopping = stopping
         self._last = time.monotonic()
@@ -28,6 +30,8 @@ class Schedule:
 
     @period.setter
     def period(self, milliseconds: int) -> None:
+        if milliseconds != self._period:
+            self.turns.change_period()
         self._period = milliseconds
         self._wake_up.set()
         self.on_change(milliseconds)
@@ -47,11 +51,15 @@ class Schedule:
         A late turn does not delay the following ones; turns that were missed completely are skipped.
         """
         while not self._stopping.is_requested():
+            self.turns.busy()
             pause = between()
+            self.turns.idle()
             period = self._period / 1000
             late = time.monotonic() - self._last - period
             if late >= 0:
-                self._last += period * (1 + int(late / period))
+                missed = int(late / period)
+                self._last += period * (1 + missed)
+                self.turns.begin(missed)
                 return True
             self._wake_up.wait(-late if pause is None else min(-late, pause))
             self._wake_up.clear()

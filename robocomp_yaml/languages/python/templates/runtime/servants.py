@@ -5,12 +5,14 @@ from __future__ import annotations
 
 import logging
 import threading
+import time
 from collections.abc import Callable, Sequence
 from typing import Any
 
 import Ice
 from generated.runtime.log import ALREADY_LOGGED
 from generated.runtime.ports import Method
+from generated.runtime.vitals import Tally
 from generated.runtime.worker import Worker
 
 Call = Callable[[Worker], Any]
@@ -64,28 +66,36 @@ class Gate:
             future.set_exception(Ice.UnknownException(f"{ALREADY_LOGGED}the component is stopping"))
 
 
-def servant(interface: type, methods: Sequence[Method], gate: Gate) -> Ice.Object:
-    """An object of this interface, whose operations call the worker's methods."""
-    operations = {method.operation: _operation(method, gate) for method in methods}
+def servant(
+    interface: type, methods: Sequence[Method], gate: Gate, tally: Callable[[str], Tally]
+) -> Ice.Object:
+    """An object of this interface, whose operations call the worker's methods. `tally` is what counts the calls of an
+    operation of Slice."""
+    operations = {method.operation: _operation(method, gate, tally) for method in methods}
     return type(f"{interface.__name__}Servant", (interface,), operations)()
 
 
-def _operation(method: Method, gate: Gate) -> Callable[..., Any]:
+def _operation(method: Method, gate: Gate, tally: Callable[[str], Tally]) -> Callable[..., Any]:
     def operation(self: Ice.Object, *arguments: Any) -> Any:
-        inputs = arguments[:-1]  # the last one is Ice's `current`
-        return gate.enter(lambda worker: _call(worker, method, inputs, gate.log))
+        inputs, current = arguments[:-1], arguments[-1]
+        return gate.enter(lambda worker: _call(worker, method, inputs, gate.log, tally(current.operation)))
 
     return operation
 
 
-def _call(worker: Worker, method: Method, inputs: Sequence[Any], log: logging.Logger) -> Any:
+def _call(worker: Worker, method: Method, inputs: Sequence[Any], log: logging.Logger, tally: Tally) -> Any:
     """The result of the method. Declared exceptions are passed to the caller; others are logged."""
+    begin = time.monotonic()
     try:
         result = getattr(worker, method.calls)(*inputs)
-        return tuple(result) if method.is_tuple else result
+        result = tuple(result) if method.is_tuple else result
     except method.throws:
+        tally.measure(begin, exception=True)
         raise
     except Exception as error:
+        tally.measure(begin, failure=True)
         log.exception("%s() failed", method.calls)
         summary = " ".join(f"{method.calls}: {type(error).__name__}: {error}".split())
         raise Ice.UnknownException(ALREADY_LOGGED + summary) from None
+    tally.measure(begin)
+    return result

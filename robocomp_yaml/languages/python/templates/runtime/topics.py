@@ -3,8 +3,7 @@
 
 from __future__ import annotations
 
-import logging
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
@@ -13,8 +12,8 @@ from generated.runtime.errors import StartError
 from generated.runtime.ports import Published, Subscribed
 from generated.runtime.proxies import from_text
 from generated.runtime.settings import Settings
-from generated.runtime.stopping import Stopping
-from generated.runtime.waiting import PATIENCE, reason, wait_for
+from generated.runtime.vitals import Tally, Vitals
+from generated.runtime.waiting import PATIENCE, Waiting, reason
 
 try:
     import IceStorm
@@ -26,26 +25,32 @@ class Topics:
     """Publishing and subscribing through IceStorm's topic manager."""
 
     def __init__(
-        self, communicator: Ice.Communicator, settings: Settings, log: logging.Logger, stopping: Stopping
+        self, communicator: Ice.Communicator, settings: Settings, waiting: Waiting, vitals: Vitals
     ) -> None:
         if IceStorm is None:
             raise StartError("this Ice for Python has no IceStorm, which topics need: install python3-zeroc-ice")
         self._settings = settings
+        self._vitals = vitals
         self._subscriptions: list[tuple[Any, Ice.ObjectPrx]] = []
         text = settings.topic_manager()
         proxy = from_text(communicator, "IceStorm's topic manager", text, settings.where)
-        wait_for(f"TopicManager at {text}", proxy, log, stopping)
+        waiting.wait_for("TopicManager", text, proxy)
         self._manager = IceStorm.TopicManagerPrx.uncheckedCast(proxy)
 
     def publisher(self, port: Published) -> Any:
         """The proxy that publishes to the topic."""
         name = self._settings.topic_name(port.name, port.topic, f"{port.name}Pub")
+        counted = _counted(port.proxy, self._vitals.topic(port.name, name, "out"))
         with _providing(name):
-            return port.proxy.uncheckedCast(self._topic(name).getPublisher().ice_oneway())
+            return counted.ice_uncheckedCast(self._topic(name).getPublisher().ice_oneway(), "")
+
+    def name(self, port: Subscribed) -> str:
+        """The full name of a topic that the component subscribes to."""
+        return self._settings.topic_name(port.name, port.topic, port.name)
 
     def subscribe(self, port: Subscribed, proxy: Ice.ObjectPrx) -> None:
         """Sends the topic's events to the object."""
-        name = self._settings.topic_name(port.name, port.topic, port.name)
+        name = self.name(port)
         with _providing(name):
             topic, subscriber = self._topic(name), proxy.ice_oneway()
             topic.subscribeAndGetPublisher({}, subscriber)
@@ -70,6 +75,24 @@ class Topics:
                 return self._manager.create(name)
             except IceStorm.TopicExists:
                 pass
+
+
+def _counted(proxy: type, tally: Tally) -> Any:
+    """The class of a proxy, which counts the events that it publishes."""
+
+    def counting(send: Callable[..., Any]) -> Callable[..., Any]:
+        def publish(*arguments: Any, **options: Any) -> Any:
+            tally.add()
+            return send(*arguments, **options)
+
+        return publish
+
+    ends = [name[:-5] for name in vars(proxy) if name.endswith("Async") and f"end_{name[:-5]}" in vars(proxy)]
+    sends = {
+        name: counting(getattr(proxy, name))
+        for end in ends for name in (end, f"_{end}", f"{end}Async", f"begin_{end}") if name in vars(proxy)
+    }  # fmt: skip
+    return type(proxy.__name__, (proxy,), sends)
 
 
 @contextmanager

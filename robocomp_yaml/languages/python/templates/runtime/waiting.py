@@ -10,6 +10,7 @@ import time
 import Ice
 from generated.runtime.errors import StartError
 from generated.runtime.stopping import Stopping
+from generated.runtime.vitals import STARTING, WAITING, Vitals
 
 PAUSE = 0.25  # seconds between two attempts
 REMIND = 5.0  # seconds between two log lines about the wait
@@ -31,23 +32,33 @@ def ping(proxy: Ice.ObjectPrx, patience: int = PATIENCE) -> str:
     return ""
 
 
-def wait_for(
-    what: str, proxy: Ice.ObjectPrx, log: logging.Logger, stopping: Stopping, timeout: float | None = None
-) -> None:
-    """Waits until the object answers a ping, at most `timeout` seconds, and logs it; `what` is the name in messages.
+class Waiting:
+    """Waits for objects; tools and the log can see it."""
 
-    Raises StartError after the timeout, and Stopped if the component is stopped."""
-    begin = time.monotonic()
-    next_line = begin
-    while why := ping(proxy):
-        now = time.monotonic()
-        if timeout is not None and now - begin >= timeout:
-            raise StartError(f"{what} did not answer within {timeout:g} s ({why})")
-        if now >= next_line:
-            log.info("waiting for %s ... (%s)", what, why)
-            next_line = now + REMIND
-        if stopping.wait(PAUSE):
-            raise Stopped
+    def __init__(self, log: logging.Logger, stopping: Stopping, vitals: Vitals) -> None:
+        self._log = log
+        self._stopping = stopping
+        self._vitals = vitals
+
+    def wait_for(self, name: str, text: str, proxy: Ice.ObjectPrx, timeout: float | None = None) -> None:
+        """Waits until the object answers a ping, at most `timeout` seconds. `text` is its proxy.
+
+        Raises StartError after the timeout, and Stopped if the component is stopped."""
+        what = f"{name} at {text}"
+        begin = time.monotonic()
+        next_line = begin
+        self._vitals.become(WAITING, **{"for": name, "at": text})
+        while why := ping(proxy):
+            self._vitals.become(WAITING, **{"for": name, "at": text, "why": why})
+            now = time.monotonic()
+            if timeout is not None and now - begin >= timeout:
+                raise StartError(f"{what} did not answer within {timeout:g} s ({why})")
+            if now >= next_line:
+                self._log.info("waiting for %s ... (%s)", what, why)
+                next_line = now + REMIND
+            if self._stopping.wait(PAUSE):
+                raise Stopped
+        self._vitals.become(STARTING)
 
 
 def reason(error: Ice.Exception) -> str:

@@ -61,6 +61,11 @@ class Worker:
         """Stops the component in order."""
         self._stopping.request()
 
+    def mayTake(self, seconds: float) -> None:
+        """Says that the present turn may take so many seconds from now on. Otherwise a turn of more than ten periods,
+        at least 10 s, can be taken for a hang, after which a deployment starts the component again."""
+        self._schedule.turns.may_take(seconds)
+
     # Hooks of subclasses, called in the worker's thread: before the first turn; whenever the thread wakes up between
     # two turns (returns the seconds until it must be called again, or None); for each turn; after the last turn.
 
@@ -79,11 +84,18 @@ class Worker:
 
 def run(worker: Worker, schedule: Schedule) -> None:
     """Calls `compute()` until the component stops. An exception in `compute()` is logged, and the next turn follows."""
+    turns = schedule.turns
+    turns.busy()
     worker._begin()
+    turns.idle()
     schedule.restart()
     while schedule.wait(worker._between):
+        failure = True
         try:
             worker._turn()
+            failure = False
         except Exception:
             worker.log.exception("compute() failed")
+        finally:
+            turns.end(failure=failure)
     worker._end()

@@ -14,5 +14,14 @@ static_assert(
 
 int main(int argc, char* argv[])
 {
-    return runtime::run("MouthComp", argc, argv, [] { return std::make_unique<SpecificWorker>(); });
+    return runtime::run(
+        "MouthComp", argc, argv, [] { return std::make_unique<SpecificWorker>(); },
+        {
+            {"implements", "Mouth", "RoboCompMouth.Mouth", "f5cfb694c42008d6"},
+            {"requires", "Twin", "RoboCompMouth.Mouth", "f5cfb694c42008d6"},
+            {"requires", "Backup", "RoboCompMouth.Mouth", "f5cfb694c42008d6"},
+            {"publishes", "MouthEvents", "RoboCompMouth.MouthEvents", "35ac721b3a397187"},
+            {"subscribes", "MouthEvents", "RoboCompMouth.MouthEvents", "35ac721b3a397187"},
+            {"subscribes", "Mouth", "RoboCompMouth.Mouth", "f5cfb694c42008d6"},
+        });
 }

@@ -9,6 +9,13 @@ COMPONENT = Component(
     period=50,
     runtime="VERSION",
     behavior=RoboCompCommonBehavior,
+    interfaces=(
+        ("implements", "Speech", "RoboCompSpeech.Speech", "6a156ff3f9515b5a"),
+        ("requires", "Twin", "RoboCompSpeech.Speech", "6a156ff3f9515b5a"),
+        ("requires", "Backup", "RoboCompSpeech.Speech", "6a156ff3f9515b5a"),
+        ("publishes", "SpeechEvents", "RoboCompSpeech.SpeechEvents", "e1f0585c77e93051"),
+        ("subscribes", "SpeechEvents", "RoboCompSpeech.SpeechEvents", "e1f0585c77e93051"),
+    ),
     implements=(
         Implemented(
             name="Speech",
