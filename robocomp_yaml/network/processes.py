@@ -10,10 +10,10 @@ from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.link.workspace import component_argument
 from robocomp_yaml.model import deployment as model
 from robocomp_yaml.model.deployment import CONFIG
-from robocomp_yaml.network.draft import MANAGER, PUBLISH, STORM_INSTANCE, Draft, StormDraft
+from robocomp_yaml.network import icestorm
+from robocomp_yaml.network.draft import Draft, StormDraft
 from robocomp_yaml.network.network import (
     COMPONENT,
-    ICESTORM,
     PROGRAM,
     ConfigFile,
     EnvironmentVariable,
@@ -22,7 +22,6 @@ from robocomp_yaml.network.network import (
     RestartRule,
 )
 from robocomp_yaml.parameters.hidden import secret_names
-from robocomp_yaml.source.properties import entry_line
 
 _DEFAULTS = RestartRule()
 
@@ -79,7 +78,7 @@ def program_of(draft: Draft) -> str:
     if component is None:
         text = entry.target.text
         return os.path.abspath(os.path.join(instance.folder, text)) if "/" in text else text
-    path = entry.executable.text if entry.executable else _program(component)
+    path = entry.executable.text if entry.executable else own_program(component)
     return os.path.abspath(os.path.join(instance.folder, path))
 
 
@@ -87,8 +86,13 @@ def _build(draft: Draft) -> str:
     component, executable = draft.instance.component, draft.instance.entry.executable
     if component is None:
         return ""
-    if executable is not None and os.path.normpath(executable.text) != _program(component):
+    if executable is not None and os.path.normpath(executable.text) != own_program(component):
         return f"build it, or correct `executable: {executable.text}`"
+    return how_to_build(component)
+
+
+def how_to_build(component: LinkedComponent) -> str:
+    """The commands that write or build the program of a component."""
     path = component.component.path
     compile_ = f"`{typed('rcyaml', 'compile', path)}`"
     if not component.component.language.target.build:
@@ -97,7 +101,8 @@ def _build(draft: Draft) -> str:
     return f"{compile_}, then `{typed('rcyaml', 'build', name)}`"
 
 
-def _program(component: LinkedComponent) -> str:
+def own_program(component: LinkedComponent) -> str:
+    """The program of a component, relative to its folder."""
     return component.component.language.target.program.format(name=component.component.name)
 
 
@@ -160,30 +165,6 @@ def _code(folder: str, component: LinkedComponent | None, known: dict[str, tuple
 
 
 def of_storm(storm: StormDraft, folder: str, *, enabled: bool) -> Process:
-    """The process of an IceStorm, in icebox, with its database in the deployment's own folder. It is not `enabled` if
-    no enabled process needs it."""
-    database = f"{folder}/state/{storm.name}"
-    manager, publish = storm.endpoints()
-    settings = {
-        f"IceBox.Service.{STORM_INSTANCE}": "IceStormService,37:createIceStorm",
-        "IceBox.InheritProperties": "1",
-        f"{STORM_INSTANCE}.InstanceName": STORM_INSTANCE,
-        f"{STORM_INSTANCE}.{MANAGER}.Endpoints": manager.text,
-        f"{STORM_INSTANCE}.{PUBLISH}.Endpoints": publish.text,
-        f"{STORM_INSTANCE}.LMDB.Path": database,
-        f"{STORM_INSTANCE}.LMDB.MapSize": "10",
-    }
-    text = "".join(f"{entry_line(key, value)}\n" for key, value in settings.items())
-    return Process(
-        storm.name,
-        storm.host.name,
-        ("icebox", f"--Ice.Config={CONFIG}"),
-        "/",  # its paths are absolute
-        ICESTORM,
-        config=ConfigFile(f"config/{storm.name}", text),
-        endpoints=(manager, publish),
-        ready=Readiness(pings=(storm.proxy,)),
-        folders=(database,),
-        enabled=enabled,
-        span=storm.span,
-    )
+    """The process of an IceStorm. It is not `enabled` if no enabled process needs it."""
+    host = storm.host.name
+    return icestorm.process(storm.name, host, storm.endpoints(), storm.proxy, folder, storm.span, enabled=enabled)

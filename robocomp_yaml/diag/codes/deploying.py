@@ -1,6 +1,6 @@
 """RC7xxx: deploying. Why a network does not start, and what to know about a running one.
 
-The codes up to RC7019 are for all engines and for the local one.
+The codes up to RC7019 are for all engines and for the local one, those from RC7030 for `rcyaml run`.
 """
 
 from __future__ import annotations
@@ -24,3 +24,5 @@ STALE = _PAGE.code("RC7016")
 NO_ANSWER = _PAGE.code("RC7010")
 NO_REGISTRY = _PAGE.code("RC7020")
 NO_NODE = _PAGE.code("RC7021")
+RUNS_ALREADY = _PAGE.code("RC7030")
+NOBODY_SERVES = _PAGE.code("RC7031")

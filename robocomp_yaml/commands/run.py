@@ -1,0 +1,137 @@
+"""`rcyaml run`: one component in the foreground."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import click
+
+from robocomp_yaml.commands import _options
+from robocomp_yaml.commands._command import LibraryCommand
+
+if TYPE_CHECKING:
+    from robocomp_yaml.api.running import Run
+    from robocomp_yaml.deploy.carry_out import ProcessEvent
+    from robocomp_yaml.deploy.single import SingleResult
+    from robocomp_yaml.diag.diagnostic import Diagnostic
+
+
+@click.command(cls=LibraryCommand, short_help="Run one component in the foreground.")
+@click.argument("name", default=".", metavar="[NAME]")
+@click.argument("arguments", nargs=-1, type=click.UNPROCESSED, metavar="[-- ARGUMENT...]")
+@click.option("--with-needed", is_flag=True, help="Start what it needs beside it, and stop that at the end.")
+@click.option("--deployment", default="", metavar="DDSL", help="The deployment; by default, the one that has it.")
+@click.option("--alone", is_flag=True, help="With its own configuration, whether or not a deployment has it.")
+@click.option("--build", is_flag=True, help="First build what is not up to date.")
+@click.option("--dry-run", is_flag=True, help="Print the command and the configuration, and start nothing.")
+@_options.include
+@_options.text_or_json
+@click.pass_context
+def command(
+    ctx: click.Context, name: str, arguments: tuple[str, ...], with_needed: bool, deployment: str, alone: bool,
+    build: bool, dry_run: bool, include: tuple[str, ...], format_: str,
+) -> None:  # fmt: skip
+    """Run NAME in the foreground, as `deploy up` would run it: an entry of a deployment, or a component by its name or
+    folder (by default, this one). A component that no deployment has runs with its own configuration.
+
+    Its output goes to the terminal, and its exit code is that of the command. Ctrl-C ends it (exit code 130); a second
+    Ctrl-C kills it. ARGUMENTs after `--` are passed to the program.
+    """
+    from robocomp_yaml.api.running import Run
+    from robocomp_yaml.diag.errors import Faulty
+
+    if alone and deployment:
+        raise click.UsageError("--alone and --deployment exclude each other")
+    if format_ == "json" and not dry_run:
+        raise click.UsageError("--format json is for --dry-run: the output of a run is that of the component")
+    run = Run(
+        name, deployment=deployment, include=include, alone=alone, with_needed=with_needed, arguments=arguments
+    )  # fmt: skip
+    if dry_run:
+        _describe(ctx, run, format_)
+        return
+    if build:
+        _build(ctx, run)
+    if ctx.obj.verbosity >= 0:
+        how = f"as in {run.document}" if run.document else "with its own configuration"
+        _say(f"{run.process.name}: {_shown(run.process.command[0])}, {how}")
+    try:
+        result = run.start(lambda event: _report(ctx, event))
+    except Faulty as faulty:
+        _show(ctx, faulty.diagnostics)
+        ctx.exit(1)
+    _show(ctx, run.diagnostics)
+    ctx.exit(_code(run, result))
+
+
+def _shown(program: str) -> str:
+    """A program as in a command that is typed here."""
+    return os.path.relpath(program) if os.path.isabs(program) else program
+
+
+def _describe(ctx: click.Context, run: Run, format_: str) -> None:
+    """Prints what a run would start."""
+    from robocomp_yaml.diag import terminal
+    from robocomp_yaml.diag.render.json import dumps
+
+    one = run.description()
+    if format_ == "json":
+        terminal.data(dumps(one), json=True)
+        return
+    lines = [f"{title:<8} {one[key]}" for title, key in _TITLES.items() if one[key]]
+    lines += [f"env      {name}={value}" for name, value in one["environment"].items()]
+    lines += [f"needs    {', '.join(one['needed'])}"] if one["needed"] else []
+    terminal.say(*lines, *(["", *one["configuration"].rstrip().splitlines()] if one["configuration"] else []))
+
+
+_TITLES = {"name": "name", "as in": "deployment", "command": "command", "folder": "folder"}
+
+
+def _build(ctx: click.Context, run: Run) -> None:
+    """Ends the command if a component cannot be built."""
+    from robocomp_yaml.commands import build
+
+    built = build.run(ctx, "text", run.build, "interrupted: nothing was started; what was built stays")
+    if any(one.has_errors for one in built):
+        ctx.exit(1)
+
+
+def _report(ctx: click.Context, event: ProcessEvent) -> None:
+    from robocomp_yaml.deploy.carry_out import STARTING, STOPPING
+
+    if ctx.obj.verbosity >= 0 and event.kind not in (STARTING, STOPPING):
+        _say(f"{event.name}: {event.kind}")
+
+
+def _code(run: Run, result: SingleResult) -> int:
+    """The exit code of the command, and a line about an end that the component did not choose."""
+    from robocomp_yaml.diag.diagnostic import has_errors
+
+    if result.interrupted_by:
+        return 128 + result.interrupted_by
+    if result.code is None or has_errors(run.diagnostics):
+        return 1
+    if result.code < 0:
+        _say(f"{run.process.name}: ended by {signal.Signals(-result.code).name}")
+        return 128 - result.code
+    if result.code:
+        _say(f"{run.process.name}: ended with exit code {result.code}")
+    return result.code
+
+
+def _show(ctx: click.Context, diagnostics: Sequence[Diagnostic]) -> None:
+    from robocomp_yaml.diag import terminal
+    from robocomp_yaml.diag.render import text
+
+    for block in text.each(diagnostics, _options.colored(ctx, sys.stderr)):
+        terminal.say(*block, err=True)
+
+
+def _say(line: str) -> None:
+    from robocomp_yaml.diag import terminal
+
+    terminal.say(line, err=True)
