@@ -24,7 +24,7 @@ from robocomp_yaml.deploy.readiness import listens
 from robocomp_yaml.deploy.single import SingleResult, SingleRun, moved
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
-from robocomp_yaml.diag.errors import Faulty
+from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.digraph import reachable
@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from robocomp_yaml.building.job import BuildEvent
     from robocomp_yaml.deploy.stale import StaleComponent
 
+RUN, UP = "rcyaml run", "rcyaml deploy up"
 _WITHIN = 1.0  # seconds for a process that runs already to answer
 
 
@@ -113,11 +114,11 @@ class Run:
     ) -> SingleResult:
         """Runs the process, and returns when it has ended, and all that was started beside it. It has the terminal of
         this process; SIGINT, SIGTERM and SIGHUP end it. `report` gets the events of the processes beside it, `on_start`
-        the pid. Raises Faulty if it cannot be started."""
+        the pid. Raises Refused if it runs already, Faulty if it cannot be started."""
         try:
             with folder.locked(self._folder, 0) as is_free:
                 if not is_free:
-                    raise DeployFailed(self._runs_already("rcyaml run", _pid_of(self._folder, self.process)))
+                    raise self._runs_already(RUN, _pid_of(self._folder, self.process))
                 try:
                     self._check_programs()
                     result = asyncio.run(self._start(report, on_start))
@@ -143,13 +144,13 @@ class Run:
         return SingleRun(self.network, self.process, self._folder, self._arguments, beside)
 
     async def _needed(self) -> dict[str, Process]:
-        """What must be started beside it. Raises DeployFailed if the process itself runs already, or cannot run on this
-        machine."""
+        """What must be started beside it. Raises Refused if the process itself runs already, DeployFailed if one cannot
+        run on this machine."""
         if diagnostic := elsewhere(moved(self.network, self._folder, [self.process.name])):
             raise DeployFailed(diagnostic)
         running = await self._deployed()
         if self.process.name in running:
-            raise DeployFailed(self._runs_already("rcyaml deploy up", running[self.process.name].pid))
+            raise self._runs_already(UP, running[self.process.name].pid)
         found: dict[str, Process] = {}
         pending = [self.process]
         while self._with_needed and pending:
@@ -191,16 +192,14 @@ class Run:
                         )
                     )
 
-    def _runs_already(self, how: str, pid: int) -> Diagnostic:
+    def _runs_already(self, how: str, pid: int) -> Refused:
         name = self.process.name
-        if self.document and how != "rcyaml run":
-            logs, down = ("logs", "-f", self.document, name), ("down", self.document, name)
-            hint = (
-                f"`{typed('rcyaml', 'deploy', *logs)}` shows its output; `{typed('rcyaml', 'deploy', *down)}` stops it"
-            )
-        else:
+        if how == RUN:
             hint = f"end it there with Ctrl-C, or with `kill {pid}`"
-        return deploying.RUNS_ALREADY.at(self.process.span, name=name, how=how, pid=pid, hint=hint)
+        else:
+            logs, down = (("rcyaml", "deploy", *words, self.document, name) for words in (("logs", "-f"), ("down",)))
+            hint = f"`{typed(*logs)}` shows its output; `{typed(*down)}` stops it"
+        return Refused(f"'{name}' runs already, by `{how}` (pid {pid}): {hint}")
 
     def _check_programs(self) -> None:
         """Raises Faulty if a program is stale. A component that was compiled before its interfaces changed is only

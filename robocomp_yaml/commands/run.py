@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import signal
 import sys
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -39,15 +40,16 @@ def command(
     folder (by default, this one). A component that no deployment has runs with its own configuration.
 
     Its output goes to the terminal, and its exit code is that of the command. Ctrl-C ends it (exit code 130); a second
-    Ctrl-C kills it. ARGUMENTs after `--` are passed to the program.
+    Ctrl-C kills it. ARGUMENTs after `--` are passed to the program. With --format json, how it ended is printed after
+    its output.
     """
     from robocomp_yaml.api.running import Run
+    from robocomp_yaml.diag import terminal
     from robocomp_yaml.diag.errors import Faulty
+    from robocomp_yaml.diag.render.json import dumps
 
     if alone and deployment:
         raise click.UsageError("--alone and --deployment exclude each other")
-    if format_ == "json" and not dry_run:
-        raise click.UsageError("--format json is for --dry-run: the output of a run is that of the component")
     run = Run(
         name, deployment=deployment, include=include, alone=alone, with_needed=with_needed, arguments=arguments
     )  # fmt: skip
@@ -59,13 +61,21 @@ def command(
     if ctx.obj.verbosity >= 0:
         how = f"as in {run.document}" if run.document else "with its own configuration"
         _say(f"{run.process.name}: {_shown(run.process.command[0])}, {how}")
-    try:
+    result = None
+    with contextlib.suppress(Faulty):
         result = run.start(lambda event: _report(ctx, event))
-    except Faulty as faulty:
-        _show(ctx, faulty.diagnostics)
-        ctx.exit(1)
-    _show(ctx, run.diagnostics)
-    ctx.exit(_code(run, result))
+    code = _code(run, result)
+    if format_ == "json":
+        terminal.data(dumps({"name": run.process.name, "code": code, **_as_data(run.diagnostics)}), json=True)
+    else:
+        _show(ctx, run.diagnostics)
+    ctx.exit(code)
+
+
+def _as_data(diagnostics: Sequence[Diagnostic]) -> dict[str, Any]:
+    from robocomp_yaml.diag.render.json import as_data
+
+    return {"diagnostics": [as_data(one) for one in diagnostics]}
 
 
 def _shown(program: str) -> str:
@@ -107,10 +117,12 @@ def _report(ctx: click.Context, event: ProcessEvent) -> None:
         _say(f"{event.name}: {event.kind}")
 
 
-def _code(run: Run, result: SingleResult) -> int:
+def _code(run: Run, result: SingleResult | None) -> int:
     """The exit code of the command, and a line about an end that the component did not choose."""
     from robocomp_yaml.diag.diagnostic import has_errors
 
+    if result is None:
+        return 1
     if result.interrupted_by:
         return 128 + result.interrupted_by
     if result.code is None or has_errors(run.diagnostics):

@@ -214,11 +214,11 @@ def test_the_same_entry_runs_once(robot: Callable[[str], Path], run: Run, rcyaml
     one.wait_for("hand is open")
     twice = rcyaml("run", "hand")
     pid = next(pid for pid in left(one.root) if "sh" in procfs.command_line(pid))
-    assert twice.exit_code == 1 and f"'hand' runs already, by `rcyaml run` (pid {pid})" in twice.stderr
+    assert twice.exit_code == 2 and f"'hand' runs already, by `rcyaml run` (pid {pid})" in twice.stderr
     assert one.end(signal.SIGINT) == 130
     rcyaml("deploy", "up", "robot.ddsl.yaml", "base")
     deployed = rcyaml("run", "base")
-    assert deployed.exit_code == 1 and "'base' runs already, by `rcyaml deploy up`" in deployed.stderr
+    assert deployed.exit_code == 2 and "'base' runs already, by `rcyaml deploy up`" in deployed.stderr
     assert "`rcyaml deploy down robot.ddsl.yaml base` stops it" in deployed.stderr
     rcyaml("deploy", "down", "robot.ddsl.yaml")
 
