@@ -142,7 +142,7 @@ class Alone(msgspec.Struct):
 
     def _server(self, network: Network, port: Port, text: str) -> str:
         """The name of the component that serves an interface at the address of a proxy, '' if none does."""
-        wanted = _local_ports(text)
+        wanted = local_ports(text)
         for process in network.processes.values():
             for served in process.endpoints:
                 is_same = (served.module, served.identity) == (port.scope.module.name, port.interface.name.lower())
@@ -152,7 +152,7 @@ class Alone(msgspec.Struct):
 
     def _storm(self, network: Network, manager: str, linked: LinkedComponent) -> str:
         """The name of the IceStorm on this machine at the address of a proxy, '' if that names another machine."""
-        for number in _local_ports(manager):
+        for number in local_ports(manager):
             name = f"{STORM}-{number}"
             if name not in network.processes:
                 folder = os.path.dirname(network.folder)
@@ -162,7 +162,7 @@ class Alone(msgspec.Struct):
         return ""
 
 
-def _local_ports(text: str) -> list[int]:
+def local_ports(text: str) -> list[int]:
     """The TCP ports of a proxy that are on this machine."""
     found = proxy_at(text)
     return [one.port for one in found.endpoints if is_local(one.host or LOOPBACK)] if found else []
