@@ -90,7 +90,7 @@ class Mock:
         """Serves and publishes while the context lasts; yields what is served. `on_call` is called in threads of Ice.
         If no IceStorm answers where one is expected on this machine, one is started, and stopped at the end. Raises
         Faulty where `diagnostics` has errors, Refused where an endpoint cannot be used."""
-        from robocomp_yaml.wire.stand_ins import running
+        from robocomp_yaml.wire.stand_ins import Serving, running
 
         if has_errors(self._diagnostics):
             raise Faulty(self.diagnostics, self._analysis.program.documents)
