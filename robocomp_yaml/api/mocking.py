@@ -8,11 +8,12 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from typing import TYPE_CHECKING
 
+from robocomp_yaml.api import mock_scripts
 from robocomp_yaml.api.expected import Expectations
 from robocomp_yaml.deploy import ice_ping
 from robocomp_yaml.deploy.alone import local_ports
 from robocomp_yaml.deploy.beside import beside
-from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, has_errors
+from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.workspace import root_above
@@ -21,9 +22,7 @@ from robocomp_yaml.network.draft import MANAGER, STORM_INSTANCE
 from robocomp_yaml.network.network import LOOPBACK as LOCALHOST
 from robocomp_yaml.network.network import RUNS, Network, NetworkHost
 from robocomp_yaml.pipeline import Analysis, analyse
-from robocomp_yaml.source import schema, text
-from robocomp_yaml.source.tree import Mapping as Node
-from robocomp_yaml.source.tree import parse, text_at
+from robocomp_yaml.source.tree import text_at
 from robocomp_yaml.wire.addresses import Address, Topic
 
 if TYPE_CHECKING:
@@ -43,21 +42,20 @@ class Mock:
     def __init__(self, names: Sequence[str], script: str = "", include: Iterable[str] = ()) -> None:
         if not names and not script:
             raise Refused("name the interfaces to stand in for, or a script: rcyaml mock Mouth")
-        try:
-            from robocomp_yaml.wire.script import Reader
-        except ImportError:
-            raise Refused("Ice for Python is not installed: Debian has python3-zeroc-ice, pip has zeroc-ice") from None
         self._root = root_above("") or "."
         self._analysis: Analysis = analyse([self._root], include)
         self._expectations = Expectations(self._analysis)
-        errors = (one for one in self._analysis.diagnostics if one.severity == ERROR)
-        reader = Reader(self._analysis.program.modules.values(), errors)
+        try:
+            reader = mock_scripts.reader(self._analysis)
+        except ImportError:
+            raise Refused("Ice for Python is not installed: Debian has python3-zeroc-ice, pip has zeroc-ice") from None
         found = reader.of_names(text_at(Span(""), name) for name in names)
         self._refuse(one for one in found.diagnostics if not one.span.file)
         self._diagnostics: list[Diagnostic] = list(found.diagnostics)
         self._script: Script = found
         if script:
-            root = self._read(script)
+            root, misfits = mock_scripts.read(script, self._analysis.disk)
+            self._diagnostics += misfits
             from_document = reader.of_document(root) if root is not None else None
             if from_document is not None:
                 self._add(from_document)
@@ -127,14 +125,6 @@ class Mock:
         more.published[:0] = [one for one in self._script.published if one.interface.id not in published]
         self._script = more
         self._diagnostics += more.diagnostics
-
-    def _read(self, path: str) -> Node | None:
-        raw, faults = text.read_bytes(path)
-        decoded, more = text.decode(path, raw) if raw is not None else (None, [])
-        root, syntax = parse(path, decoded) if decoded is not None else (None, [])
-        misfits = schema.validate("mock", root) if root is not None else []
-        self._diagnostics += [*faults, *more, *syntax, *misfits]
-        return root if isinstance(root, Node) and not has_errors(misfits) else None
 
     @staticmethod
     def _refuse(found: Iterable[Diagnostic]) -> None:
