@@ -38,7 +38,8 @@ def command(
     """Stand in for the components that serve INTERFACEs or publish topics, until Ctrl-C.
 
     Methods return example values, and topics get example messages once a second; a script says it otherwise. Each
-    interface is served where the components of this workspace expect it.
+    interface is served wherever the components of this workspace, and those of its deployments, expect it. If no
+    IceStorm answers, one is started.
     """
     from robocomp_yaml.api.mocking import Mock
 

@@ -21,9 +21,23 @@ if TYPE_CHECKING:
     from robocomp_yaml.diag.diagnostic import Diagnostic
 
 
-@click.command(cls=LibraryCommand, short_help="Run one component in the foreground.")
+class _RunCommand(LibraryCommand):
+    """What follows `--` is for the program, also if NAME is omitted."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        own = args.index("--") if "--" in args else len(args)
+        ctx.meta[_ARGUMENTS] = tuple(args[own + 1 :])
+        return super().parse_args(ctx, args[:own])
+
+    def collect_usage_pieces(self, ctx: click.Context) -> list[str]:
+        return [*super().collect_usage_pieces(ctx), "[-- ARGUMENT...]"]
+
+
+_ARGUMENTS = "robocomp_yaml.run.arguments"
+
+
+@click.command(cls=_RunCommand, short_help="Run one component in the foreground.")
 @click.argument("name", default=".", metavar="[NAME]")
-@click.argument("arguments", nargs=-1, type=click.UNPROCESSED, metavar="[-- ARGUMENT...]")
 @click.option("--with-needed", is_flag=True, help="Start what it needs beside it, and stop that at the end.")
 @click.option("--deployment", default="", metavar="DDSL", help="The deployment; by default, the one that has it.")
 @click.option("--alone", is_flag=True, help="With its own configuration, whether or not a deployment has it.")
@@ -33,8 +47,8 @@ if TYPE_CHECKING:
 @_options.text_or_json
 @click.pass_context
 def command(
-    ctx: click.Context, name: str, arguments: tuple[str, ...], with_needed: bool, deployment: str, alone: bool,
-    build: bool, dry_run: bool, include: tuple[str, ...], format_: str,
+    ctx: click.Context, name: str, with_needed: bool, deployment: str, alone: bool, build: bool, dry_run: bool,
+    include: tuple[str, ...], format_: str,
 ) -> None:  # fmt: skip
     """Run NAME in the foreground, as `deploy up` would run it: an entry of a deployment, or a component by its name or
     folder (by default, this one). A component that no deployment has runs with its own configuration.
@@ -51,7 +65,8 @@ def command(
     if alone and deployment:
         raise click.UsageError("--alone and --deployment exclude each other")
     run = Run(
-        name, deployment=deployment, include=include, alone=alone, with_needed=with_needed, arguments=arguments
+        name, deployment=deployment, include=include, alone=alone, with_needed=with_needed,
+        arguments=ctx.meta[_ARGUMENTS],
     )  # fmt: skip
     if dry_run:
         _describe(ctx, run, format_)
