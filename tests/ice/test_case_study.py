@@ -126,7 +126,10 @@ def test_from_an_empty_folder_in_ten_commands(case: Case) -> None:
     change_the_code(case)
     assert case.run("deploy", "up", "--build").endswith("Head: 3 processes as desired\n")
     subprocess.run(
-        [sys.executable, "look.py", case.proxy("narrator"), "Hello"], cwd=case.root, check=True, stdout=subprocess.DEVNULL
+        [sys.executable, "look.py", case.proxy("narrator"), "Hello"],
+        cwd=case.root,
+        check=True,
+        stdout=subprocess.DEVNULL,
     )
     logs = subprocess.run(
         [sys.executable, "-m", "robocomp_yaml", "deploy", "logs", "narrator"],
