@@ -77,13 +77,19 @@ def command(
         how = f"as in {run.document}" if run.document else "with its own configuration"
         _say(f"{run.process.name}: {_shown(run.process.command[0])}, {how}")
     result = None
+    shown: list[Diagnostic] = []
+
+    def show(pid: int = 0) -> None:
+        if format_ == "text":
+            _show(ctx, run.diagnostics[len(shown) :])
+            shown[:] = run.diagnostics
+
     with contextlib.suppress(Faulty):
-        result = run.start(lambda event: _report(ctx, event))
+        result = run.start(lambda event: _report(ctx, event), on_start=show)
     code = _code(run, result)
     if format_ == "json":
         terminal.data(dumps({"name": run.process.name, "code": code, **_as_data(run.diagnostics)}), json=True)
-    else:
-        _show(ctx, run.diagnostics)
+    show()
     ctx.exit(code)
 
 
