@@ -5,7 +5,8 @@ from __future__ import annotations
 import asyncio
 import os
 import shutil
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import replace
@@ -93,12 +94,18 @@ class Run:
         }  # fmt: skip
 
     def stale(self) -> list[StaleComponent]:
-        """The components that must be built: of the process, and of all that it needs if that is started, too."""
+        """The components that must be built: of the process, and of all that would be started beside it. Raises Refused
+        if the process runs already, Faulty if it cannot run."""
+        with self._failures_reported():
+            return self._stale(asyncio.run(self._needed()))
+
+    def _stale(self, beside: Iterable[str]) -> list[StaleComponent]:
         from robocomp_yaml.api.building import units
         from robocomp_yaml.deploy.stale import stale
 
-        names = {self.process.name, *(_closure(self.network, self.process) if self._with_needed else ())}
-        return stale(self.network, units(self._analysis, self._analysis.program.components.values()), names)
+        names = {self.process.name, *beside}
+        every = units(self._analysis, self._analysis.program.components.values())
+        return stale(moved(self.network, self._folder, names), every, names)
 
     def build(self, report: Callable[[BuildEvent], None] | None = None) -> list[Built]:
         """Builds the `stale` components, each with its last build type. Returns one result for each build type."""
@@ -115,30 +122,37 @@ class Run:
         """Runs the process, and returns when it has ended, and all that was started beside it. It has the terminal of
         this process; SIGINT, SIGTERM and SIGHUP end it. `report` gets the events of the processes beside it, `on_start`
         the pid. Raises Refused if it runs already, Faulty if it cannot be started."""
+        with self._failures_reported(), folder.locked(self._folder, 0) as is_free:
+            if not is_free:
+                raise self._runs_already(RUN, _pid_of(self._folder, self.process))
+            try:
+                result = asyncio.run(self._start(report, on_start))
+            finally:
+                if not os.listdir(f"{self._folder}/logs"):  # those of the others stay
+                    shutil.rmtree(self._folder, ignore_errors=True)
+        self._diagnostics += result.diagnostics
+        return result
+
+    async def _start(self, report: Report, on_start: Callable[[int], None]) -> SingleResult:
+        needed = await self._needed()
+        self._check_programs(needed)
+        for process in (self.process, *needed.values()):
+            await self._warn_of_absent(process)
+        beside = moved(self.network, self._folder, needed) if needed else None
+        return await self._single(beside).run(report, on_start)
+
+    @contextmanager
+    def _failures_reported(self) -> Iterator[None]:
+        """Turns failures into diagnostics of the run. Raises Faulty."""
         try:
-            with folder.locked(self._folder, 0) as is_free:
-                if not is_free:
-                    raise self._runs_already(RUN, _pid_of(self._folder, self.process))
-                try:
-                    self._check_programs()
-                    result = asyncio.run(self._start(report, on_start))
-                finally:
-                    if not os.listdir(f"{self._folder}/logs"):  # those of the others stay
-                        shutil.rmtree(self._folder, ignore_errors=True)
+            yield
+            return
         except DeployFailed as error:
             self._diagnostics.append(error.diagnostic)
         except OSError as error:
             path, reason = shown_path(error.filename or self._folder), (error.strerror or str(error)).lower()
             self._diagnostics.append(deploying.FOLDER.at(Span(self.network.path), path=path, reason=reason))
-        else:
-            self._diagnostics += result.diagnostics
-            return result
         raise Faulty(self.diagnostics)
-
-    async def _start(self, report: Report, on_start: Callable[[int], None]) -> SingleResult:
-        needed = await self._needed()
-        beside = moved(self.network, self._folder, needed) if needed else None
-        return await self._single(beside).run(report, on_start)
 
     def _single(self, beside: Network | None) -> SingleRun:
         return SingleRun(self.network, self.process, self._folder, self._arguments, beside)
@@ -155,7 +169,6 @@ class Run:
         pending = [self.process]
         while self._with_needed and pending:
             process = pending.pop()
-            await self._warn_of_absent(process)
             for name in _needs(self.network, process):
                 other = self.network.processes.get(name)
                 if other is None or name in found or name in running or await _answers(other):
@@ -181,7 +194,7 @@ class Run:
 
     async def _warn_of_absent(self, process: Process) -> None:
         """Warns of servers that are not part of the network and do not answer."""
-        for one in self.network.connections:
+        for one in self.network.connections if self._with_needed else ():
             if one.source == process.name and one.kind == PROXY and not one.target and one.proxy:
                 if not await ice_ping.answers(one.proxy, _WITHIN):
                     hint = f"`{typed('rcyaml', 'mock', one.interface)}` serves it with example values"
@@ -201,15 +214,14 @@ class Run:
             hint = f"`{typed(*logs)}` shows its output; `{typed(*down)}` stops it"
         return Refused(f"'{name}' runs already, by `{how}` (pid {pid}): {hint}")
 
-    def _check_programs(self) -> None:
-        """Raises Faulty if a program is stale. A component that was compiled before its interfaces changed is only
-        reported."""
+    def _check_programs(self, beside: Iterable[str]) -> None:
+        """Raises Faulty if a program that would be started is stale. A component that was compiled before its
+        interfaces changed is only reported."""
         from robocomp_yaml.deploy import stale
         from robocomp_yaml.deploy.outdated import outdated_components
 
-        found = [*stale.diagnostics(self.network, self.stale())]
-        names = {self.process.name, *(_closure(self.network, self.process) if self._with_needed else ())}
-        components = {self.network.processes[name].component for name in names}
+        found = [*stale.diagnostics(self.network, self._stale(beside))]
+        components = {self.network.processes[name].component for name in (self.process.name, *beside)}
         linked = [one for one in self._analysis.program.components.values() if one.component.name in components]
         self._diagnostics += self._analysis.without_suppressed([*found, *outdated_components(linked)]).reported
         if has_errors(self._diagnostics):

@@ -85,6 +85,8 @@ COMMANDS = [
     f"config set {CONFIG} gain [canary", f"config set {CONFIG} url http://bob:canary2@h",
     "graph", "graph --as json", "graph --as dot", "graph --as mermaid", "graph --as svg", "deploy plan robot.ddsl.yaml",
     "-v deploy plan robot.ddsl.yaml --format json", "deploy status robot.ddsl.yaml --format json",
+    "run speech --dry-run", "run SpeechComp --alone --dry-run --format json", "run speech", "run other --dry-run",
+    "run speech --dry-run -- --password=canaryTyped",
 ]  # fmt: skip
 
 
