@@ -152,3 +152,18 @@ def test_a_stale_program_is_not_run(robot: Path) -> None:
     done = subprocess.run([*RCYAML, "run", "ArmComp"], cwd=robot, capture_output=True, text=True)
     assert done.returncode == 1 and "error[RC7016]: the program of 'ArmComp' is older than its sources" in done.stderr
     assert "`rcyaml build ArmComp`" in done.stderr
+
+
+@pytest.mark.parametrize("uses", [(), ("--implements", "Sonar"), ("--implements", "Sonar", "--requires", "Lidar")])
+def test_what_new_writes_runs_at_once(tmp_path: Path, ice: Any, start: Start, uses: tuple[str, ...]) -> None:
+    """Without an edit between `new`, `compile` and `run`."""
+    for words in (
+        ("new", "interface", "Sonar", "Lidar"), ("new", "component", "LidarMaker", "--implements", "Lidar"),
+        ("new", "component", "FreshComp", *uses), ("new", "parameters", "FreshComp"), ("compile",), ("build",),
+    ):  # fmt: skip
+        subprocess.run([*RCYAML, "-q", *words], cwd=tmp_path, check=True)
+    run = start([*RCYAML, "run", "FreshComp", "--with-needed", "--", "--startup-check"], cwd=tmp_path)
+    assert run.exit_code() == 0
+    assert "FreshComp: the startup check has passed" in run.output
+    assert ("LidarMaker: ready" in run.output) == ("Lidar" in uses)
+    nothing_is_left(tmp_path)
