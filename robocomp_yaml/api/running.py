@@ -78,7 +78,7 @@ class Run:
         return self._analysis.for_users(placed)
 
     def description(self) -> dict[str, Any]:
-        """What would be started: its name, deployment, command (for a shell), folder, the variables of its environment,
+        """What would be started: its name, deployment, command, folder, the variables of its environment,
         the text of its configuration, and the names of the processes that it needs. Secrets are hidden."""
         own = next((word for word in self.process.command[1:] if word.endswith(f"/{CONFIG}")), "")
         config = self.process.config or ConfigFile("", regular.text(own) or "")
@@ -88,7 +88,7 @@ class Run:
         assert process.config
         return {
             "name": process.name, "deployment": self.document,
-            "command": secrets.command(self._single(None).command, process.secrets), "folder": process.cwd,
+            "command": [*secrets.words(self._single(None).command, process.secrets)], "folder": process.cwd,
             "environment": {one.name: one.shown for one in process.env}, "configuration": process.config.text,
             "needed": [*_closure(self.network, self.process)],
         }  # fmt: skip

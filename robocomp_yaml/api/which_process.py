@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import msgspec
 
@@ -38,21 +38,23 @@ def choose(name: str, deployment: str, include: Sequence[str], *, alone: bool, w
     """Raises Refused if no process is meant, or more than one, and Faulty if its documents have errors."""
     folders = tuple(include)
     around = [which.deployment(deployment, folders)] if deployment else [] if alone else _around(folders)
-    if around:
-        analysis = analyse(around, folders)
-        found = [one for path in around for one in _in_deployment(analysis, path, name)]
-        if len(found) == 1:
-            return found[0]
-        if found:
-            _refuse_several(name, found)
-        if deployment or has_errors(analysis.diagnostics):
-            _refuse_unknown(name, analysis, around, deployment)
-        try:
-            path = which.component(name)
-        except Refused:
-            _refuse_unknown(name, analysis, around, deployment)
-    else:
+    analyses = {path: analyse([path], folders) for path in around}
+    found = [one for path, analysis in analyses.items() for one in _in_deployment(analysis, path, name)]
+    if len(found) > 1:
+        _refuse_several(name, found)
+    if found:
+        if has_errors(found[0].analysis.diagnostics):
+            raise _faulty(found[0].analysis)
+        return found[0]
+    broken = [analysis for path, analysis in analyses.items() if os.path.realpath(path) not in analysis.networks]
+    if broken:
+        raise _faulty(*broken)
+    try:
+        if deployment:
+            raise Refused(f"{deployment} has no entry or component '{name}'")
         path = which.component(name)
+    except Refused as refused:
+        raise Refused(_unknown(name, analyses, str(refused), is_only=bool(deployment))) from None
     return _by_itself(path, folders, with_needed=with_needed)
 
 
@@ -64,21 +66,21 @@ def _around(include: tuple[str, ...]) -> list[str]:
 
 def _in_deployment(analysis: Analysis, path: str, name: str) -> Iterator[ChosenProcess]:
     """The processes of a deployment that are meant: those of this name, alias or entry, else those of this component.
-    Raises Faulty if errors leave no network."""
-    linked, network = analysis.program.deployments.get(os.path.realpath(path)), analysis.networks.get(
-        os.path.realpath(path)
-    )  # fmt: skip
+    None if errors leave no network."""
+    real = os.path.realpath(path)
+    linked, network = analysis.program.deployments.get(real), analysis.networks.get(real)
     if linked is None or network is None:
-        raise Faulty(analysis.diagnostics, analysis.program.documents)
+        return
     process = network.find(name)
-    named = (
-        [process] if process else list(_of_entry(linked, network, name)) or list(_of_component(linked, network, name))
-    )
-    if named and has_errors(analysis.diagnostics):
-        raise Faulty(analysis.diagnostics, analysis.program.documents)
-    for one in named:
+    named = [process] if process else [*_of_entry(linked, network, name)]
+    for one in named or _of_component(linked, network, name):
         folder = f"{os.path.dirname(network.path)}/{RUNS}/{network.name}.{one.name}"
         yield ChosenProcess(analysis, network, one, path, folder, path)
+
+
+def _faulty(*analyses: Analysis) -> Faulty:
+    diagnostics = dict.fromkeys(one for analysis in analyses for one in analysis.diagnostics)
+    return Faulty(diagnostics, sum(analysis.program.documents for analysis in analyses))
 
 
 def _of_entry(linked: LinkedDeployment, network: Network, name: str) -> Iterator[Process]:
@@ -111,21 +113,17 @@ def _refuse_several(name: str, found: Sequence[ChosenProcess]) -> None:
     raise Refused(f"'{name}' means several processes of {documents[0]}: {names}; name one of them")
 
 
-def _refuse_unknown(name: str, analysis: Analysis, around: Sequence[str], deployment: str) -> None:
-    if has_errors(analysis.diagnostics):
-        raise Faulty(analysis.diagnostics, analysis.program.documents)
-    networks = [analysis.networks[os.path.realpath(path)] for path in around]
-    known = [
-        one
-        for network in networks
-        for process in network.processes.values()
-        for one in (process.name, *process.aliases)
-    ]
-    own = [component_in(path) for path in of_kind(root_above("") or ".", "cdsl")] if not deployment else []
-    where = f"{deployment} has no entry or component" if deployment else "no deployment or component has the name"
-    raise Refused(
-        f"{where} '{name}'{meant(name, [*known, *filter(None, own)], f'known are {_listed(known)}' if known else '')}"
-    )
+def _unknown(name: str, analyses: Mapping[str, Analysis], otherwise: str, *, is_only: bool) -> str:
+    """What to say about a name that means nothing. `otherwise` is the message about components alone."""
+    if not analyses or "/" in name or os.path.exists(name):
+        return otherwise
+    networks = [analysis.networks[os.path.realpath(path)] for path, analysis in analyses.items()]
+    processes = [process for network in networks for process in network.processes.values()]
+    entries = [one for process in processes for one in (process.name, *process.aliases)]
+    components = [] if is_only else [component_in(path) for path in of_kind(root_above("") or ".", "cdsl")]
+    where = otherwise if is_only else f"no deployment or component has the name '{name}'"
+    hint = f"the entries are {_listed(entries)}" if entries else ""
+    return where + meant(name, [*entries, *filter(None, components)], hint)
 
 
 def _listed(names: Sequence[str], limit: int = 8) -> str:

@@ -84,7 +84,7 @@ def _serve(ctx: click.Context, mock: Mock, endpoints: Mapping[str, str], storm: 
 
 def _served(one: Serving) -> str:
     if one.problem:
-        return f"skipped  {one.proxy}: it is in use" if "in use" in one.problem else f"skipped  {one.problem}"
+        return f"skipped  {one.proxy}: {one.problem}"
     return f"serving  {one.proxy}" + (f"  for {', '.join(one.users)}" if one.users else "")
 
 

@@ -113,7 +113,8 @@ def _describe(ctx: click.Context, run: Run, format_: str) -> None:
     if format_ == "json":
         terminal.data(dumps(one), json=True)
         return
-    lines = [f"{title:<8} {one[key]}" for title, key in _TITLES.items() if one[key]]
+    shown = {**one, "command": terminal.typed(*one["command"])}
+    lines = [f"{title:<8} {shown[key]}" for title, key in _TITLES.items() if shown[key]]
     lines += [f"env      {name}={value}" for name, value in one["environment"].items()]
     lines += [f"needs    {', '.join(one['needed'])}"] if one["needed"] else []
     terminal.say(*lines, *(["", *one["configuration"].rstrip().splitlines()] if one["configuration"] else []))

@@ -83,18 +83,20 @@ def _serve(communicator: Any, served: Served, addresses: Sequence[Address], on_c
     servant = served.interface.servant(_Answers(served, on_call))
     found = [_serve_at(communicator, served, servant, address) for address in addresses]
     if all(one.problem for one in found):
-        raise Refused(found[0].problem)
+        raise Refused(
+            f"{served.interface.interface.name} cannot be served at '{addresses[0].endpoint}': {found[0].problem}"
+        )
     return found
 
 
 def _serve_at(communicator: Any, served: Served, servant: Any, address: Address) -> Serving:
-    name, endpoint = served.interface.interface.name, address.endpoint
+    endpoint = address.endpoint
     try:
         adapter = communicator.createObjectAdapterWithEndpoints(f"mock {served.interface.id} {endpoint}", endpoint)
     except Ice.SocketException:
-        problem = f"'{endpoint}' is in use, so {name} cannot be served there: is the component running?"
+        problem = "the address is in use: is the component running?"
     except Ice.Exception as error:
-        problem = f"{name} cannot be served at '{endpoint}': {_reason(error)}"
+        problem = _reason(error)
     else:
         adapter.add(servant, communicator.stringToIdentity(address.identity))
         adapter.activate()

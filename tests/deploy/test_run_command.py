@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import pty
 import signal
@@ -314,3 +315,30 @@ def test_an_entry_of_one_of_several_deployments(tmp_path: Path, rcyaml: Rcyaml) 
     both = rcyaml("run", "same", "--dry-run")
     assert both.exit_code == 2
     assert "choose one by `--deployment arm.ddsl.yaml` or `--deployment leg.ddsl.yaml`" in both.stderr
+
+
+def test_a_broken_deployment_beside_does_not_matter(tmp_path: Path, rcyaml: Rcyaml) -> None:
+    whole = "deployment: Arm\ncomponents: {arm: {program: 'true'}}\n"
+    write_tree(
+        tmp_path, {"arm.ddsl.yaml": whole, "leg.ddsl.yaml": "deployment: Leg\ncomponents: {leg: {program: 3}}\n"}
+    )
+    assert rcyaml("run", "arm").exit_code == 0
+    leg = rcyaml("run", "leg")
+    assert leg.exit_code == 1 and "leg.ddsl.yaml:2" in leg.stderr
+
+
+def test_without_anything_to_run(tmp_path: Path, rcyaml: Rcyaml) -> None:
+    assert "rcyaml new component NAME" in rcyaml("run").stderr
+    assert "unknown component 'arm'" in rcyaml("run", "arm").stderr
+    write_tree(tmp_path, {"arm.ddsl.yaml": "deployment: Arm\ncomponents: {arm: {program: 'true'}}\n"})
+    assert "'nowhere/leg' does not exist" in rcyaml("run", "nowhere/leg").stderr
+    assert "the entries are arm" in rcyaml("run", "xyzzy").stderr
+
+
+def test_how_it_ended_as_json(tmp_path: Path, rcyaml: Rcyaml) -> None:
+    write_tree(tmp_path, {"arm.ddsl.yaml": "deployment: Arm\ncomponents: {arm: {program: sh, args: [-c, exit 7]}}\n"})
+    done = rcyaml("run", "arm", "--format", "json")
+    assert json.loads(done.stdout) == {"name": "arm", "code": 7, "diagnostics": []} and done.exit_code == 7
+    described = json.loads(rcyaml("run", "arm", "--dry-run", "--format", "json").stdout)
+    assert described["command"] == ["sh", "-c", "exit 7"] and described["deployment"] == "arm.ddsl.yaml"
+    assert "command  sh -c 'exit 7'\n" in rcyaml("run", "arm", "--dry-run").stdout

@@ -112,7 +112,7 @@ def test_a_stand_in_beside_the_component_itself(robot: Path, start: Start) -> No
     mock = start([*RCYAML, "mock", "Gripper"], cwd=robot)
     mock.wait_for("Ctrl-C")
     lines = {line.split()[0]: line for line in mock.output.splitlines()}
-    assert lines["serving"].endswith("for GraspPlanner") and lines["skipped"].endswith("it is in use")
+    assert lines["serving"].endswith("for GraspPlanner") and lines["skipped"].endswith("is the component running?")
 
 
 def test_topics_without_an_icestorm(robot: Path, start: Start) -> None:
