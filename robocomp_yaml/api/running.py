@@ -5,14 +5,14 @@ from __future__ import annotations
 import asyncio
 import os
 import shutil
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import replace
 
 from robocomp_yaml import secrets
-from robocomp_yaml.api.which_process import choose
+from robocomp_yaml.api.which_process import Overrides, choose
 from robocomp_yaml.building.job import RELEASE
 from robocomp_yaml.deploy import exported, folder, ice_ping
 from robocomp_yaml.deploy.carry_out import Report
@@ -49,7 +49,8 @@ class Run:
     `name` is an entry of a deployment, or a component by its name, folder or document. `deployment` is the path of the
     deployment's document; by default, it is one of those of the working folder, or else of the workspace. A component
     that no deployment has runs by itself, with its own configuration, and so does one if `alone` is set. `with_needed`
-    also starts what it needs and what does not run yet. The program gets `arguments` after its own.
+    also starts what it needs and what does not run yet. The program gets `arguments` after its own. `settings` are
+    values of parameters for this run, by their paths, and `config` replaces that of the entry; no document is changed.
 
     `network` and `process` describe what runs; `document` is the path of the deployment, '' for a component by itself.
     Raises Refused if the name is unknown or means more than one process, Faulty if the documents have errors.
@@ -57,9 +58,11 @@ class Run:
 
     def __init__(
         self, name: str = ".", *, deployment: str = "", include: Sequence[str] = (), alone: bool = False,
-        with_needed: bool = False, arguments: Sequence[str] = (),
+        with_needed: bool = False, settings: Mapping[str, str] | None = None, config: str = "",
+        arguments: Sequence[str] = (),
     ) -> None:  # fmt: skip
-        chosen = choose(name, deployment, include, alone=alone, with_needed=with_needed)
+        overrides = Overrides(settings or {}, config)
+        chosen = choose(name, deployment, include, overrides, alone=alone, with_needed=with_needed)
         self.document, self._path, self._analysis = chosen.document, chosen.path, chosen.analysis
         self.network: Network = chosen.network
         self.process: Process = chosen.process

@@ -6,6 +6,7 @@ import os
 from collections.abc import Iterator, Mapping, Sequence
 
 import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml.api import which
 from robocomp_yaml.api.neighbours import ports
@@ -34,7 +35,16 @@ class ChosenProcess(msgspec.Struct, frozen=True):
     document: str = ""
 
 
-def choose(name: str, deployment: str, include: Sequence[str], *, alone: bool, with_needed: bool) -> ChosenProcess:
+class Overrides(msgspec.Struct, frozen=True):
+    """What a run has instead of what its documents say: values of parameters by their paths, and a configuration."""
+
+    settings: Mapping[str, str] = {}
+    config: str = ""
+
+
+def choose(
+    name: str, deployment: str, include: Sequence[str], overrides: Overrides, *, alone: bool, with_needed: bool
+) -> ChosenProcess:  # fmt: skip
     """Raises Refused if no process is meant, or more than one, and Faulty if its documents have errors."""
     folders = tuple(include)
     around = [which.deployment(deployment, folders)] if deployment else [] if alone else _around(folders)
@@ -45,7 +55,7 @@ def choose(name: str, deployment: str, include: Sequence[str], *, alone: bool, w
     if found:
         if has_errors(found[0].analysis.diagnostics):
             raise _faulty(found[0].analysis)
-        return found[0]
+        return _with(found[0], overrides, folders)
     broken = [analysis for path, analysis in analyses.items() if os.path.realpath(path) not in analysis.networks]
     if broken:
         raise _faulty(*broken)
@@ -55,7 +65,19 @@ def choose(name: str, deployment: str, include: Sequence[str], *, alone: bool, w
         path = which.component(name)
     except Refused as refused:
         raise Refused(_unknown(name, analyses, str(refused), is_only=bool(deployment))) from None
-    return _by_itself(path, folders, with_needed=with_needed)
+    return _by_itself(path, folders, overrides, with_needed=with_needed)
+
+
+def _with(chosen: ChosenProcess, overrides: Overrides, include: tuple[str, ...]) -> ChosenProcess:
+    """The same process of the deployment with other values."""
+    if not (overrides.settings or overrides.config):
+        return chosen
+    from robocomp_yaml.api.overridden import in_entry
+
+    name, path = chosen.process.name, chosen.document
+    analysis = in_entry(chosen.analysis, path, name, overrides.settings, overrides.config, include)
+    network = analysis.networks[os.path.realpath(path)]
+    return replace(chosen, analysis=analysis, network=network, process=network.processes[name])
 
 
 def _around(include: tuple[str, ...]) -> list[str]:
@@ -131,7 +153,9 @@ def _listed(names: Sequence[str], limit: int = 8) -> str:
     return ", ".join(names[:limit]) + more
 
 
-def _by_itself(path: str, include: tuple[str, ...], *, with_needed: bool) -> ChosenProcess:
+def _by_itself(
+    path: str, include: tuple[str, ...], overrides: Overrides, *, with_needed: bool
+) -> ChosenProcess:  # fmt: skip
     """A component without a deployment; `with_needed` also reads the components that it can need."""
     analysis = analyse([path], include)
     if not has_errors(analysis.diagnostics) and with_needed:
@@ -139,6 +163,12 @@ def _by_itself(path: str, include: tuple[str, ...], *, with_needed: bool) -> Cho
         analysis = analyse([path, *servers], include) if servers else analysis
     if has_errors(analysis.diagnostics) or os.path.realpath(path) not in analysis.program.components:
         raise Faulty(analysis.diagnostics, analysis.program.documents)
+    if overrides.config:
+        raise Refused("--config is for entries of a deployment: `-- FILE` passes another configuration to the program")
+    if overrides.settings:
+        from robocomp_yaml.api.overridden import in_values
+
+        analysis = in_values(analysis, path, overrides.settings, include)
     linked = analysis.program.components[os.path.realpath(path)]
     workspace = analysis.linker.workspace_of(path)
     root = workspace.root if workspace.declared else os.path.dirname(path)

@@ -41,14 +41,19 @@ _ARGUMENTS = "robocomp_yaml.run.arguments"
 @click.option("--with-needed", is_flag=True, help="Start what it needs beside it, and stop that at the end.")
 @click.option("--deployment", default="", metavar="DDSL", help="The deployment; by default, the one that has it.")
 @click.option("--alone", is_flag=True, help="With its own configuration, whether or not a deployment has it.")
+@click.option(
+    "--set", "settings", multiple=True, metavar="NAME=VALUE", help="A parameter for this run; may be repeated."
+)
+@click.option("--config", metavar="FILE", type=click.Path(exists=True, dir_okay=False),
+              help="A configuration for this run, as `config:` of the entry.")  # fmt: skip
 @click.option("--build", is_flag=True, help="First build what is not up to date.")
 @click.option("--dry-run", is_flag=True, help="Print the command and the configuration, and start nothing.")
 @_options.include
 @_options.text_or_json
 @click.pass_context
 def command(
-    ctx: click.Context, name: str, with_needed: bool, deployment: str, alone: bool, build: bool, dry_run: bool,
-    include: tuple[str, ...], format_: str,
+    ctx: click.Context, name: str, with_needed: bool, deployment: str, alone: bool, settings: tuple[str, ...],
+    config: str | None, build: bool, dry_run: bool, include: tuple[str, ...], format_: str,
 ) -> None:  # fmt: skip
     """Run NAME in the foreground, as `deploy up` would run it: an entry of a deployment, or a component by its name or
     folder (by default, this one). A component that no deployment has runs with its own configuration.
@@ -66,7 +71,7 @@ def command(
         raise click.UsageError("--alone and --deployment exclude each other")
     run = Run(
         name, deployment=deployment, include=include, alone=alone, with_needed=with_needed,
-        arguments=ctx.meta[_ARGUMENTS],
+        settings=_pairs(settings), config=config or "", arguments=ctx.meta[_ARGUMENTS],
     )  # fmt: skip
     if dry_run:
         _describe(ctx, run, format_)
@@ -97,6 +102,16 @@ def _as_data(diagnostics: Sequence[Diagnostic]) -> dict[str, Any]:
     from robocomp_yaml.diag.render.json import as_data
 
     return {"diagnostics": [as_data(one) for one in diagnostics]}
+
+
+def _pairs(settings: tuple[str, ...]) -> dict[str, str]:
+    pairs = {}
+    for text in settings:
+        name, equals, value = text.partition("=")
+        if not equals or not name:
+            raise click.UsageError(f"'{text}' is not NAME=VALUE, such as period.compute=50")
+        pairs[name] = value
+    return pairs
 
 
 def _shown(program: str) -> str:

@@ -167,3 +167,37 @@ def test_what_new_writes_runs_at_once(tmp_path: Path, ice: Any, start: Start, us
     assert "FreshComp: the startup check has passed" in run.output
     assert ("LidarMaker: ready" in run.output) == ("Lidar" in uses)
     nothing_is_left(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "said"),
+    [
+        (["planner", "--set", "force=7.25"], 0, "force=7.25"),
+        (["planner", "--set", "force=7.25", "--set", "force=8"], 0, "force=8"),
+        (["planner", "--config", "components/graspplanner/etc/weak.config.yaml"], 0, "force=2.5"),  # `set:` comes last
+        (["other", "--config", "components/graspplanner/etc/weak.config.yaml"], 0, "force=0.25"),
+        (["other", "--config", "components/graspplanner/etc/weak.config.yaml", "--set", "force=9"], 0, "force=9"),
+        (["planner", "--set", "forse=7"], 2, "unknown parameter 'forse'; did you mean 'force'?"),
+        (["planner", "--set", "force=strong"], 2, "force must be a number"),
+        (["planner", "--set", "force"], 2, "'force' is not NAME=VALUE"),
+        (["planner", "--alone", "--set", "force=7"], 2, "`-- --force=7` passes it to the program"),
+        (["pause", "--set", "force=7"], 2, "'pause' is not a component"),
+        (["planner", "--config", "nowhere.yaml"], 2, "'nowhere.yaml' does not exist"),
+    ],
+)
+def test_other_values_for_one_run(robot: Path, words: list[str], code: int, said: str) -> None:
+    more = "  other: {component: components/graspplanner, connect: {Gripper: tool}}\n  pause: {program: sleep}\n"
+    weak = "component: ../planner.cdsl.yaml\nparameters: {force: 0.25}\n"
+    write_tree(robot, {"grasping.ddsl.yaml": DEPLOYMENT + more, "components/graspplanner/etc/weak.config.yaml": weak})
+    before = (robot / "grasping.ddsl.yaml").read_bytes()
+    done = subprocess.run([*RCYAML, "run", *words, "--dry-run"], cwd=robot, capture_output=True, text=True)
+    assert (done.returncode, said in (done.stdout or done.stderr)) == (code, True), done.stdout + done.stderr
+    assert (robot / "grasping.ddsl.yaml").read_bytes() == before
+
+
+def test_other_values_for_one_run_alone(robot: Path) -> None:
+    values = "component: ../planner.cdsl.yaml\nparameters: {force: 0.5}\n"
+    write_tree(robot, {"components/graspplanner/etc/config.yaml": values})
+    words = [*RCYAML, "run", "graspplanner", "--set", "force=6", "--dry-run"]
+    assert "\nforce=6\n" in subprocess.run(words, cwd=robot, capture_output=True, text=True).stdout
+    assert (robot / "components/graspplanner/etc/config.yaml").read_text() == values
