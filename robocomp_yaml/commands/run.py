@@ -13,6 +13,7 @@ import click
 
 from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._command import LibraryCommand
+from robocomp_yaml.source.discover import kind_of
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.running import Run
@@ -37,7 +38,7 @@ _ARGUMENTS = "robocomp_yaml.run.arguments"
 
 
 @click.command(cls=_RunCommand, short_help="Run one component in the foreground.")
-@click.argument("name", default=".", metavar="[NAME]")
+@click.argument("words", nargs=-1, metavar="[NAME]")
 @click.option("--with-needed", is_flag=True, help="Start what it needs beside it, and stop that at the end.")
 @click.option("--deployment", default="", metavar="DDSL", help="The deployment; by default, the one that has it.")
 @click.option("--alone", is_flag=True, help="With its own configuration, whether or not a deployment has it.")
@@ -52,8 +53,8 @@ _ARGUMENTS = "robocomp_yaml.run.arguments"
 @_options.text_or_json
 @click.pass_context
 def command(
-    ctx: click.Context, name: str, with_needed: bool, deployment: str, alone: bool, settings: tuple[str, ...],
-    config: str | None, build: bool, dry_run: bool, include: tuple[str, ...], format_: str,
+    ctx: click.Context, words: tuple[str, ...], with_needed: bool, deployment: str, alone: bool,
+    settings: tuple[str, ...], config: str | None, build: bool, dry_run: bool, include: tuple[str, ...], format_: str,
 ) -> None:  # fmt: skip
     """Run NAME in the foreground, as `deploy up` would run it: an entry of a deployment, or a component by its name or
     folder (by default, this one). A component that no deployment has runs with its own configuration.
@@ -67,6 +68,7 @@ def command(
     from robocomp_yaml.diag.errors import Faulty
     from robocomp_yaml.diag.render.json import dumps
 
+    name, deployment = _name(words, deployment)
     if alone and deployment:
         raise click.UsageError("--alone and --deployment exclude each other")
     run = Run(
@@ -102,6 +104,17 @@ def _as_data(diagnostics: Sequence[Diagnostic]) -> dict[str, Any]:
     from robocomp_yaml.diag.render.json import as_data
 
     return {"diagnostics": [as_data(one) for one in diagnostics]}
+
+
+def _name(words: tuple[str, ...], deployment: str) -> tuple[str, str]:
+    """The name of what runs, and the deployment, which can also precede the name, as in `rcyaml deploy`."""
+    if len(words) == 2 and kind_of(words[0]) == "ddsl" and not deployment:
+        return words[1], words[0]
+    if len(words) == 1 and kind_of(words[0]) == "ddsl":
+        raise click.UsageError(f"{words[0]} is a deployment: which of its entries? `rcyaml run {words[0]} NAME`")
+    if len(words) > 1:
+        raise click.UsageError(f"'{words[1]}' is unexpected: arguments of the program follow `--`")
+    return (words[0] if words else "."), deployment
 
 
 def _pairs(settings: tuple[str, ...]) -> dict[str, str]:
