@@ -171,7 +171,7 @@ class Values:
         """The effective value at a path such as `motors[0].vel`, as plain data; None if it has no value. A secret is
         hidden unless `reveal` is set. Raises Faulty, and Refused if the parameter is unknown."""
         values = self._in_effect
-        steps, _ = _steps(path, values.parameters.root)
+        steps, _ = parameter_at(path, values.parameters.root)
         found = show.find(values, steps)
         if found is None:
             return None
@@ -210,10 +210,9 @@ class Values:
         if parameters.broken or self._linked is None:
             raise self._unknown(self.diagnostics)
         of = parameters.parameters.root
-        named, type_ = _steps(path, of)
+        named, type_ = parameter_at(path, of)
         steps = show.typed(of, named)
-        is_text = isinstance(type_, EnumType) or (isinstance(type_, BasicType) and type_.name == "string")
-        is_text = is_text and not _REFERENCE.fullmatch(value)
+        is_text = is_plain_text(type_, value)
         raw = self._analysis.disk.contents[self._linked.document.path]  # the text that the locations refer to
         text = source_text.decode(self.file, raw)[0]
         assert text is not None  # the analysis has read it
@@ -285,7 +284,14 @@ def write_new(file: str, include: Sequence[str] = ()) -> str:
     return target
 
 
-def _steps(path: str, root: RecordType) -> tuple[list[str], Type]:
+def is_plain_text(type_: Type, value: str) -> bool:
+    """Whether a value on the command line is the text itself, not YAML."""
+    is_text = isinstance(type_, EnumType) or (isinstance(type_, BasicType) and type_.name == "string")
+    return is_text and not _REFERENCE.fullmatch(value)
+
+
+def parameter_at(path: str, root: RecordType) -> tuple[list[str], Type]:
+    """The steps and the type of a parameter. Raises Refused if it is unknown."""
     steps = paths.parse(path)
     type_ = show.type_at(root, steps) if steps else None
     if steps is None or type_ is None:

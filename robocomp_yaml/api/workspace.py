@@ -42,7 +42,7 @@ class Workspace:
 
     @property
     def documents_read(self) -> int:
-        return self.analysis.program.documents
+        return self.analysis.program.documents + len(self.analysis.discovered.scripts)
 
     def check(self, *, environment: bool = False) -> list[Diagnostic]:
         """All diagnostics, sorted by location: of the documents, of the user's code, of flat configs and of the
@@ -171,8 +171,8 @@ class Workspace:
         return Values(document, self._include, self._overlay)
 
     def _on_disk(self, environment: bool) -> Iterator[Diagnostic]:
-        """The diagnostics of files that are no documents: each component's `etc/config` and code, and the programs of
-        deployments."""
+        """The diagnostics of files that are no documents: each component's `etc/config` and code, the programs of
+        deployments, and mock scripts."""
         analysis = self.analysis
         if analysis.program.components:
             from robocomp_yaml.addresses import clashes
@@ -195,6 +195,10 @@ class Workspace:
             from robocomp_yaml.check.networks import check_environment
 
             yield from check_environment(analysis.derived, environment=environment)
+        if analysis.discovered.scripts:
+            from robocomp_yaml.api import mock_scripts
+
+            yield from mock_scripts.check(analysis, self._include)
 
     def _missing(self) -> Iterator[Diagnostic]:
         from robocomp_yaml.emit.environment import missing

@@ -14,14 +14,19 @@ from robocomp_yaml.commands._command import LibraryCommand
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.mocking import Mock
-    from robocomp_yaml.wire.stand_ins import Call
+    from robocomp_yaml.wire.stand_ins import Call, Serving
 
 
 @click.command(cls=LibraryCommand, short_help="Stand in for components: serve interfaces, publish topics.")
 @click.argument("interfaces", nargs=-1, metavar="[INTERFACE]...")
 @click.option("--script", type=click.Path(dir_okay=False, exists=True), help="What they answer and publish, in YAML.")
 @click.option("--endpoint", "endpoints", multiple=True, metavar="NAME=ENDPOINT", help="Where an interface is served.")
-@click.option("--storm", default="", metavar="PROXY", help="IceStorm's topic manager; by default, at port 9999.")
+@click.option(
+    "--storm",
+    default="",
+    metavar="PROXY",
+    help="IceStorm's topic manager; by default, at port 9999.",
+)
 @click.option("--check", is_flag=True, help="Check the script, and serve nothing.")
 @_options.include
 @click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text", help="How to print it.")
@@ -33,7 +38,8 @@ def command(
     """Stand in for the components that serve INTERFACEs or publish topics, until Ctrl-C.
 
     Methods return example values, and topics get example messages once a second; a script says it otherwise. Each
-    interface is served where the components of this workspace expect it.
+    interface is served wherever the components of this workspace, and those of its deployments, expect it. If no
+    IceStorm answers, one is started.
     """
     from robocomp_yaml.api.mocking import Mock
 
@@ -67,13 +73,19 @@ def _serve(ctx: click.Context, mock: Mock, endpoints: Mapping[str, str], storm: 
                 terminal.say(_line(call))
 
     try:
-        with mock.running(endpoints=endpoints, storm=storm, on_call=show) as proxies:
+        with mock.running(endpoints=endpoints, storm=storm, on_call=show) as served:
             if ctx.obj.verbosity >= 0:
-                terminal.say(*(f"serving  {proxy}" for proxy in proxies), "Ctrl-C stops it", err=format_ == "json")
+                terminal.say(*map(_served, served), "Ctrl-C stops it", err=format_ == "json")
             while True:
                 time.sleep(3600)
     except KeyboardInterrupt as error:
         ctx.exit(_signals.code_of(error))
+
+
+def _served(one: Serving) -> str:
+    if one.problem:
+        return f"skipped  {one.proxy}: {one.problem}"
+    return f"serving  {one.proxy}" + (f"  for {', '.join(one.users)}" if one.users else "")
 
 
 def _line(call: Call) -> str:

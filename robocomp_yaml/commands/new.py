@@ -27,14 +27,14 @@ def command() -> None:
     """
 
 
-@command.command(short_help="Write a new interface document.")
-@click.argument("name")
+@command.command(short_help="Write new interface documents.")
+@click.argument("names", nargs=-1, required=True, metavar="NAME...")
 @click.pass_context
-def interface(ctx: click.Context, name: str) -> None:
-    """Write interfaces/NAME.idsl.yaml: a module with an interface NAME."""
+def interface(ctx: click.Context, names: tuple[str, ...]) -> None:
+    """Write interfaces/NAME.idsl.yaml: a module with an interface NAME. Several NAMEs make several documents."""
     from robocomp_yaml.api.new.documents import interface_document
 
-    _create(ctx, lambda root: interface_document(root, name))
+    _create(ctx, lambda root: [interface_document(root, name) for name in dict.fromkeys(names)])
 
 
 def _names(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[str]:
@@ -75,7 +75,7 @@ def component(
     """
     from robocomp_yaml.api.new.documents import component_document
 
-    _create(ctx, lambda root: component_document(root, name, language, uses, include))
+    _create(ctx, lambda root: [component_document(root, name, language, uses, include)])
 
 
 @command.command(short_help="Write a new parameters document of a component.")
@@ -85,7 +85,7 @@ def parameters(ctx: click.Context, name: str) -> None:
     """Write the parameters document of the component NAME, beside the component's document."""
     from robocomp_yaml.api.new.documents import parameters_document
 
-    _create(ctx, lambda root: parameters_document(root, name))
+    _create(ctx, lambda root: [parameters_document(root, name)])
 
 
 @command.command(short_help="Write a new deployment document.")
@@ -95,13 +95,13 @@ def deployment(ctx: click.Context, name: str) -> None:
     """Write deployments/NAME.ddsl.yaml (in lower case): the components of the workspace, on this machine."""
     from robocomp_yaml.api.new.deployment import deployment_document
 
-    _create(ctx, lambda root: deployment_document(root, name), "deploy plan")
+    _create(ctx, lambda root: [deployment_document(root, name)], "deploy plan")
 
 
-def _create(ctx: click.Context, make: Callable[[str], NewDocument], next_: str = "compile") -> None:
+def _create(ctx: click.Context, make: Callable[[str], list[NewDocument]], next_: str = "compile") -> None:
     from robocomp_yaml.api.new import workspace
 
     with _options.writing():
-        path = workspace.create(make, _options.report_file)
+        paths = workspace.create(make, _options.report_file)
     if ctx.obj.verbosity >= 0:
-        terminal.say(f"next: {terminal.typed('rcyaml', *next_.split(), path)}")
+        terminal.say(f"next: {terminal.typed('rcyaml', *next_.split(), *paths)}")

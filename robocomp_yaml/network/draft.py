@@ -149,7 +149,7 @@ class StormDraft(msgspec.Struct, eq=False):
     def proxy(self) -> str:
         return f"{STORM_INSTANCE}/{MANAGER}:tcp -h {spelled_host(self.host.address)} -p {self.manager}"
 
-    def endpoints(self) -> tuple[Endpoint, ...]:
+    def endpoints(self) -> tuple[Endpoint, Endpoint]:
         storm = self.linked.storm
         manager = Endpoint(
             MANAGER,

@@ -25,6 +25,8 @@ PROXY, TOPIC = "proxy", "topic"
 LOOPBACK = "localhost"
 FOLDER = ".rcyaml/deployments"
 """The folder, beside a deployment's document, that contains the deployment's own folder."""
+RUNS = ".rcyaml/run"
+"""The folder, beside a document, that contains a folder for each process of it that runs in the foreground."""
 
 
 def is_loopback(address: str) -> bool:

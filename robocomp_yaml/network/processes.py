@@ -5,16 +5,17 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 
+from msgspec.structs import replace
+
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.link.workspace import component_argument
 from robocomp_yaml.model import deployment as model
 from robocomp_yaml.model.deployment import CONFIG
-from robocomp_yaml.network import liveness
-from robocomp_yaml.network.draft import MANAGER, PUBLISH, STORM_INSTANCE, Draft, StormDraft
+from robocomp_yaml.network import icestorm, liveness
+from robocomp_yaml.network.draft import Draft, StormDraft
 from robocomp_yaml.network.network import (
     COMPONENT,
-    ICESTORM,
     PROGRAM,
     ConfigFile,
     EnvironmentVariable,
@@ -23,8 +24,6 @@ from robocomp_yaml.network.network import (
     RestartRule,
 )
 from robocomp_yaml.parameters.hidden import secret_names
-from robocomp_yaml.semantics.connections import ICE_DEFAULTS
-from robocomp_yaml.source.properties import entry_line
 
 _DEFAULTS = RestartRule()
 _LONGEST_SETTLED = 3.0  # seconds
@@ -87,7 +86,7 @@ def program_of(draft: Draft) -> str:
     if component is None:
         text = entry.target.text
         return os.path.abspath(os.path.join(instance.folder, text)) if "/" in text else text
-    path = entry.executable.text if entry.executable else _program(component)
+    path = entry.executable.text if entry.executable else own_program(component)
     return os.path.abspath(os.path.join(instance.folder, path))
 
 
@@ -95,8 +94,13 @@ def _build(draft: Draft) -> str:
     component, executable = draft.instance.component, draft.instance.entry.executable
     if component is None:
         return ""
-    if executable is not None and os.path.normpath(executable.text) != _program(component):
+    if executable is not None and os.path.normpath(executable.text) != own_program(component):
         return f"build it, or correct `executable: {executable.text}`"
+    return how_to_build(component)
+
+
+def how_to_build(component: LinkedComponent) -> str:
+    """The commands that write or build the program of a component."""
     path = component.component.path
     compile_ = f"`{typed('rcyaml', 'compile', path)}`"
     if not component.component.language.target.build:
@@ -105,7 +109,8 @@ def _build(draft: Draft) -> str:
     return f"{compile_}, then `{typed('rcyaml', 'build', name)}`"
 
 
-def _program(component: LinkedComponent) -> str:
+def own_program(component: LinkedComponent) -> str:
+    """The program of a component, relative to its folder."""
     return component.component.language.target.program.format(name=component.component.name)
 
 
@@ -175,32 +180,7 @@ def _code(folder: str, component: LinkedComponent | None, known: dict[str, tuple
 
 
 def of_storm(storm: StormDraft, folder: str, *, enabled: bool) -> Process:
-    """The process of an IceStorm, in icebox, with its database in the deployment's own folder. It is not `enabled` if
-    no enabled process needs it."""
-    database = f"{folder}/state/{storm.name}"
-    manager, publish = storm.endpoints()
-    settings = {
-        f"IceBox.Service.{STORM_INSTANCE}": "IceStormService,37:createIceStorm",
-        "IceBox.InheritProperties": "1",
-        f"{STORM_INSTANCE}.InstanceName": STORM_INSTANCE,
-        f"{STORM_INSTANCE}.{MANAGER}.Endpoints": manager.text,
-        f"{STORM_INSTANCE}.{PUBLISH}.Endpoints": publish.text,
-        f"{STORM_INSTANCE}.LMDB.Path": database,
-        f"{STORM_INSTANCE}.LMDB.MapSize": "10",
-        "Ice.MessageSizeMax": ICE_DEFAULTS["Ice.MessageSizeMax"],  # what a component can send, it can pass on
-    }
-    text = "".join(f"{entry_line(key, value)}\n" for key, value in settings.items())
-    return Process(
-        storm.name,
-        storm.host.name,
-        ("icebox", f"--Ice.Config={CONFIG}"),
-        "/",  # its paths are absolute
-        ICESTORM,
-        config=ConfigFile(f"config/{storm.name}", text),
-        endpoints=(manager, publish),
-        ready=Readiness(pings=(storm.proxy,)),
-        folders=(database,),
-        enabled=enabled,
-        unless=(storm.proxy,) if storm.linked.storm.shared else (),
-        span=storm.span,
-    )
+    """The process of an IceStorm. It is not `enabled` if no enabled process needs it."""
+    host = storm.host.name
+    made = icestorm.process(storm.name, host, storm.endpoints(), storm.proxy, folder, storm.span, enabled=enabled)
+    return replace(made, unless=(storm.proxy,) if storm.linked.storm.shared else ())

@@ -14,6 +14,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.source.disk import NOTHING, Disk
 
+SCRIPT = ".mock.yaml"
 KINDS = ("idsl", "cdsl", "pdsl", "ddsl", "config")
 _MODELINE = re.compile(
     rb"(?:\xef\xbb\xbf)?(?:[ \t]*(?:#[^\r\n]*|%[^\r\n]*|---[ \t]*)?\r?\n)*"
@@ -34,6 +35,11 @@ def kind_of(path: str, disk: Disk | None = None) -> str | None:
     return None
 
 
+def is_script(path: str) -> bool:
+    """Whether a file is a mock script, by its name."""
+    return path.endswith(SCRIPT)
+
+
 def _is_values_document(path: str, disk: Disk) -> bool:
     """Many programs have a `config.yaml`. A values document is in `etc/` beside a component, or names the schema in a
     comment above its content, where editors read it."""
@@ -47,11 +53,12 @@ def _is_values_document(path: str, disk: Disk) -> bool:
 
 class DiscoveredDocuments(msgspec.Struct, frozen=True):
     """Documents in the order of their paths; `folders` are the requested folders, `roots` the folders below them that
-    have a manifest."""
+    have a manifest. `scripts` are mock scripts, which only `check` and `mock` read."""
 
     documents: tuple[str, ...] = ()
     folders: tuple[str, ...] = ()
     roots: tuple[str, ...] = ()
+    scripts: tuple[str, ...] = ()
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
@@ -61,22 +68,27 @@ def discover(paths: list[str] | tuple[str, ...], disk: Disk | None = None) -> Di
     documents: dict[str, None] = {}
     folders: list[str] = []
     roots: list[str] = []
+    scripts: list[str] = []
     diagnostics: list[Diagnostic] = []
     for path in paths:
         if disk.has_folder(path):
             folders.append(path)
             unreadable: list[OSError] = []
-            below = list(documents_below(path, roots, unreadable.append, disk))
+            before = len(scripts)
+            below = list(documents_below(path, roots, unreadable.append, disk, scripts))
             diagnostics += [
                 codes.UNREADABLE.at(
                     Span(os.path.normpath(error.filename)), reason=(error.strerror or str(error)).lower()
                 )
                 for error in unreadable
             ]
-            if not below and not unreadable:
+            if not below and not unreadable and len(scripts) == before:
                 hint = "`rcyaml new interface NAME` writes a first document"
                 hint += f", `{typed('rcyaml', 'migrate', path)}` converts legacy files"
                 diagnostics.append(codes.NOTHING_FOUND.at(Span(path), hint=hint))
+        elif is_script(path) and disk.state(path) != NOTHING:
+            scripts.append(os.path.normpath(path))
+            continue
         elif kind_of(path, disk) is None and disk.state(path) != NOTHING:
             expected = " or ".join(f".{kind}.yaml" for kind in KINDS)
             hint = "" if path.endswith(".yaml") else f"`{typed('rcyaml', 'migrate', path)}` converts legacy files"
@@ -86,7 +98,9 @@ def discover(paths: list[str] | tuple[str, ...], disk: Disk | None = None) -> Di
         else:
             below = [os.path.normpath(path)]
         documents.update(dict.fromkeys(below))
-    return DiscoveredDocuments(tuple(documents), tuple(folders), tuple(roots), tuple(diagnostics))
+    return DiscoveredDocuments(
+        tuple(documents), tuple(folders), tuple(roots), tuple(dict.fromkeys(scripts)), tuple(diagnostics)
+    )
 
 
 def of_kind(folder: str, kind: str, disk: Disk | None = None) -> list[str]:
@@ -100,9 +114,11 @@ def documents_below(
     roots: list[str] | None = None,
     on_error: Callable[[OSError], None] | None = None,
     disk: Disk | None = None,
+    scripts: list[str] | None = None,
 ) -> Iterator[str]:
     """Every document below a folder, sorted within each folder; links to folders are not followed. Folders that have a
-    manifest are appended to `roots`; `on_error` is called for folders that cannot be read."""
+    manifest are appended to `roots`, mock scripts to `scripts`; `on_error` is called for folders that cannot be
+    read."""
     disk = disk or Disk()
     documents: list[str] = []
     for where, folders, names in disk.walk(folder, on_error):
@@ -113,4 +129,6 @@ def documents_below(
             if name.endswith(".yaml") and kind_of(path := os.path.normpath(os.path.join(where, name)), disk):
                 documents.append(path)
                 yield path
+            elif scripts is not None and is_script(name):
+                scripts.append(os.path.normpath(os.path.join(where, name)))
     disk.walked[folder] = documents

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from typing import Any
 
@@ -13,11 +13,11 @@ import IceStorm
 import msgspec
 
 from robocomp_yaml.diag.errors import Refused
+from robocomp_yaml.wire.addresses import Address, Topic
 from robocomp_yaml.wire.interfaces import Operation
 from robocomp_yaml.wire.script import Published, Script, Served
 from robocomp_yaml.wire.values import Data
 
-STORM = "IceStorm/TopicManager:default -p 9999"
 _PATIENCE = 2000  # milliseconds for IceStorm to answer
 
 
@@ -37,10 +37,21 @@ class Call(msgspec.Struct, frozen=True):
 Listener = Callable[[Call], None]
 
 
+class Serving(msgspec.Struct, frozen=True):
+    """What is served: a proxy of it, and who expects it there. `problem` is why it is not served there."""
+
+    proxy: str
+    users: tuple[str, ...] = ()
+    problem: str = ""
+
+
 @contextmanager
-def running(script: Script, endpoints: Mapping[str, str], storm: str, on_call: Listener) -> Iterator[list[str]]:
-    """Serves and publishes while the context lasts; yields the proxies that are served. `endpoints` are those of
-    interfaces, by their type ids. Raises Refused where an endpoint or IceStorm cannot be used."""
+def running(
+    script: Script, addresses: Mapping[str, Sequence[Address]], topics: Mapping[str, Sequence[Topic]], on_call: Listener
+) -> Iterator[list[Serving]]:
+    """Serves and publishes while the context lasts; yields what is served. `addresses` and `topics` are those of
+    interfaces, by their type ids. Raises Refused if an interface cannot be served anywhere, or IceStorm does not
+    answer."""
     data = Ice.InitializationData()
     data.properties = Ice.createProperties()
     data.properties.setProperty("Ice.ThreadPool.Server.Size", "16")  # delays keep a thread busy
@@ -50,15 +61,16 @@ def running(script: Script, endpoints: Mapping[str, str], storm: str, on_call: L
     stop = threading.Event()
     publishers: list[threading.Thread] = []
     try:
-        proxies = [_serve(communicator, one, endpoints[one.interface.id], on_call) for one in script.served]
-        if script.published:
-            manager = _topic_manager(communicator, script.storm or storm or STORM)
-            for one in script.published:
-                target = (one, _publisher(manager, one), on_call, stop)
-                publishers.append(threading.Thread(target=_publish, args=target, daemon=True))
+        served = [
+            each for one in script.served for each in _serve(communicator, one, addresses[one.interface.id], on_call)
+        ]
+        for one in script.published:
+            managers = [(_topic_manager(communicator, topic.manager), topic.name) for topic in topics[one.interface.id]]
+            target = (one, [_publisher(manager, name) for manager, name in managers], on_call, stop)
+            publishers.append(threading.Thread(target=_publish, args=target, daemon=True))
         for thread in publishers:
             thread.start()
-        yield proxies
+        yield served
     finally:
         stop.set()
         for thread in publishers:
@@ -66,19 +78,31 @@ def running(script: Script, endpoints: Mapping[str, str], storm: str, on_call: L
         communicator.destroy()
 
 
-def _serve(communicator: Any, served: Served, endpoint: str, on_call: Listener) -> str:
-    name = served.interface.interface.name
-    try:
-        adapter = communicator.createObjectAdapterWithEndpoints(f"mock {served.interface.id}", endpoint)
-    except Ice.SocketException:
-        raise Refused(f"'{endpoint}' is in use, so {name} cannot be served there: is the component running?") from None
-    except Ice.Exception as error:
-        raise Refused(f"{name} cannot be served at '{endpoint}': {_reason(error)}") from None
+def _serve(communicator: Any, served: Served, addresses: Sequence[Address], on_call: Listener) -> list[Serving]:
+    """Serves an interface at all its addresses, or at those that are free."""
     servant = served.interface.servant(_Answers(served, on_call))
-    adapter.add(servant, communicator.stringToIdentity(name.lower()))
-    adapter.activate()
-    published = adapter.getPublishedEndpoints() or adapter.getEndpoints()
-    return f"{name.lower()}:{':'.join(map(str, published))}"
+    found = [_serve_at(communicator, served, servant, address) for address in addresses]
+    if all(one.problem for one in found):
+        raise Refused(
+            f"{served.interface.interface.name} cannot be served at '{addresses[0].endpoint}': {found[0].problem}"
+        )
+    return found
+
+
+def _serve_at(communicator: Any, served: Served, servant: Any, address: Address) -> Serving:
+    endpoint = address.endpoint
+    try:
+        adapter = communicator.createObjectAdapterWithEndpoints(f"mock {served.interface.id} {endpoint}", endpoint)
+    except Ice.SocketException:
+        problem = "the address is in use: is the component running?"
+    except Ice.Exception as error:
+        problem = _reason(error)
+    else:
+        adapter.add(servant, communicator.stringToIdentity(address.identity))
+        adapter.activate()
+        published = adapter.getPublishedEndpoints() or adapter.getEndpoints()
+        return Serving(f"{address.identity}:{':'.join(map(str, published))}", address.users)
+    return Serving(f"{address.identity}:{endpoint}", address.users, problem)
 
 
 class _Answers:
@@ -117,8 +141,7 @@ def _topic_manager(communicator: Any, text: str) -> Any:
     return IceStorm.TopicManagerPrx.uncheckedCast(proxy)
 
 
-def _publisher(manager: Any, published: Published) -> Any:
-    name = published.interface.interface.name
+def _publisher(manager: Any, name: str) -> Any:
     while True:
         with suppress(IceStorm.NoSuchTopic):
             return manager.retrieve(name).getPublisher().ice_oneway()
@@ -126,13 +149,14 @@ def _publisher(manager: Any, published: Published) -> Any:
             return manager.create(name).getPublisher().ice_oneway()
 
 
-def _publish(published: Published, proxy: Any, on_call: Listener, stop: threading.Event) -> None:
+def _publish(published: Published, proxies: Sequence[Any], on_call: Listener, stop: threading.Event) -> None:
     """Sends the messages in turn. The times are multiples of the period since the first, so that they do not drift."""
     began, name, sent = time.monotonic(), published.interface.interface.name, 0
     while not stop.is_set():
         operation, arguments = published.messages[sent % len(published.messages)]
         try:
-            operation.ice.invoke(proxy, (arguments, None))
+            for proxy in proxies:
+                operation.ice.invoke(proxy, (arguments, None))
         except Ice.Exception as error:
             if stop.is_set():
                 return

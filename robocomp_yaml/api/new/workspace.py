@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 import msgspec
 
@@ -36,18 +36,19 @@ def init(folder: str, report: Report, *, bare: bool = False) -> None:
         _write(component_document(folder, f"{EXAMPLE}Comp", languages.DEFAULT, example), report)
 
 
-def create(make: Callable[[str], NewDocument], report: Report) -> str:
-    """Writes a document into the workspace of this folder, or into a new one. Returns its path. `make` gets the folder
-    of the workspace; if it raises Refused, no workspace is created. Raises OSError if a file cannot be written."""
+def create(make: Callable[[str], Sequence[NewDocument]], report: Report) -> list[str]:
+    """Writes documents into the workspace of this folder, or into a new one. Returns their paths. `make` gets the
+    folder of the workspace; if it raises Refused, nothing is written. Raises OSError if a file cannot be written."""
     root = root_above(".")
     if root is None:
         root = "."
         make(root)
         _make(root, report)
-    document = make(root)
-    _write(document, report)
+    documents = make(root)
+    for document in documents:
+        _write(document, report)
     workspace_files.install(root)
-    return document.path
+    return [document.path for document in documents]
 
 
 def _make(folder: str, report: Report) -> None:

@@ -109,16 +109,18 @@ def last_words(folder: str) -> list[str]:
         return []
 
 
-async def start(folder: str) -> socket.socket:
-    """A connection to a new supervisor. Raises OSError with the last lines of its log if it does not start."""
+async def start(folder: str, *, tied: bool = False) -> socket.socket:
+    """A connection to a new supervisor, which ends with this process if it is `tied` to it. Raises OSError with the
+    last lines of its log if it does not start."""
     package = os.path.abspath(f"{__file__}/../../../..")
     environment = {**os.environ, procfs.MARK: f"{folder}:"}
     environment["PYTHONPATH"] = os.pathsep.join([package, *filter(None, [environment.get("PYTHONPATH")])])
+    command = [sys.executable, "-m", "robocomp_yaml.deploy.local.supervisor", folder]
     log = os.open(f"{folder}/state/supervisor.log", os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC, 0o600)
     try:
         # It goes on when this process ends, which therefore does not wait for it.
         keeper = subprocess.Popen(
-            [sys.executable, "-m", "robocomp_yaml.deploy.local.supervisor", folder],
+            [*command, str(os.getpid())] if tied else command,
             cwd="/", env=environment, stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True,
         )  # fmt: skip
         for _ in range(int(_PATIENCE / 0.02)):

@@ -34,11 +34,13 @@ from robocomp_yaml.network.network import Network
 
 
 class LocalEngine:
-    """See `deploy.engine.Engine`."""
+    """See `deploy.engine.Engine`. What a `tied` engine starts is stopped when this process ends, for whatever
+    reason."""
 
     name = "local"
 
-    def __init__(self) -> None:
+    def __init__(self, *, tied: bool = False) -> None:
+        self._is_tied = tied
         self.notes: list[Diagnostic] = []
         self._client: Client | None = None
         self._network = Network("", "", "")
@@ -59,7 +61,7 @@ class LocalEngine:
                     self.notes.append(deploying.SUPERVISOR_KILLED.at(Span(network.path), more="\n".join(left)))
             if connection is None and create:
                 own_folder.make(network.folder)
-                connection = await client.start(network.folder)
+                connection = await client.start(network.folder, tied=self._is_tied)
         except OSError as error:
             raise self._folder_failed(network.folder, error.strerror or str(error)) from error
         if connection is None:

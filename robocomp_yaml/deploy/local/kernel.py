@@ -23,9 +23,15 @@ def adopt_orphans() -> None:
 
 def die_with(parent: int) -> None:
     """For a new process before `exec`: the kernel kills it when `parent` ends, for whatever reason."""
-    _libc.prctl(_SET_DEATH_SIGNAL, signal.SIGKILL, 0, 0, 0)
-    if os.getppid() != parent:  # the parent has already ended
+    if not signal_at_end_of(parent, signal.SIGKILL):
         os._exit(1)
+
+
+def signal_at_end_of(parent: int, number: int) -> bool:
+    """From now on, the kernel sends this signal to this process when `parent` ends, for whatever reason. Returns False
+    if it has already ended."""
+    _libc.prctl(_SET_DEATH_SIGNAL, number, 0, 0, 0)
+    return os.getppid() == parent
 
 
 @functools.cache

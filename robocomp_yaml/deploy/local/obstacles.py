@@ -15,7 +15,7 @@ from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.terminal import typed
-from robocomp_yaml.network.network import FOLDER, LOOPBACK, Network, Process
+from robocomp_yaml.network.network import FOLDER, LOOPBACK, RUNS, Network, Process
 
 _VALID = 2.0  # seconds for which a check without obstacles is valid
 
@@ -112,6 +112,10 @@ def _owner(pid: int) -> tuple[str, str]:
         return "a program of another user", ""
     owner, _, name = procfs.mark_of(pid).rpartition(":")
     folder, _, deployment = owner.rpartition(f"/{FOLDER}/")
+    above, _, _ = owner.rpartition(f"/{RUNS}/")
+    if above:
+        who = f"'{name}' of `rcyaml run` in {shown_path(above)} (pid {pid})"
+        return who, "end it there with Ctrl-C"
     if not folder:
         return f"{procfs.command_line(pid)} (pid {pid})", f"end it (`kill {pid}`)"
     who = f"'{name}' of the deployment {deployment} in {shown_path(folder)} (pid {pid})"

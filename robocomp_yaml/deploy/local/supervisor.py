@@ -1,9 +1,10 @@
-"""The supervisor of one deployment on this machine: `python -m robocomp_yaml.deploy.local.supervisor FOLDER`.
+"""The supervisor of one deployment on this machine: `python -m robocomp_yaml.deploy.local.supervisor FOLDER [PID]`.
 
 It consists of two processes. The supervisor itself starts and restarts the children, and answers on the control socket,
 in lines of JSON. Its parent, the keeper, waits until the supervisor has ended, and then kills all descendants that the
-supervisor left, which Linux has made children of the keeper. Both use only the standard library, and the keeper forks
-before most of it is imported, so that both stay small.
+supervisor left, which Linux has made children of the keeper. With the PID of the process that started it, the
+supervisor stops its children when that process ends, for whatever reason. Both use only the standard library, and the
+keeper forks before most of it is imported, so that both stay small.
 """
 
 from __future__ import annotations
@@ -28,6 +29,8 @@ def main() -> None:
         sys.exit(0)
     for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
         signal.signal(number, lambda number, frame: _kill(supervisor, number))
+    if len(sys.argv) > 2 and not kernel.signal_at_end_of(int(sys.argv[2]), signal.SIGTERM):
+        _kill(supervisor, signal.SIGTERM)
     status = _wait_for(supervisor)
     _end_all()
     if status == 0:

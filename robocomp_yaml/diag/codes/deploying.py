@@ -1,6 +1,7 @@
 """RC7xxx: deploying. Why a network does not start, and what to know about a running one.
 
-The codes up to RC7019, and those from RC7040, are for all engines and for the local one.
+The codes up to RC7019, and those from RC7040, are for all engines and for the local one, those from RC7030 for
+`rcyaml run`.
 """
 
 from __future__ import annotations
@@ -27,3 +28,4 @@ TOO_SLOW = _PAGE.code("RC7041")
 NOBODY_TO_ASK = _PAGE.code("RC7050")
 NO_REGISTRY = _PAGE.code("RC7020")
 NO_NODE = _PAGE.code("RC7021")
+NOBODY_SERVES = _PAGE.code("RC7030")

@@ -244,3 +244,14 @@ def test_interfaces_are_completed_in_the_shell(workspace: Path, monkeypatch: pyt
 def test_rejected_documents_leave_no_workspace(args: tuple[str, ...], rcyaml: Run, tmp_path: Path) -> None:
     assert rcyaml("new", *args).exit_code == 2
     assert list(tmp_path.iterdir()) == []
+
+
+def test_several_interfaces_or_none(rcyaml: Run, tmp_path: Path) -> None:
+    assert rcyaml("new", "interface", "Arm", "class", "Leg").exit_code == 2
+    assert not list(tmp_path.iterdir())
+    done = rcyaml("new", "interface", "Arm", "Leg", "Arm")
+    assert done.stdout.endswith("next: rcyaml compile interfaces/Arm.idsl.yaml interfaces/Leg.idsl.yaml\n")
+    assert rcyaml("check").stdout == "2 documents: nothing wrong\n"
+    before = read_tree(tmp_path)
+    assert "exists already" in rcyaml("new", "interface", "Hand", "Leg").stderr
+    assert read_tree(tmp_path) == before
