@@ -30,6 +30,7 @@ COMMANDS = {
     "fmt": "Format documents; what they mean does not change.",
     "compile": "Generate Slice and components; write only what changed.",
     "build": "Build the components that are not up to date.",
+    "call": "Call a method of a running component.",
     "mock": "Serve interfaces and publish topics in place of components.",
     "migrate": "Convert legacy files to YAML documents, without loss.",
     "config": "Check, show, change and export the values of parameters.",

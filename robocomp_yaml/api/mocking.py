@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from robocomp_yaml.api.neighbours import workspace_ports
+from robocomp_yaml.api.refusals import without_ice
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, has_errors
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.diag.span import Span
@@ -34,10 +35,9 @@ class Mock:
     def __init__(self, names: Sequence[str], script: str = "", include: Iterable[str] = ()) -> None:
         if not names and not script:
             raise Refused("name the interfaces to stand in for, or a script: rcyaml mock Mouth")
-        try:
-            from robocomp_yaml.wire.script import Reader
-        except ImportError:
-            raise Refused("Ice for Python is not installed: Debian has python3-zeroc-ice, pip has zeroc-ice") from None
+        without_ice()
+        from robocomp_yaml.wire.script import Reader
+
         self._analysis: Analysis = analyse(["."], include)
         errors = (one for one in self._analysis.diagnostics if one.severity == ERROR)
         reader = Reader(self._analysis.program.modules.values(), errors)

@@ -14,7 +14,7 @@ from robocomp_yaml.semantics import paths
 from robocomp_yaml.semantics.paths import Path
 from robocomp_yaml.source import tree
 from robocomp_yaml.source.tree import Node
-from robocomp_yaml.wire.values import Data, Fault, Report, WireType
+from robocomp_yaml.wire.values import Data, Fault, Report, WireType, kept
 
 
 class _Record:
@@ -81,7 +81,7 @@ class Members:
 class Struct(WireType):
     def __init__(self, id_: str, definition: model.Struct, members: Members) -> None:
         self.name, self.members = definition.name, members
-        self._kind = type(definition.name, (_Record,), {})
+        self._kind = kept(type(definition.name, (_Record,), {}))
         self.ice = IcePy.defineStruct(id_, self._kind, (), members.described())
 
     def to_ice(self, node: Node, path: Path, report: Report) -> Any:

@@ -13,7 +13,7 @@ from robocomp_yaml.model.interface import ExceptionType, Interface, Method
 from robocomp_yaml.semantics.paths import Path
 from robocomp_yaml.source import tree
 from robocomp_yaml.wire.types import Types, id_of
-from robocomp_yaml.wire.values import Data, Report, WireType
+from robocomp_yaml.wire.values import Data, Report, WireType, kept
 
 RETURNS = "returns"
 
@@ -24,7 +24,7 @@ class Throwable:
     def __init__(self, scope: LinkedModule, definition: ExceptionType, types: Types) -> None:
         self.name, self.members = definition.name, types.members(scope, definition.members)
         id_ = id_of(scope, definition.name)
-        self.kind: type[Exception] = type(definition.name, (Ice.UserException,), {"_ice_id": id_})
+        self.kind: type[Exception] = kept(type(definition.name, (Ice.UserException,), {"_ice_id": id_}))
         self.ice = IcePy.defineException(id_, self.kind, (), False, None, self.members.described(False, 0))
         self.kind._ice_type = self.ice  # type: ignore[attr-defined]
 
@@ -126,7 +126,7 @@ class WireInterface:
         for name, operation in self.operations.items():
             parts[f"_op_{name}"] = operation.ice
             parts[name] = parts[f"_{name}"] = _dispatched(operation, answer)  # Ice puts `_` before words of Python
-        kind = type(self.interface.name, (Ice.Object,), parts)
+        kind = kept(type(self.interface.name, (Ice.Object,), parts))
         kind._ice_type = IcePy.defineClass(self.id, kind, (), None, ())  # type: ignore[attr-defined]
         servant: Ice.Object = kind()
         return servant

@@ -13,7 +13,7 @@ import math
 import struct
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeVar
 
 import Ice
 import IcePy
@@ -34,6 +34,17 @@ Data = Any
 _INTEGERS = {"byte": (0, 2**8 - 1), "short": (-(2**15), 2**15 - 1), "int": (-(2**31), 2**31 - 1)}
 _INTEGERS["long"] = (-(2**63), 2**63 - 1)
 _SHOWN = 60  # characters of a wrong value in a message
+
+
+_KEPT: list[type] = []
+Kind = TypeVar("Kind", bound=type)
+
+
+def kept(kind: Kind) -> Kind:
+    """A class that Ice is told of. It is kept until the process ends: Ice has no reference of its own to it, and crashes
+    without it."""
+    _KEPT.append(kind)
+    return kind
 
 
 class Fault(msgspec.Struct, frozen=True):
@@ -174,7 +185,7 @@ class Text(WireType):
 class Enumeration(WireType):
     def __init__(self, id_: str, definition: model.Enum) -> None:
         self.name = definition.name
-        kind = type(definition.name, (Ice.EnumBase,), {})
+        kind = kept(type(definition.name, (Ice.EnumBase,), {}))
         self._values: dict[str, Any] = {}
         number = -1
         for enumerator in definition.enumerators:
