@@ -14,7 +14,7 @@ from robocomp_yaml.semantics import paths
 from robocomp_yaml.semantics.paths import Path
 from robocomp_yaml.source import tree
 from robocomp_yaml.source.tree import Node
-from robocomp_yaml.wire.values import Data, Fault, Report, WireType, kept
+from robocomp_yaml.wire.values import Data, Fault, Report, Shape, WireType, kept
 
 
 class _Record:
@@ -37,6 +37,10 @@ class Members:
         self.types = {member.name: type_ for member, type_ in members}
         self._defaults = {member.name: member.default for member, _ in members if member.default is not None}
         self._attributes = {name: f"m{number}" for number, name in enumerate(self.types)}
+
+    @property
+    def shape(self) -> Shape:
+        return tuple((name, type_.shape, str(self._defaults.get(name))) for name, type_ in self.types.items())
 
     def described(self, *more: object) -> tuple[tuple[object, ...], ...]:
         """As Ice wants them described."""
@@ -83,6 +87,11 @@ class Struct(WireType):
         self.name, self.members = definition.name, members
         self._kind = kept(type(definition.name, (_Record,), {}))
         self.ice = IcePy.defineStruct(id_, self._kind, (), members.described())
+        self._id = id_
+
+    @property
+    def shape(self) -> Shape:
+        return (self._id, self.members.shape)
 
     def to_ice(self, node: Node, path: Path, report: Report) -> Any:
         if not isinstance(node, tree.Mapping):
@@ -109,6 +118,11 @@ class SequenceOf(WireType):
     def __init__(self, id_: str, name: str, element: WireType) -> None:
         self.name, self._element = name, element
         self.ice = IcePy.defineSequence(id_, (), element.ice)
+        self._id = id_
+
+    @property
+    def shape(self) -> Shape:
+        return (self._id, self._element.shape)
 
     def to_ice(self, node: Node, path: Path, report: Report) -> Any:
         if not isinstance(node, tree.Sequence):
@@ -132,6 +146,11 @@ class MapOf(WireType):
     def __init__(self, id_: str, name: str, key: WireType, value: WireType) -> None:
         self.name, self._key, self._value = name, key, value
         self.ice = IcePy.defineDictionary(id_, (), key.ice, value.ice)
+        self._id = id_
+
+    @property
+    def shape(self) -> Shape:
+        return (self._id, self._key.shape, self._value.shape)
 
     def to_ice(self, node: Node, path: Path, report: Report) -> Any:
         if isinstance(self._key, Struct):

@@ -36,6 +36,7 @@ _INTEGERS["long"] = (-(2**63), 2**63 - 1)
 _SHOWN = 60  # characters of a wrong value in a message
 
 
+Shape = tuple[Any, ...]
 _KEPT: list[type] = []
 Kind = TypeVar("Kind", bound=type)
 
@@ -64,6 +65,11 @@ class WireType(ABC):
 
     name: str
     ice: Any
+
+    @property
+    def shape(self) -> Shape:
+        """What makes the type the same as another one."""
+        return (self.name,)
 
     @abstractmethod
     def to_ice(self, node: Node, path: Path, report: Report) -> Any:
@@ -193,6 +199,11 @@ class Enumeration(WireType):
             self._values[enumerator.name] = kind(enumerator.name, number)
         self._names = {value.value: name for name, value in self._values.items()}
         self.ice = IcePy.defineEnum(id_, kind, (), {value.value: value for value in self._values.values()})
+        self._shape = (id_, *self._names.items())
+
+    @property
+    def shape(self) -> Shape:
+        return self._shape
 
     def to_ice(self, node: Node, path: Path, report: Report) -> Any:
         name = node.lexeme if isinstance(node, tree.Scalar) else ""

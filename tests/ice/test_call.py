@@ -10,6 +10,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -41,8 +42,8 @@ class Server:
 DEPLOYMENT = """\
 deployment: Robot
 components:
-  arm: {{component: server, ports: {{Arm: {arm}, Hand: {hand}}}}}
-  twin: {{component: server, instances: 2}}
+  arm: {{component: server, ports: {{Arm: {arm}, Hand: {hand}, CommonBehavior: {common}}}}}
+  twin{{i}}: {{component: server, instances: 2}}
 """
 
 
@@ -51,9 +52,9 @@ def server(build: Build, start: Start, free_port: Ports, tmp_path: Path) -> Serv
     write_tree(tmp_path, {"rcyaml.yaml": "interfaces: [.]\n"})
     made = build({**INTERFACES, "server/server.cdsl.yaml": cdsl("Server", implements=["Arm", "Hand"])})["Server"]
     (made.root / "src" / "specificworker.py").write_text(SERVER)
-    arm, hand = free_port(), free_port()
-    made.configure({"Arm.Endpoints": f"tcp -p {arm}", "Hand.Endpoints": f"tcp -p {hand}"})
-    write_tree(tmp_path, {"robot.ddsl.yaml": DEPLOYMENT.format(arm=arm, hand=hand)})
+    arm, hand, common = free_port(), free_port(), free_port()
+    made.configure({"Arm.Endpoints": f"tcp -p {arm}", "Hand.Endpoints": f"tcp -p {hand}", "CommonBehavior.Endpoints": f"tcp -p {common}"})
+    write_tree(tmp_path, {"robot.ddsl.yaml": DEPLOYMENT.format(arm=arm, hand=hand, common=common)})
     running = start(made.command).wait_for("Server is running")
     return Server(running, arm, hand)
 
@@ -81,7 +82,7 @@ def test_values_are_spelled_as_in_documents(server: Server, rcyaml: Rcyaml) -> N
     done = rcyaml("call", "arm.state")
     assert done.stdout == (
         "returns: right\n"
-        "out: {pose: {x: 1.0, y: 2.0, side: left}, named: {home: {x: 3.0, y: 4.0, side: left}}}\n"
+        'out: {pose: {x: 1.0, "y": 2.0, side: left}, named: {home: {x: 3.0, "y": 4.0, side: left}}}\n'
     )  # fmt: skip
     assert rcyaml("call", "arm.grasp", "image=[1, 2, 255]").stdout == "returns: [255, 2, 1]\n"
     assert rcyaml("call", "arm.grasp", "-", stdin="image:\n- 7\n- 8\n").stdout == "returns: [8, 7]\n"
@@ -91,7 +92,7 @@ def test_values_are_spelled_as_in_documents(server: Server, rcyaml: Rcyaml) -> N
 def test_exceptions_are_values(server: Server, rcyaml: Rcyaml) -> None:
     done = rcyaml("call", "arm.move", f"{{{POSES}}}", "fast=true")
     assert done.exit_code == 1
-    assert done.stdout == "throws: {Blocked: {where: {x: 1.0, y: 2.0, side: left}, force: 9.5}}\n"
+    assert done.stdout == 'throws: {Blocked: {where: {x: 1.0, "y": 2.0, side: left}, force: 9.5}}\n', done.output
     done = rcyaml("call", "arm.breakDown", "--format", "json")
     assert done.exit_code == 1
     (name, members), = json.loads(done.stdout)["throws"].items()  # fmt: skip
@@ -131,7 +132,8 @@ def test_wrong_arguments_are_not_sent(tmp_path: Path, rcyaml: Rcyaml, words: lis
         (["arm.moove"], "arm has no method 'moove'; did you mean 'move'?"),
         (["arm"], "name a method of arm; there is arm.Arm.move"),
         (["arm.Hand"], "name a method of Hand: arm.Hand.grasp"),
-        (["twin.Arm.move"], "'twin' means several processes; name one of twin"),
+        (["twin.Arm.move"], "robot.ddsl.yaml has no component 'twin'; did you mean 'twin"),
+        (["twin{i}.Arm.move"], "'twin{i}' means several processes; name one of twin0, twin1"),
         (["arm.Hand.grasp", "x"], "'x' is neither NAME=VALUE nor a mapping of arguments; write image=…"),
         (["arm.Hand.grasp", "image=[]", "--timeout", "soon"], "'soon' is not a duration"),
         (["nowhere.Arm.move", "--deployment", "other.ddsl.yaml"], "other.ddsl.yaml"),
@@ -139,7 +141,7 @@ def test_wrong_arguments_are_not_sent(tmp_path: Path, rcyaml: Rcyaml, words: lis
 )
 def test_what_is_not_known(build: Build, tmp_path: Path, rcyaml: Rcyaml, words: list[str], said: str) -> None:
     build({**INTERFACES, "server/server.cdsl.yaml": cdsl("Server", implements=["Arm", "Hand"])})
-    write_tree(tmp_path, {"rcyaml.yaml": "interfaces: [.]\n", "robot.ddsl.yaml": DEPLOYMENT.format(arm=9, hand=10)})
+    write_tree(tmp_path, {"rcyaml.yaml": "interfaces: [.]\n", "robot.ddsl.yaml": DEPLOYMENT.format(arm=19, hand=10, common=11)})
     done = rcyaml("call", *words)
     assert done.exit_code == 2
     assert said in done.output
@@ -203,8 +205,8 @@ def test_something_that_does_not_speak_ice(tmp_path: Path, rcyaml: Rcyaml) -> No
     def greet() -> None:
         connection, _ = listener.accept()
         connection.sendall(b"220 mail ready\r\n" * 4)
-        connection.recv(100)
-        connection.close()
+        with suppress(ConnectionError), connection:
+            connection.recv(100)
 
     with socket.create_server(("127.0.0.1", 0)) as listener:
         thread = threading.Thread(target=greet)
@@ -215,7 +217,8 @@ def test_something_that_does_not_speak_ice(tmp_path: Path, rcyaml: Rcyaml) -> No
 
 
 def test_again_and_again(server: Server, rcyaml: Rcyaml, start: Start, tmp_path: Path) -> None:
-    assert rcyaml("call", "arm.getState", "--repeat", "3").stdout == "---\n".join(["returns: Running\n"] * 3)
+    done = rcyaml("call", "arm.getState", "--repeat", "3")
+    assert done.stdout == "---\n".join(["returns: Running\n"] * 3), done.output
     done = rcyaml("call", "arm.breakDown", "--repeat", "2", "--format", "json")
     assert done.exit_code == 1 and len(done.stdout.splitlines()) == 2
     running = start([RCYAML, "call", "arm.timeAwake", "--every", "50ms", "--format", "json"], cwd=tmp_path)
@@ -273,7 +276,7 @@ def calls(rcyaml: Rcyaml, arm: int, hand: int) -> None:
     done = rcyaml("call", f"localhost:{arm}.move", f"{{{POSES}, fast: false}}", "--format", "json")
     assert result(done) == {"returns": 2}
     done = rcyaml("call", f"localhost:{arm}.move", f"{{{POSES}, fast: true}}")
-    assert done.exit_code == 1 and done.stdout.startswith("throws: {Blocked: {where: {x: 1.0, y: 2.0, side: left}")
+    assert done.exit_code == 1 and done.stdout.startswith('throws: {Blocked: {where: {x: 1.0, "y": 2.0')
     assert rcyaml("call", f"localhost:{arm}.state").stdout.startswith("returns: right\nout: {pose: {x: 1.0")
     assert rcyaml("call", f"localhost:{hand}.grasp", "image=[1, 2, 255]").stdout == "returns: [255, 2, 1]\n"
     done = rcyaml("call", f"localhost:{arm}.breakDown")
