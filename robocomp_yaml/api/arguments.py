@@ -112,7 +112,7 @@ class _Reader(msgspec.Struct):
 def read(scope: LinkedModule, method: Method, words: Sequence[str], stdin: str | None = None) -> Arguments:
     """The arguments in the words of a command line, of which `-` means the text `stdin`. Raises Refused if a word is
     neither an assignment nor a mapping, and Faulty if YAML cannot be parsed."""
-    texts = {ALL: " ".join(words)}
+    texts = {ALL: " ".join(words) or method.name}
     reader = _Reader(scope, method.inputs, texts)
     for number, word in enumerate(words, 1):
         file = STDIN if word == "-" else f"argument {number}"

@@ -5,20 +5,18 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from typing import Any
 
 import Ice
-import IceStorm
 import msgspec
 
-from robocomp_yaml.diag.errors import Refused
+from robocomp_yaml.diag.errors import NoAnswer, Refused
+from robocomp_yaml.wire.client import reason_of
 from robocomp_yaml.wire.interfaces import Operation
 from robocomp_yaml.wire.script import Published, Script, Served
+from robocomp_yaml.wire.storm import STORM, topic, topic_manager
 from robocomp_yaml.wire.values import Data
-
-STORM = "IceStorm/TopicManager:default -p 9999"
-_PATIENCE = 2000  # milliseconds for IceStorm to answer
 
 
 class Call(msgspec.Struct, frozen=True):
@@ -52,9 +50,10 @@ def running(script: Script, endpoints: Mapping[str, str], storm: str, on_call: L
     try:
         proxies = [_serve(communicator, one, endpoints[one.interface.id], on_call) for one in script.served]
         if script.published:
-            manager = _topic_manager(communicator, script.storm or storm or STORM)
+            manager = _manager(communicator, script.storm or storm or STORM)
             for one in script.published:
-                target = (one, _publisher(manager, one), on_call, stop)
+                proxy = topic(manager, one.interface.interface.name).getPublisher().ice_oneway()
+                target = (one, proxy, on_call, stop)
                 publishers.append(threading.Thread(target=_publish, args=target, daemon=True))
         for thread in publishers:
             thread.start()
@@ -73,7 +72,7 @@ def _serve(communicator: Any, served: Served, endpoint: str, on_call: Listener) 
     except Ice.SocketException:
         raise Refused(f"'{endpoint}' is in use, so {name} cannot be served there: is the component running?") from None
     except Ice.Exception as error:
-        raise Refused(f"{name} cannot be served at '{endpoint}': {_reason(error)}") from None
+        raise Refused(f"{name} cannot be served at '{endpoint}': {reason_of(error)}") from None
     servant = served.interface.servant(_Answers(served, on_call))
     adapter.add(servant, communicator.stringToIdentity(name.lower()))
     adapter.activate()
@@ -108,22 +107,11 @@ class _Answers:
         return answer.result
 
 
-def _topic_manager(communicator: Any, text: str) -> Any:
+def _manager(communicator: Any, text: str) -> Any:
     try:
-        proxy = communicator.stringToProxy(text).ice_invocationTimeout(_PATIENCE)
-        proxy.ice_ping()
-    except Ice.Exception as error:
-        raise Refused(f"IceStorm, which carries topics, does not answer at '{text}': {_reason(error)}") from None
-    return IceStorm.TopicManagerPrx.uncheckedCast(proxy)
-
-
-def _publisher(manager: Any, published: Published) -> Any:
-    name = published.interface.interface.name
-    while True:
-        with suppress(IceStorm.NoSuchTopic):
-            return manager.retrieve(name).getPublisher().ice_oneway()
-        with suppress(IceStorm.TopicExists):
-            return manager.create(name).getPublisher().ice_oneway()
+        return topic_manager(communicator, text)
+    except NoAnswer as error:
+        raise Refused(str(error)) from None
 
 
 def _publish(published: Published, proxy: Any, on_call: Listener, stop: threading.Event) -> None:
@@ -141,9 +129,3 @@ def _publish(published: Published, proxy: Any, on_call: Listener, stop: threadin
             on_call(Call(name, operation.name, operation.inputs_as_data(arguments), is_published=True))
         sent += 1
         stop.wait(max(0.0, began + sent / published.rate - time.monotonic()))
-
-
-def _reason(error: Exception) -> str:
-    """An exception of Ice in one line."""
-    reason = getattr(error, "reason", "") or getattr(error, "str", "")
-    return reason or type(error).__name__

@@ -1,0 +1,188 @@
+"""`rcyaml topic`: a real IceStorm, and a generated component that publishes."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from click.testing import Result
+
+from components import Build, Built
+from conftest import write_tree
+from processes import Start, Storm, until
+from scenario import INTERFACES, cdsl
+
+Rcyaml = Callable[..., Result]
+RCYAML = os.path.join(os.path.dirname(sys.executable), "rcyaml")
+PUBLISHER = """
+from generated.genericworker import GenericWorker
+from generated.interfaces import RoboCompTypes
+
+class SpecificWorker(GenericWorker):
+    def initialize(self):
+        self.n = 0
+
+    def compute(self):
+        self.n += 1
+        self.armevents_proxy.count(self.n)
+        if self.n % 2:
+            self.armevents_proxy.moved(RoboCompTypes.Pose(x=self.n, side=RoboCompTypes.Side.right))
+"""
+DEPLOYMENT = """\
+deployment: Robot
+components:
+  left: {{component: p, topics: {{ArmEvents: {name}}}}}
+  right: {{component: s, topics: {{ArmEvents: {name}}}}}
+"""
+
+
+class Talk:
+    """A publisher at 50 Hz of a topic of the documents whose name in IceStorm is `name`."""
+
+    def __init__(self, name: str, publisher: Built, manager: str) -> None:
+        self.name, self.publisher, self.manager = name, publisher, manager
+        publisher.configure({"TopicManager.Proxy": manager, "ArmEvents": name, "period.compute": 20})
+
+
+@pytest.fixture
+def talk(build: Build, icestorm: Storm, tmp_path: Path) -> Talk:
+    name = f"Events{time.monotonic_ns()}"
+    write_tree(tmp_path, {"rcyaml.yaml": "interfaces: [.]\n"})
+    built = build({
+        **INTERFACES,
+        "p/p.cdsl.yaml": cdsl("Publisher", publishes=["ArmEvents"]),
+        "s/s.cdsl.yaml": cdsl("Subscriber", subscribes=["ArmEvents"]),
+    })  # fmt: skip
+    (built["Publisher"].root / "src" / "specificworker.py").write_text(PUBLISHER)
+    for folder in "ps":
+        write_tree(tmp_path, {f"{folder}/etc/config": f"TopicManager.Proxy = {icestorm.manager}\n"})
+    write_tree(tmp_path, {"robot.ddsl.yaml": DEPLOYMENT.format(name=name)})
+    return Talk(name, built["Publisher"], icestorm.manager)
+
+
+def rows(rcyaml: Rcyaml) -> dict[str, dict[str, object]]:
+    done = rcyaml("topic", "list", "--format", "json")
+    assert done.exit_code == 0, done.output
+    return {one["topic"]: one for one in json.loads(done.stdout)["topics"]}
+
+
+def test_who_publishes_and_subscribes(talk: Talk, start: Start, rcyaml: Rcyaml) -> None:
+    before = rows(rcyaml)[talk.name]
+    assert before == {
+        "topic": talk.name, "carries": "RoboCompArm.ArmEvents", "storm": talk.manager, "publishers": ["left"],
+        "subscribers": ["right"], "subscribed": None,
+    }  # fmt: skip
+    start(talk.publisher.command).wait_for("Publisher is running")
+    assert rows(rcyaml)[talk.name]["subscribed"] == 0
+    listed = rcyaml("topic", "list").stdout.splitlines()
+    assert listed[0].split("  ")[0].startswith("TOPIC")
+    assert [one for one in listed if one.startswith(f"{talk.name}  RoboCompArm.ArmEvents  left")]
+
+
+def test_messages_as_they_come(talk: Talk, start: Start, rcyaml: Rcyaml) -> None:
+    start(talk.publisher.command).wait_for("Publisher is running")
+    done = rcyaml("topic", "echo", f"{talk.name}.count", "--count", "5", "--format", "json")
+    messages = [json.loads(line) for line in done.stdout.splitlines()]
+    numbers = [one["arguments"]["n"] for one in messages]
+    assert numbers == list(range(numbers[0], numbers[0] + 5))
+    assert {(one["topic"], one["method"]) for one in messages} == {(talk.name, "count")}
+    done = rcyaml("topic", "echo", talk.name, "--count", "4")
+    assert f"{talk.name}.moved(pose: {{x: " in done.stdout and "side: right})" in done.stdout
+    assert len(done.stdout.splitlines()) == 4
+    assert rows(rcyaml)[talk.name]["subscribed"] == 0
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGKILL])
+def test_the_subscription_ends_with_the_command(talk: Talk, start: Start, rcyaml: Rcyaml, tmp_path: Path, number: int) -> None:
+    start(talk.publisher.command).wait_for("Publisher is running")
+    echo = start([RCYAML, "topic", "echo", talk.name], cwd=tmp_path).wait_for(f"{talk.name}.count(n: ")
+    assert rows(rcyaml)[talk.name]["subscribed"] == 1
+    code = echo.stop(number)
+    assert code == (130 if number == signal.SIGINT else -9 if number == signal.SIGKILL else 143)
+    # What is killed cannot say goodbye: IceStorm removes it when the next message does not arrive.
+    until(lambda: rows(rcyaml)[talk.name]["subscribed"] == 0, "the end of the subscription", 10)
+
+
+def test_the_reader_goes(talk: Talk, start: Start, rcyaml: Rcyaml, tmp_path: Path) -> None:
+    start(talk.publisher.command).wait_for("Publisher is running")
+    head = start(["bash", "-c", f"set -o pipefail; '{RCYAML}' topic echo {talk.name} | head -1"], cwd=tmp_path)
+    assert head.exit_code() == 141
+    assert rows(rcyaml)[talk.name]["subscribed"] == 0
+
+
+def test_rate_and_jitter(talk: Talk, start: Start, rcyaml: Rcyaml) -> None:
+    start(talk.publisher.command).wait_for("Publisher is running")
+    done = rcyaml("topic", "hz", f"{talk.name}.count", "--for", "2s", "--every", "900ms", "--format", "json")
+    reports = [json.loads(line) for line in done.stdout.splitlines()]
+    assert 2 <= len(reports) <= 4
+    assert 25 < reports[1]["rate"] < 60 and reports[1]["min"] <= reports[1]["mean"] <= reports[1]["max"]
+    assert "/s   every " in rcyaml("topic", "hz", talk.name, "--count", "10").stdout
+    done = rcyaml("topic", "hz", talk.name, "--for", "300ms", "--storm", talk.manager, "--type", "ArmEvents", "--every", "200ms")
+    assert done.exit_code == 0
+
+
+def test_a_component_hears_what_is_published(talk: Talk, build: Build, start: Start, rcyaml: Rcyaml, tmp_path: Path) -> None:
+    (tmp_path / "s" / "src" / "specificworker.py").write_text(
+        "from generated.genericworker import GenericWorker\n\nclass SpecificWorker(GenericWorker):\n"
+        "    def ArmEvents_moved(self, pose):\n        print('moved', pose.x, pose.y, pose.side)\n\n"
+        "    def ArmEvents_count(self, n):\n        print('count', n)\n"
+    )
+    subscriber = Built("Subscriber", tmp_path / "s", "python")
+    subscriber.configure({"TopicManager.Proxy": talk.manager, "ArmEvents": talk.name})
+    hearing = start(subscriber.command).wait_for("Subscriber is running")
+    assert rcyaml("topic", "pub", f"{talk.name}.moved", "pose={x: 4, side: right}").exit_code == 0
+    hearing.wait_for("moved 4.0 2.5 right")
+    began = time.monotonic()
+    done = rcyaml("topic", "pub", f"{talk.name}.count", "n=7", "--rate", "20", "--count", "6", "--format", "json")
+    assert json.loads(done.stdout)["sent"] == 6 and 0.2 < time.monotonic() - began
+    until(lambda: hearing.output.count("count 7") == 6, lambda: hearing.output)
+
+
+def test_a_thousand_messages_per_second(talk: Talk, start: Start, tmp_path: Path) -> None:
+    """What is published as fast as it goes arrives completely, in its order."""
+    echo = start([RCYAML, "topic", "echo", f"{talk.name}.count", "--count", "5000", "--format", "json"], cwd=tmp_path)
+    topic = "from robocomp_yaml.api.addresses import Addresses\nfrom robocomp_yaml.api.topics import Topics\n"
+    script = f"""{topic}
+import time
+topics = Topics(Addresses("robot.ddsl.yaml"))
+topic, _ = topics.find({talk.name!r})
+while not {{one.name: one.subscribed for one in topics.known()[0]}}[topic.name]:
+    time.sleep(0.05)
+messages = [topics.message(topic, "count", [f"n={{n}}"]) for n in range(5000)]
+with topics.publisher(topic) as publisher:
+    began = time.monotonic()
+    for number, message in enumerate(messages):
+        time.sleep(max(0, began + number / 1250 - time.monotonic()))
+        publisher.send(message)
+print("sent in", time.monotonic() - began)
+"""
+    start([sys.executable, "-c", script], cwd=tmp_path).wait_for("sent in")
+    assert echo.exit_code() == 0
+    numbers = [json.loads(line)["arguments"]["n"] for line in echo.output.splitlines()]
+    assert numbers == list(range(5000))
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "said"),
+    [
+        (["echo", "ArmEvent"], 2, "unknown topic 'ArmEvent'; did you mean"),
+        (["echo", "ArmEvents.mooved"], 2, "did you mean 'moved'?"),
+        (["echo", "Other", "--type", "Nothing"], 2, "'Nothing' is not one topic of these documents"),
+        (["pub", "ArmEvents"], 2, "name the message: ArmEvents.moved, ArmEvents.count"),
+        (["pub", "ArmEvents.count", "n=x"], 1, "argument 1:1:3"),
+        (["pub", "ArmEvents.count", "n=1"], 1, "does not answer at 'IceStorm/TopicManager:tcp -h localhost -p 9"),
+        (["list"], 1, "does not answer at"),
+        (["echo", "ArmEvents"], 1, "nothing listens there"),
+    ],
+)
+def test_what_cannot_be_done(rcyaml: Rcyaml, tmp_path: Path, words: list[str], code: int, said: str) -> None:
+    write_tree(tmp_path, {**INTERFACES, "rcyaml.yaml": "interfaces: [.]\n", "p/p.cdsl.yaml": cdsl("P", publishes=["ArmEvents"])})
+    done = rcyaml("topic", *words, "--storm", "IceStorm/TopicManager:tcp -h localhost -p 9")
+    assert done.exit_code == code
+    assert said in done.output
