@@ -31,6 +31,7 @@ COMMANDS = {
     "compile": "Generate Slice and components; write only what changed.",
     "build": "Build the components that are not up to date.",
     "call": "Call a method of a running component.",
+    "param": "Parameters of a running component: list, get, set, watch.",
     "topic": "The topics of a running network: list, echo, hz, pub.",
     "mock": "Serve interfaces and publish topics in place of components.",
     "migrate": "Convert legacy files to YAML documents, without loss.",

@@ -119,6 +119,7 @@ class Addresses:
             if not self._is_one and linked and linked.find(text, "")[0]:
                 raise Refused(f"there are several deployments, and {path} has '{text.partition('.')[0]}': "
                               f"name one with --deployment {path}")  # fmt: skip
+        self._refuse_errors({path for path in self._deployments if os.path.realpath(path) not in self.analysis.networks})
         known = self.names()
         first = text.partition(".")[0]
         listed = ", ".join(known[:_MOST]) + (f" and {len(known) - _MOST} more" if len(known) > _MOST else "")
@@ -182,7 +183,7 @@ class Addresses:
         for linked in self.program.components.values():
             path = os.path.normpath(linked.component.path)
             folder = os.path.dirname(path)
-            names = {linked.component.name, stem(path), os.path.basename(folder), os.path.relpath(folder), path}
+            names = {linked.component.name, stem(path), os.path.basename(folder), os.path.relpath(folder or "."), path}
             for name in names - {"", "."}:
                 known.setdefault(name, []).append(linked)
         name = next((one for one in _prefixes(text) if one in known), "")

@@ -37,8 +37,8 @@ class SpecificWorker(GenericWorker):
 DEPLOYMENT = """\
 deployment: Robot
 components:
-  left: {{component: p, topics: {{ArmEvents: {name}}}}}
-  right: {{component: s, topics: {{ArmEvents: {name}}}}}
+  left: {{component: p, config: etc/config, topics: {{ArmEvents: {name}}}}}
+  right: {{component: s, config: etc/config, topics: {{ArmEvents: {name}}}}}
 """
 
 
