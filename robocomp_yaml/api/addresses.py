@@ -26,7 +26,7 @@ from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.source.ice_endpoint import IceEndpoint, parse_endpoint
 from robocomp_yaml.wire.behavior import MODULE, common_behavior
 
-_HOST = pattern(r"(\[[0-9A-Fa-f:.%\w]+\]|[\w.-]+):(\d{1,5})(?:[./](.*))?\Z")
+_HOST = pattern(r"(?:(tcp|ssl|ws|wss):)?(\[[0-9A-Fa-f:.%\w]+\]|[\w.-]+):(\d{1,5})(?:[./](.*))?\Z")
 _MOST = 12  # names in a message
 
 
@@ -111,7 +111,8 @@ class Addresses:
         """Who is meant by `speech`, `speech.Speech.say`, `components/speech` or `localhost:10001.Speech.say`. Raises
         Refused if nobody is, or more than one."""
         if at_port := _HOST.match(text):
-            return self._at_port(at_port[1].strip("[]"), int(at_port[2]), at_port[3] or "")
+            endpoint = IceEndpoint(int(at_port[3]), at_port[1] or "tcp").reached_at(at_port[2].strip("[]"))
+            return self._at_port(text[: at_port.end(3)], endpoint, at_port[4] or "")
         return self._of_entry(text) or self._of_component(text) or self._unknown(text)
 
     def _unknown(self, text: str) -> Peer:
@@ -119,7 +120,9 @@ class Addresses:
             if not self._is_one and linked and linked.find(text, "")[0]:
                 raise Refused(f"there are several deployments, and {path} has '{text.partition('.')[0]}': "
                               f"name one with --deployment {path}")  # fmt: skip
-        self._refuse_errors({path for path in self._deployments if os.path.realpath(path) not in self.analysis.networks})
+        self._refuse_errors(
+            {path for path in self._deployments if os.path.realpath(path) not in self.analysis.networks}
+        )
         known = self.names()
         first = text.partition(".")[0]
         listed = ", ".join(known[:_MOST]) + (f" and {len(known) - _MOST} more" if len(known) > _MOST else "")
@@ -211,13 +214,12 @@ class Addresses:
         hint = f"start it with {os.path.join(os.path.dirname(path), program)}"
         return Peer(name, rest, tuple(doors), Span(path), hint, linked)
 
-    def _at_port(self, host: str, port: int, rest: str) -> Peer:
+    def _at_port(self, name: str, endpoint: str, rest: str) -> Peer:
         """Whatever listens at a port: any interface of the workspace may be there."""
-        endpoint = IceEndpoint(port).reached_at(host)
         every = [(scope, one) for scope in self.program.modules.values() for one in scope.module.interfaces]
         every.append((common_behavior(), common_behavior().module.interfaces[0]))
         doors = [Door(one.name, scope, one, f"{one.name.lower()}:{endpoint}") for scope, one in every]
-        return Peer(f"{host}:{port}", rest, tuple(doors))
+        return Peer(name, rest, tuple(doors))
 
     def door(self, peer: Peer, words: Sequence[str]) -> Door:
         """The interface of a peer that is named, by itself or after its module. Raises Refused, and Faulty if its

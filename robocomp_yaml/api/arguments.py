@@ -94,12 +94,14 @@ class _Reader(msgspec.Struct):
         for step in steps[:-1]:
             _, inner = parts.entries.setdefault(step.lexeme, (step, _Parts()))
             if not isinstance(inner, _Parts):
-                return self._twice(step)
+                self._twice(step)
+                return
             parts = inner
         last = steps[-1]
         if last.lexeme in parts.entries:
-            return self._twice(last)
-        parts.entries[last.lexeme] = (last, node)
+            self._twice(last)
+        else:
+            parts.entries[last.lexeme] = (last, node)
 
     def _twice(self, key: Scalar) -> None:
         path = f"'{key.lexeme}'"

@@ -38,7 +38,10 @@ class Reply(msgspec.Struct, frozen=True):
         """As a mock script spells an answer."""
         if self.throws:
             return {"throws": {self.throws: dict(self.members)}}
-        return {**({"returns": self.returns} if self.has_value else {}), **({"out": dict(self.out)} if self.out else {})}
+        return {
+            **({"returns": self.returns} if self.has_value else {}),
+            **({"out": dict(self.out)} if self.out else {}),
+        }
 
 
 class RemoteMethod:

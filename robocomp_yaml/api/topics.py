@@ -8,6 +8,7 @@ from contextlib import ExitStack, contextmanager
 from typing import TYPE_CHECKING, Any
 
 import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml.api import arguments as reading
 from robocomp_yaml.api.addresses import Addresses
@@ -15,9 +16,12 @@ from robocomp_yaml.api.calling import TIMEOUT
 from robocomp_yaml.api.refusals import meant, without_ice
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.errors import Faulty, NoAnswer, Refused
-from robocomp_yaml.link.program import LinkedModule
+from robocomp_yaml.emit.ports import config_path, is_own
+from robocomp_yaml.link.program import LinkedComponent, LinkedModule
 from robocomp_yaml.model.interface import Interface
+from robocomp_yaml.network.configuration_base import ConfigurationBase
 from robocomp_yaml.network.network import TOPIC
+from robocomp_yaml.source import properties
 
 if TYPE_CHECKING:
     from robocomp_yaml.wire.interfaces import Operation, WireInterface
@@ -71,15 +75,12 @@ class Topics:
         self.documented: tuple[KnownTopic, ...] = tuple(self._of_documents())
 
     def _of_documents(self) -> Iterator[KnownTopic]:
-        found: dict[tuple[str, str], dict[str, Any]] = {}
+        found: dict[tuple[str, str], KnownTopic] = {}
         for name, storm, owner, is_out, scope, interface in self._ends():
-            facts = found.setdefault((storm, name), {"publishers": [], "subscribers": []})
-            facts["publishers" if is_out else "subscribers"].append(owner)
-            facts.setdefault("scope", scope)
-            facts.setdefault("interface", interface)
-        for (storm, name), facts in sorted(found.items(), key=lambda item: item[0][::-1]):
-            ends = {key: tuple(facts.pop(key)) for key in ("publishers", "subscribers")}
-            yield KnownTopic(name, storm, **facts, **ends)
+            topic = found.setdefault((name, storm), KnownTopic(name, storm, scope, interface))
+            ends = "publishers" if is_out else "subscribers"
+            found[name, storm] = replace(topic, **{ends: (*getattr(topic, ends), owner)})
+        yield from (topic for _, topic in sorted(found.items()))
 
     def _ends(self) -> Iterator[tuple[str, str, str, bool, LinkedModule, Interface]]:
         from robocomp_yaml.wire.storm import STORM
@@ -98,10 +99,24 @@ class Topics:
             names = ", ".join(self.addresses.deployments)
             raise Refused(f"there are several deployments: {names}; name one with --deployment")
         for each in self.addresses.program.components.values():
+            base = self._configuration(each)
+            storm = self._storm or base.manager or STORM
             for is_out, ports in ((True, each.publishes), (False, each.subscribes)):
                 for port in ports:
-                    name = port.interface.name
-                    yield name, self._storm or STORM, each.component.name, is_out, port.scope, port.interface
+                    name = base.topic(port.name, port.interface.name, is_out=is_out)
+                    yield name, storm, each.component.name, is_out, port.scope, port.interface
+
+    def _configuration(self, component: LinkedComponent) -> ConfigurationBase:
+        """What a component of the workspace starts with: its values document, else its etc/config."""
+        program = self.addresses.program
+        own = (one for one in program.values.values() if is_own(one) and one.parameters is not None)
+        values = next((one for one in own if one.parameters and one.parameters.component is component), None)
+        if values is not None:
+            return ConfigurationBase(values)
+        path = config_path(component)
+        raw = program.disk.read(path)[0] if program.disk.has_file(path) else None
+        text = (raw or b"").decode("utf-8", "replace")
+        return ConfigurationBase(None, text, properties.read(text).values)
 
     @property
     def storms(self) -> list[str]:
@@ -124,8 +139,7 @@ class Topics:
                     failures.append(error)
                     continue
                 found = [
-                    msgspec.structs.replace(one, subscribed=live.pop(one.name, None)) if one.storm == storm else one
-                    for one in found
+                    replace(one, subscribed=live.pop(one.name, None)) if one.storm == storm else one for one in found
                 ]
                 found += [self._foreign(name, storm, count) for name, count in live.items()]
         return found, failures
@@ -173,7 +187,9 @@ class Topics:
                 return foreign, method
         known = [one.name for one in self.documented]
         of_modules = [one.name for scope in self.addresses.program.modules.values() for one in scope.module.topics]
-        listed = f"there is {', '.join(known or of_modules)}" if known or of_modules else "these documents have no topic"
+        listed = (
+            f"there is {', '.join(known or of_modules)}" if known or of_modules else "these documents have no topic"
+        )
         raise Refused(f"unknown topic '{text}'{meant(text.partition('.')[0], [*known, *of_modules], listed)}")
 
     def _typed(self, text: str, type_: str) -> tuple[KnownTopic, str]:

@@ -42,7 +42,7 @@ def open_session(
     try:
         deployment = api.load(path, include=include).deployment(path, engine=engine, lenient=lenient)
     except Faulty as faulty:
-        _options.report(ctx, format_, faulty.diagnostics, faulty.documents)
+        _options.report(ctx, format_, faulty.diagnostics, faulty.documents or 0)
     if deployment.unread:
         terminal.say(f"{path} cannot be read (see `rcyaml check`): the running processes are used instead", err=True)
     return DeploySession(ctx, deployment, format_)

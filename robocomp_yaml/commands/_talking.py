@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 from collections.abc import Callable, Iterator, Mapping
@@ -67,14 +68,30 @@ _ENDS = (".C", ".Co", ".Com")
 
 
 def as_text(data: Mapping[str, Any], format_: str, *, line: bool = False) -> str:
-    """Values as YAML or JSON, with a line end; `line` in one line."""
+    """Values as YAML or JSON, with a line end; JSON in one `line`, if wanted."""
     if format_ == "json":
-        from robocomp_yaml.diag.render.json import dumps
+        return as_json(data, line=line)
+    from robocomp_yaml.source.yaml_text import block
 
-        return dumps(data, indent=None if line else 2)
-    from robocomp_yaml.source.yaml_text import block, flow
+    return block(data)
 
-    return f"{flow(data)}\n" if line else block(data)
+
+def as_json(data: object, *, line: bool = True) -> str:
+    """Values as JSON with a line end. JSON has no numbers that are infinite or none: they are texts, as in Protobuf's
+    JSON."""
+    from robocomp_yaml.diag.render.json import dumps
+
+    return dumps(_finite(data), indent=None if line else 2)
+
+
+def _finite(data: object) -> object:
+    if isinstance(data, dict):
+        return {key: _finite(value) for key, value in data.items()}
+    if isinstance(data, list):
+        return [_finite(item) for item in data]
+    if isinstance(data, float) and not math.isfinite(data):
+        return "NaN" if math.isnan(data) else "Infinity" if data > 0 else "-Infinity"
+    return data
 
 
 def times(count: int | None, period: float | None) -> Iterator[int]:

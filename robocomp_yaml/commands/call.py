@@ -28,8 +28,9 @@ if TYPE_CHECKING:
 @_talking.yaml_or_json
 @click.pass_context
 def command(
-    ctx: click.Context, method: str, arguments: tuple[str, ...], deployment: str | None, timeout: float, repeat: int | None,
-    every: float | None, identity: str, ice_config: str | None, include: tuple[str, ...], format_: str,
+    ctx: click.Context, method: str, arguments: tuple[str, ...], deployment: str | None, timeout: float,
+    repeat: int | None, every: float | None, identity: str, ice_config: str | None, include: tuple[str, ...],
+    format_: str,
 ) -> None:  # fmt: skip
     """Call METHOD, such as speech.Speech.say, and print what it returns; no code is generated for it.
 

@@ -13,7 +13,6 @@ from robocomp_yaml.commands import _options, _talking
 from robocomp_yaml.commands._command import CommandGroup
 from robocomp_yaml.commands._duration import Duration
 from robocomp_yaml.diag import terminal
-from robocomp_yaml.diag.render.json import dumps
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.addresses import Addresses
@@ -75,7 +74,7 @@ def list_(parameters: RunningParameters, session: Session, format_: str) -> None
     """Print all values that a running COMPONENT has now. Secrets are hidden."""
     rows = session.values()
     if format_ == "json":
-        terminal.data(dumps({"parameters": [_as_data(row) for row in rows]}), json=True)
+        terminal.data(_talking.as_json({"parameters": [_as_data(row) for row in rows]}, line=False), json=True)
         return
     width = max((min(len(_assignment(row)), 50) for row in rows), default=0)
     for row in rows:
@@ -96,7 +95,7 @@ def get(ctx: click.Context, parameters: RunningParameters, session: Session, pat
         terminal.say(f"{path} has no value", err=True)
         ctx.exit(1)
     if format_ == "json":
-        terminal.data(dumps({"path": path, "value": data}), json=True)
+        terminal.data(_talking.as_json({"path": path, "value": data}, line=False), json=True)
     else:
         terminal.data(f"{data if isinstance(data, str) else flow(data)}\n")
 
@@ -122,7 +121,9 @@ def set_(
         change.apply()
     saved = change.file if change is not None else None
     if format_ == "json":
-        terminal.data(dumps({"path": path, "value": now, "was": before, "saved": saved}), json=True)
+        terminal.data(
+            _talking.as_json({"path": path, "value": now, "was": before, "saved": saved}, line=False), json=True
+        )
     elif ctx.obj.verbosity >= 0:
         was = "" if before is None else f" (was {in_line(before)})"
         until = f"also in {saved}" if saved else "for now: the next start does not have it, unless --save writes it"
@@ -154,7 +155,7 @@ def watch(
             value = now.get(path)
             if format_ == "json":
                 row = {"time": time.time(), "path": path, "value": value, "was": known.get(path)}
-                terminal.data(dumps(row, indent=None), json=True)
+                terminal.data(_talking.as_json(row), json=True)
             else:
                 was = f" (was {in_line(known[path])})" if path in known else ""
                 terminal.say(f"{time.strftime('%H:%M:%S')} {path} = {in_line(value)}{was}")

@@ -78,11 +78,10 @@ def list_(ctx: click.Context, topics: Topics, format_: str) -> None:
     """Print every topic with those that publish and subscribe to it by the documents, and how many subscribe to it now.
     Exit code 1: an IceStorm does not answer."""
     from robocomp_yaml.diag import terminal
-    from robocomp_yaml.diag.render.json import dumps
 
     known, failures = topics.known()
     if format_ == "json":
-        terminal.data(dumps({"topics": [_as_data(one) for one in known]}), json=True)
+        terminal.data(_talking.as_json({"topics": [_as_data(one) for one in known]}, line=False), json=True)
     elif known:
         rows = [("TOPIC", "CARRIES", "PUBLISHED BY", "SUBSCRIBED BY", "NOW")]
         rows += [
@@ -125,11 +124,10 @@ def echo(
 ) -> None:
     """Print the messages of TOPICs as they come, until Ctrl-C. TOPIC.MESSAGE means only this one."""
     from robocomp_yaml.diag import terminal
-    from robocomp_yaml.diag.render.json import dumps
 
     def show(messages: Sequence[Message]) -> None:
         if format_ == "json":
-            terminal.data("".join(dumps(one.data, indent=None) for one in messages), json=True)
+            terminal.data("".join(_talking.as_json(one.data) for one in messages), json=True)
         else:
             terminal.say(*(_line(one) for one in messages))
 
@@ -151,7 +149,6 @@ def hz(
     standard deviation), until Ctrl-C. TOPIC.MESSAGE means only this one."""
     from robocomp_yaml.api.topics import Rate
     from robocomp_yaml.diag import terminal
-    from robocomp_yaml.diag.render.json import dumps
 
     rate = Rate()
     with _arriving(topics, (name,), type_, duration) as arriving:
@@ -162,7 +159,7 @@ def hz(
             rate.add(one.clock for one in arriving.until(at, left))
             report = rate.report()
             if format_ == "json":
-                terminal.data(dumps(report, indent=None), json=True)
+                terminal.data(_talking.as_json(report), json=True)
             else:
                 terminal.say(_rate(report))
 
@@ -176,11 +173,15 @@ def _rate(report: Any) -> str:
     )
 
 
-@command.command(short_help="Publish one message, or many at a rate.", context_settings={"ignore_unknown_options": True})
+@command.command(
+    short_help="Publish one message, or many at a rate.", context_settings={"ignore_unknown_options": True}
+)
 @click.argument("name", metavar="TOPIC.MESSAGE", shell_complete=_talking.completing(_message_names))
 @click.argument("arguments", nargs=-1, metavar="[NAME=VALUE]...")
 @click.option("--rate", type=click.FloatRange(0, min_open=True), metavar="N", help="N messages per second.")
-@click.option("--count", type=click.IntRange(1), metavar="N", help="N messages; by default 1, with --rate until Ctrl-C.")
+@click.option(
+    "--count", type=click.IntRange(1), metavar="N", help="N messages; by default 1, with --rate until Ctrl-C."
+)
 @_type
 @_with_topics
 @click.pass_context
@@ -190,7 +191,6 @@ def pub(
 ) -> None:  # fmt: skip
     """Publish a message. Arguments are those of `rcyaml call`: width=2.5, '{width: 2.5}', or - for standard input."""
     from robocomp_yaml.diag import terminal
-    from robocomp_yaml.diag.render.json import dumps
 
     topic, method = topics.find(name, type_)
     stdin = sys.stdin.read() if "-" in arguments else None
@@ -203,7 +203,10 @@ def pub(
                 sent += 1
     finally:
         if format_ == "json":
-            terminal.data(dumps({"topic": topic.name, "method": message.operation.name, "sent": sent}), json=True)
+            terminal.data(
+                _talking.as_json({"topic": topic.name, "method": message.operation.name, "sent": sent}, line=False),
+                json=True,
+            )
         elif ctx.obj.verbosity >= 0:
             what = f"{topic.name}.{message.operation.name}"
             terminal.say(f"published {what}" + ("" if sent == 1 else f" {sent} times"), err=True)

@@ -42,8 +42,8 @@ Kind = TypeVar("Kind", bound=type)
 
 
 def kept(kind: Kind) -> Kind:
-    """A class that Ice is told of. It is kept until the process ends: Ice has no reference of its own to it, and crashes
-    without it."""
+    """A class that is described to Ice. It is kept until the process ends: Ice has no reference of its own to it, and
+    crashes without it."""
     _KEPT.append(kind)
     return kind
 

@@ -6,6 +6,7 @@ import json
 import os
 import signal
 import socket
+import subprocess
 import sys
 import threading
 import time
@@ -53,7 +54,13 @@ def server(build: Build, start: Start, free_port: Ports, tmp_path: Path) -> Serv
     made = build({**INTERFACES, "server/server.cdsl.yaml": cdsl("Server", implements=["Arm", "Hand"])})["Server"]
     (made.root / "src" / "specificworker.py").write_text(SERVER)
     arm, hand, common = free_port(), free_port(), free_port()
-    made.configure({"Arm.Endpoints": f"tcp -p {arm}", "Hand.Endpoints": f"tcp -p {hand}", "CommonBehavior.Endpoints": f"tcp -p {common}"})
+    made.configure(
+        {
+            "Arm.Endpoints": f"tcp -p {arm}",
+            "Hand.Endpoints": f"tcp -p {hand}",
+            "CommonBehavior.Endpoints": f"tcp -p {common}",
+        }
+    )
     write_tree(tmp_path, {"robot.ddsl.yaml": DEPLOYMENT.format(arm=arm, hand=hand, common=common)})
     running = start(made.command).wait_for("Server is running")
     return Server(running, arm, hand)
@@ -103,7 +110,10 @@ def test_exceptions_are_values(server: Server, rcyaml: Rcyaml) -> None:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["path=[{x: a, side: left}]", "fast=no"], ["argument 1:1:11", "'path[0].x' must be a number", "argument 2:1:6"]),
+        (
+            ["path=[{x: a, side: left}]", "fast=no"],
+            ["argument 1:1:11", "'path[0].x' must be a number", "argument 2:1:6"],
+        ),
         (["{path: [{side: rihgt, x: 1}], fast: true}"], ["argument 1:1:16", "did you mean 'right'?"]),
         (["fast=true"], ["arguments:1:1", "'path' is missing"]),
         (["path=[]", "fast=true", "slow=1"], ["argument 3:1:1", "'slow' is unknown"]),
@@ -141,7 +151,9 @@ def test_wrong_arguments_are_not_sent(tmp_path: Path, rcyaml: Rcyaml, words: lis
 )
 def test_what_is_not_known(build: Build, tmp_path: Path, rcyaml: Rcyaml, words: list[str], said: str) -> None:
     build({**INTERFACES, "server/server.cdsl.yaml": cdsl("Server", implements=["Arm", "Hand"])})
-    write_tree(tmp_path, {"rcyaml.yaml": "interfaces: [.]\n", "robot.ddsl.yaml": DEPLOYMENT.format(arm=19, hand=10, common=11)})
+    write_tree(
+        tmp_path, {"rcyaml.yaml": "interfaces: [.]\n", "robot.ddsl.yaml": DEPLOYMENT.format(arm=19, hand=10, common=11)}
+    )
     done = rcyaml("call", *words)
     assert done.exit_code == 2
     assert said in done.output
@@ -150,7 +162,9 @@ def test_what_is_not_known(build: Build, tmp_path: Path, rcyaml: Rcyaml, words: 
 def test_several_deployments_must_be_told_apart(build: Build, tmp_path: Path, rcyaml: Rcyaml) -> None:
     build({**WORKSPACE, "server/server.cdsl.yaml": cdsl("Server", implements=["Arm"])})
     for name in "ab":
-        write_tree(tmp_path, {f"{name}.ddsl.yaml": f"deployment: D{name}\ncomponents: {{{name}: {{component: server}}}}\n"})
+        write_tree(
+            tmp_path, {f"{name}.ddsl.yaml": f"deployment: D{name}\ncomponents: {{{name}: {{component: server}}}}\n"}
+        )
     assert "name one with --deployment b.ddsl.yaml" in rcyaml("call", "b.Arm.state").output
     assert "b cannot be reached" in rcyaml("call", "b.Arm.state", "--deployment", "b.ddsl.yaml").output
 
@@ -159,7 +173,10 @@ def test_components_with_the_same_name(build: Build, tmp_path: Path, rcyaml: Rcy
     write_tree(tmp_path, WORKSPACE)
     for folder in ("left", "right"):
         write_tree(tmp_path, {f"{folder}/arm.cdsl.yaml": cdsl("Both", implements=["Arm"])})
-    assert "several components have the name 'Both'; name one of the folders left, right" in rcyaml("call", "Both.state").output
+    assert (
+        "several components have the name 'Both'; name one of the folders left, right"
+        in rcyaml("call", "Both.state").output
+    )
     assert "cannot be reached" in rcyaml("call", "left.Arm.state").output
 
 
@@ -242,8 +259,6 @@ def connections(port: int) -> str:
 
 
 def test_names_complete(build: Build, tmp_path: Path) -> None:
-    import subprocess
-
     build({**WORKSPACE, "server/server.cdsl.yaml": cdsl("Server", implements=["Arm"])})
     write_tree(tmp_path, {"robot.ddsl.yaml": "deployment: R\ncomponents: {arm: {component: server}}\n"})
     environment = {**os.environ, "_RCYAML_COMPLETE": "bash_complete", "COMP_WORDS": "rcyaml call ar", "COMP_CWORD": "2"}
@@ -252,9 +267,71 @@ def test_names_complete(build: Build, tmp_path: Path) -> None:
     assert names == [f"arm.Arm.{method}" for method in ("move", "state", "breakDown", "betray", "block")]
 
 
+OPENSSL = """openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:P-256 -nodes -days 9 -subj /CN=robot \\
+    -addext subjectAltName=IP:127.0.0.1,DNS:localhost -keyout robot.key -out robot.pem
+"""
+TLS = """Ice.Plugin.IceSSL = IceSSL:createIceSSL
+IceSSL.DefaultDir = {folder}
+IceSSL.CAs = robot.pem
+IceSSL.CertFile = robot.pem
+IceSSL.KeyFile = robot.key
+IceSSL.VerifyPeer = 2
+"""
+
+
+@pytest.fixture
+def tls(tmp_path: Path) -> dict[str, str]:
+    """Ice's properties of TLS: both sides need the robot's certificate. `tls.cfg` has them, too."""
+    folder = tmp_path / "tls"
+    folder.mkdir()
+    subprocess.run(["bash", "-c", OPENSSL], cwd=folder, check=True, capture_output=True)
+    text = TLS.format(folder=folder)
+    write_tree(tmp_path, {"tls.cfg": text})
+    return dict(line.split(" = ") for line in text.splitlines())
+
+
+def test_tls_in_python(
+    build: Build, start: Start, free_port: Ports, rcyaml: Rcyaml, tmp_path: Path, tls: dict[str, str]
+) -> None:
+    write_tree(tmp_path, WORKSPACE)
+    made = build({**WORKSPACE, "server/server.cdsl.yaml": cdsl("Server", implements=["Arm", "Hand"])})["Server"]
+    (made.root / "src" / "specificworker.py").write_text(SERVER)
+    endpoints = {
+        f"{name}.Endpoints": f"ssl -h 127.0.0.1 -p {free_port()}" for name in ("Arm", "Hand", "CommonBehavior")
+    }
+    start(made.configure({**tls, **endpoints}).command).wait_for("Server is running")
+    secure(rcyaml, "Server")
+
+
 @needs_cpp
 @pytest.mark.slow
-def test_a_component_in_cpp(programs: CppPrograms, start: Start, free_port: Ports, rcyaml: Rcyaml, tmp_path: Path) -> None:
+def test_tls_in_cpp(
+    programs: CppPrograms, start: Start, free_port: Ports, rcyaml: Rcyaml, tmp_path: Path, tls: dict[str, str]
+) -> None:
+    write_tree(tmp_path, WORKSPACE)
+    port = free_port()
+    endpoints = {"Arm.Endpoints": f"ssl -h 127.0.0.1 -p {port}", "Hand.Endpoints": f"ssl -h 127.0.0.1 -p {free_port()}"}
+    start(programs("Server").command(tmp_path, {**tls, **endpoints})).wait_for("Server is running")
+    secure(rcyaml, f"ssl:127.0.0.1:{port}")
+
+
+def secure(rcyaml: Rcyaml, address: str) -> None:
+    done = rcyaml("call", f"{address}.Arm.move", "path=[]", "fast=false", "--ice-config", "tls.cfg")
+    assert done.stdout == "returns: 0\n", done.output
+    done = rcyaml("call", f"{address}.Arm.move", "path=[]", "fast=false")
+    assert done.exit_code == 2 and "needs a plug-in of Ice" in done.output and "--ice-config FILE" in done.output
+    Path("other.cfg").write_text("Ice.Plugin.IceSSL = IceSSL:createIceSSL\n")
+    done = rcyaml(
+        "call", f"{address}.Arm.move", "path=[]", "fast=false", "--ice-config", "other.cfg", "--timeout", "3s"
+    )
+    assert done.exit_code == 1 and "cannot be reached at ssl -h 127.0.0.1" in done.output
+
+
+@needs_cpp
+@pytest.mark.slow
+def test_a_component_in_cpp(
+    programs: CppPrograms, start: Start, free_port: Ports, rcyaml: Rcyaml, tmp_path: Path
+) -> None:
     write_tree(tmp_path, INTERFACES)
     arm, hand = free_port(), free_port()
     properties = {"Arm.Endpoints": f"tcp -p {arm}", "Hand.Endpoints": f"tcp -p {hand}"}

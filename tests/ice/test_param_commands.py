@@ -36,14 +36,18 @@ def set_and_read(rcyaml: Rcyaml, name: str, path: str, value: str) -> object:
     done = rcyaml("param", "set", name, path, value)
     assert done.exit_code == 0, done.output
     assert "for now: the next start does not have it" in done.output
-    return json.loads(rcyaml("param", "get", name, path, "--format", "json").stdout)["value"]
+    done = rcyaml("param", "get", name, path, "--format", "json")
+    assert done.exit_code == 0, done.output
+    return json.loads(done.stdout)["value"]
 
 
 def test_in_each_language(component: Component, start: Start, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch) -> None:  # noqa: F811
     """Listed, read and set; by the component's documents, and without them, by its port."""
     component.run(start).wait_for("ParaComp is running")
     at = f"127.0.0.1:{component.port}"
-    rows = {one["path"]: one for one in json.loads(rcyaml("param", "list", at, "--format", "json").stdout)["parameters"]}
+    rows = {
+        one["path"]: one for one in json.loads(rcyaml("param", "list", at, "--format", "json").stdout)["parameters"]
+    }
     assert rows["basicPeriod"] == {"path": "basicPeriod", "value": 220, "type": "int", "unit": "", "editable": True}
     assert rows["token"]["value"] == "***"
     assert set_and_read(rcyaml, at, "basicPeriod", "100") == 100
@@ -56,7 +60,13 @@ def test_in_each_language(component: Component, start: Start, rcyaml: Rcyaml, mo
     done = rcyaml("param", "list", "ParaComp", "--format", "json")
     assert done.exit_code == 0, done.output
     rows = {one["path"]: one for one in json.loads(done.stdout)["parameters"]}
-    assert rows["motors[1].vel"] == {"path": "motors[1].vel", "value": 2.0, "type": "float", "unit": "rad/s", "editable": True}
+    assert rows["motors[1].vel"] == {
+        "path": "motors[1].vel",
+        "value": 2.0,
+        "type": "float",
+        "unit": "rad/s",
+        "editable": True,
+    }
     assert rows["token"]["value"] == "***" and 'offsets["y.z"]' in rows
     for path, value, now in (
         ("basicPeriod", "7", 7),
@@ -128,7 +138,9 @@ def test_save_changes_the_document_too(python: Built, rcyaml: Rcyaml) -> None:
 
 def test_what_the_deployment_sets_is_not_saved_elsewhere(python: Built, rcyaml: Rcyaml, tmp_path: Path) -> None:
     port = Path("para/etc/config.yaml").read_text().rpartition("-p ")[2].strip(" }\n")
-    entry = f"{{component: para, ports: {{CommonBehavior: {port}}}, set: {{'motors[0].vel': 1, Yolo: {{useGpu: false}}}}}}"
+    entry = (
+        f"{{component: para, ports: {{CommonBehavior: {port}}}, set: {{'motors[0].vel': 1, Yolo: {{useGpu: false}}}}}}"
+    )
     write_tree(tmp_path, {"r.ddsl.yaml": f"deployment: R\ncomponents:\n  arm: {entry}\n"})
     done = rcyaml("param", "set", "arm", "motors[0].vel", "1.5", "--save")
     assert done.exit_code == 2 and "r.ddsl.yaml:3 sets motors[0].vel for arm" in done.output
@@ -151,7 +163,7 @@ def test_watch_prints_changes(python: Built, rcyaml: Rcyaml, start: Start, tmp_p
         assert rcyaml("param", "set", "ParaComp", path, value).exit_code == 0
     watching.wait_for('"value": "fast"')
     assert watching.stop(2) == 130
-    rows = [json.loads(line) for line in watching.output.splitlines()]
+    rows = [json.loads(line) for line in watching.output.splitlines() if line]
     changes = [(one["path"], one["value"], one["was"]) for one in rows if one["was"] is not None]
     assert changes == [("motors[0].vel", 1.25, 0.9), ("mode", "fast", "slow")]
 

@@ -99,7 +99,9 @@ def test_messages_as_they_come(talk: Talk, start: Start, rcyaml: Rcyaml) -> None
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGKILL])
-def test_the_subscription_ends_with_the_command(talk: Talk, start: Start, rcyaml: Rcyaml, tmp_path: Path, number: int) -> None:
+def test_the_subscription_ends_with_the_command(
+    talk: Talk, start: Start, rcyaml: Rcyaml, tmp_path: Path, number: int
+) -> None:
     start(talk.publisher.command).wait_for("Publisher is running")
     echo = start([RCYAML, "topic", "echo", talk.name], cwd=tmp_path).wait_for(f"{talk.name}.count(n: ")
     assert rows(rcyaml)[talk.name]["subscribed"] == 1
@@ -123,11 +125,15 @@ def test_rate_and_jitter(talk: Talk, start: Start, rcyaml: Rcyaml) -> None:
     assert 2 <= len(reports) <= 4
     assert 25 < reports[1]["rate"] < 60 and reports[1]["min"] <= reports[1]["mean"] <= reports[1]["max"]
     assert "/s   every " in rcyaml("topic", "hz", talk.name, "--count", "10").stdout
-    done = rcyaml("topic", "hz", talk.name, "--for", "300ms", "--storm", talk.manager, "--type", "ArmEvents", "--every", "200ms")
+    done = rcyaml(
+        "topic", "hz", talk.name, "--for", "300ms", "--storm", talk.manager, "--type", "ArmEvents", "--every", "200ms"
+    )
     assert done.exit_code == 0
 
 
-def test_a_component_hears_what_is_published(talk: Talk, build: Build, start: Start, rcyaml: Rcyaml, tmp_path: Path) -> None:
+def test_a_component_hears_what_is_published(
+    talk: Talk, build: Build, start: Start, rcyaml: Rcyaml, tmp_path: Path
+) -> None:
     (tmp_path / "s" / "src" / "specificworker.py").write_text(
         "from generated.genericworker import GenericWorker\n\nclass SpecificWorker(GenericWorker):\n"
         "    def ArmEvents_moved(self, pose):\n        print('moved', pose.x, pose.y, pose.side)\n\n"
@@ -140,7 +146,7 @@ def test_a_component_hears_what_is_published(talk: Talk, build: Build, start: St
     hearing.wait_for("moved 4.0 2.5 right")
     began = time.monotonic()
     done = rcyaml("topic", "pub", f"{talk.name}.count", "n=7", "--rate", "20", "--count", "6", "--format", "json")
-    assert json.loads(done.stdout)["sent"] == 6 and 0.2 < time.monotonic() - began
+    assert json.loads(done.stdout)["sent"] == 6 and time.monotonic() - began > 0.2
     until(lambda: hearing.output.count("count 7") == 6, lambda: hearing.output)
 
 
@@ -182,7 +188,10 @@ print("sent in", time.monotonic() - began)
     ],
 )
 def test_what_cannot_be_done(rcyaml: Rcyaml, tmp_path: Path, words: list[str], code: int, said: str) -> None:
-    write_tree(tmp_path, {**INTERFACES, "rcyaml.yaml": "interfaces: [.]\n", "p/p.cdsl.yaml": cdsl("P", publishes=["ArmEvents"])})
+    write_tree(
+        tmp_path,
+        {**INTERFACES, "rcyaml.yaml": "interfaces: [.]\n", "p/p.cdsl.yaml": cdsl("P", publishes=["ArmEvents"])},
+    )
     done = rcyaml("topic", *words, "--storm", "IceStorm/TopicManager:tcp -h localhost -p 9")
     assert done.exit_code == code
     assert said in done.output
