@@ -11,6 +11,7 @@ import Ice
 import msgspec
 
 from robocomp_yaml.diag.errors import Refused
+from robocomp_yaml.patterns import pattern
 from robocomp_yaml.wire.interfaces import Operation
 
 _PROPERTIES = {
@@ -23,6 +24,9 @@ _PROPERTIES = {
     "Ice.Warn.Endpoints": "0",
     "Ice.Warn.UnknownProperties": "0",
 }
+
+
+_SECURE = pattern(r":\s*(?:ssl|wss)\b")
 
 
 class NotConnected(Exception):
@@ -43,18 +47,8 @@ class Client(msgspec.Struct):
     communicator: Any
 
     def proxy(self, text: str) -> Any:
-        """Raises Refused if the text is not a proxy, or has only endpoints for which a plug-in is missing."""
-        try:
-            found = self.communicator.stringToProxy(text)
-        except Ice.Exception as error:
-            raise Refused(f"'{text}' is not a proxy of Ice: {reason_of(error)}") from None
-        if found is None:
-            raise Refused("the text of a proxy is empty")
-        protocols = {str(one).partition(" ")[0] for one in found.ice_getEndpoints()}
-        if protocols == {"opaque"}:
-            hint = "a file with Ice.Plugin.IceSSL=IceSSL:createIceSSL and the certificates: --ice-config FILE"
-            raise Refused(f"'{text}' needs a plug-in of Ice; name its configuration, for TLS {hint}")
-        return found
+        """Raises Refused if the text is not a proxy, or if a plug-in is missing for its endpoints."""
+        return proxy_of(self.communicator, text)
 
     def connect(self, proxy: Any, limit: float) -> Any:
         """Connects within so many seconds, and returns the connection. Raises NotConnected."""
@@ -84,6 +78,22 @@ class Client(msgspec.Struct):
         with suppress(Ice.Exception, OutOfTime):
             return list(self.result(proxy.ice_idsAsync(), time.monotonic() + limit))
         return []
+
+
+def proxy_of(communicator: Any, text: str) -> Any:
+    """The proxy in a text. Raises Refused if it is none, or if a plug-in is missing for its endpoints."""
+    try:
+        found = communicator.stringToProxy(text)
+    except Ice.Exception as error:
+        if _SECURE.search(text) and not communicator.getProperties().getProperty("Ice.Plugin.IceSSL"):
+            properties = "Ice.Plugin.IceSSL=IceSSL:createIceSSL and the certificates"
+            raise Refused(
+                f"'{text}' needs a plug-in of Ice: name a file with {properties}: --ice-config FILE"
+            ) from None
+        raise Refused(f"'{text}' is not a proxy of Ice: {reason_of(error)}") from None
+    if found is None:
+        raise Refused("the text of a proxy is empty")
+    return found
 
 
 @contextmanager

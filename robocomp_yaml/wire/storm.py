@@ -10,16 +10,16 @@ import Ice
 import IceStorm
 
 from robocomp_yaml.diag.errors import NoAnswer
-from robocomp_yaml.wire.client import reason_of
+from robocomp_yaml.wire.client import proxy_of, reason_of
 
 STORM = "IceStorm/TopicManager:default -p 9999"
 PATIENCE = 2000  # milliseconds for IceStorm to answer
 
 
 def topic_manager(communicator: Any, text: str, patience: int = PATIENCE) -> Any:
-    """The topic manager of a proxy. Raises NoAnswer."""
+    """The topic manager of a proxy. Raises NoAnswer, and Refused if the text is not a proxy."""
+    proxy = proxy_of(communicator, text).ice_invocationTimeout(patience)
     try:
-        proxy = communicator.stringToProxy(text).ice_invocationTimeout(patience)
         proxy.ice_ping()
     except Ice.Exception as error:
         reason = "it does not answer in time" if isinstance(error, Ice.TimeoutException) else reason_of(error)
