@@ -11,7 +11,7 @@ import msgspec
 from robocomp_yaml.api import arguments as reading
 from robocomp_yaml.api.addresses import Addresses, Door, Peer
 from robocomp_yaml.api.refusals import without_ice
-from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
 from robocomp_yaml.diag.errors import Faulty
 from robocomp_yaml.model.interface import Method
 
@@ -76,7 +76,7 @@ class RemoteMethod:
         faults: list[Diagnostic] = []
         made = self.operation.arguments(read.root, reporting(faults))
         if faults:
-            raise Faulty(faults, None, read.texts)
+            raise Faulty(in_order(faults), None, read.texts)
         return made
 
     @contextmanager

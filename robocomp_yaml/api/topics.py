@@ -14,7 +14,7 @@ from robocomp_yaml.api import arguments as reading
 from robocomp_yaml.api.addresses import Addresses
 from robocomp_yaml.api.calling import TIMEOUT
 from robocomp_yaml.api.refusals import meant, without_ice
-from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
 from robocomp_yaml.diag.errors import Faulty, NoAnswer, Refused
 from robocomp_yaml.emit.ports import config_path, is_own
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule
@@ -250,7 +250,7 @@ class Topics:
         faults: list[Diagnostic] = []
         made = operation.arguments(read.root, reporting(faults))
         if faults:
-            raise Faulty(faults, None, read.texts)
+            raise Faulty(in_order(faults), None, read.texts)
         return Publishable(operation, made)
 
 
