@@ -170,6 +170,13 @@ class Topics:
             raise Refused(f"{topic.name} has no message '{method}'{meant(method, names, listed)}")
         return topic, method
 
+    def find_or(self, text: str, type_: str) -> tuple[KnownTopic, str]:
+        """The topic with this name; if no document has it, one that carries `type_`. Raises Refused."""
+        try:
+            return self.find(text)
+        except Refused:
+            return self.find(text, type_)
+
     def _named(self, text: str, type_: str) -> tuple[KnownTopic, str]:
         if type_:
             return self._typed(text, type_)
@@ -222,7 +229,7 @@ class Topics:
                     managers[topic.storm] = manager
                     adapters[topic.storm] = ice_storm.listening_adapter(made.communicator, manager)
                     adapters[topic.storm].activate()
-                proxy = adapters[topic.storm].addWithUUID(_wire(topic).servant(_Receiver(topic, on_message)))
+                proxy = adapters[topic.storm].addWithUUID(wire_interface(topic).servant(_Receiver(topic, on_message)))
                 stack.enter_context(ice_storm.subscribed(managers[topic.storm], topic.name, proxy))
             yield
 
@@ -245,7 +252,7 @@ class Topics:
         names = [one.name for one in topic.interface.methods]
         if not method and len(names) != 1:
             raise Refused(f"name the message: {', '.join(f'{topic.name}.{name}' for name in names) or 'there is none'}")
-        operation = _wire(topic).operations[method or names[0]]
+        operation = wire_interface(topic).operations[method or names[0]]
         read = reading.read(topic.scope, operation.method, words, stdin)
         faults: list[Diagnostic] = []
         made = operation.arguments(read.root, reporting(faults))
@@ -269,12 +276,16 @@ class Publisher(msgspec.Struct, frozen=True):
 
     def send(self, message: Publishable) -> None:
         """Returns when IceStorm has the message. Raises NoAnswer."""
+        self.publish(message.operation, message.values)
+
+    def publish(self, operation: Operation, values: tuple[Any, ...]) -> None:
+        """The same for a message in two parts."""
         import Ice
 
         from robocomp_yaml.wire.client import reason_of
 
         try:
-            message.operation.ice.invoke(self.proxy, (message.values, None))
+            operation.ice.invoke(self.proxy, (values, None))
         except Ice.Exception as error:
             raise NoAnswer(f"IceStorm does not accept messages of '{self.topic.name}': {reason_of(error)}") from None
 
@@ -289,7 +300,8 @@ class _Receiver:
         self._on_message(Message(self._topic, operation, arguments, time.time(), time.monotonic()))
 
 
-def _wire(topic: KnownTopic) -> WireInterface:
+def wire_interface(topic: KnownTopic) -> WireInterface:
+    """What a topic carries, which is known."""
     from robocomp_yaml.wire.interfaces import WireInterface
     from robocomp_yaml.wire.types import Types
 

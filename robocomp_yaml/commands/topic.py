@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import queue
 import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from robocomp_yaml.commands import _options, _signals, _talking
+from robocomp_yaml.commands import _options, _talking
+from robocomp_yaml.commands._arriving import arriving_messages
 from robocomp_yaml.commands._command import CommandGroup
 from robocomp_yaml.commands._duration import Duration
 
@@ -19,10 +18,8 @@ if TYPE_CHECKING:
     from robocomp_yaml.api.addresses import Addresses
     from robocomp_yaml.api.topics import KnownTopic, Message, Topics
 
-MOST_WAITING = 20_000  # messages that arrived and are not printed yet; later ones are dropped, and counted
 
-
-def _topic_names(addresses: Addresses, incomplete: str) -> list[str]:
+def topic_names(addresses: Addresses, incomplete: str) -> list[str]:
     from robocomp_yaml.api.topics import Topics
 
     return [one.name for one in Topics(addresses).documented]
@@ -45,7 +42,7 @@ _for = click.option("--for", "duration", type=Duration(), metavar="TIME", help="
 _count = click.option("--count", type=click.IntRange(1), metavar="N", help="End after N messages.")
 
 
-def _with_topics(function: Callable[..., None]) -> Callable[..., None]:
+def with_topics(function: Callable[..., None]) -> Callable[..., None]:
     """The options of all these commands, of which the function gets the topics."""
     from functools import wraps
 
@@ -72,7 +69,7 @@ def command() -> None:
 
 
 @command.command("list", short_help="Print the topics, and who publishes and subscribes.")
-@_with_topics
+@with_topics
 @click.pass_context
 def list_(ctx: click.Context, topics: Topics, format_: str) -> None:
     """Print every topic with those that publish and subscribe to it by the documents, and how many subscribe to it now.
@@ -114,11 +111,11 @@ def _as_data(topic: KnownTopic) -> dict[str, Any]:
 
 @command.command(short_help="Print messages as they come.")
 @click.argument("names", nargs=-1, required=True, metavar="TOPIC...",
-                shell_complete=_talking.completing(_topic_names))  # fmt: skip
+                shell_complete=_talking.completing(topic_names))  # fmt: skip
 @_count
 @_for
 @_type
-@_with_topics
+@with_topics
 def echo(
     topics: Topics, names: tuple[str, ...], count: int | None, duration: float | None, type_: str, format_: str
 ) -> None:
@@ -131,17 +128,17 @@ def echo(
         else:
             terminal.say(*(_line(one) for one in messages))
 
-    with _arriving(topics, names, type_, duration) as arriving:
+    with arriving_messages(topics, [topics.find(name, type_) for name in names], duration) as arriving:
         arriving.show(show, count)
 
 
 @command.command(short_help="Measure the rate and the jitter of messages.")
-@click.argument("name", metavar="TOPIC", shell_complete=_talking.completing(_topic_names))
+@click.argument("name", metavar="TOPIC", shell_complete=_talking.completing(topic_names))
 @click.option("--every", type=Duration(), default="1s", show_default=True, metavar="TIME", help="Time between lines.")
 @_count
 @_for
 @_type
-@_with_topics
+@with_topics
 def hz(
     topics: Topics, name: str, every: float, count: int | None, duration: float | None, type_: str, format_: str
 ) -> None:
@@ -151,7 +148,7 @@ def hz(
     from robocomp_yaml.diag import terminal
 
     rate = Rate()
-    with _arriving(topics, (name,), type_, duration) as arriving:
+    with arriving_messages(topics, [topics.find(name, type_)], duration) as arriving:
         at = time.monotonic()
         while arriving.may_continue and (count is None or rate.total < count):
             at += every
@@ -183,7 +180,7 @@ def _rate(report: Any) -> str:
     "--count", type=click.IntRange(1), metavar="N", help="N messages; by default 1, with --rate until Ctrl-C."
 )
 @_type
-@_with_topics
+@with_topics
 @click.pass_context
 def pub(
     ctx: click.Context, topics: Topics, name: str, arguments: tuple[str, ...], rate: float | None, count: int | None,
@@ -210,76 +207,6 @@ def pub(
         elif ctx.obj.verbosity >= 0:
             what = f"{topic.name}.{message.operation.name}"
             terminal.say(f"published {what}" + ("" if sent == 1 else f" {sent} times"), err=True)
-
-
-class _Arriving:
-    """Messages that arrived. `dropped` are those for which there was no room."""
-
-    def __init__(self, methods: dict[str, set[str]], end: float | None) -> None:
-        self._queue: queue.SimpleQueue[Message] = queue.SimpleQueue()
-        self._methods, self._end = methods, end
-        self.dropped = 0
-
-    def add(self, message: Message) -> None:
-        methods = self._methods[message.topic.name]
-        if methods and message.operation.name not in methods:
-            return
-        if self._queue.qsize() >= MOST_WAITING:
-            self.dropped += 1
-        else:
-            self._queue.put(message)
-
-    @property
-    def may_continue(self) -> bool:
-        return self._end is None or time.monotonic() < self._end
-
-    def until(self, end: float | None, most: int | None) -> Iterator[Message]:
-        """The messages that arrive until a time."""
-        number = 0
-        while most is None or number < most:
-            ends = [one for one in (end, self._end) if one is not None]
-            left = min(ends) - time.monotonic() if ends else None
-            try:
-                yield self._queue.get(timeout=max(0.0, left) if left is not None else 3600)
-            except queue.Empty:
-                if ends:
-                    return
-                continue
-            number += 1
-
-    def show(self, show: Callable[[Sequence[Message]], None], count: int | None) -> None:
-        """Calls a function with what arrives, as much as there is at a time."""
-        shown = 0
-        while count is None or shown < count:
-            most = None if count is None else count - shown
-            first = list(self.until(None, 1))
-            if not first:
-                return
-            more = min(self._queue.qsize(), 1000 if most is None else most - 1)
-            batch = [*first, *(self._queue.get() for _ in range(more))]
-            shown += len(batch)
-            show(batch)
-
-
-@contextmanager
-def _arriving(topics: Topics, names: Sequence[str], type_: str, duration: float | None) -> Iterator[_Arriving]:
-    """What arrives while the context lasts. The subscriptions end however it ends."""
-    from robocomp_yaml.diag import terminal
-
-    found = [topics.find(name, type_) for name in names]
-    methods: dict[str, set[str]] = {topic.name: set() for topic, _ in found}
-    whole = {topic.name for topic, method in found if not method}
-    for topic, method in found:
-        if topic.name not in whole:
-            methods[topic.name].add(method)
-    distinct = list({(topic.name, topic.storm): topic for topic, _ in found}.values())
-    arriving = _Arriving(methods, time.monotonic() + duration if duration else None)
-    with _signals.hangup_handled(), topics.listening(distinct, arriving.add):
-        try:
-            yield arriving
-        finally:
-            if arriving.dropped:
-                terminal.say(f"{arriving.dropped} messages were dropped: they came too fast", err=True)
 
 
 def _line(message: Message) -> str:

@@ -192,13 +192,14 @@ class Enumeration(WireType):
     def __init__(self, id_: str, definition: model.Enum) -> None:
         self.name = definition.name
         kind = kept(type(definition.name, (Ice.EnumBase,), {}))
-        self._values: dict[str, Any] = {}
+        self.values: dict[str, Any] = {}
+        self.id = id_
         number = -1
         for enumerator in definition.enumerators:
             number = number + 1 if enumerator.value is None else enumerator.value
-            self._values[enumerator.name] = kind(enumerator.name, number)
-        self._names = {value.value: name for name, value in self._values.items()}
-        self.ice = IcePy.defineEnum(id_, kind, (), {value.value: value for value in self._values.values()})
+            self.values[enumerator.name] = kind(enumerator.name, number)
+        self._names = {value.value: name for name, value in self.values.items()}
+        self.ice = IcePy.defineEnum(id_, kind, (), {value.value: value for value in self.values.values()})
         self._shape = (id_, *self._names.items())
 
     @property
@@ -207,16 +208,16 @@ class Enumeration(WireType):
 
     def to_ice(self, node: Node, path: Path, report: Report) -> Any:
         name = node.lexeme if isinstance(node, tree.Scalar) else ""
-        if name in self._values:
-            return self._values[name]
-        words = f"one of {', '.join(self._values)}"
-        return self._wrong(node, path, report, words, did_you_mean(name, self._values) if name else "")
+        if name in self.values:
+            return self.values[name]
+        words = f"one of {', '.join(self.values)}"
+        return self._wrong(node, path, report, words, did_you_mean(name, self.values) if name else "")
 
     def to_data(self, value: Any) -> Data:
         return self._names[value.value]
 
     def zero(self) -> Any:
-        return next(iter(self._values.values()))
+        return next(iter(self.values.values()))
 
 
 def _shown(node: Node) -> str:
