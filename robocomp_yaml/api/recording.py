@@ -27,6 +27,8 @@ OURS, DROPPED = "rcyaml", "rcyaml.dropped"
 
 _SHORTEST, _LONGEST = 1.0, 10.0  # seconds between checkpoints
 _MOST_UNWRITTEN = 8 << 20  # bytes
+_ROOM = 512  # bytes for what is written at the end
+_HEAD = 31  # bytes of a message in a file, besides its data
 
 
 def _require() -> None:
@@ -37,13 +39,17 @@ def _require() -> None:
 
 
 class Recorder:
-    """Writes the messages of topics to a new file. Raises Refused if the file exists, or cannot be written."""
+    """Writes the messages of topics to a new file, which will have at most `max_size` bytes. Raises Refused if the file
+    exists, or cannot be written."""
 
-    def __init__(self, path: str, topics: Sequence[KnownTopic], deployment: str = "") -> None:
+    def __init__(
+        self, path: str, topics: Sequence[KnownTopic], deployment: str = "", max_size: int | None = None
+    ) -> None:
         _require()
         from mcap.writer import Writer
 
-        self.path, self.messages = path, 0
+        self.path, self.messages, self._max_size = path, 0, max_size
+        self._pending = self._index = 0  # bytes: of messages that are in no chunk yet, and of the index
         try:
             self._file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o644)
         except FileExistsError:
@@ -51,7 +57,7 @@ class Recorder:
         except OSError as error:
             raise cannot_write(path, error) from None
         self._stream = _Stream(self._file)
-        self._writer = Writer(self._stream, use_summary_offsets=False)  # type: ignore[arg-type]
+        self._writer = Writer(self._stream, use_summary_offsets=False)
         self._writer.start("", f"rcyaml {__version__}")
         self._writer.add_metadata(OURS, {"version": __version__, "deployment": deployment})
         self._types: dict[tuple[str, str, str], tuple[int, MessageType]] = {}
@@ -74,14 +80,28 @@ class Recorder:
 
     @property
     def size(self) -> int:
-        """The size of the file, with what is not written yet, before compression."""
-        return self._stream.end
+        """The size of the file at the last checkpoint, in bytes."""
+        return self._stream.end - self._stream.unwritten + self._index
 
-    def add(self, message: Message) -> None:
+    def add(self, message: Message) -> bool:
+        """Adds a message; False if the file would be too large with it."""
         channel, type_ = self._types[message.topic.storm, message.topic.name, message.operation.name]
-        at = int(message.time * 1e9)
-        self._writer.add_message(channel, at, type_.encode(message.values), at, self.messages & 0xFFFFFFFF)
+        at, data = int(message.time * 1e9), type_.encode(message.values)
+        if self._max_size is not None and not self._fits(len(data) + _HEAD, self._max_size):
+            return False
+        self._writer.add_message(channel, at, data, at, self.messages & 0xFFFFFFFF)
+        self._pending += len(data) + _HEAD
         self.messages += 1
+        return True
+
+    def _fits(self, more: int, most: int) -> bool:
+        """Whether there is room for more bytes. How small the compressor makes them is known after a checkpoint."""
+        if self._stream.end + self._index + self._pending + more + _ROOM <= most:
+            return True
+        if self._pending < most // 100:
+            return False
+        self.checkpoint()
+        return self._fits(more, most)
 
     def checkpoint_if_due(self) -> None:
         """Writes a checkpoint each second, in long recordings less often, because each one contains the index."""
@@ -96,6 +116,8 @@ class Recorder:
         end = self._stream.end
         self._writer.finish()
         try:
+            self._index = self._stream.end - end
+            self._pending = 0
             self._stream.write_out(end)
         except OSError as error:
             raise cannot_write(self.path, error) from None

@@ -16,7 +16,7 @@ from robocomp_yaml.commands.topic import topic_names, with_topics
 from robocomp_yaml.diag import terminal
 
 if TYPE_CHECKING:
-    from robocomp_yaml.api.recording import RecordingInfo
+    from robocomp_yaml.api.recording import Recorder, RecordingInfo
     from robocomp_yaml.api.topics import Topics
     from robocomp_yaml.commands._arriving import Arriving
 
@@ -81,11 +81,11 @@ def start(
     path = output or recording.default_path(deployment)
     with arriving_messages(topics, chosen, duration) as arriving:
         distinct = list(dict.fromkeys(topic for topic, _ in chosen))
-        recorder = recording.Recorder(path, distinct, deployment)
+        recorder = recording.Recorder(path, distinct, deployment, max_size)
         try:
             if ctx.obj.verbosity >= 0 and format_ == "text":
                 terminal.say(f"recording {', '.join(one.name for one in distinct)} to {path}; Ctrl-C ends it", err=True)
-            is_full = _record(recorder, arriving, max_size, count)
+            is_full = _record(recorder, arriving, count)
         finally:
             recorder.close(arriving.dropped)
             if format_ == "json":
@@ -98,14 +98,13 @@ def start(
             terminal.say(f"ended, because the file would be larger than {_bytes(max_size or 0)}", err=True)
 
 
-def _record(recorder: Any, arriving: Arriving, max_size: int | None, count: int | None) -> bool:
+def _record(recorder: Recorder, arriving: Arriving, count: int | None) -> bool:
     """Records until it is enough. Returns whether the file has reached its largest size."""
     while True:
         left = None if count is None else count - recorder.messages
         for message in arriving.drain(left):
-            recorder.add(message)
-        if max_size is not None and recorder.size >= max_size:
-            return True
+            if not recorder.add(message):
+                return True
         if count is not None and recorder.messages >= count:
             return False
         recorder.checkpoint_if_due()
