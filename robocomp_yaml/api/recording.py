@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Collection, Mapping, Sequence
-from contextlib import ExitStack
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
 from typing import TYPE_CHECKING, Any
 
 import msgspec
@@ -217,34 +217,20 @@ def info(path: str) -> RecordingInfo:
     )  # fmt: skip
 
 
-class _Reading:
-    """An MCAP reader whose errors are in words."""
+@contextmanager
+def _reading(path: str) -> Iterator[Any]:
+    """An MCAP reader of a file. Raises Refused if the file is not a whole MCAP file."""
+    _require()
+    from mcap.exceptions import McapError
+    from mcap.reader import make_reader
 
-    def __init__(self, path: str) -> None:
-        self._path, self._stack = path, ExitStack()
-
-    def __enter__(self) -> Any:
-        _require()
-        from mcap.exceptions import McapError
-        from mcap.reader import make_reader
-
-        try:
-            return make_reader(self._stack.enter_context(open(self._path, "rb")))
-        except OSError as error:
-            raise Refused(f"cannot read {self._path}: {(error.strerror or str(error)).lower()}") from None
-        except McapError:
-            raise Refused(f"{self._path} is not an MCAP file") from None
-
-    def __exit__(self, kind: type | None, error: BaseException | None, trace: object) -> None:
-        self._stack.close()
-        from mcap.exceptions import McapError
-
-        if isinstance(error, McapError):
-            raise Refused(f"{self._path} is not a complete MCAP file: {error or type(error).__name__}") from None
-
-
-def _reading(path: str) -> _Reading:
-    return _Reading(path)
+    try:
+        with open(path, "rb") as file:
+            yield make_reader(file)
+    except OSError as error:
+        raise Refused(f"cannot read {path}: {(error.strerror or str(error)).lower()}") from None
+    except McapError as error:
+        raise Refused(f"{path} is not an MCAP file, or not a whole one ({type(error).__name__})") from None
 
 
 class Player:

@@ -152,6 +152,9 @@ class Real(WireType):
         """A float as the shortest number that is the same one in 32 bits: 0.1, not 0.10000000149011612."""
         if self.name == "double" or not math.isfinite(value):
             return float(value)
+        value = as_float(value)  # what travels, if it was not sent yet
+        if not math.isfinite(value):
+            return value
         return next(short for digits in range(6, 10) if as_float(short := float(f"{value:.{digits}g}")) == value)
 
     def zero(self) -> Any:
