@@ -148,6 +148,7 @@ class Addresses:
             raise Refused(f"'{named}' means several processes; name one of {names}")
         process_of = network.processes.get(next(iter(instances)).name) if instances else None
         if process_of is None:
+            self._refuse_errors({one.document.path for one in instances} | {linked.deployment.path})
             what = "is an IceStorm, which carries topics: `rcyaml topic`" if not instances else "does not run Ice"
             raise Refused(f"'{named}' {what}")
         return self._of_process(process_of, rest)

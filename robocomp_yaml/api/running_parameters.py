@@ -280,8 +280,7 @@ def _flat(type_: Type, data: Any, path: Path) -> Iterator[tuple[str, str]]:
     """Data as texts by dotted paths, as CommonBehavior lists them. What a record omits has its default."""
     if isinstance(type_, RecordType):
         for member in type_.members:
-            node = member.default.node if member.default is not None else None
-            default = node.data if node is not None else None
+            default = member.default.data if member.default is not None else None
             value = data.get(member.name, default)
             if value is not None:
                 yield from _flat(member.type, value, (*path, member.name))
