@@ -142,6 +142,8 @@ class Addresses:
             return self._of_process(found, text[len(process) + 1 :]) if found else None
         instances = {one.process or one for one in targets if isinstance(one, LinkedInstance)}
         groups = [one for one in targets if isinstance(one, LinkedGroup)]
+        if len(groups) == len(targets) == 1 and groups[0].is_closed:
+            return self._of_group(groups[0], rest)
         members = [one.name for group in groups for one in group.members]
         if groups or len(instances) > 1:
             names = ", ".join(members or sorted(one.name for one in instances))
@@ -152,6 +154,20 @@ class Addresses:
             what = "is an IceStorm, which carries topics: `rcyaml topic`" if not instances else "does not run Ice"
             raise Refused(f"'{named}' {what}")
         return self._of_process(process_of, rest)
+
+    def _of_group(self, group: LinkedGroup, rest: str) -> Peer:
+        """A group that acts as one component: what it offers, through its gate if there are rules."""
+        network = self.network
+        assert network is not None
+        gate, doors = network.processes.get(f"{group.name}.gate"), list[Door]()
+        for served in group.serves:
+            owner = network.processes.get((served.instance.process or served.instance).name)
+            through = (gate, served.name) if gate and served.rule is not None else (owner, served.adapter)
+            for one in self._of_process(through[0], "").doors if through[0] else ():
+                if one.name == through[1]:
+                    doors.append(msgspec.structs.replace(one, name=served.name))
+        up = f"`{typed('rcyaml', 'deploy', 'up', self.path)}` starts it"
+        return Peer(group.name, rest, tuple(doors), group.group.span, up)
 
     def _of_process(self, process: Process, rest: str) -> Peer:
         network, linked = self.network, self.linked

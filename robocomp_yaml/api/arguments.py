@@ -60,6 +60,8 @@ class _Reader(msgspec.Struct):
         type_ = self._type(name.split("."))
         if type_ == "string":
             return tree.text_at(_span_of(file, value, column), value)
+        if not value.strip():
+            return tree.scalar_at(_span_of(file, value, column), "")
         lead = "" if "\n" in value else " " * (column - 1)
         node, faults = tree.parse(file, lead + value)
         self.faults += faults
@@ -119,6 +121,8 @@ def read(scope: LinkedModule, method: Method, words: Sequence[str], stdin: str |
     for number, word in enumerate(words, 1):
         file = STDIN if word == "-" else f"argument {number}"
         texts[file] = text = (stdin or "") if word == "-" else word
+        if not _is_utf8(text):
+            raise Refused(f"{file} is not UTF-8")
         assigned = _ASSIGNED.match(word)
         if word == "-" or word.lstrip().startswith("{"):
             if text.strip() or method.inputs:
@@ -137,6 +141,11 @@ def _mapping(span: Span, parts: _Parts) -> tree.Mapping:
     for name, (key, inner) in parts.entries.items():
         entries[name] = (key, _mapping(key.span, inner) if isinstance(inner, _Parts) else inner)
     return tree.mapping_at(span, entries)
+
+
+def _is_utf8(text: str) -> bool:
+    """Whether a text has only characters: Python keeps bytes that are not UTF-8 as surrogates."""
+    return text.isascii() or not any("\ud800" <= char <= "\udfff" for char in text)
 
 
 def _usage(method: Method, word: str) -> str:

@@ -220,10 +220,12 @@ def judged(
 ) -> tuple[Node | None, list[Diagnostic]]:
     """The node of a value from a command line, and why its type or its limits reject it, at the location `span`.
     `complete` as for the judge."""
+    shown = f"'{value}'" if not is_secret(type_) else HIDDEN
+    if any("\ud800" <= char <= "\udfff" for char in value):  # bytes of the command line
+        return None, [file_codes.WRONG_SHAPE.at(span, problem=f"{shown} is not UTF-8")]
     node, faults = parse(span.file, json.dumps(value) if is_text else value)
     if node is None:
         reason = faults[0].message if faults else "it is empty"
-        shown = f"'{value}'" if not is_secret(type_) else HIDDEN
         return None, [file_codes.WRONG_SHAPE.at(span, problem=f"{shown} is not a value: {reason}")]
     return node, [replace(fault, span=span, fixes=()) for fault in judge(type_, node, tuple(steps), complete=complete)]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 import threading
 import time
 from collections.abc import Callable, Iterator, Mapping
@@ -92,6 +93,11 @@ def _finite(data: object) -> object:
     if isinstance(data, float) and not math.isfinite(data):
         return "NaN" if math.isnan(data) else "Infinity" if data > 0 else "-Infinity"
     return data
+
+
+def standard_input() -> str:
+    """The text on standard input; bytes that are not UTF-8 become surrogates, which arguments reject."""
+    return sys.stdin.buffer.read().decode("utf-8-sig", "surrogateescape")
 
 
 def times(count: int | None, period: float | None) -> Iterator[int]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from typing import TYPE_CHECKING
 
 import click
@@ -42,7 +41,7 @@ def command(
     from robocomp_yaml.api.calling import RemoteMethod
 
     chosen = RemoteMethod(Addresses(deployment or "", include), method, identity)
-    stdin = sys.stdin.read() if "-" in arguments else None
+    stdin = _talking.standard_input() if "-" in arguments else None
     made = chosen.arguments(arguments, stdin)
     count = repeat if repeat or every else 1
     ctx.exit(_call(chosen, made, ice_config or "", timeout, count, every, format_))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 import time
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
@@ -190,7 +189,7 @@ def pub(
     from robocomp_yaml.diag import terminal
 
     topic, method = topics.find(name, type_)
-    stdin = sys.stdin.read() if "-" in arguments else None
+    stdin = _talking.standard_input() if "-" in arguments else None
     message = topics.message(topic, method, arguments, stdin)
     sent = 0
     try:

@@ -120,6 +120,7 @@ def test_exceptions_are_values(server: Server, rcyaml: Rcyaml) -> None:
         (["path=[]", "fast=true", "fast=false"], ["argument 3:1:1", "'fast' is set twice"]),
         (["path=[", "fast=true"], ["argument 1:1:"]),
         (["path=[]\n- x", "fast=true"], ["argument 1:"]),
+        (["path=", "fast=true"], ["argument 1:1:6", "'path' must be a list, but is missing"]),
         (["-"], ["standard input:2:1", "'fats' is unknown", "did you mean 'fast'?"]),
     ],
 )
@@ -214,6 +215,14 @@ def test_one_that_hangs(server: Server, rcyaml: Rcyaml) -> None:
     done = rcyaml("call", "arm.state", "--timeout", "500ms")
     assert done.exit_code == 1 and "it does not answer within 0.5 s" in done.output
     assert time.monotonic() - began < 10
+
+
+def test_what_is_not_utf8(tmp_path: Path) -> None:
+    write_tree(tmp_path, WORKSPACE)
+    for words, stdin in (([b"{path: [], fast: '\xff'}"], b""), ([b"-"], b"path: []\nfast: \xfe\n")):
+        command = [RCYAML, "call", "localhost:9.Arm.move", *words]
+        done = subprocess.run(command, cwd=tmp_path, input=stdin, capture_output=True)
+        assert done.returncode == 2 and b"is not UTF-8" in done.stderr
 
 
 def test_something_that_does_not_speak_ice(tmp_path: Path, rcyaml: Rcyaml) -> None:

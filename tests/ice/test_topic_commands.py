@@ -15,8 +15,12 @@ from click.testing import Result
 
 from components import Build, Built
 from conftest import write_tree
-from processes import Start, Storm, until
+from cpp_programs import Programs as CppPrograms
+from cpp_programs import needs_cpp
+from java_programs import needs_java
+from processes import Ports, Start, Storm, until
 from scenario import INTERFACES, cdsl
+from test_java import Program, built, program  # noqa: F401 (fixtures)
 
 Rcyaml = Callable[..., Result]
 RCYAML = os.path.join(os.path.dirname(sys.executable), "rcyaml")
@@ -54,16 +58,16 @@ class Talk:
 def talk(build: Build, icestorm: Storm, tmp_path: Path) -> Talk:
     name = f"Events{time.monotonic_ns()}"
     write_tree(tmp_path, {"rcyaml.yaml": "interfaces: [.]\n"})
-    built = build({
+    made = build({
         **INTERFACES,
         "p/p.cdsl.yaml": cdsl("Publisher", publishes=["ArmEvents"]),
         "s/s.cdsl.yaml": cdsl("Subscriber", subscribes=["ArmEvents"]),
     })  # fmt: skip
-    (built["Publisher"].root / "src" / "specificworker.py").write_text(PUBLISHER)
+    (made["Publisher"].root / "src" / "specificworker.py").write_text(PUBLISHER)
     for folder in "ps":
         write_tree(tmp_path, {f"{folder}/etc/config": f"TopicManager.Proxy = {icestorm.manager}\n"})
     write_tree(tmp_path, {"robot.ddsl.yaml": DEPLOYMENT.format(name=name)})
-    return Talk(name, built["Publisher"], icestorm.manager)
+    return Talk(name, made["Publisher"], icestorm.manager)
 
 
 def rows(rcyaml: Rcyaml) -> dict[str, dict[str, object]]:
@@ -195,3 +199,51 @@ def test_what_cannot_be_done(rcyaml: Rcyaml, tmp_path: Path, words: list[str], c
     done = rcyaml("topic", *words, "--storm", "IceStorm/TopicManager:tcp -h localhost -p 9")
     assert done.exit_code == code
     assert said in done.output
+
+
+def of_a_radio(
+    rcyaml: Rcyaml, name: str, tmp_path: Path, start: Start, manager: str, command: list[str | Path]
+) -> None:
+    """A component that publishes some events when it starts, in another language than Python; and hears others."""
+    write_tree(tmp_path, {**INTERFACES, "rcyaml.yaml": "interfaces: [.]\n"})
+    options = ["--storm", manager, "--type", "ArmEvents"]
+    echo = start([RCYAML, "topic", "echo", name, *options, "--count", "4"], cwd=tmp_path)
+    until(lambda: f"{name} " in rcyaml("topic", "list", "--storm", manager).stdout, lambda: echo.output)
+    until(lambda: " 1 subscriber" in listed(rcyaml, name, manager), lambda: listed(rcyaml, name, manager))
+    start(command)
+    assert echo.exit_code() == 0
+    said = [line.partition(" ")[2] for line in echo.output.splitlines()]
+    assert said == [
+        f'{name}.moved(pose: {{x: 4.0, "y": 2.5, side: right}})',
+        *(f"{name}.count(n: {n})" for n in range(3)),
+    ]
+    assert rcyaml("topic", "pub", f"{name}.count", "n=5", *options).exit_code == 0
+
+
+def listed(rcyaml: Rcyaml, name: str, manager: str) -> str:
+    lines = rcyaml("topic", "list", "--storm", manager).stdout.splitlines()
+    return next((line for line in lines if line.startswith(f"{name} ")), "")
+
+
+@needs_cpp
+@pytest.mark.slow
+def test_topics_of_cpp(programs: CppPrograms, start: Start, icestorm: Storm, rcyaml: Rcyaml, tmp_path: Path) -> None:
+    properties = {"TopicManager.Proxy": icestorm.manager, "ArmEvents": "CppHeard"}
+    of_a_radio(rcyaml, "CppHeard", tmp_path, start, icestorm.manager, programs("Radio").command(tmp_path, properties))
+
+
+@needs_java
+@pytest.mark.slow
+def test_topics_of_java(
+    program: Program,  # noqa: F811
+    start: Start,
+    icestorm: Storm,
+    free_port: Ports,
+    rcyaml: Rcyaml,
+    tmp_path: Path,
+) -> None:
+    properties = {
+        "TopicManager.Proxy": icestorm.manager, "ArmEvents": "JavaHeard", "Arm.Endpoints": f"tcp -p {free_port()}",
+        "HandProxy": f"hand:tcp -h 127.0.0.1 -p {free_port()}",
+    }  # fmt: skip
+    of_a_radio(rcyaml, "JavaHeard", tmp_path, start, icestorm.manager, program("Radio", properties))

@@ -108,3 +108,21 @@ def test_errors_of_documents_are_told() -> None:
     )
     with pytest.raises(Faulty):
         Addresses("head.ddsl.yaml").method("eye.Lens.focus")
+
+
+def test_a_closed_group_is_one_component() -> None:
+    """What it offers has its own names; rules are enforced by a gate."""
+    groups = "groups:\n  face: {components: [eye], expose: {Sharp: eye.Lens, Left: {member: eye, rate: 10}}}\n"
+    write_tree(
+        Path(),
+        {
+            "head.ddsl.yaml": f"deployment: Head\ncomponents: {{eye: {{component: eye, ports: {{Lens: 12001, Left: 12002}}}}}}\n{groups}"
+        },
+    )
+    addresses = Addresses()
+    assert [str(one) for one in addresses.analysis.diagnostics if one.severity == "error"] == []
+    assert proxy(addresses, "face.Sharp.focus") == "lens:tcp -h 127.0.0.1 -p 12001"
+    gate = next(one for one in addresses.network.processes.values() if one.name == "face.gate")  # type: ignore[union-attr]
+    assert proxy(addresses, "face.Left.shoot") == f"camera:tcp -h 127.0.0.1 -p {gate.endpoints[0].port}"
+    with pytest.raises(Refused, match="face has no method 'zoom'"):
+        addresses.method("face.zoom")
