@@ -242,8 +242,12 @@ def test_topics_of_java(
     rcyaml: Rcyaml,
     tmp_path: Path,
 ) -> None:
+    port = free_port()
+    write_tree(tmp_path, {**INTERFACES, "rcyaml.yaml": "interfaces: [.]\n"})
+    hand = start([RCYAML, "mock", "Hand", "--endpoint", f"Hand=tcp -h 127.0.0.1 -p {port}"], cwd=tmp_path)
+    hand.wait_for("serving")
     properties = {
         "TopicManager.Proxy": icestorm.manager, "ArmEvents": "JavaHeard", "Arm.Endpoints": f"tcp -p {free_port()}",
-        "HandProxy": f"hand:tcp -h 127.0.0.1 -p {free_port()}",
+        "HandProxy": f"hand:tcp -h 127.0.0.1 -p {port}",
     }  # fmt: skip
     of_a_radio(rcyaml, "JavaHeard", tmp_path, start, icestorm.manager, program("Radio", properties))
