@@ -233,10 +233,15 @@ class Addresses:
 
     def _at_port(self, name: str, endpoint: str, rest: str) -> Peer:
         """Whatever listens at a port: any interface of the workspace may be there."""
-        every = [(scope, one) for scope in self.program.modules.values() for one in scope.module.interfaces]
-        every.append((common_behavior(), common_behavior().module.interfaces[0]))
-        doors = [Door(one.name, scope, one, f"{one.name.lower()}:{endpoint}") for scope, one in every]
+        doors = (
+            msgspec.structs.replace(one, proxy=f"{one.interface.name.lower()}:{endpoint}") for one in self.every_door()
+        )
         return Peer(name, rest, tuple(doors))
+
+    def every_door(self) -> list[Door]:
+        """All interfaces of the documents, and CommonBehavior, without an address."""
+        scopes = [*self.program.modules.values(), common_behavior()]
+        return [Door(one.name, scope, one, "") for scope in scopes for one in scope.module.interfaces]
 
     def door(self, peer: Peer, words: Sequence[str]) -> Door:
         """The interface of a peer that is named, by itself or after its module. Raises Refused, and Faulty if its
@@ -249,7 +254,7 @@ class Addresses:
             if peer.component is not None:
                 self._refuse_errors({peer.component.component.path})
             known = [one.name for one in peer.doors]
-            others = [one.interface.name for scope in self.program.modules.values() for one in _doors_of(scope)]
+            others = [one.name for one in self.every_door()]
             verb = "serves" if peer.component or peer.instance else "can be asked for"
             otherwise = f"it {verb} {', '.join(known)}" if known else "it serves no interface of these documents"
             what = "does not serve" if name in others or peer.doors else "serves no interface"
@@ -306,10 +311,6 @@ class Addresses:
         ]
         if errors:
             raise Faulty(errors, self.program.documents)
-
-
-def _doors_of(scope: LinkedModule) -> Iterator[Door]:
-    return (Door(one.name, scope, one, "") for one in scope.module.interfaces)
 
 
 def _prefixes(text: str) -> Iterator[str]:

@@ -119,10 +119,21 @@ class Calls(msgspec.Struct, frozen=True):
             if thrown is not None:
                 return Reply(throws=thrown[0], members=thrown[1])
             called, limit = self._called(), self.timeout
-            raise failures.no_answer(error, called, limit, lambda: self.client.ids_at(proxy, 1.0)) from None
+            raise failures.no_answer(
+                error, called, limit, lambda: self.client.ids_at(proxy, 1.0), self._others
+            ) from None  # fmt: skip
         data = operation.results_as_data(result)
         has_value = RETURNS in operation.results
         return Reply(data.pop(RETURNS) if has_value else None, has_value, data)
+
+    def _others(self) -> list[str]:
+        """The interfaces of the documents that are at the same address."""
+        own = self.method.door
+        doors = {
+            one.interface.name: self.client.proxy(f"{one.interface.name.lower()}:{own.where}")
+            for one in self.method.addresses.every_door()
+        }
+        return [name for name, proxy in doors.items() if self.client.answers(proxy, 0.5)]
 
     def _called(self) -> Any:
         from robocomp_yaml.wire.failures import Called

@@ -61,11 +61,13 @@ def methods(addresses: Addresses, incomplete: str) -> list[str]:
             names += addresses.methods(name)
         except Refused:
             continue
-    return [name for name in names if ".CommonBehavior." not in name or incomplete.endswith(_ENDS) or
-            ".CommonBehavior" in incomplete]  # fmt: skip
+    return [name for name in names if incomplete.startswith(_shown_from(name))]
 
 
-_ENDS = (".C", ".Co", ".Com")
+def _shown_from(name: str) -> str:
+    """What must be typed before a method is offered: the first letter of CommonBehavior, which everybody has."""
+    entry, common, _ = name.partition(".CommonBehavior.")
+    return f"{entry}.C" if common else ""
 
 
 def as_text(data: Mapping[str, Any], format_: str, *, line: bool = False) -> str:

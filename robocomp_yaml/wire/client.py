@@ -79,6 +79,14 @@ class Client(msgspec.Struct):
             return list(self.result(proxy.ice_idsAsync(), time.monotonic() + limit))
         return []
 
+    def answers(self, proxy: Any, limit: float) -> bool:
+        """Whether the object of a proxy answers a ping."""
+        try:
+            self.result(proxy.ice_pingAsync(), time.monotonic() + limit)
+        except (Ice.Exception, OutOfTime):
+            return False
+        return True
+
 
 def proxy_of(communicator: Any, text: str) -> Any:
     """The proxy in a text. Raises Refused if it is none, or if a plug-in is missing for its endpoints."""

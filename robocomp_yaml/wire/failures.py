@@ -39,8 +39,11 @@ def raised(error: Exception, operation: Operation) -> tuple[str, dict[str, Data]
     return None
 
 
-def no_answer(error: Exception, called: Called, limit: float, ids: Callable[[], list[str]]) -> NoAnswer:
-    """Why a call failed. `ids` returns the type ids of the object that is there."""
+def no_answer(
+    error: Exception, called: Called, limit: float, ids: Callable[[], list[str]], others: Callable[[], list[str]]
+) -> NoAnswer:
+    """Why a call failed. `ids` returns the type ids of the object that is there, `others` the names of known interfaces
+    that are there instead."""
     who, method = f"{called.who} at {called.where}", f"{called.interface}.{called.method}"
     match error:
         case NotConnected():
@@ -54,6 +57,8 @@ def no_answer(error: Exception, called: Called, limit: float, ids: Callable[[], 
             return NoAnswer(why, "it hangs, or needs more time: --timeout TIME")
         case Ice.ObjectNotExistException() | Ice.FacetNotExistException():
             what = f"{who} has no object '{Ice.identityToString(error.id)}' for {called.interface}"
+            if there := others():
+                return NoAnswer(what, f"what serves there is {', '.join(there)}")
             return NoAnswer(what, "another component runs there, or it is not ready yet")
     if isinstance(error, _UNFIT):
         there = [one for one in ids() if one != "::Ice::Object"]

@@ -194,7 +194,7 @@ def test_nobody_is_there(server: Server, rcyaml: Rcyaml, free_port: Ports) -> No
 
 def test_somebody_else_is_there(server: Server, rcyaml: Rcyaml) -> None:
     done = rcyaml("call", f"localhost:{server.arm}.Hand.grasp", "image=[]")
-    assert done.exit_code == 1 and "has no object 'hand' for Hand" in done.output
+    assert done.exit_code == 1 and "has no object 'hand' for Hand; what serves there is Arm" in done.output
     done = rcyaml("call", f"localhost:{server.arm}.Hand.grasp", "image=[]", "--identity", "arm")
     assert done.exit_code == 1
     assert "it has no method 'grasp'; what serves there is RoboCompArm.Arm" in done.output
