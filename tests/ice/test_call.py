@@ -310,6 +310,9 @@ def test_tls_in_python(
     }
     start(made.configure({**tls, **endpoints}).command).wait_for("Server is running")
     secure(rcyaml, "Server")
+    done = rcyaml("param", "set", "Server", "period.compute", "77", "--ice-config", "tls.cfg")
+    assert done.exit_code == 0, done.output
+    assert rcyaml("param", "get", "Server", "period.compute", "--ice-config", "tls.cfg").stdout == "77\n"
 
 
 @needs_cpp

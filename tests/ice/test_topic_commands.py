@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import signal
 import sys
 import time
@@ -20,6 +21,7 @@ from cpp_programs import needs_cpp
 from java_programs import needs_java
 from processes import Ports, Start, Storm, until
 from scenario import INTERFACES, cdsl
+from test_call import tls  # noqa: F401 (the fixture)
 from test_java import Program, built, program  # noqa: F401 (fixtures)
 
 Rcyaml = Callable[..., Result]
@@ -199,6 +201,47 @@ def test_what_cannot_be_done(rcyaml: Rcyaml, tmp_path: Path, words: list[str], c
     done = rcyaml("topic", *words, "--storm", "IceStorm/TopicManager:tcp -h localhost -p 9")
     assert done.exit_code == code
     assert said in done.output
+
+
+@pytest.fixture
+def secure_storm(ice: object, tls: dict[str, str], start: Start, free_port: Ports, tmp_path: Path) -> str:  # noqa: F811
+    """The topic manager of an IceStorm with TLS only."""
+    if shutil.which("icebox") is None:
+        pytest.skip("icebox is not installed (Debian: zeroc-icebox, libzeroc-icestorm3.7)")
+    port = free_port()
+    (tmp_path / "db").mkdir()
+    properties = {
+        **tls, "IceBox.Service.IceStorm": "IceStormService,37:createIceStorm", "IceBox.InheritProperties": "1",
+        "IceStorm.InstanceName": "IceStorm", "IceStorm.TopicManager.Endpoints": f"ssl -h 127.0.0.1 -p {port}",
+        "IceStorm.Publish.Endpoints": f"ssl -h 127.0.0.1 -p {free_port()}", "IceStorm.LMDB.Path": str(tmp_path / "db"),
+        "IceStorm.LMDB.MapSize": "10",
+    }  # fmt: skip
+    write_tree(tmp_path, {"box.cfg": "".join(f"{key}={value}\n" for key, value in properties.items())})
+    start(["icebox", "--Ice.Config=box.cfg"], cwd=tmp_path)
+    return f"IceStorm/TopicManager:ssl -h 127.0.0.1 -p {port}"
+
+
+def test_topics_with_tls(
+    build: Build,
+    tls: dict[str, str],  # noqa: F811
+    secure_storm: str,
+    start: Start,
+    rcyaml: Rcyaml,
+    tmp_path: Path,
+) -> None:
+    """A component publishes, and both ends of the commands, with the certificate of the robot."""
+    write_tree(tmp_path, {**INTERFACES, "rcyaml.yaml": "interfaces: [.]\n"})
+    made = build({**INTERFACES, "p/p.cdsl.yaml": cdsl("Publisher", publishes=["ArmEvents"])})["Publisher"]
+    (made.root / "src" / "specificworker.py").write_text(PUBLISHER)
+    made.configure({**tls, "TopicManager.Proxy": secure_storm, "period.compute": 20})
+    start(made.command).wait_for("Publisher is running")
+    secured = ["--storm", secure_storm, "--ice-config", "tls.cfg"]
+    assert "ArmEvents  RoboCompArm.ArmEvents" in rcyaml("topic", "list", *secured).stdout
+    done = rcyaml("topic", "echo", "ArmEvents.count", *secured, "--count", "3")
+    assert done.stdout.count("ArmEvents.count(n: ") == 3, done.output
+    assert rcyaml("topic", "pub", "ArmEvents.count", "n=1", *secured).exit_code == 0
+    done = rcyaml("topic", "list", "--storm", secure_storm)
+    assert done.exit_code == 2 and "--ice-config FILE" in done.output
 
 
 def of_a_radio(
