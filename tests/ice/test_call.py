@@ -370,3 +370,17 @@ def calls(rcyaml: Rcyaml, arm: int, hand: int) -> None:
     assert rcyaml("call", f"localhost:{hand}.grasp", "image=[1, 2, 255]").stdout == "returns: [255, 2, 1]\n"
     done = rcyaml("call", f"localhost:{arm}.breakDown", "--format", "json")
     assert done.exit_code == 1 and list(json.loads(done.stdout)["throws"]) == ["UnknownException"]
+
+
+def test_a_call_imports_nothing_that_it_does_not_need(tmp_path: Path) -> None:
+    """It is typed by hand, and waited for: importing Ice is half of its time."""
+    write_tree(tmp_path, WORKSPACE)
+    script = (
+        "import sys\nfrom robocomp_yaml.cli import group\n"
+        "try: group(['call', 'localhost:9.Arm.state'])\nexcept SystemExit: pass\n"
+        "print(*sys.modules, file=sys.stderr)"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, cwd=tmp_path, check=True)
+    imported = set(done.stderr.split())
+    assert "Ice" in imported and "nothing listens there" in done.stderr
+    assert not {"jinja2", "lark", "networkx", "cerberus", "tree_sitter", "IceStorm", "IceGrid", "mcap"} & imported
