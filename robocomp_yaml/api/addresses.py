@@ -60,7 +60,7 @@ class Peer(msgspec.Struct, frozen=True, eq=False):
 
 class Addresses:
     """The documents that are around, and who can be called by them. `deployment` is a document or a folder with one; by
-    default, it is the only one of the workspace."""
+    default, it is the only one below the working folder, else of the workspace."""
 
     def __init__(self, deployment: str = "", include: Sequence[str] = ()) -> None:
         self._include = tuple(include)
@@ -68,7 +68,8 @@ class Addresses:
         chosen = os.path.normpath(which.deployment(deployment, self._include)) if deployment else ""
         self.analysis: Analysis = analyse([self._root, *([chosen] if chosen else [])], include)
         self.program = self.analysis.program
-        found = [chosen] if chosen else which.deployments_of(self._root, self._include, self.analysis)
+        found = [chosen] if chosen else which.deployments_of(".", self._include, self.analysis)
+        found = found or which.deployments_of(self._root, self._include, self.analysis)
         self._deployments = {path: self.program.deployments.get(os.path.realpath(path)) for path in found}
         if chosen and os.path.realpath(chosen) not in self.analysis.networks:
             raise Faulty(self.analysis.diagnostics, self.program.documents)
@@ -113,13 +114,22 @@ class Addresses:
         if at_port := _HOST.match(text):
             endpoint = IceEndpoint(int(at_port[3]), at_port[1] or "tcp").reached_at(at_port[2].strip("[]"))
             return self._at_port(text[: at_port.end(3)], endpoint, at_port[4] or "")
-        return self._of_entry(text) or self._of_component(text) or self._unknown(text)
+        peer = self._of_entry(text)
+        if peer is None:
+            self._refuse_several(text)
+        return peer or self._of_component(text) or self._unknown(text)
+
+    def _refuse_several(self, text: str) -> None:
+        """Raises Refused for an entry of one of several deployments, unless it is the full name of a component."""
+        own = {linked.component.name for linked in self.program.components.values()}
+        if self._is_one or own & set(_prefixes(text)):
+            return
+        for path, linked in self._deployments.items():
+            if linked is not None and linked.find(text, "")[0]:
+                name = f"there are several deployments, and {path} has '{text.partition('.')[0]}'"
+                raise Refused(f"{name}: name one with --deployment {path}")
 
     def _unknown(self, text: str) -> Peer:
-        for path, linked in self._deployments.items():
-            if not self._is_one and linked and linked.find(text, "")[0]:
-                raise Refused(f"there are several deployments, and {path} has '{text.partition('.')[0]}': "
-                              f"name one with --deployment {path}")  # fmt: skip
         self._refuse_errors(
             {path for path in self._deployments if os.path.realpath(path) not in self.analysis.networks}
         )

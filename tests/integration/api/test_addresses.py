@@ -126,3 +126,15 @@ def test_a_closed_group_is_one_component() -> None:
     assert proxy(addresses, "face.Left.shoot") == f"camera:tcp -h 127.0.0.1 -p {gate.endpoints[0].port}"
     with pytest.raises(Refused, match="face has no method 'zoom'"):
         addresses.method("face.zoom")
+
+
+def test_the_nearest_deployment(monkeypatch: pytest.MonkeyPatch) -> None:
+    """That below the working folder, else that of the workspace."""
+    for folder, port in (("a", 12031), ("b", 12032)):
+        text = f"deployment: D{folder}\ncomponents: {{eye: {{component: ../eye, ports: {{Lens: {port}}}}}}}\n"
+        write_tree(Path(), {f"{folder}/head.ddsl.yaml": text, f"{folder}/sub/x": ""})
+    with pytest.raises(Refused, match="name one with --deployment a/head.ddsl.yaml"):
+        Addresses().method("eye.Lens.focus")
+    monkeypatch.chdir("b")
+    assert proxy(Addresses(), "eye.Lens.focus").endswith(" -p 12032")
+    assert proxy(Addresses("../a"), "eye.Lens.focus").endswith(" -p 12031")
