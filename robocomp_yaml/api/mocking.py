@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from robocomp_yaml.api import mock_scripts
 from robocomp_yaml.api.expected import Expectations
+from robocomp_yaml.api.refusals import without_ice
 from robocomp_yaml.deploy import ice_ping
 from robocomp_yaml.deploy.alone import local_ports
 from robocomp_yaml.deploy.beside import beside
@@ -42,13 +43,11 @@ class Mock:
     def __init__(self, names: Sequence[str], script: str = "", include: Iterable[str] = ()) -> None:
         if not names and not script:
             raise Refused("name the interfaces to stand in for, or a script: rcyaml mock Mouth")
+        without_ice()
         self._root = root_above("") or "."
         self._analysis: Analysis = analyse([self._root], include)
         self._expectations = Expectations(self._analysis)
-        try:
-            reader = mock_scripts.reader(self._analysis)
-        except ImportError:
-            raise Refused("Ice for Python is not installed: Debian has python3-zeroc-ice, pip has zeroc-ice") from None
+        reader = mock_scripts.reader(self._analysis)
         found = reader.of_names(text_at(Span(""), name) for name in names)
         self._refuse(one for one in found.diagnostics if not one.span.file)
         self._diagnostics: list[Diagnostic] = list(found.diagnostics)

@@ -6,7 +6,7 @@ import os
 from collections.abc import Mapping, Sequence
 
 from robocomp_yaml.api import which
-from robocomp_yaml.api.values import Values, is_plain_text, parameter_at
+from robocomp_yaml.api.values import Values, parameter_at, spells_text
 from robocomp_yaml.diag.diagnostic import ERROR
 from robocomp_yaml.diag.errors import Refused
 from robocomp_yaml.link.deployments import LinkedInstance
@@ -33,7 +33,7 @@ def in_entry(
     steps: list[Step] = ["components", _key(_tree(path, changed), instance)]
     for parameter, value in settings.items():
         _, type_ = parameter_at(parameter, parameters)
-        is_text = is_plain_text(type_, value)
+        is_text = spells_text(type_, value)
         if not is_text and parse(path, value)[1]:
             shown = HIDDEN if is_secret(type_) else f"'{value}'"
             raise Refused(f"--set {parameter}: {shown} is not a value in YAML")

@@ -25,3 +25,11 @@ def require(what: str, name: str, known: Collection[str], owner: str = "rcyaml")
 def cannot_write(path: str, error: OSError) -> Refused:
     """The error to raise if a file cannot be written."""
     return Refused(f"cannot write {path}: {(error.strerror or str(error)).lower()}")
+
+
+def without_ice() -> None:
+    """Raises Refused if Ice for Python is not installed."""
+    from importlib.util import find_spec
+
+    if find_spec("Ice") is None:
+        raise Refused("Ice for Python is not installed: Debian has python3-zeroc-ice, pip has zeroc-ice")

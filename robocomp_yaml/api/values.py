@@ -212,7 +212,7 @@ class Values:
         of = parameters.parameters.root
         named, type_ = parameter_at(path, of)
         steps = show.typed(of, named)
-        is_text = is_plain_text(type_, value)
+        is_text = spells_text(type_, value)
         raw = self._analysis.disk.contents[self._linked.document.path]  # the text that the locations refer to
         text = source_text.decode(self.file, raw)[0]
         assert text is not None  # the analysis has read it
@@ -242,19 +242,34 @@ class Values:
         """Raises Faulty if the type or the limits reject a value, with the location where it would be written."""
         if value == "null":
             return
-        node, faults = parse(self.file, json.dumps(value) if is_text else value)
-        if node is None:
-            reason = faults[0].message if faults else "it is empty"
-            shown = f"'{value}'" if not is_secret(type_) else HIDDEN
-            found = [file_codes.WRONG_SHAPE.at(span, problem=f"{shown} is not a value: {reason}")]
-        else:
-            found = [replace(fault, span=span, fixes=()) for fault in judge(type_, node, tuple(steps), complete=False)]
+        _, found = judged(type_, steps, value, span, is_text=is_text)
         if found:
             raise Faulty(self._analysis.redacted(found), 1)
 
 
 def _is_flat(file: str) -> bool:
     return os.path.basename(file) == "config" and os.path.basename(os.path.dirname(os.path.abspath(file))) == "etc"
+
+
+def spells_text(type_: Type, value: str) -> bool:
+    """Whether a value from a command line is a text, and not YAML: it needs no quotes. A reference is YAML."""
+    is_text = isinstance(type_, EnumType) or (isinstance(type_, BasicType) and type_.name == "string")
+    return is_text and not _REFERENCE.fullmatch(value)
+
+
+def judged(
+    type_: Type, steps: Sequence[Step], value: str, span: Span, *, is_text: bool, complete: bool = False
+) -> tuple[Node | None, list[Diagnostic]]:
+    """The node of a value from a command line, and why its type or its limits reject it, at the location `span`.
+    `complete` as for the judge."""
+    shown = f"'{value}'" if not is_secret(type_) else HIDDEN
+    if any("\ud800" <= char <= "\udfff" for char in value):  # bytes of the command line
+        return None, [file_codes.WRONG_SHAPE.at(span, problem=f"{shown} is not UTF-8")]
+    node, faults = parse(span.file, json.dumps(value) if is_text else value)
+    if node is None:
+        reason = faults[0].message if faults else "it is empty"
+        return None, [file_codes.WRONG_SHAPE.at(span, problem=f"{shown} is not a value: {reason}")]
+    return node, [replace(fault, span=span, fixes=()) for fault in judge(type_, node, tuple(steps), complete=complete)]
 
 
 def write_new(file: str, include: Sequence[str] = ()) -> str:
@@ -282,12 +297,6 @@ def write_new(file: str, include: Sequence[str] = ()) -> str:
     except OSError as error:
         raise cannot_write(target, error) from None
     return target
-
-
-def is_plain_text(type_: Type, value: str) -> bool:
-    """Whether a value on the command line is the text itself, not YAML."""
-    is_text = isinstance(type_, EnumType) or (isinstance(type_, BasicType) and type_.name == "string")
-    return is_text and not _REFERENCE.fullmatch(value)
 
 
 def parameter_at(path: str, root: RecordType) -> tuple[list[str], Type]:

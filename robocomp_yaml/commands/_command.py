@@ -1,5 +1,5 @@
 """Commands of click that call the library: Refused becomes wrong usage (exit code 2), Faulty prints its diagnostics and
-ends the command (exit code 1)."""
+ends the command (exit code 1), NoAnswer its message."""
 
 from __future__ import annotations
 
@@ -63,10 +63,17 @@ def _library_errors(ctx: click.Context) -> Iterator[None]:
     try:
         yield
     except Exception as error:
-        from robocomp_yaml.diag.errors import Faulty, Refused  # unused by `rcyaml --help`
+        from robocomp_yaml.diag.errors import Faulty, NoAnswer, Refused  # unused by `rcyaml --help`
 
         if isinstance(error, Refused):
             raise click.UsageError(str(error), ctx) from None
+        if isinstance(error, NoAnswer):
+            if ctx.params.get("format_") == "json":
+                from robocomp_yaml.diag import terminal
+                from robocomp_yaml.diag.render.json import dumps
+
+                terminal.data(dumps({"error": error.message, "hint": error.hint}), json=True)
+            raise click.ClickException(str(error)) from None
         if not isinstance(error, Faulty):
             raise
         _report(ctx, error)
@@ -79,5 +86,6 @@ def _report(ctx: click.Context, faulty: Faulty) -> None:
 
     is_json = ctx.params.get("format_") == "json"
     color = _options.colored(ctx, sys.stderr)
-    tell("json" if is_json else "text", faulty.diagnostics, faulty.documents, color, err=not is_json)
+    format_ = "json" if is_json else "text"
+    tell(format_, faulty.diagnostics, faulty.documents, color, err=not is_json, texts=faulty.texts)
     ctx.exit(1)

@@ -43,7 +43,7 @@ def open_session(
     try:
         deployment = api.load(path, include=include).deployment(path, engine=engine, lenient=lenient)
     except Faulty as faulty:
-        _options.report(ctx, format_, faulty.diagnostics, faulty.documents)
+        _options.report(ctx, format_, faulty.diagnostics, faulty.documents or 0)
     if deployment.unread:
         why = "cannot be read (see `rcyaml check`)" if os.path.exists(path) else "is gone"
         terminal.say(f"{path} {why}: the running processes are used instead", err=True)

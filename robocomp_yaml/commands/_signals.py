@@ -39,6 +39,18 @@ def handled() -> Iterator[None]:
             signal.signal(number, _end)
 
 
+@contextmanager
+def hangup_handled() -> Iterator[None]:
+    """In this context, the end of the terminal raises KeyboardInterrupt, too."""
+    before = signal.getsignal(signal.SIGHUP)
+    if before is not signal.SIG_IGN:  # nohup
+        signal.signal(signal.SIGHUP, _terminate)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGHUP, before)
+
+
 def _terminate(number: int, frame: FrameType | None) -> None:
     raise Terminated
 

@@ -12,6 +12,7 @@ import click
 
 from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._command import CommandGroup
+from robocomp_yaml.commands._duration import Duration
 from robocomp_yaml.commands._plugin_choices import PluginChoice
 from robocomp_yaml.deploy.engines import ENGINES
 from robocomp_yaml.source.discover import of_kind
@@ -93,20 +94,6 @@ def _may_name(document: str, word: str) -> bool:
     return any(re.fullmatch(re.escape(key).replace(r"\{i\}", "([0-9]+|{i})"), word) for key in keys)
 
 
-class _Duration(click.ParamType):  # type: ignore[type-arg]  # older ones are not generic
-    """A duration with its unit, as in documents; in seconds."""
-
-    name = "time"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
-        from robocomp_yaml.model.build_component import duration
-
-        seconds = value if isinstance(value, float) else duration(value)
-        if not seconds:
-            self.fail(f"'{value}' is not a duration, such as 30s or 2min", param, ctx)
-        return seconds
-
-
 class _Since(click.ParamType):  # type: ignore[type-arg]  # older ones are not generic
     """A time, or a duration before now; in UTC as logs have it."""
 
@@ -134,7 +121,7 @@ class _Since(click.ParamType):  # type: ignore[type-arg]  # older ones are not g
 _names = click.argument("names", cls=_DocumentAnd, metavar="[NAME]...")
 _engine = click.option("--engine", type=click.Choice([*ENGINES]),
                        help="The engine: local for one machine, icegrid for several.")  # fmt: skip
-_timeout = click.option("--timeout", type=_Duration(), metavar="TIME",
+_timeout = click.option("--timeout", type=Duration(), metavar="TIME",
                         help="The longest total duration: 30s, 2min.")  # fmt: skip
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
 
@@ -14,9 +14,22 @@ class Refused(Exception):
 
 class Faulty(Exception):
     """Documents have errors that leave no result. `diagnostics` are all diagnostics, `documents` is the number of
-    documents that were read."""
+    documents that were read, None if the errors are not about documents. `texts` are those of locations that are in no
+    file, such as arguments."""
 
-    def __init__(self, diagnostics: Iterable[Diagnostic], documents: int = 0) -> None:
+    def __init__(
+        self, diagnostics: Iterable[Diagnostic], documents: int | None = 0, texts: Mapping[str, str] | None = None
+    ) -> None:
         self.diagnostics = tuple(diagnostics)
         self.documents = documents
+        self.texts = dict(texts or {})
         super().__init__("; ".join(one.message for one in self.diagnostics) or "the documents have errors")
+
+
+class NoAnswer(Exception):
+    """A program with which rcyaml talks does not answer, or not as its documents say. The message is for users; `hint`
+    is what helps, or ''."""
+
+    def __init__(self, message: str, hint: str = "") -> None:
+        super().__init__(f"{message}; {hint}" if hint else message)
+        self.message, self.hint = message, hint

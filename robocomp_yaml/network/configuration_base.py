@@ -8,10 +8,10 @@ from collections.abc import Mapping
 import msgspec
 
 from robocomp_yaml.addresses.own import MANAGER as DEFAULT_MANAGER
-from robocomp_yaml.addresses.own import OwnAddresses, of_flat, of_values, replaces_values
+from robocomp_yaml.addresses.own import OwnAddresses, is_own, of_flat, of_values, replaces_values
 from robocomp_yaml.link.deployments import LinkedInstance
 from robocomp_yaml.link.flat_configs import FlatConfig, flat_at, flat_config
-from robocomp_yaml.link.program import LinkedComponent, LinkedValues
+from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Program
 from robocomp_yaml.parameters.writing.properties import CLASSIC, FLAT_TOML, dialect, merged_entries
 from robocomp_yaml.semantics import connections
 from robocomp_yaml.semantics.texts import unquoted
@@ -79,13 +79,23 @@ class ConfigurationBase(msgspec.Struct):
         return of_flat(self.flat, component) if self.flat is not None else OwnAddresses()
 
 
+def base_of_component(linked: LinkedComponent, program: Program) -> ConfigurationBase:
+    """What a component without a deployment starts with."""
+    own = (one for one in program.values.values() if is_own(one) and one.parameters is not None)
+    values = next((one for one in own if one.parameters and one.parameters.component is linked), None)
+    flat = flat_config(os.path.dirname(linked.component.path), program.disk)
+    if values is not None and not replaces_values(flat, values):
+        return ConfigurationBase(values, is_own=True)
+    return ConfigurationBase(None, flat, is_own=True)
+
+
 def base_of(instance: LinkedInstance, disk: Disk) -> ConfigurationBase:
-    is_own = instance.entry.config is None
+    owns = instance.entry.config is None
     flat = flat_at(instance.flat, disk) if instance.flat else None
-    if is_own and instance.values is not None and instance.component is not None:
+    if owns and instance.values is not None and instance.component is not None:
         own = flat_config(os.path.dirname(instance.component.component.path), disk)
         flat = own if replaces_values(own, instance.values) else None
-    return ConfigurationBase(instance.values, is_own=is_own) if flat is None else ConfigurationBase(None, flat, is_own)
+    return ConfigurationBase(instance.values, is_own=owns) if flat is None else ConfigurationBase(None, flat, owns)
 
 
 def _text(node: Node | None) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Iterator
 from typing import Any
 
 from robocomp_yaml.patterns import pattern
@@ -96,3 +97,48 @@ def flow(data: Any) -> str:
     if isinstance(data, list):
         return "[" + ", ".join(flow(item) for item in data) + "]"
     return scalar(data)
+
+
+def block(data: Any, width: int = 100) -> str:
+    """Any data as a document in block style. What fits into a line, and lists of plain values, are flow collections."""
+    return "".join(f"{one}\n" for one in _lines(data, "", width))
+
+
+def _lines(data: Any, indent: str, width: int) -> Iterator[str]:
+    items = data.items() if isinstance(data, dict) else ((None, item) for item in data) if _is_long(data, width) else ()
+    if not isinstance(data, dict) and not _is_long(data, width):
+        yield from _wrapped(data, indent, width)
+    elif not data:
+        yield f"{indent}{flow(data)}"
+    for key, value in items:
+        head = f"{indent}-" if key is None else f"{indent}{scalar(key)}:"
+        text = flow(value)
+        if len(head) + len(text) < width or not isinstance(value, (dict, list)):
+            yield f"{head} {text}"
+        elif key is None:  # the first line follows the dash
+            inner = list(_lines(value, f"{indent}  ", width))
+            yield f"{head} {inner[0].lstrip()}"
+            yield from inner[1:]
+        else:
+            yield head
+            yield from _lines(value, f"{indent}  ", width)
+
+
+def _is_long(data: Any, width: int) -> bool:
+    """Whether a list is written with a line for each item."""
+    return isinstance(data, list) and any(isinstance(item, (dict, list)) for item in data) and len(flow(data)) > width
+
+
+def _wrapped(data: Any, indent: str, width: int) -> Iterator[str]:
+    """A plain value, or a list as a flow collection on several lines."""
+    if not isinstance(data, list):
+        yield f"{indent}{scalar(data)}"
+        return
+    line = f"{indent}["
+    for number, item in enumerate(data):
+        text = flow(item) + (", " if number + 1 < len(data) else "")
+        if len(line) + len(text) > width and len(line) > len(indent) + 1:
+            yield line.rstrip()
+            line = f"{indent} "
+        line += text
+    yield f"{line}]"

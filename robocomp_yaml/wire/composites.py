@@ -14,7 +14,7 @@ from robocomp_yaml.semantics import paths
 from robocomp_yaml.semantics.paths import Path
 from robocomp_yaml.source import tree
 from robocomp_yaml.source.tree import Node
-from robocomp_yaml.wire.values import Data, Fault, Report, WireType
+from robocomp_yaml.wire.values import Data, Fault, Report, Shape, WireType, kept
 
 
 class _Record:
@@ -36,11 +36,15 @@ class Members:
     def __init__(self, members: Sequence[tuple[model.Member, WireType]]) -> None:
         self.types = {member.name: type_ for member, type_ in members}
         self._defaults = {member.name: member.default for member, _ in members if member.default is not None}
-        self._attributes = {name: f"m{number}" for number, name in enumerate(self.types)}
+        self.attributes = {name: f"m{number}" for number, name in enumerate(self.types)}
+
+    @property
+    def shape(self) -> Shape:
+        return tuple((name, type_.shape, str(self._defaults.get(name))) for name, type_ in self.types.items())
 
     def described(self, *more: object) -> tuple[tuple[object, ...], ...]:
         """As Ice wants them described."""
-        return tuple((self._attributes[name], (), type_.ice, *more) for name, type_ in self.types.items())
+        return tuple((self.attributes[name], (), type_.ice, *more) for name, type_ in self.types.items())
 
     def fill(self, made: Any, node: tree.Mapping, path: Path, report: Report) -> None:
         """Sets the attributes of a value to what a mapping says, and to defaults."""
@@ -58,7 +62,7 @@ class Members:
                 value = None
                 hint = f"write `{name}: …`, a {type_.name}"
                 report(Fault(node.span, paths.in_words((*path, name)), "is missing", hint))
-            setattr(made, self._attributes[name], value)
+            setattr(made, self.attributes[name], value)
 
     def zero(self, made: Any) -> None:
         """Sets the attributes of a value to defaults, else to `zero`."""
@@ -72,22 +76,27 @@ class Members:
         for name, type_ in self.types.items():
             default = self._defaults.get(name)
             value = type_.to_ice(tree.scalar_at(Span(""), default.lexeme), (), lambda fault: None) if default else None
-            setattr(made, self._attributes[name], otherwise(name, type_) if value is None else value)
+            setattr(made, self.attributes[name], otherwise(name, type_) if value is None else value)
 
     def to_data(self, made: Any) -> dict[str, Data]:
-        return {name: type_.to_data(getattr(made, self._attributes[name])) for name, type_ in self.types.items()}
+        return {name: type_.to_data(getattr(made, self.attributes[name])) for name, type_ in self.types.items()}
 
 
 class Struct(WireType):
     def __init__(self, id_: str, definition: model.Struct, members: Members) -> None:
         self.name, self.members = definition.name, members
-        self._kind = type(definition.name, (_Record,), {})
-        self.ice = IcePy.defineStruct(id_, self._kind, (), members.described())
+        self.kind = kept(type(definition.name, (_Record,), {}))
+        self.ice = IcePy.defineStruct(id_, self.kind, (), members.described())
+        self.id = id_
+
+    @property
+    def shape(self) -> Shape:
+        return (self.id, self.members.shape)
 
     def to_ice(self, node: Node, path: Path, report: Report) -> Any:
         if not isinstance(node, tree.Mapping):
             return self._wrong(node, path, report, f"a mapping of {', '.join(self.members.types) or 'nothing'}")
-        made = self._kind()
+        made = self.kind()
         self.members.fill(made, node, path, report)
         return made
 
@@ -95,53 +104,63 @@ class Struct(WireType):
         return self.members.to_data(value)
 
     def zero(self) -> Any:
-        made = self._kind()
+        made = self.kind()
         self.members.zero(made)
         return made
 
     def example(self, name: str) -> Any:
-        made = self._kind()
+        made = self.kind()
         self.members.example(made)
         return made
 
 
 class SequenceOf(WireType):
     def __init__(self, id_: str, name: str, element: WireType) -> None:
-        self.name, self._element = name, element
+        self.name, self.element = name, element
         self.ice = IcePy.defineSequence(id_, (), element.ice)
+        self.id = id_
+
+    @property
+    def shape(self) -> Shape:
+        return (self.id, self.element.shape)
 
     def to_ice(self, node: Node, path: Path, report: Report) -> Any:
         if not isinstance(node, tree.Sequence):
             return self._wrong(node, path, report, "a list")
-        made = [self._element.to_ice(item, (*path, at), report) for at, item in enumerate(node.items)]
-        if self._element.name != "byte":
+        made = [self.element.to_ice(item, (*path, at), report) for at, item in enumerate(node.items)]
+        if self.element.name != "byte":
             return made
         return bytes(0 if value is None else value for value in made)
 
     def to_data(self, value: Any) -> Data:
-        return [self._element.to_data(item) for item in value]
+        return [self.element.to_data(item) for item in value]
 
     def zero(self) -> Any:
-        return b"" if self._element.name == "byte" else []
+        return b"" if self.element.name == "byte" else []
 
     def example(self, name: str) -> Any:
-        return b"\0" if self._element.name == "byte" else [self._element.example(name)]
+        return b"\0" if self.element.name == "byte" else [self.element.example(name)]
 
 
 class MapOf(WireType):
     def __init__(self, id_: str, name: str, key: WireType, value: WireType) -> None:
-        self.name, self._key, self._value = name, key, value
+        self.name, self.key_type, self.value_type = name, key, value
         self.ice = IcePy.defineDictionary(id_, (), key.ice, value.ice)
+        self.id = id_
+
+    @property
+    def shape(self) -> Shape:
+        return (self.id, self.key_type.shape, self.value_type.shape)
 
     def to_ice(self, node: Node, path: Path, report: Report) -> Any:
-        if isinstance(self._key, Struct):
+        if isinstance(self.key_type, Struct):
             return self._of_pairs(node, path, report)
         if not isinstance(node, tree.Mapping):
             return self._wrong(node, path, report, "a mapping")
         made = {}
         for key, value in node.items():
             at = (*path, key.lexeme)
-            made[self._key.key(key, at, report)] = self._value.to_ice(value, at, report)
+            made[self.key_type.key(key, at, report)] = self.value_type.to_ice(value, at, report)
         return made
 
     def _of_pairs(self, node: Node, path: Path, report: Report) -> Any:
@@ -154,20 +173,20 @@ class MapOf(WireType):
             if entries.keys() != {"key", "value"}:
                 self._wrong(item, at, report, "{key: …, value: …}")
                 continue
-            key = self._key.to_ice(entries["key"][1], (*at, "key"), report)
-            made[key] = self._value.to_ice(entries["value"][1], (*at, "value"), report)
+            key = self.key_type.to_ice(entries["key"][1], (*at, "key"), report)
+            made[key] = self.value_type.to_ice(entries["value"][1], (*at, "value"), report)
         return made
 
     def to_data(self, value: Any) -> Data:
-        if isinstance(self._key, Struct):
-            return [{"key": self._key.to_data(k), "value": self._value.to_data(v)} for k, v in value.items()]
-        return {_as_key(self._key.to_data(key)): self._value.to_data(item) for key, item in value.items()}
+        if isinstance(self.key_type, Struct):
+            return [{"key": self.key_type.to_data(k), "value": self.value_type.to_data(v)} for k, v in value.items()]
+        return {_as_key(self.key_type.to_data(key)): self.value_type.to_data(item) for key, item in value.items()}
 
     def zero(self) -> Any:
         return {}
 
     def example(self, name: str) -> Any:
-        return {self._key.example("key"): self._value.example(name)}
+        return {self.key_type.example("key"): self.value_type.example(name)}
 
 
 def _as_key(data: Data) -> str:

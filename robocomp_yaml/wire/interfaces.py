@@ -12,8 +12,9 @@ from robocomp_yaml.link.program import LinkedModule
 from robocomp_yaml.model.interface import ExceptionType, Interface, Method
 from robocomp_yaml.semantics.paths import Path
 from robocomp_yaml.source import tree
+from robocomp_yaml.wire.composites import Members
 from robocomp_yaml.wire.types import Types, id_of
-from robocomp_yaml.wire.values import Data, Report, WireType
+from robocomp_yaml.wire.values import Data, Report, Shape, WireType, kept
 
 RETURNS = "returns"
 
@@ -21,11 +22,10 @@ RETURNS = "returns"
 class Throwable:
     """An exception that a method declares. `kind` is its Python class."""
 
-    def __init__(self, scope: LinkedModule, definition: ExceptionType, types: Types) -> None:
-        self.name, self.members = definition.name, types.members(scope, definition.members)
-        id_ = id_of(scope, definition.name)
-        self.kind: type[Exception] = type(definition.name, (Ice.UserException,), {"_ice_id": id_})
-        self.ice = IcePy.defineException(id_, self.kind, (), False, None, self.members.described(False, 0))
+    def __init__(self, id_: str, name: str, members: Members) -> None:
+        self.name, self.members = name, members
+        self.kind: type[Exception] = kept(type(name, (Ice.UserException,), {"_ice_id": id_}))
+        self.ice = IcePy.defineException(id_, self.kind, (), False, None, members.described(False, 0))
         self.kind._ice_type = self.ice  # type: ignore[attr-defined]
 
     def make(self, node: tree.Mapping, path: Path, report: Report) -> Exception:
@@ -33,6 +33,19 @@ class Throwable:
         raised = self.kind()
         self.members.fill(raised, node, path, report)
         return raised
+
+
+_THROWABLES: dict[Shape, Throwable] = {}
+
+
+def throwable(scope: LinkedModule, definition: ExceptionType, types: Types) -> Throwable:
+    """The exception of a definition. In a process, Ice knows the first exception of each type id, and no other one: so
+    equal definitions share it."""
+    id_, members = id_of(scope, definition.name), types.members(scope, definition.members)
+    shape = (id_, members.shape)
+    if shape not in _THROWABLES:
+        _THROWABLES[shape] = Throwable(id_, definition.name, members)
+    return _THROWABLES[shape]
 
 
 class Operation:
@@ -111,7 +124,7 @@ class WireInterface:
                 assert owner is not None and isinstance(owner[1], ExceptionType), ref.text
                 key = id_of(owner[0], owner[1].name)
                 if key not in found:
-                    found[key] = Throwable(owner[0], owner[1], types)
+                    found[key] = throwable(owner[0], owner[1], types)
                 thrown[owner[1].name] = found[key]
             self.operations[method.name] = Operation(scope, method, types, thrown)
 
@@ -126,7 +139,7 @@ class WireInterface:
         for name, operation in self.operations.items():
             parts[f"_op_{name}"] = operation.ice
             parts[name] = parts[f"_{name}"] = _dispatched(operation, answer)  # Ice puts `_` before words of Python
-        kind = type(self.interface.name, (Ice.Object,), parts)
+        kind = kept(type(self.interface.name, (Ice.Object,), parts))
         kind._ice_type = IcePy.defineClass(self.id, kind, (), None, ())  # type: ignore[attr-defined]
         servant: Ice.Object = kind()
         return servant

@@ -5,20 +5,19 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from typing import Any
 
 import Ice
-import IceStorm
 import msgspec
 
-from robocomp_yaml.diag.errors import Refused
+from robocomp_yaml.diag.errors import NoAnswer, Refused
 from robocomp_yaml.wire.addresses import Address, Topic
+from robocomp_yaml.wire.client import reason_of
 from robocomp_yaml.wire.interfaces import Operation
 from robocomp_yaml.wire.script import Published, Script, Served
+from robocomp_yaml.wire.storm import topic, topic_manager
 from robocomp_yaml.wire.values import Data
-
-_PATIENCE = 2000  # milliseconds for IceStorm to answer
 
 
 class Call(msgspec.Struct, frozen=True):
@@ -65,8 +64,9 @@ def running(
             each for one in script.served for each in _serve(communicator, one, addresses[one.interface.id], on_call)
         ]
         for one in script.published:
-            managers = [(_topic_manager(communicator, topic.manager), topic.name) for topic in topics[one.interface.id]]
-            target = (one, [_publisher(manager, name) for manager, name in managers], on_call, stop)
+            managers = [(_manager(communicator, each.manager), each.name) for each in topics[one.interface.id]]
+            senders = [topic(manager, name).getPublisher().ice_oneway() for manager, name in managers]
+            target = (one, senders, on_call, stop)
             publishers.append(threading.Thread(target=_publish, args=target, daemon=True))
         for thread in publishers:
             thread.start()
@@ -96,7 +96,7 @@ def _serve_at(communicator: Any, served: Served, servant: Any, address: Address)
     except Ice.SocketException:
         problem = "the address is in use: is the component running?"
     except Ice.Exception as error:
-        problem = _reason(error)
+        problem = reason_of(error)
     else:
         adapter.add(servant, communicator.stringToIdentity(address.identity))
         adapter.activate()
@@ -132,21 +132,11 @@ class _Answers:
         return answer.result
 
 
-def _topic_manager(communicator: Any, text: str) -> Any:
+def _manager(communicator: Any, text: str) -> Any:
     try:
-        proxy = communicator.stringToProxy(text).ice_invocationTimeout(_PATIENCE)
-        proxy.ice_ping()
-    except Ice.Exception as error:
-        raise Refused(f"IceStorm, which carries topics, does not answer at '{text}': {_reason(error)}") from None
-    return IceStorm.TopicManagerPrx.uncheckedCast(proxy)
-
-
-def _publisher(manager: Any, name: str) -> Any:
-    while True:
-        with suppress(IceStorm.NoSuchTopic):
-            return manager.retrieve(name).getPublisher().ice_oneway()
-        with suppress(IceStorm.TopicExists):
-            return manager.create(name).getPublisher().ice_oneway()
+        return topic_manager(communicator, text)
+    except NoAnswer as error:
+        raise Refused(str(error)) from None
 
 
 def _publish(published: Published, proxies: Sequence[Any], on_call: Listener, stop: threading.Event) -> None:
@@ -165,9 +155,3 @@ def _publish(published: Published, proxies: Sequence[Any], on_call: Listener, st
             on_call(Call(name, operation.name, operation.inputs_as_data(arguments), is_published=True))
         sent += 1
         stop.wait(max(0.0, began + sent / published.rate - time.monotonic()))
-
-
-def _reason(error: Exception) -> str:
-    """An exception of Ice in one line."""
-    reason = getattr(error, "reason", "") or getattr(error, "str", "")
-    return reason or type(error).__name__

@@ -13,7 +13,7 @@ import math
 import struct
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeVar
 
 import Ice
 import IcePy
@@ -36,6 +36,18 @@ _INTEGERS["long"] = (-(2**63), 2**63 - 1)
 _SHOWN = 60  # characters of a wrong value in a message
 
 
+Shape = tuple[Any, ...]
+_KEPT: list[type] = []
+Kind = TypeVar("Kind", bound=type)
+
+
+def kept(kind: Kind) -> Kind:
+    """A class that is described to Ice. It is kept until the process ends: Ice has no reference of its own to it, and
+    crashes without it."""
+    _KEPT.append(kind)
+    return kind
+
+
 class Fault(msgspec.Struct, frozen=True):
     """What is wrong with a value: `path` leads to it from the argument's name."""
 
@@ -53,6 +65,11 @@ class WireType(ABC):
 
     name: str
     ice: Any
+
+    @property
+    def shape(self) -> Shape:
+        """What makes the type the same as another one."""
+        return (self.name,)
 
     @abstractmethod
     def to_ice(self, node: Node, path: Path, report: Report) -> Any:
@@ -135,6 +152,9 @@ class Real(WireType):
         """A float as the shortest number that is the same one in 32 bits: 0.1, not 0.10000000149011612."""
         if self.name == "double" or not math.isfinite(value):
             return float(value)
+        value = as_float(value)  # what travels, if it was not sent yet
+        if not math.isfinite(value):
+            return value
         return next(short for digits in range(6, 10) if as_float(short := float(f"{value:.{digits}g}")) == value)
 
     def zero(self) -> Any:
@@ -174,27 +194,33 @@ class Text(WireType):
 class Enumeration(WireType):
     def __init__(self, id_: str, definition: model.Enum) -> None:
         self.name = definition.name
-        kind = type(definition.name, (Ice.EnumBase,), {})
-        self._values: dict[str, Any] = {}
+        kind = kept(type(definition.name, (Ice.EnumBase,), {}))
+        self.values: dict[str, Any] = {}
+        self.id = id_
         number = -1
         for enumerator in definition.enumerators:
             number = number + 1 if enumerator.value is None else enumerator.value
-            self._values[enumerator.name] = kind(enumerator.name, number)
-        self._names = {value.value: name for name, value in self._values.items()}
-        self.ice = IcePy.defineEnum(id_, kind, (), {value.value: value for value in self._values.values()})
+            self.values[enumerator.name] = kind(enumerator.name, number)
+        self._names = {value.value: name for name, value in self.values.items()}
+        self.ice = IcePy.defineEnum(id_, kind, (), {value.value: value for value in self.values.values()})
+        self._shape = (id_, *self._names.items())
+
+    @property
+    def shape(self) -> Shape:
+        return self._shape
 
     def to_ice(self, node: Node, path: Path, report: Report) -> Any:
         name = node.lexeme if isinstance(node, tree.Scalar) else ""
-        if name in self._values:
-            return self._values[name]
-        words = f"one of {', '.join(self._values)}"
-        return self._wrong(node, path, report, words, did_you_mean(name, self._values) if name else "")
+        if name in self.values:
+            return self.values[name]
+        words = f"one of {', '.join(self.values)}"
+        return self._wrong(node, path, report, words, did_you_mean(name, self.values) if name else "")
 
     def to_data(self, value: Any) -> Data:
         return self._names[value.value]
 
     def zero(self) -> Any:
-        return next(iter(self._values.values()))
+        return next(iter(self.values.values()))
 
 
 def _shown(node: Node) -> str:

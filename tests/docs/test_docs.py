@@ -3,7 +3,8 @@
 In a page, a code block after `<!-- file: PATH -->` is a file (an existing one is replaced), and a `console` block is a
 session: lines that start with `$ ` are commands, the others what they print. A page's blocks are run from top to
 bottom in one empty folder. `<!-- in: FOLDER -->` starts from a copy of a folder of the project. A line `…` stands for
-any lines. `pytest tests/docs --update-golden` writes what the commands print.
+any lines. `<!-- needs: Ice, mcap -->` is in a page that is
+skipped without these modules. `pytest tests/docs --update-golden` writes what the commands print.
 """
 
 from __future__ import annotations
@@ -72,6 +73,10 @@ def matches(shown: str, printed: str) -> bool:
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_page(page: Path, tmp_path: Path, request: pytest.FixtureRequest) -> None:
     text = page.read_text(encoding="utf-8")
+    for needed in re.findall(r"\w+", (re.findall("<!-- needs: (.*) -->", text) or [""])[0]):
+        pytest.importorskip(
+            needed, reason=f"the page needs {needed} (Debian: python3-zeroc-ice; pip install rcyaml[record])"
+        )
     replaced: list[tuple[Session, str]] = []
     for block in _BLOCK.finditer(text):
         folder = block["folder"] or (block["name"] if block["mark"] == "in" else None)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import importlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -12,11 +12,13 @@ FORMATS = ("text", "json", "sarif")
 
 
 def tell(
-    format_: str, diagnostics: Sequence[Diagnostic], documents: int, color: bool = False, *, err: bool = False
+    format_: str, diagnostics: Sequence[Diagnostic], documents: int | None, color: bool = False, *, err: bool = False,
+    texts: Mapping[str, str] | None = None,
 ) -> None:  # fmt: skip
-    """Prints the diagnostics of a run that read that number of documents, on standard error if `err`."""
+    """Prints the diagnostics of a run that read that number of documents, on standard error if `err`. `texts` are those
+    of locations that are in no file."""
     module = importlib.import_module(f"{__name__}.{format_}")
     if format_ == "text":
-        terminal.say(*module.render(diagnostics, documents, color), err=err)
+        terminal.say(*module.render(diagnostics, documents, color, texts), err=err)
     else:
-        terminal.data(module.render(diagnostics, documents), json=True, err=err)
+        terminal.data(module.render(diagnostics, documents or 0), json=True, err=err)

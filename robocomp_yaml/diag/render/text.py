@@ -9,7 +9,7 @@ error[RC2003]: component SpeechComp requires interface 'Mouht', which no importe
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, WARNING, Diagnostic
 from robocomp_yaml.diag.hidden import hide, parts
@@ -26,15 +26,20 @@ _CODE = (
 _COLORS = {ERROR: "31", WARNING: "33", NOTE: "36"}
 
 
-def render(diagnostics: Sequence[Diagnostic], documents: int, color: bool) -> list[Shown]:
-    """The lines of each diagnostic, and a last line with their numbers."""
-    rendered = [one for lines in each(diagnostics, color) for one in (*lines, Shown())]
-    return [*rendered, _summary(diagnostics, documents, color)]
+def render(
+    diagnostics: Sequence[Diagnostic], documents: int | None, color: bool, texts: Mapping[str, str] | None = None
+) -> list[Shown]:
+    """The lines of each diagnostic, and a last line with their numbers, unless `documents` is None."""
+    rendered = [one for lines in each(diagnostics, color, texts) for one in (*lines, Shown())]
+    return rendered[:-1] if documents is None else [*rendered, _summary(diagnostics, documents, color)]
 
 
-def each(diagnostics: Sequence[Diagnostic], color: bool) -> list[list[Shown]]:
-    """The lines of each diagnostic, with the line of the document at its location."""
-    lines = _Lines()
+def each(
+    diagnostics: Sequence[Diagnostic], color: bool, texts: Mapping[str, str] | None = None
+) -> list[list[Shown]]:  # fmt: skip
+    """The lines of each diagnostic, with the line of the document at its location. `texts` are those of locations that
+    are in no file."""
+    lines = _Lines(texts or {})
     return [_one(diagnostic, lines, color) for diagnostic in diagnostics]
 
 
@@ -105,10 +110,10 @@ def _visible(text: str) -> Shown:
 
 
 class _Lines:
-    """The lines of the files in which diagnostics are located; each file is read once."""
+    """The lines of the files in which diagnostics are located; each file is read once. `texts` are read as files."""
 
-    def __init__(self) -> None:
-        self._files: dict[str, list[str] | None] = {}
+    def __init__(self, texts: Mapping[str, str]) -> None:
+        self._files: dict[str, list[str] | None] = {file: _split(text) for file, text in texts.items()}
         self._secrets: dict[str, dict[int, list[Part]]] = {}
 
     def get(self, file: str, line: int) -> str | None:
@@ -135,4 +140,8 @@ def _read(file: str) -> list[str] | None:
             text = opened.read(MOST_READ).decode("utf-8-sig", errors="replace")
     except OSError:
         return None
+    return _split(text)
+
+
+def _split(text: str) -> list[str]:
     return text.replace("\r\n", "\n").replace("\r", "\n").split("\n")

@@ -1,0 +1,116 @@
+"""What the commands share that talk to running components: options, completion, times, and values as YAML or JSON."""
+
+from __future__ import annotations
+
+import math
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from robocomp_yaml.commands._duration import Duration
+
+if TYPE_CHECKING:
+    from click.shell_completion import CompletionItem
+
+    from robocomp_yaml.api.addresses import Addresses
+
+deployment = click.option(
+    "--deployment", metavar="DDSL", type=click.Path(exists=True),
+    help="The deployment; by default, the only one of the workspace.",
+)  # fmt: skip
+timeout = click.option("--timeout", type=Duration(), default="10s", metavar="TIME", show_default=True,
+                       help="The longest time that a call may take.")  # fmt: skip
+every = click.option("--every", type=Duration(), metavar="TIME", help="Again after this time, until Ctrl-C.")
+ice_config = click.option(
+    "--ice-config", metavar="FILE", type=click.Path(exists=True, dir_okay=False),
+    help="Properties of Ice, such as those of TLS.",
+)  # fmt: skip
+yaml_or_json = click.option("--format", "format_", type=click.Choice(["yaml", "json"]), default="yaml",
+                            help="How to print values.")  # fmt: skip
+
+
+def completing(known: Callable[[Addresses, str], list[str]]) -> Any:
+    """The shell completion of an argument by names that `known` returns; it prints nothing, whatever is wrong."""
+
+    def complete(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+        from click.shell_completion import CompletionItem
+
+        from robocomp_yaml.api.addresses import Addresses
+        from robocomp_yaml.diag.errors import Faulty, Refused
+
+        try:
+            names = known(Addresses(ctx.params.get("deployment") or ""), incomplete)
+        except (Faulty, Refused, OSError):
+            return []
+        return [CompletionItem(name) for name in names if name.startswith(incomplete)]
+
+    return complete
+
+
+def methods(addresses: Addresses, incomplete: str) -> list[str]:
+    """The methods of all that have a name; those of CommonBehavior only after its name."""
+    from robocomp_yaml.diag.errors import Refused
+
+    names = []
+    for name in addresses.names():
+        try:
+            names += addresses.methods(name)
+        except Refused:
+            continue
+    return [name for name in names if incomplete.startswith(_shown_from(name))]
+
+
+def _shown_from(name: str) -> str:
+    """What must be typed before a method is offered: the first letter of CommonBehavior, which everybody has."""
+    entry, common, _ = name.partition(".CommonBehavior.")
+    return f"{entry}.C" if common else ""
+
+
+def as_text(data: Mapping[str, Any], format_: str, *, line: bool = False) -> str:
+    """Values as YAML or JSON, with a line end; JSON in one `line`, if wanted."""
+    if format_ == "json":
+        return as_json(data, line=line)
+    from robocomp_yaml.source.yaml_text import block
+
+    return block(data)
+
+
+def as_json(data: object, *, line: bool = True) -> str:
+    """Values as JSON with a line end. JSON has no numbers that are infinite or none: they are texts, as in Protobuf's
+    JSON."""
+    from robocomp_yaml.diag.render.json import dumps
+
+    return dumps(_finite(data), indent=None if line else 2)
+
+
+def _finite(data: object) -> object:
+    if isinstance(data, dict):
+        return {key: _finite(value) for key, value in data.items()}
+    if isinstance(data, list):
+        return [_finite(item) for item in data]
+    if isinstance(data, float) and not math.isfinite(data):
+        return "NaN" if math.isnan(data) else "Infinity" if data > 0 else "-Infinity"
+    return data
+
+
+def standard_input() -> str:
+    """The text on standard input; bytes that are not UTF-8 become surrogates, which arguments reject."""
+    return sys.stdin.buffer.read().decode("utf-8-sig", "surrogateescape")
+
+
+def times(count: int | None, period: float | None) -> Iterator[int]:
+    """Counts, at most to `count`. Each number comes a multiple of the period after the first one, so that times do not
+    drift; those that are missed are skipped."""
+    began, at, number = time.monotonic(), 0, 0
+    pause = threading.Event()
+    while count is None or number < count:
+        yield number
+        number += 1
+        if period and (count is None or number < count):
+            now = time.monotonic() - began
+            at = max(at + 1, int(now / period))
+            pause.wait(max(0.0, at * period - now))

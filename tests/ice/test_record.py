@@ -1,0 +1,204 @@
+"""`rcyaml record`: files that MCAP's own reader decodes, and networks in which they are played."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import Result
+from hypothesis import HealthCheck, given, settings
+
+from components import Built
+from conftest import write_tree
+from in_memory import program
+from processes import Start, Storm, until
+from robocomp_yaml.source.yaml_text import flow
+from scenario import INTERFACES
+from test_topic_commands import Talk, talk  # noqa: F401 (the fixture)
+from test_wire import DOCUMENTS, everything, names, node, right
+
+pytest.importorskip("mcap", reason="MCAP for Python is not installed (pip install mcap mcap-protobuf-support)")
+pytest.importorskip("mcap_protobuf", reason="MCAP's decoder of Protobuf is not installed")
+
+Rcyaml = Callable[..., Result]
+RCYAML = os.path.join(os.path.dirname(sys.executable), "rcyaml")
+
+
+def decoded(path: Path) -> list[tuple[str, Any]]:
+    """The messages of a file, by MCAP's own reader: channel and values."""
+    from mcap.reader import make_reader
+    from mcap_protobuf.decoder import DecoderFactory
+
+    with path.open("rb") as file:
+        reader = make_reader(file, decoder_factories=[DecoderFactory()])
+        return [(channel.topic, message) for _, channel, _, message in reader.iter_decoded_messages()]
+
+
+@pytest.fixture(scope="module")
+def message_type(ice: Any) -> Any:
+    """The Protobuf message of a topic that carries every type."""
+    from robocomp_yaml.wire.interfaces import WireInterface
+    from robocomp_yaml.wire.protobuf import MessageType
+    from robocomp_yaml.wire.types import Types
+
+    topic = "topics:\n  Wires:\n    methods:\n      all: {in: {value: All, grid: Grid, text: string}}\n      none:\n"
+    documents = {**DOCUMENTS, "Wire.idsl.yaml": DOCUMENTS["Wire.idsl.yaml"] + topic}
+    scopes = {scope.module.name: scope for scope in program(documents).modules.values()}
+    interface = WireInterface(scopes["WireModule"], scopes["WireModule"].module.topics[0], Types())
+    return {name: MessageType(interface, operation) for name, operation in interface.operations.items()}
+
+
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(everything, names)
+def test_every_value_comes_back(message_type: Any, value: dict[str, Any], text: str) -> None:
+    made = message_type["all"]
+    arguments = {"value": value, "grid": value["grid"], "text": text}
+    values = made.operation.arguments(node(arguments), right)
+    back = made.operation.inputs_as_data(made.decode(made.encode(values)))
+    assert flow(back) == flow(made.operation.inputs_as_data(values))
+    assert message_type["none"].decode(message_type["none"].encode(())) == ()
+
+
+def test_what_a_component_publishes(talk: Talk, start: Start, rcyaml: Rcyaml, tmp_path: Path) -> None:  # noqa: F811
+    start(talk.publisher.command).wait_for("Publisher is running")
+    done = rcyaml("record", talk.name, "--count", "30", "-o", "a.mcap", "--format", "json")
+    assert done.exit_code == 0, done.output
+    assert {key: json.loads(done.stdout)[key] for key in ("file", "messages", "dropped")} == {
+        "file": "a.mcap", "messages": 30, "dropped": {},
+    }  # fmt: skip
+    messages = decoded(tmp_path / "a.mcap")
+    numbers = [values.n for channel, values in messages if channel == f"{talk.name}/count"]
+    assert numbers == list(range(numbers[0], numbers[0] + len(numbers))) and len(messages) == 30
+    poses = [values.pose for channel, values in messages if channel == f"{talk.name}/moved"]
+    assert {(one.y, one.side) for one in poses} == {(2.5, 1)}
+    assert type(poses[0]).DESCRIPTOR.full_name == "RoboCompTypes.Pose"
+
+    found = json.loads(rcyaml("record", "info", "a.mcap", "--format", "json").stdout)
+    assert found["messages"] == 30 and found["dropped"] == {} and found["deployment"] == "Robot"
+    assert {(one["method"], one["type"]): one["messages"] for one in found["topics"]} == {
+        ("moved", "RoboCompArm.ArmEvents.moved"): len(poses), ("count", "RoboCompArm.ArmEvents.count"): len(numbers),
+    }  # fmt: skip
+    assert "a.mcap: 30 messages in 0." in rcyaml("record", "info", "a.mcap").stdout
+
+
+def test_a_killed_recorder_leaves_a_file(talk: Talk, start: Start, rcyaml: Rcyaml, tmp_path: Path) -> None:  # noqa: F811
+    start(talk.publisher.command).wait_for("Publisher is running")
+    recorder = start([RCYAML, "record", "-o", "k.mcap"], cwd=tmp_path).wait_for("recording")
+    until(
+        lambda: rcyaml("record", "info", "k.mcap", "--format", "json").stdout.count('"messages": 0') == 0,
+        "a checkpoint",
+    )
+    recorder.stop(signal.SIGKILL)
+    assert len(decoded(tmp_path / "k.mcap")) > 10
+    assert "the recorder was killed" in rcyaml("record", "info", "k.mcap").stdout
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_ctrl_c_completes_the_file(talk: Talk, start: Start, rcyaml: Rcyaml, tmp_path: Path, number: int) -> None:  # noqa: F811
+    start(talk.publisher.command).wait_for("Publisher is running")
+    recorder = start([RCYAML, "record", f"{talk.name}.count", "-o", "c.mcap"], cwd=tmp_path).wait_for("recording")
+    time.sleep(0.5)
+    assert recorder.stop(number) == 128 + number
+    messages = decoded(tmp_path / "c.mcap")
+    assert messages and {channel for channel, _ in messages} == {f"{talk.name}/count"}
+    assert "killed" not in rcyaml("record", "info", "c.mcap").stdout
+
+
+def test_a_largest_size(talk: Talk, start: Start, rcyaml: Rcyaml, tmp_path: Path) -> None:  # noqa: F811
+    start(talk.publisher.command).wait_for("Publisher is running")
+    done = rcyaml("record", "--max-size", "6KB", "-o", "s.mcap")
+    assert done.exit_code == 0 and "would be larger than 6.0 KB" in done.output
+    assert 3000 < os.path.getsize("s.mcap") <= 6000
+    assert decoded(tmp_path / "s.mcap")
+
+
+def test_what_was_dropped_is_counted(talk: Talk, start: Start, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch) -> None:  # noqa: F811
+    monkeypatch.setattr("robocomp_yaml.commands._arriving.MOST_WAITING", 3)
+    monkeypatch.setattr("robocomp_yaml.commands.record.PAUSE", 0.5)
+    start(talk.publisher.command).wait_for("Publisher is running")
+    done = rcyaml("record", "--for", "1600ms", "-o", "d.mcap")
+    assert "messages were dropped: they came too fast" in done.output
+    dropped = json.loads(rcyaml("record", "info", "d.mcap", "--format", "json").stdout)["dropped"]
+    assert dropped[talk.name] > 10
+    assert f"dropped: {dropped[talk.name]} of {talk.name}" in rcyaml("record", "info", "d.mcap").stdout
+
+
+def test_it_is_played_in_another_network(
+    talk: Talk,  # noqa: F811
+    start: Start,
+    rcyaml: Rcyaml,
+    tmp_path: Path,
+) -> None:
+    """Under the same name, but without the publisher: a component hears what was recorded, in its times."""
+    publisher = start(talk.publisher.command).wait_for("Publisher is running")
+    assert rcyaml("record", "--for", "2s", "-o", "p.mcap").exit_code == 0
+    publisher.stop()
+    recorded = decoded(tmp_path / "p.mcap")
+    (tmp_path / "s" / "src" / "specificworker.py").write_text(
+        "from generated.genericworker import GenericWorker\n\nclass SpecificWorker(GenericWorker):\n"
+        "    def ArmEvents_moved(self, pose):\n        print('moved', pose.x, pose.y, pose.side)\n\n"
+        "    def ArmEvents_count(self, n):\n        print('count', n)\n"
+    )
+    subscriber = Built("Subscriber", tmp_path / "s", "python")
+    hearing = start(subscriber.configure({"TopicManager.Proxy": talk.manager, "ArmEvents": talk.name}).command)
+    hearing.wait_for("Subscriber is running")
+    began = time.monotonic()
+    done = rcyaml("record", "play", "p.mcap", "--rate", "2", "--deployment", "robot.ddsl.yaml", "--format", "json")
+    assert json.loads(done.stdout)["sent"] == len(recorded)
+    assert 0.8 < time.monotonic() - began < 10
+    until(
+        lambda: hearing.output.count("count ") + hearing.output.count("moved ") == len(recorded), lambda: hearing.output
+    )
+    heard = [line for line in hearing.output.splitlines() if line.startswith(("count ", "moved "))]
+    expected = [
+        f"count {values.n}" if channel.endswith("count") else f"moved {values.pose.x:.1f} 2.5 right"
+        for channel, values in recorded
+    ]
+    assert heard == expected
+    assert json.loads(rcyaml("record", "play", "p.mcap", talk.name, "--rate", "0", "--format", "json").stdout)["sent"]
+
+
+def test_another_version_is_not_played(talk: Talk, start: Start, rcyaml: Rcyaml, tmp_path: Path) -> None:  # noqa: F811
+    start(talk.publisher.command).wait_for("Publisher is running")
+    assert rcyaml("record", f"{talk.name}.count", "--count", "3", "-o", "v.mcap").exit_code == 0
+    write_tree(
+        tmp_path,
+        {"Arm.idsl.yaml": INTERFACES["Arm.idsl.yaml"].replace("count: {in: {n: int}}", "count: {in: {n: long}}")},
+    )
+    done = rcyaml("record", "play", "v.mcap")
+    assert (
+        done.exit_code == 2
+        and "was recorded with another version of RoboCompArm.ArmEvents: 'count' differs" in done.output
+    )
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["ArmEvent"], "did you mean 'ArmEvents'?"),
+        (["-o", "there.mcap"], "there.mcap exists already, and is kept as it is"),
+        (["-o", "no/folder/x.mcap"], "cannot write no/folder/x.mcap"),
+        (["--max-size", "big"], "'big' is not a size, such as 500MB or 2GB"),
+        (["info", "there.mcap"], "there.mcap is not an MCAP file"),
+        (["play", "there.mcap"], "there.mcap is not an MCAP file"),
+        (["info", "nowhere.mcap"], "nowhere.mcap"),
+    ],
+)
+def test_what_cannot_be_done(rcyaml: Rcyaml, icestorm: Storm, tmp_path: Path, words: list[str], said: str) -> None:
+    cdsl = "component: P\nlanguage: python\nimports: [Types, Arm]\npublishes: [ArmEvents]\n"
+    write_tree(
+        tmp_path,
+        {**INTERFACES, "p/p.cdsl.yaml": cdsl, "rcyaml.yaml": "interfaces: [.]\n", "there.mcap": "no file of MCAP " * 9},
+    )
+    recording = words[0] not in ("info", "play")
+    done = rcyaml("record", *words, *(["--storm", icestorm.manager, "--for", "1s"] if recording else []))
+    assert done.exit_code == 2
+    assert said in done.output
+    assert (tmp_path / "there.mcap").read_text() == "no file of MCAP " * 9
