@@ -48,9 +48,9 @@ def diagnostics_of_code(paths: Sequence[str], include: Sequence[str]) -> list[Di
     if kept is None or not stamp.reads_the_same(kept):
         return None
     from robocomp_yaml.diag.code import Code
-    from robocomp_yaml.diag.codes import specific
+    from robocomp_yaml.diag.codes import specific, usage
 
-    of_code = {code.id for code in vars(specific).values() if isinstance(code, Code)}
+    of_code = {code.id for family in (specific, usage) for code in vars(family).values() if isinstance(code, Code)}
     return [one for one in Outcome.of_data(kept.replay).diagnostics if one.code in of_code]
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.emit.layout import SOURCES
@@ -22,15 +22,13 @@ def check(program: Program, diagnostics: Sequence[Diagnostic], linker: Linker) -
     from robocomp_yaml.emit.options import EmitOptions
     from robocomp_yaml.emit.ports import assign
     from robocomp_yaml.emit.specific.review import review
-    from robocomp_yaml.transactions.plan import RootPlan
 
     languages = {program.components[real].component.language.name for real in program.requested_components()}
     options = EmitOptions(
         None, (), frozenset({*languages, "config"}), linker.workspace_of, lambda linked: assign([linked], program.disk),
         only=_is_written,
     )  # fmt: skip
-    plans: Iterable[RootPlan] = build(program, diagnostics, options).plans
-    yield from review(plans).diagnostics
+    yield from review(build(program, diagnostics, options)).diagnostics
 
 
 def _is_written(linked: LinkedComponent) -> bool:

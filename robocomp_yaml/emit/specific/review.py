@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING
 
 import msgspec
 from msgspec.structs import replace
@@ -17,6 +18,10 @@ from robocomp_yaml.transactions.manifest import BASE
 from robocomp_yaml.transactions.output_root import Root
 from robocomp_yaml.transactions.plan import ONCE, Merge, Merges, RootPlan
 
+if TYPE_CHECKING:
+    from robocomp_yaml.emit.build import Build
+    from robocomp_yaml.link.program import LinkedComponent
+
 
 class Review(msgspec.Struct):
     """`contents` are the files that were read, `absent` the paths that do not exist, `names` those in folders."""
@@ -27,11 +32,22 @@ class Review(msgspec.Struct):
     absent: set[str] = set()
     names: dict[str, list[str]] = {}
 
+    def add_usage(self, linked: LinkedComponent, root: Root, files: Sequence[UserFile]) -> None:
+        """Adds the diagnostics about the use that the code makes of the worker."""
+        from robocomp_yaml.emit.usage import check  # only for code that somebody wrote
 
-def review(plans: Iterable[RootPlan], *, merge: bool = False) -> Review:
+        suffixes = linked.component.language.target.suffixes
+        found = check.sources(root, suffixes, {file.path: file.data for file in files})
+        if found is not None:
+            self.contents.update(found.contents)
+            self.names.update(found.names)
+            self.diagnostics += check.check(linked, root, found)
+
+
+def review(built: Build, *, merge: bool = False) -> Review:
     """Reviews the user's files of all plans. Only components with a file that is not up to date are parsed."""
     result = Review()
-    for plan in plans:
+    for plan in built.plans:
         root = Root(plan.root)
         files = list(_user_files(plan, root, merge, result))
         if merge:
@@ -56,6 +72,9 @@ def review(plans: Iterable[RootPlan], *, merge: bool = False) -> Review:
             result.names[root.shown(folder)] = reading.names(root, folder)
             result.contents.update((root.shown(path), data) for path, data in reading.code_in(root, folder))
         result.diagnostics += reporting.report(root, files, root.shown(plan.owner))
+        linked = built.components.get((plan.root, plan.owner))
+        if linked is not None and linked.component.language.target.has_usage:
+            result.add_usage(linked, root, files)
     return result
 
 

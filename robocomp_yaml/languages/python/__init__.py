@@ -24,6 +24,7 @@ LANGUAGE = TargetLanguage(
     runtime_root="generated",
     loaded={"src": (".py", ".ui"), "generated": (".py",), "slice": (".ice",)},
     made_of={"generated": (".py",), "src": (".py", ".ui"), "slice": (".ice",)},
+    has_usage=True,
     has_building=True,
     suffixes=("py",),
     comment="#",
