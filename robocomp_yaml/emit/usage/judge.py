@@ -96,7 +96,7 @@ class _Judging(msgspec.Struct):
             case offers.PARAMETERS | offers.RECORD:
                 if not_editable := self._not_editable(name, known):
                     return codes.NOT_EDITABLE.at(word.span, name=not_editable, hint=_EDITABLE)
-                return self._at(codes.UNKNOWN_PARAMETER, word, known, where(self.linked), owner=now.name)
+                return self._at(codes.UNKNOWN_PARAMETER, word, known, where(self.linked), owner=now.name or component)
             case offers.EVENTS:
                 return self._at(codes.UNKNOWN_OF_MACHINE, word, known, what="event", component=component)
             case offers.MODULES:

@@ -123,7 +123,7 @@ def record(type_: RecordType, in_code: Callable[[str], str], path: str = "", nam
             parameter=member,
             path=below if is_known else "",
         )
-    return Offer(RECORD, name or (f"the group {path}" if path else "the parameters"), members)
+    return Offer(RECORD, name or (f"the group {path}" if path else ""), members)
 
 
 def value(type_: Type, in_code: Callable[[str], str], path: str = "") -> Offer | None:
