@@ -151,9 +151,15 @@ class _Judging(msgspec.Struct):
                 continue
             if (interface := _served_by(word.text, self.offer.served)) is not None:
                 name = word.text.removeprefix(interface.prefix)
-                missing = [one for one in interface.methods if one not in mine]
+                missing = [one.removeprefix(interface.prefix) for one in interface.methods if one not in mine]
                 what = "topic" if interface.is_topic else "interface"
-                yield self._at(codes.NEVER_CALLED, word, missing, what=what, owner=interface.name, method=name)
+                hint = did_you_mean(name, missing, otherwise=_listed(missing, "the class lacks"))
+                meant = f"{interface.prefix}{hint.meant}" if hint.meant else ""
+                yield codes.NEVER_CALLED.at(
+                    word.span, name=word.text, what=what, owner=interface.name, method=name,
+                    hint=f"did you mean '{meant}'?" if meant else hint.text,
+                    fixes=_fixes(word, meant, safe=hint.safe) if meant else (),
+                )  # fmt: skip
             elif self.offer.handlers and word.text.startswith("sm_") and word.text not in self.offer.handlers:
                 missing = [one for one in sorted(self.offer.handlers) if one not in mine]
                 if suggest(word.text, missing):
@@ -183,7 +189,9 @@ class _Judging(msgspec.Struct):
         if not re.match(r"set[A-Z]", name):
             return ""
         stem = name.removeprefix("set").lower()
-        return next((one for one in keys(self.linked.parameters.parameters.root) if one.replace(".", "").lower() == stem), "")
+        return next(
+            (one for one in keys(self.linked.parameters.parameters.root) if one.replace(".", "").lower() == stem), ""
+        )
 
 
 _EDITABLE = "add `editable: true` to the parameter, if components may change it while they run"

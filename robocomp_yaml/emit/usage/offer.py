@@ -198,4 +198,3 @@ def _types(scope: LinkedModule, in_code: Callable[[str], str]) -> dict[str, Offe
 
 def _is_of_enum(name: str) -> bool:
     return name.startswith("_") or name in ("name", "value", "valueOf", "ice_id", "ice_staticId")
-

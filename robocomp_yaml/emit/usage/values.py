@@ -105,7 +105,10 @@ def unknown_setting(linked: LinkedComponent, chain: Chain, config: Collection[st
     exact = [name for _, name, _ in exact_keys(parameters.parameters)]
     if _is_other(key) or key in config or any(_is_part(key, known) for known in (*exact, *config)):
         return
-    if any(key.startswith(re.split(r"[{*]", name)[0]) or name.startswith(f"{key}.") for _, name in row_keys(parameters.parameters)):
+    if any(
+        key.startswith(re.split(r"[{*]", name)[0]) or name.startswith(f"{key}.")
+        for _, name in row_keys(parameters.parameters)
+    ):
         return
     head = key.removesuffix(word.text)
     known = [name.removeprefix(head) for name in exact if name.startswith(head)]

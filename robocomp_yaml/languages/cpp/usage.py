@@ -128,4 +128,3 @@ def _unused(methods: tuple[Word, ...], files: Mapping[str, str]) -> tuple[Word, 
     written = {name: sum(word.text == name for word in methods) for name in counts}
     first = {word.text: word for word in reversed(methods)}
     return tuple(word for name, word in first.items() if counts[name] <= written[name])
-

@@ -159,7 +159,12 @@ class CppFile:
 
 
 def _is_used(node: Node, parent: Node) -> bool:
-    if parent.type in ("init_declarator", "optional_parameter_declaration", "lambda_capture_initializer", "declaration"):
+    if parent.type in (
+        "init_declarator",
+        "optional_parameter_declaration",
+        "lambda_capture_initializer",
+        "declaration",
+    ):
         value = parent.child_by_field_name("value") or parent.child_by_field_name("default_value")
         if parent.type == "lambda_capture_initializer":
             value = parent.child_by_field_name("right")

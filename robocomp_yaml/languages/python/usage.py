@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import ast
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 
-import msgspec
+from msgspec import structs
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.lowering import ports as lowering
@@ -18,13 +18,14 @@ from robocomp_yaml.emit.usage.code import MODULES, WORKER, CodeUsage
 from robocomp_yaml.emit.usage.offer import Offer, OfferedMember, WorkerOffer
 from robocomp_yaml.languages.python import LANGUAGE
 from robocomp_yaml.languages.python.names import PORTS, WORKER_ATTRIBUTES, module_variable, parameters, python_name
-from robocomp_yaml.languages.python.usage_classes import classes_of
+from robocomp_yaml.languages.python.usage_classes import UserClasses, classes_of
 from robocomp_yaml.languages.python.usage_files import FileUsage, UsageReader
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model import machine_names
-from robocomp_yaml.model.interface import Method
+from robocomp_yaml.model.interface import Method, Sequence
 
 _MAIN = "specificworker.py"
+_REPLACED = ("genericworker.py", "interfaces.py")
 _LIVE = {
     "set": OfferedMember(least=2, most=2, keywords=frozenset(("path", "value")), takes_path=True,
                          signature="set(path, value)"),
@@ -58,15 +59,24 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
         members |= dict.fromkeys((*handled, *(one.name for one in machine_names.actions(machine))), others)
     served = offers.served(ports)
     members |= {name: OfferedMember() for one in served for name in one.methods if name not in members}
+    modules = offers.modules(linked, module_variable, python_name, _is_in_interfaces)
+    if not is_own:  # RoboComp's tool also has the sequences beside the modules
+        modules = structs.replace(
+            modules, members={**dict.fromkeys(_sequences(linked), OfferedMember()), **modules.members}
+        )
     return WorkerOffer(
-        {
-            WORKER: Offer(offers.WORKER, linked.component.name, members, is_complete=is_own),
-            MODULES: offers.modules(linked, module_variable, python_name, _is_in_interfaces),
-        },
+        {WORKER: Offer(offers.WORKER, linked.component.name, members, is_complete=is_own), MODULES: modules},
         served,
         offers.handlers(machine) if machine else frozenset(),
         offers.states(machine) if machine else frozenset(),
     )
+
+
+def _sequences(linked: LinkedComponent) -> list[str]:
+    return [
+        python_name(one.name) for scope in linked.modules() for one in scope.module.definitions
+        if isinstance(one, Sequence)
+    ]  # fmt: skip
 
 
 def _keywords(method: Method) -> Iterator[str]:
@@ -87,8 +97,12 @@ def _is_in_interfaces(name: str) -> bool:
 
 def read(files: Mapping[str, str], linked: LinkedComponent, worker: WorkerOffer) -> CodeUsage:
     """The use that the files below src/ make of the worker, by their paths there."""
-    trees, faults = {}, []
-    todo = [_MAIN]
+    is_robocomp = bool(linked.component.compatibility)
+    if is_robocomp:  # what RoboComp's own tool left in src/ is not used
+        files = {path: text for path, text in files.items() if path not in _REPLACED}
+    trees: dict[str, ast.Module] = {}
+    faults: list[tuple[str, Span]] = []
+    imported, todo = {_MAIN}, [_MAIN]
     while todo:
         path = todo.pop()
         if path not in files or path in trees:
@@ -103,16 +117,19 @@ def read(files: Mapping[str, str], linked: LinkedComponent, worker: WorkerOffer)
             trees[path] = ast.Module([], [])
         except (ValueError, RecursionError, MemoryError):
             return CodeUsage()
-        todo += _imported(trees[path], files)
+        found, is_dynamic = _imported(trees[path], files)
+        imported.update(found if path in imported else ())
+        todo += files if is_dynamic else found
     if faults:
         return CodeUsage(faults=tuple(faults))
-    is_robocomp = bool(linked.component.compatibility)
-    found = classes_of(trees)
-    if not found.workers:
+    classes = classes_of(trees)
+    if not classes.workers:
         return CodeUsage()
     modules = frozenset(worker.roots[MODULES].members)
-    every = [UsageReader(path, files[path], found, modules, is_robocomp).read(tree) for path, tree in trees.items()]
-    return _together(every, found.own, is_open=found.is_open)
+    every = {
+        path: UsageReader(path, files[path], classes, modules, is_robocomp).read(tree) for path, tree in trees.items()
+    }
+    return _together(every.values(), [one for path, one in every.items() if path in imported], classes)
 
 
 def parsed(text: str) -> ast.Module:
@@ -128,34 +145,37 @@ def _is_wrong(path: str, text: str) -> bool:
     return read_code(path, text).faults > 0
 
 
-def _imported(tree: ast.Module, files: Mapping[str, str]) -> Iterator[str]:
-    """The user's files that a module imports; all of them if it imports by names that are computed."""
+def _imported(tree: ast.Module, files: Collection[str]) -> tuple[list[str], bool]:
+    """The user's files that a module imports; and whether it may import others, by names that are computed."""
+    found: list[str] = []
+    is_dynamic = False
     for node in ast.walk(tree):
         names: list[str] = []
         if isinstance(node, ast.Import):
             names = [alias.name for alias in node.names]
-            if "importlib" in names:
-                yield from files
-        elif isinstance(node, ast.ImportFrom) and not node.level:
+            is_dynamic |= "importlib" in names
+        elif isinstance(node, ast.ImportFrom):
             module = node.module or ""
             names = [module, *(f"{module}.{alias.name}" for alias in node.names)]
-        elif isinstance(node, ast.ImportFrom) or (isinstance(node, ast.Name) and node.id == "__import__"):
-            yield from files
+            is_dynamic |= node.level > 0 or module == "importlib"
+        elif isinstance(node, ast.Name):
+            is_dynamic |= node.id == "__import__"
         for name in names:
             parts = name.split(".")
-            for end in range(1, len(parts) + 1):
-                head = "/".join(parts[:end])
-                yield from (path for path in (f"{head}.py", f"{head}/__init__.py") if path in files)
+            heads = ("/".join(parts[:end]) for end in range(1, len(parts) + 1))
+            paths = (path for head in heads for path in (f"{head}.py", f"{head}/__init__.py"))
+            found += [path for path in paths if path in files]
+    return found, is_dynamic
 
 
-def _together(every: list[FileUsage], own: frozenset[str], *, is_open: bool) -> CodeUsage:
-    joined = CodeUsage(own=own, is_open=is_open)
-    return msgspec.structs.replace(
-        joined,
-        chains=tuple(chain for one in every for chain in one.chains),
-        methods=tuple(word for one in every for word in one.methods),
-        own=own.union(*(one.stored for one in every)),
-        texts=frozenset().union(*(one.texts for one in every)),
-        is_open=is_open or any(one.is_open for one in every),
-        is_shared=any(one.is_shared for one in every),
+def _together(every: Iterable[FileUsage], imported: Iterable[FileUsage], classes: UserClasses) -> CodeUsage:
+    """The use of all files. Files that may not be part of the program only count for what they define."""
+    known, mine = list(every), list(imported)
+    return CodeUsage(
+        chains=tuple(chain for one in mine for chain in one.chains),
+        methods=tuple(word for one in mine for word in one.methods),
+        own=classes.own.union(*(one.stored for one in known)),
+        texts=frozenset().union(*(one.texts for one in known)),
+        is_open=classes.is_open or any(one.is_open for one in known),
+        is_shared=any(one.is_shared for one in known),
     )

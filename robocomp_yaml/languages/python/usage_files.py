@@ -98,8 +98,9 @@ class UsageReader:
                     values[name] = Binding(value=value)
                 case ast.AnnAssign(target=ast.Name(id=name), value=ast.expr() as value):
                     values[name] = Binding(value=value)
-                case ast.For(target=ast.Name(id=name), iter=value) | ast.comprehension(
-                    target=ast.Name(id=name), iter=value
+                case (
+                    ast.For(target=ast.Name(id=name), iter=value)
+                    | ast.comprehension(target=ast.Name(id=name), iter=value)
                 ):
                     values[name] = Binding(value=value, is_element=True)
             todo += ast.iter_child_nodes(node)

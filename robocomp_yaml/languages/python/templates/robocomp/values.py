@@ -58,8 +58,10 @@ def _typed(value: str) -> Any:
     return value
 
 
-def lists(module: ModuleType, *names: str) -> None:
-    """Adds a class for each sequence, as RoboComp's interfaces.py does; Ice itself accepts any list."""
+def lists(module: ModuleType, *names: str) -> dict[str, Any]:
+    """Adds a class for each sequence, as RoboComp's interfaces.py does; Ice itself accepts any list. Returns the classes
+    by name: that file has them beside the modules, too."""
     for name in names:
         if not hasattr(module, name):
             setattr(module, name, type(name, (list,), {"__module__": module.__name__}))
+    return {name: getattr(module, name) for name in names}
