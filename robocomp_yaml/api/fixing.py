@@ -27,9 +27,10 @@ class Fixing:
 
     def __init__(
         self, before: Workspace, load: Callable[[Mapping[str, bytes]], Workspace], paths: Sequence[str],
-        *, unsafe: bool, environment: bool,
+        *, unsafe: bool, environment: bool, code: bool = False,
     ) -> None:  # fmt: skip
-        self._before, self._load, self._paths, self._environment = before, load, tuple(paths), environment
+        self._before, self._load, self._paths = before, load, tuple(paths)
+        self._environment, self._code = environment, code
         result = apply_fixes(self._look, _requested(before.analysis), unsafe=unsafe)
         self._changed, self._fixed, self._left = result.changed, result.fixed, result.left
         self.written: tuple[EditedDocument, ...] = self._write(look_only=True)
@@ -63,7 +64,7 @@ class Fixing:
     @property
     def diagnostics(self) -> list[Diagnostic]:
         """The diagnostics that remain."""
-        return self.remaining.check(environment=self._environment)
+        return self.remaining.check(environment=self._environment, code=self._code)
 
     def diffs(self) -> Iterator[str]:
         """A unified diff of each document that changes, without secrets."""

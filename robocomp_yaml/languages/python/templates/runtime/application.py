@@ -115,6 +115,7 @@ class Application:
         running = self._stage.create(self._worker_class, context)
         self._gate.open(running)
         for port, subscriber in subscribers:
+            assert self._topics is not None
             self._topics.subscribe(port, subscriber)
         if behavior:
             behavior.is_running = True
@@ -157,9 +158,8 @@ class Application:
             for port in component.requires
         }
         if component.publishes or component.subscribes:
-            self._topics = Topics(self._communicator, settings, self._log, self._stopping)
-        for port in component.publishes:
-            proxies[port.accessor] = self._topics.publisher(port)
+            self._topics = topics = Topics(self._communicator, settings, self._log, self._stopping)
+            proxies.update((port.accessor, topics.publisher(port)) for port in component.publishes)
         return proxies
 
     def _listen(self) -> list[tuple[Subscribed, Ice.ObjectPrx]]:

@@ -64,7 +64,7 @@ class Gate:
             future.set_exception(Ice.UnknownException(f"{ALREADY_LOGGED}the component is stopping"))
 
 
-def servant(interface: type, methods: Sequence[Method], gate: Gate) -> Ice.Object:
+def servant(interface: type[Ice.Object], methods: Sequence[Method], gate: Gate) -> Ice.Object:
     """An object of this interface, whose operations call the worker's methods."""
     operations = {method.operation: _operation(method, gate) for method in methods}
     return type(f"{interface.__name__}Servant", (interface,), operations)()

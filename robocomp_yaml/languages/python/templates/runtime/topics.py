@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterator
+from collections.abc import Generator
 from contextlib import contextmanager
 from typing import Any
 
@@ -19,7 +19,7 @@ from generated.runtime.waiting import PATIENCE, reason, wait_for
 try:
     import IceStorm
 except ImportError:
-    IceStorm = None
+    IceStorm: Any = None  # type: ignore[no-redef]
 
 
 class Topics:
@@ -73,7 +73,7 @@ class Topics:
 
 
 @contextmanager
-def _providing(topic: str) -> Iterator[None]:
+def _providing(topic: str) -> Generator[None, None, None]:
     """Raises StartError for exceptions of Ice."""
     try:
         yield
