@@ -31,8 +31,8 @@ if TYPE_CHECKING:
 @_options.format_
 @click.pass_context
 def command(
-    ctx: click.Context, paths: tuple[str, ...], environment: bool, code: bool, fix: bool, unsafe_fixes: bool, diff: bool,
-    fail_on: _options.FailOn, include: tuple[str, ...], format_: str,
+    ctx: click.Context, paths: tuple[str, ...], environment: bool, code: bool, fix: bool, unsafe_fixes: bool,
+    diff: bool, fail_on: _options.FailOn, include: tuple[str, ...], format_: str,
 ) -> None:  # fmt: skip
     """Report everything that is wrong with the documents at PATHS (by default, below this folder).
 

@@ -24,7 +24,7 @@ def check(program: Program, diagnostics: Sequence[Diagnostic], linker: Linker) -
     """The diagnostics about the user's files of components; `diagnostics` are those of the documents."""
     from robocomp_yaml.emit.specific.review import review
 
-    yield from review(plans(program, diagnostics, linker)).diagnostics
+    yield from review(plans(program, diagnostics, linker), program.disk).diagnostics
 
 
 def plans(program: Program, diagnostics: Sequence[Diagnostic], linker: Linker) -> Build:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -21,6 +21,7 @@ from robocomp_yaml.transactions.plan import ONCE, Merge, Merges, RootPlan
 if TYPE_CHECKING:
     from robocomp_yaml.emit.build import Build
     from robocomp_yaml.link.program import LinkedComponent
+    from robocomp_yaml.source.disk import Disk
 
 
 class Review(msgspec.Struct):
@@ -32,20 +33,20 @@ class Review(msgspec.Struct):
     absent: set[str] = set()
     names: dict[str, list[str]] = {}
 
-    def add_usage(self, linked: LinkedComponent, root: Root, files: Sequence[UserFile]) -> None:
-        """Adds the diagnostics about the use that the code makes of the worker."""
+    def add_usage(self, linked: LinkedComponent, root: Root, disk: Disk, merged: Mapping[str, bytes]) -> None:
+        """Adds the diagnostics about the use that the code makes of the worker; `merged` are new contents of files."""
         from robocomp_yaml.emit.usage import check  # only for code that somebody wrote
 
         suffixes = linked.component.language.target.suffixes
-        found = check.sources(root, suffixes, {file.path: file.data for file in files})
+        found = check.sources(root, suffixes, disk, merged)
         if found is not None:
-            self.contents.update(found.contents)
             self.names.update(found.names)
             self.diagnostics += check.check(linked, root, found)
 
 
-def review(built: Build, *, merge: bool = False) -> Review:
-    """Reviews the user's files of all plans. Only components with a file that is not up to date are parsed."""
+def review(built: Build, disk: Disk, *, merge: bool = False) -> Review:
+    """Reviews the user's files of all plans. Only components with a file that is not up to date are parsed. `disk`
+    records what is read to see how they use the worker."""
     result = Review()
     for plan in built.plans:
         root = Root(plan.root)
@@ -74,7 +75,8 @@ def review(built: Build, *, merge: bool = False) -> Review:
         result.diagnostics += reporting.report(root, files, root.shown(plan.owner))
         linked = built.components.get((plan.root, plan.owner))
         if linked is not None and linked.component.language.target.has_usage:
-            result.add_usage(linked, root, files)
+            merged_files = {file.path: file.data for file in files} if merge else {}
+            result.add_usage(linked, root, disk, merged_files)
     return result
 
 

@@ -15,6 +15,7 @@ from robocomp_yaml.emit import config
 from robocomp_yaml.emit.layout import SOURCES
 from robocomp_yaml.emit.usage.judge import judge
 from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.transactions.output_root import Root
 
 _LARGEST = 1_000_000  # bytes of a file, and
@@ -22,15 +23,15 @@ _MOST = 400  # files: more are not code that somebody wrote for this component
 
 
 class UserSources(msgspec.Struct):
-    """The code below src/: the texts by their paths there, the content of all that was read and the names in all
-    folders, by the paths for users."""
+    """The code below src/: the texts by their paths there, and the names in all folders, by the paths for users."""
 
     texts: dict[str, str] = {}
-    contents: dict[str, bytes] = {}
     names: dict[str, list[str]] = {}
 
 
-def sources(root: Root, suffixes: Collection[str], instead: Mapping[str, bytes]) -> UserSources | None:
+def sources(
+    root: Root, suffixes: Collection[str], disk: Disk, instead: Mapping[str, bytes]
+) -> UserSources | None:  # fmt: skip
     """The code of a component; `instead` has contents by paths below the root. None if there is too much, or if some
     cannot be read, so that nothing is certain."""
     found = UserSources()
@@ -49,11 +50,11 @@ def sources(root: Root, suffixes: Collection[str], instead: Mapping[str, bytes])
                 if os.path.isdir(f"{root.real}/{path}") and not os.path.islink(f"{root.real}/{path}"):
                     folders.append(path)
                 continue
-            status = root.status(path)
-            data = status.data
-            if status.problem or data is None or len(data) > _LARGEST or len(found.texts) >= _MOST:
+            if root.status(path, read=False).problem or len(found.texts) >= _MOST:
                 return None
-            found.contents[root.shown(path)] = data
+            data, _ = disk.read(root.shown(path), _LARGEST)
+            if data is None:
+                return None
             try:
                 found.texts[path.removeprefix(f"{SOURCES}/")] = instead.get(path, data).decode()
             except UnicodeDecodeError:

@@ -10,12 +10,11 @@ import msgspec
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import usage as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.diag.fix import Edit, Fix
 from robocomp_yaml.diag.suggest import did_you_mean, suggest
 from robocomp_yaml.emit.usage import offer as offers
 from robocomp_yaml.emit.usage.code import SETTINGS, WORKER, Arguments, Chain, CodeUsage, Constant, Step, Word
 from robocomp_yaml.emit.usage.offer import Offer, OfferedMember, ServedInterface, WorkerOffer
-from robocomp_yaml.emit.usage.values import keys, unknown_setting, where, wrong_paths, wrong_value
+from robocomp_yaml.emit.usage.values import keys, unknown, unknown_setting, where, wrong_paths, wrong_value
 from robocomp_yaml.link.program import LinkedComponent
 
 _PROXY = re.compile(r"\w+_(?:pub)?proxy\d*_*\Z")
@@ -155,10 +154,9 @@ class _Judging(msgspec.Struct):
                 what = "topic" if interface.is_topic else "interface"
                 hint = did_you_mean(name, missing, otherwise=_listed(missing, "the class lacks"))
                 meant = f"{interface.prefix}{hint.meant}" if hint.meant else ""
-                yield codes.NEVER_CALLED.at(
-                    word.span, name=word.text, what=what, owner=interface.name, method=name,
-                    hint=f"did you mean '{meant}'?" if meant else hint.text,
-                    fixes=_fixes(word, meant, safe=hint.safe) if meant else (),
+                yield unknown(
+                    codes.NEVER_CALLED, word, meant, otherwise=hint.text, safe=hint.safe, what=what,
+                    owner=interface.name, method=name,
                 )  # fmt: skip
             elif self.offer.handlers and word.text.startswith("sm_") and word.text not in self.offer.handlers:
                 missing = [one for one in sorted(self.offer.handlers) if one not in mine]
@@ -169,9 +167,7 @@ class _Judging(msgspec.Struct):
         self, code: Code, word: Word, known: Iterable[str], otherwise: str = "", **facts: object
     ) -> Diagnostic:  # fmt: skip
         hint = did_you_mean(word.text, known, otherwise=otherwise)
-        meant = {"meant": hint.meant} if hint.meant else {}
-        fixes = _fixes(word, hint.meant, safe=hint.safe) if hint.meant else ()
-        return code.at(word.span, name=word.text, hint=hint.text, fixes=fixes, **meant, **facts)
+        return unknown(code, word, hint.meant, otherwise=hint.text, safe=hint.safe, **facts)
 
     def _of_requires(self, name: str) -> str:
         """The port that the document lacks for a proxy of this name."""
@@ -189,9 +185,8 @@ class _Judging(msgspec.Struct):
         if not re.match(r"set[A-Z]", name):
             return ""
         stem = name.removeprefix("set").lower()
-        return next(
-            (one for one in keys(self.linked.parameters.parameters.root) if one.replace(".", "").lower() == stem), ""
-        )
+        paths = keys(self.linked.parameters.parameters.root)
+        return next((path for path in paths if path.replace(".", "").lower() == stem), "")
 
 
 _EDITABLE = "add `editable: true` to the parameter, if components may change it while they run"
@@ -199,10 +194,6 @@ _EDITABLE = "add `editable: true` to the parameter, if components may change it 
 
 def _is_of_proxy(member: OfferedMember) -> bool:
     return member.value is not None and member.value.kind in (offers.PROXY, offers.TOPIC)
-
-
-def _fixes(word: Word, meant: str, *, safe: bool) -> tuple[Fix, ...]:
-    return (Fix(f"write '{meant}'", (Edit(word.span, meant),), safe),)
 
 
 def _listed(known: Iterable[str], head: str) -> str:

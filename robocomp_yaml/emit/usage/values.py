@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterator
 
+from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import usage as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import Edit, Fix
@@ -31,11 +32,21 @@ _OTHERS = frozenset("commonbehavior endpoints ice icegrid icestorm period proxie
 _OTHER_ENDINGS = ("proxy", "endpoints", "topic", "topicmanager", "prefix")
 
 
+def unknown(code: Code, word: Word, meant: str, *, otherwise: str, safe: bool, **facts: object) -> Diagnostic:
+    """The diagnostic of an unknown word in code. If another one is `meant`, the hint and the fix say so."""
+    facts = {"name": word.text, **facts}
+    if not meant:
+        return code.at(word.span, hint=otherwise, **facts)  # type: ignore[arg-type]
+    fix = Fix(f"write '{meant}'", (Edit(word.span, meant),), safe)
+    hint = f"did you mean '{meant}'?"
+    return code.at(word.span, hint=hint, fixes=(fix,), meant=meant, **facts)  # type: ignore[arg-type]
+
+
 def where(linked: LinkedComponent) -> str:
     """Where the parameters of a component are declared, as a hint."""
     document = linked.parameters.document
     if document is None:
-        return f"{linked.component.name} has no parameters of its own; a parameters document (NAME.pdsl.yaml) declares some"
+        return f"{linked.component.name} has no parameters of its own; a document NAME.pdsl.yaml declares some"
     return f"the parameters are declared in {document.path}"
 
 
@@ -56,7 +67,7 @@ def wrong_paths(linked: LinkedComponent, arguments: Arguments) -> Iterator[Diagn
                 current = member.type
             else:
                 current = current.element if isinstance(current, (ListType, MapType)) else None
-        if current is not None and word is arguments.text and arguments.constant is not None:
+        if current is not None and word == arguments.text and arguments.constant is not None:
             yield from wrong_value(current, word.text, arguments.constant)
 
 
@@ -67,11 +78,8 @@ def _unknown_path(
     meant = ".".join([*steps[:number], hint.meant, *steps[number + 1 :]]) if hint.meant else ""
     if meant and word.text.count(steps[number]) == 1:  # an index keeps its spelling
         meant = word.text.replace(steps[number], hint.meant)
-    fixes = (Fix(f"write '{meant}'", (Edit(word.span, meant),), hint.safe),) if meant else ()
-    return codes.UNKNOWN_PARAMETER.at(
-        word.span, name=word.text, owner=linked.component.name, fixes=fixes,
-        hint=f"did you mean '{meant}'?" if meant else where(linked),
-    )  # fmt: skip
+    owner = linked.component.name
+    return unknown(codes.UNKNOWN_PARAMETER, word, meant, otherwise=where(linked), safe=hint.safe, owner=owner)
 
 
 def wrong_value(type_: Type, path: str, constant: Constant) -> Iterator[Diagnostic]:
@@ -96,25 +104,25 @@ def keys(record: RecordType, head: str = "") -> Iterator[str]:
 
 
 def unknown_setting(linked: LinkedComponent, chain: Chain, config: Collection[str]) -> Iterator[Diagnostic]:
-    """A property that code of RoboComp reads, and that neither a parameter nor the flat config has. Without a parameters
-    document, any property may be meant."""
+    """A property that code of RoboComp reads, and that neither a parameter nor the flat config has. Without a
+    parameters document, any property may be meant."""
     parameters = linked.parameters
     if parameters.document is None or "KeyError" in chain.caught:
         return
     key, word = ".".join(step.word.text for step in chain.steps), chain.steps[-1].word
     exact = [name for _, name, _ in exact_keys(parameters.parameters)]
-    if _is_other(key) or key in config or any(_is_part(key, known) for known in (*exact, *config)):
+    if _is_other(key) or any(_is_part(key, known) for known in (*exact, *config)):
         return
-    if any(
-        key.startswith(re.split(r"[{*]", name)[0]) or name.startswith(f"{key}.")
-        for _, name in row_keys(parameters.parameters)
-    ):
+    rows = [name for _, name in row_keys(parameters.parameters)]
+    if any(key.startswith(re.split(r"[{*]", name)[0]) or name.startswith(f"{key}.") for name in rows):
         return
     head = key.removesuffix(word.text)
     known = [name.removeprefix(head) for name in exact if name.startswith(head)]
     hint = did_you_mean(word.text, known, otherwise=where(linked))
-    fixes = (Fix(f"write '{hint.meant}'", (Edit(word.span, hint.meant),), hint.safe),) if hint.meant else ()
-    yield codes.UNKNOWN_SETTING.at(word.span, name=key, owner=linked.component.name, hint=hint.text, fixes=fixes)
+    owner = linked.component.name
+    yield unknown(
+        codes.UNKNOWN_SETTING, word, hint.meant, otherwise=hint.text, safe=hint.safe, name=key, owner=owner
+    )  # fmt: skip
 
 
 def _is_part(key: str, known: str) -> bool:

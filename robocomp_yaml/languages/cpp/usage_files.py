@@ -24,6 +24,7 @@ _USES = frozenset(
     subscript_expression switch_statement throw_statement unary_expression update_expression while_statement
     field_initializer co_return_statement co_yield_statement decltype""".split()
 )
+_INITIALIZERS = ("init_declarator", "optional_parameter_declaration", "lambda_capture_initializer", "declaration")
 _MACRO = re.compile(r"[A-Z][A-Z0-9_]+\Z")
 
 
@@ -138,7 +139,8 @@ class CppFile:
 
     def _literal(self, node: Node) -> Constant | None:
         """A literal number, text or truth value."""
-        written, value = text(node), None
+        written = text(node)
+        value: str | int | float | None = None
         if node.type == "number_literal" or (node.type == "unary_expression" and re.match(r"-\s*[\d.]", written)):
             number = re.fullmatch(r"(-?)\s*(\d+|\d*\.\d+|\d+\.\d*)([fFlL]*)", written)
             if number:
@@ -177,8 +179,8 @@ def _is_used(node: Node, parent: Node) -> bool:
 
 
 def _is_followed(steps: list[Step], operator: str) -> bool:
-    """Whether the operator leads to what is offered. A proxy is a shared pointer, and a part of the parameters a handle:
-    after a dot come their own methods."""
+    """Whether the operator leads to what is offered. A proxy is a shared pointer, and a part of the parameters a
+    handle: after a dot come their own methods."""
     first, last = steps[0].word.text, steps[-1]
     if len(steps) == 1 and last.arguments is None:
         is_value = first in ("parameters", "events", "statemachine")
@@ -246,7 +248,8 @@ def _called(node: Node) -> Node:
 
 
 _IN_SCOPES = frozenset(
-    "translation_unit namespace_definition declaration_list declaration preproc_ifdef preproc_if linkage_specification".split()
+    """translation_unit namespace_definition declaration_list declaration preproc_ifdef preproc_if
+    linkage_specification""".split()
 )
 _IN_CLASSES = _IN_SCOPES | frozenset(
     """class_specifier struct_specifier field_declaration_list field_declaration declaration function_definition

@@ -91,3 +91,4 @@ def _proxy_methods(interface: Interface, linked: LinkedModule) -> Iterator[Metho
         made = signature(proxy_method(method.name), [*typed, context], result, IN * 2)
         yield MethodStub(made, docstring(method.doc or f"{interface.name}.{method.name}", IN * 3))
         future = f"Ice.InvocationFuture[{result}]"
+        yield MethodStub(signature(f"{method.name}Async", [*typed, context], future, IN * 2), "...")

@@ -61,9 +61,8 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
     members |= {name: OfferedMember() for one in served for name in one.methods if name not in members}
     modules = offers.modules(linked, module_variable, python_name, _is_in_interfaces)
     if not is_own:  # RoboComp's tool also has the sequences beside the modules
-        modules = structs.replace(
-            modules, members={**dict.fromkeys(_sequences(linked), OfferedMember()), **modules.members}
-        )
+        beside = dict.fromkeys(_sequences(linked), OfferedMember())
+        modules = structs.replace(modules, members={**beside, **modules.members})
     return WorkerOffer(
         {WORKER: Offer(offers.WORKER, linked.component.name, members, is_complete=is_own), MODULES: modules},
         served,

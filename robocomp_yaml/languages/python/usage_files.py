@@ -1,4 +1,4 @@
-"""The chains of names in one file of Python: `self.mouth_proxy.move(pose)`, also through variables that are bound once."""
+"""The chains of names in one file of Python: `self.mouth_proxy.move(pose)`, also through variables bound once."""
 
 from __future__ import annotations
 
@@ -324,7 +324,8 @@ class UsageReader:
         is_exact = is_exact and all(word.arg is not None for word in call.keywords)
         names = [self._word(word.arg, word, word.col_offset) for word in call.keywords if word.arg is not None]
         first = call.args[0] if call.args else None
-        text, keys = None, ()
+        text: Word | None = None
+        keys: tuple[Word, ...] = ()
         if isinstance(first, ast.Constant) and isinstance(first.value, str):
             text = self._text_word(first)
         elif isinstance(first, ast.Dict):
@@ -435,4 +436,4 @@ def _literal_head(steps: tuple[Step, ...]) -> tuple[Step, ...]:
 
 
 def _is_star(node: ast.AST, modules: Iterable[str]) -> bool:
-    return isinstance(node, ast.ImportFrom) and node.module in modules and node.names[0].name == "*"
+    return isinstance(node, ast.ImportFrom) and (node.module or "") in modules and node.names[0].name == "*"
