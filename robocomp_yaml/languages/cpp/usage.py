@@ -23,6 +23,7 @@ from robocomp_yaml.link.program import LinkedComponent
 _INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*"([^"]+)"', re.MULTILINE)
 _WORD = re.compile(r"\b[A-Za-z_]\w*")
 _TEXT = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
+_COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 _METHOD = re.compile(r"\b(?:sm_\w+|[A-Z]\w*_\w+)\b")
 
 
@@ -122,7 +123,7 @@ def _unused(methods: tuple[Word, ...], files: Mapping[str, str]) -> tuple[Word, 
     """The methods that the code only declares and defines, but does not use."""
     counts = {word.text: 0 for word in methods}
     for text in files.values():
-        for word in _METHOD.findall(text):
+        for word in _METHOD.findall(_COMMENT.sub("", _TEXT.sub('""', text))):
             if word in counts:
                 counts[word] += 1
     written = {name: sum(word.text == name for word in methods) for name in counts}

@@ -12,6 +12,15 @@ import msgspec
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.usage.code import MODULES, SETTINGS, WORKER, Arguments, Chain, Constant, Step, Word
+from robocomp_yaml.languages.python.syntax import (
+    all_names,
+    annotations_of,
+    binds,
+    constant,
+    imports_all,
+    names_of,
+    parameters_of,
+)
 from robocomp_yaml.languages.python.usage_classes import UserClasses
 
 _Function = (ast.FunctionDef, ast.AsyncFunctionDef)
@@ -61,7 +70,7 @@ class UsageReader:
             name for node in ast.walk(tree) if isinstance(node, (ast.Global, ast.Nonlocal)) for name in node.names
         )
         frame = self._frame(tree.body)
-        if any(_is_star(node, self._sources | {"genericworker"}) for node in tree.body):
+        if any(imports_all(node, self._sources | {"genericworker"}) for node in tree.body):
             known = {name: Binding(MODULES, (Step(Word(name, Span(self._path))),)) for name in self._modules}
             frame = {**known, **frame}
         self._visit_all(tree.body, (frame,))
@@ -73,7 +82,7 @@ class UsageReader:
         """The variables of a scope, with what those are that are bound once."""
         counts: Counter[str] = Counter()
         values: dict[str, Binding] = {}
-        for argument in _arguments(arguments):
+        for argument in parameters_of(arguments):
             counts[argument.arg] += 2
         todo = list(body)
         while todo:
@@ -169,13 +178,13 @@ class UsageReader:
             case ast.If(test=ast.Name(id="TYPE_CHECKING"), orelse=orelse):
                 self._visit_all(orelse, frames)
             case ast.Try(body=body):
-                names = {name for handler in node.handlers for name in _names(handler.type)}
+                names = {name for handler in node.handlers for name in names_of(handler.type)}
                 self._guarded(body, names, frames)
                 self._visit_all((*node.handlers, *node.orelse, *node.finalbody), frames)
             case ast.With(items=items, body=body):
                 self._visit_all(items, frames)
                 calls = [item.context_expr for item in items if isinstance(item.context_expr, ast.Call)]
-                names = {name for call in calls if "suppress" in _names(call.func) for name in _all_names(call.args)}
+                names = {name for call in calls if "suppress" in names_of(call.func) for name in all_names(call.args)}
                 self._guarded(body, names, frames)
             case ast.ImportFrom():
                 for alias in node.names:
@@ -201,7 +210,7 @@ class UsageReader:
 
     def _function(self, node: ast.FunctionDef | ast.AsyncFunctionDef, frames: tuple[Frame, ...]) -> None:
         self._visit_all((*node.decorator_list, *node.args.defaults, *filter(None, node.args.kw_defaults)), frames)
-        self._visit_all(_annotations(node), frames)
+        self._visit_all(annotations_of(node), frames)
         frame = self._frame(node.body, node.args)
         self._visit_all(node.body, (*frames, frame))
 
@@ -221,29 +230,29 @@ class UsageReader:
             start = found.start(1) + 1
             word = Word(node.name, Span(self._path, node.lineno, start, node.lineno, start + len(node.name)))
             self._found.methods.append(word)
-        self._visit_all((*node.decorator_list, *node.args.defaults, *_annotations(node)), frames)
+        self._visit_all((*node.decorator_list, *node.args.defaults, *annotations_of(node)), frames)
         frame = self._frame(node.body, node.args)
         first = next(iter([*node.args.posonlyargs, *node.args.args]), None)
-        decorators = {name for one in node.decorator_list for name in _names(one)}
-        if first is not None and not decorators & {"staticmethod", "classmethod"} and not _binds(node, first.arg):
+        decorators = {name for one in node.decorator_list for name in names_of(one)}
+        if first is not None and not decorators & {"staticmethod", "classmethod"} and not binds(node, first.arg):
             frame[first.arg] = _SELF
         if self._is_robocomp:
             for argument in node.args.args[1:]:
                 is_params = node.name == "setParams" or argument.arg == "configData"
-                if is_params and not _binds(node, argument.arg):
+                if is_params and not binds(node, argument.arg):
                     frame[argument.arg] = Binding(SETTINGS)
         self._visit_all(node.body, (*frames, frame))
 
     def _target(self, target: ast.expr, value: ast.expr, frames: tuple[Frame, ...]) -> None:
         if isinstance(target, (ast.Attribute, ast.Subscript)):
-            self._expression(target, frames, _constant(value, self))
+            self._expression(target, frames, self._constant(value))
         else:
             self._visit_all(ast.iter_child_nodes(target), frames)
             if isinstance(value, ast.Name) and not isinstance(target, ast.Name):
                 self._visit(value, frames)
 
     def _expression(
-        self, node: ast.expr, frames: tuple[Frame, ...], constant: Constant | None = None
+        self, node: ast.expr, frames: tuple[Frame, ...], value: Constant | None = None
     ) -> None:  # fmt: skip
         """Records the chain that ends here, and visits what is in it: arguments, indices, and its beginning."""
         chain = self._chain(node, frames)
@@ -254,7 +263,7 @@ class UsageReader:
             if steps and not is_assigned:
                 self._add(Chain(SETTINGS, steps, caught=self._caught))
         elif chain is not None and chain[1]:
-            self._add(Chain(*chain, is_assigned=is_assigned, constant=constant, caught=self._caught))
+            self._add(Chain(*chain, is_assigned=is_assigned, constant=value, caught=self._caught))
         now: ast.expr = node
         while True:
             match now:
@@ -279,7 +288,7 @@ class UsageReader:
                     return
 
     def _call(self, node: ast.Call, frames: tuple[Frame, ...], keys: set[int]) -> None:
-        name = next(iter(_names(node.func)), "")
+        name = next(iter(names_of(node.func)), "")
         is_harmless = name in _HARMLESS or name in self._classes.defined
         if name == "setattr" or name == "__setattr__":
             self._found.is_open |= not any(isinstance(argument, ast.Constant) for argument in node.args[:2])
@@ -332,7 +341,7 @@ class UsageReader:
             words = (self._text_word(key) for key in first.keys if isinstance(key, ast.Constant))
             keys = tuple(word for word in words if word is not None)
         last = call.args[-1] if call.args else None
-        constant = _constant(last, self) if last is not None and (text is None or last is not first) else None
+        constant = self._constant(last) if last is not None and (text is None or last is not first) else None
         return Arguments(len(call.args), tuple(names), is_exact, text, keys, constant)
 
     def _key(self, index: ast.expr) -> Word:
@@ -343,7 +352,7 @@ class UsageReader:
         """The text in a literal, without its quotes; None if it is not written as it is."""
         if not isinstance(node.value, str) or node.end_lineno != node.lineno:
             return None
-        span = self.span(node)
+        span = self._span(node)
         line = self._lines[node.lineno - 1] if node.lineno <= len(self._lines) else ""
         at = line.find(node.value, span.column - 1, span.end_column - 1)
         if at < 0 or not node.value:
@@ -355,7 +364,11 @@ class UsageReader:
         column = self._column(row, byte)
         return Word(text, Span(self._path, row, column, row, column + len(text)))
 
-    def span(self, node: ast.expr) -> Span:
+    def _constant(self, node: ast.expr) -> Constant | None:
+        value = constant(node)
+        return None if value is None else Constant(value, self._span(node))
+
+    def _span(self, node: ast.expr) -> Span:
         line, end = node.lineno, node.end_lineno or node.lineno
         return Span(
             self._path, line, self._column(line, node.col_offset), end, self._column(end, node.end_col_offset or 0)
@@ -373,56 +386,6 @@ class UsageReader:
 _ELEMENT = Step(Word("", Span("")), is_index=True)
 
 
-def _arguments(given: ast.arguments | None) -> list[ast.arg]:
-    if given is None:
-        return []
-    more = [one for one in (given.vararg, given.kwarg) if one is not None]
-    return [*given.posonlyargs, *given.args, *given.kwonlyargs, *more]
-
-
-def _annotations(node: ast.FunctionDef | ast.AsyncFunctionDef) -> list[ast.expr]:
-    found = [argument.annotation for argument in _arguments(node.args)]
-    return [one for one in (*found, node.returns) if one is not None]
-
-
-def _binds(function: ast.AST, name: str) -> bool:
-    """Whether a function binds a name again."""
-    return any(
-        isinstance(node, ast.Name) and node.id == name and not isinstance(node.ctx, ast.Load)
-        for node in ast.walk(function)
-    )
-
-
-def _names(node: ast.expr | None) -> list[str]:
-    """The last words of the names in a name, a call or a tuple of them."""
-    match node:
-        case ast.Name(id=name):
-            return [name]
-        case ast.Attribute(attr=name):
-            return [name]
-        case ast.Call(func=function):
-            return _names(function)
-        case ast.Tuple(elts=elements):
-            return _all_names(elements)
-        case _:
-            return []
-
-
-def _all_names(nodes: Iterable[ast.expr]) -> list[str]:
-    return [name for node in nodes for name in _names(node)]
-
-
-def _constant(node: ast.expr, reader: UsageReader) -> Constant | None:
-    """A literal number, text or truth value."""
-    match node:
-        case ast.Constant(value=bool() | int() | float() | str() as value):
-            return Constant(value, reader.span(node))
-        case ast.UnaryOp(op=ast.USub(), operand=ast.Constant(value=int() | float() as value)):
-            return Constant(-value, reader.span(node))
-        case _:
-            return None
-
-
 def _literal_head(steps: tuple[Step, ...]) -> tuple[Step, ...]:
     """The leading indices that are literal texts; () if another index follows them, or none leads."""
     head: list[Step] = []
@@ -433,7 +396,3 @@ def _literal_head(steps: tuple[Step, ...]) -> tuple[Step, ...]:
             return ()
         head.append(step)
     return tuple(head)
-
-
-def _is_star(node: ast.AST, modules: Iterable[str]) -> bool:
-    return isinstance(node, ast.ImportFrom) and (node.module or "") in modules and node.names[0].name == "*"
