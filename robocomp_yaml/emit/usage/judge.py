@@ -86,7 +86,10 @@ class _Judging(msgspec.Struct):
         match now.kind:
             case offers.WORKER if is_proxy(name):
                 proxies = [one for one, member in known.items() if _is_of_proxy(member)]
-                return self._at(codes.UNKNOWN_PROXY, word, proxies, self._of_requires(name), component=component)
+                lacking = self._lacking(name)
+                similar = [one for one in proxies if not lacking or one.lower() == name.lower()]
+                hint = lacking or f"`requires:` and `publishes:` of {self.linked.component.path} make the proxies"
+                return self._at(codes.UNKNOWN_PROXY, word, similar, hint, component=component)
             case offers.WORKER:
                 return self._at(codes.UNKNOWN_ATTRIBUTE, word, known, component=component)
             case offers.PROXY | offers.TOPIC:
@@ -169,16 +172,19 @@ class _Judging(msgspec.Struct):
         hint = did_you_mean(word.text, known, otherwise=otherwise)
         return unknown(code, word, hint.meant, otherwise=hint.text, safe=hint.safe, **facts)
 
-    def _of_requires(self, name: str) -> str:
-        """The port that the document lacks for a proxy of this name."""
+    def _lacking(self, name: str) -> str:
+        """The port that the document lacks for a proxy of this name; '' if there is no such interface."""
         is_topic = "_pubproxy" in name
         stem = re.sub(r"_(?:pub)?proxy.*", "", name)
+        has = {port.interface.name.lower() for port in (*self.linked.requires, *self.linked.publishes)}
+        if stem in has:
+            return ""
         for scope in self.linked.imports:
             for interface in scope.module.all_interfaces:
                 if interface.name.lower() == stem:
                     key = "publishes" if is_topic or interface.is_topic else "requires"
                     return f"add {interface.name} to `{key}:` of {self.linked.component.path}"
-        return f"`requires:` and `publishes:` of {self.linked.component.path} make the proxies"
+        return ""
 
     def _not_editable(self, name: str, known: Iterable[str]) -> str:
         """The parameter that a setter would set, if it were editable."""

@@ -25,7 +25,7 @@ from robocomp_yaml.languages.python import LANGUAGE
 
 _TOOL = "ty"
 _MISSING = "`--code` needs the type checker ty, which is not installed: run `pip install 'rcyaml[code]'`"
-_TYPINGS = "typings"
+_RUN_TIME, _TYPINGS = "runtime", "typings"
 _SECONDS = 300
 _PARALLEL = 4
 _ERRORS = ("major", "critical", "blocker")
@@ -39,13 +39,14 @@ def check(units: Sequence[CheckedCode]) -> list[Diagnostic]:
         return []
     program = _program()
     with tempfile.TemporaryDirectory(prefix="rcyaml-") as folder, ThreadPoolExecutor(_PARALLEL) as pool:
-        shared = os.path.join(folder, "runtime")
+        shared = os.path.join(folder, _RUN_TIME)
         _write(os.path.join(shared, GENERATED), ((file.path, file.text) for file in runtime.files(LANGUAGE.name)))
         jobs = []
         for number, unit in enumerate(own):
             place = os.path.join(folder, str(number))
             _write(place, ((one.path, one.text) for one in unit.files if one.path.startswith(f"{GENERATED}/")))
-            jobs.append(pool.submit(_checked, program, unit, (place, shared)))
+            _complete(os.path.join(place, GENERATED), os.path.join(shared, GENERATED))
+            jobs.append(pool.submit(_checked, program, unit, place))
         return [diagnostic for job in jobs for diagnostic in job.result()]
 
 
@@ -67,9 +68,18 @@ def _write(folder: str, files: Iterable[tuple[str, str]]) -> None:
                 file.write(text)
 
 
-def _checked(program: str, unit: CheckedCode, folders: Sequence[str]) -> list[Diagnostic]:
-    typings = os.path.join(folders[-1], GENERATED, _TYPINGS)
-    paths = [word for path in (*folders, typings) for word in ("--extra-search-path", path)]
+def _complete(package: str, run_time: str) -> None:
+    """Makes the package one that has the run time in it: checkers do not follow a path that is computed."""
+    with open(os.path.join(package, "__init__.py"), "w", encoding="utf-8"):
+        pass
+    for name in os.listdir(run_time):
+        if not os.path.exists(os.path.join(package, name)):
+            os.symlink(os.path.join(run_time, name), os.path.join(package, name))
+
+
+def _checked(program: str, unit: CheckedCode, place: str) -> list[Diagnostic]:
+    typings = os.path.join(place, GENERATED, _TYPINGS)
+    paths = [word for path in (place, typings) for word in ("--extra-search-path", path)]
     command = [program, "check", "--output-format", "gitlab", "--exit-zero", "--no-progress", *_python(unit), *paths]
     try:
         done = subprocess.run(
