@@ -37,7 +37,7 @@ def judge(
     for chain in usage.chains:
         if chain.root in offer.roots:
             yield from judging.chain(chain)
-        elif chain.root == SETTINGS:
+        elif chain.root == SETTINGS and chain.steps[-1].word.text not in usage.texts:
             yield from unknown_setting(linked, chain, config)
     yield from judging.methods()
 
