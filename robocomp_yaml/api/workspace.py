@@ -188,10 +188,11 @@ class Workspace:
                 from robocomp_yaml.api import compile_stamps
 
                 kept = None if self._overlay else compile_stamps.diagnostics_of_code(self._paths, self._include)
-                if kept is not None:
-                    yield from kept
-                else:
-                    yield from existing_code.check(analysis.program, analysis.diagnostics, analysis.linker)
+                folders = existing_code.changed(analysis.program, kept[1]) if kept is not None else None
+                if kept is not None and folders is not None:
+                    yield from (one for one in kept[0] if not one.span.file.startswith(tuple(folders)))
+                if folders != []:
+                    yield from existing_code.check(analysis.program, analysis.diagnostics, analysis.linker, folders)
         if analysis.networks:
             from robocomp_yaml.check.networks import check_environment
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -20,14 +20,34 @@ def has_code(program: Program) -> bool:
     return any(_is_written(program.components[real]) for real in program.requested_components())
 
 
-def check(program: Program, diagnostics: Sequence[Diagnostic], linker: Linker) -> Iterator[Diagnostic]:
-    """The diagnostics about the user's files of components; `diagnostics` are those of the documents."""
+def changed(program: Program, files: Collection[str]) -> list[str] | None:
+    """The folders of the components to whose code these files belong, with `/` at the end; None if one of the files is
+    no code of a component."""
+    folders = {os.path.normpath(_folder(linked)) for linked in program.components.values()}
+    found = set()
+    for file in files:
+        parts = file.split("/")
+        heads = ("/".join(parts[:end]) or "." for end, name in enumerate(parts) if name == SOURCES)
+        home = next((head for head in heads if head in folders), None)
+        if home is None:
+            return None
+        found.add(f"{home}/" if home != "." else "")
+    return sorted(found)
+
+
+def check(
+    program: Program, diagnostics: Sequence[Diagnostic], linker: Linker, folders: Collection[str] | None = None
+) -> Iterator[Diagnostic]:  # fmt: skip
+    """The diagnostics about the user's files of components, or only of those in some folders; `diagnostics` are those
+    of the documents."""
     from robocomp_yaml.emit.specific.review import review
 
-    yield from review(plans(program, diagnostics, linker), program.disk).diagnostics
+    yield from review(plans(program, diagnostics, linker, folders), program.disk).diagnostics
 
 
-def plans(program: Program, diagnostics: Sequence[Diagnostic], linker: Linker) -> Build:
+def plans(
+    program: Program, diagnostics: Sequence[Diagnostic], linker: Linker, folders: Collection[str] | None = None
+) -> Build:  # fmt: skip
     """What a compile would write for the requested components that have files of the user."""
     from robocomp_yaml.emit.build import build
     from robocomp_yaml.emit.options import EmitOptions
@@ -36,10 +56,19 @@ def plans(program: Program, diagnostics: Sequence[Diagnostic], linker: Linker) -
     languages = {program.components[real].component.language.name for real in program.requested_components()}
     options = EmitOptions(
         None, (), frozenset({*languages, "config"}), linker.workspace_of, lambda linked: assign([linked], program.disk),
-        only=_is_written,
+        only=lambda linked: _is_written(linked) and (folders is None or _slashed(linked) in folders),
     )  # fmt: skip
     return build(program, diagnostics, options)
 
 
+def _folder(linked: LinkedComponent) -> str:
+    return os.path.dirname(linked.component.path) or "."
+
+
+def _slashed(linked: LinkedComponent) -> str:
+    folder = os.path.normpath(_folder(linked))
+    return f"{folder}/" if folder != "." else ""
+
+
 def _is_written(linked: LinkedComponent) -> bool:
-    return os.path.isdir(os.path.join(os.path.dirname(linked.component.path), SOURCES))
+    return os.path.isdir(os.path.join(_folder(linked), SOURCES))

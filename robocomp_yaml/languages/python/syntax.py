@@ -18,14 +18,6 @@ def annotations_of(node: ast.FunctionDef | ast.AsyncFunctionDef) -> list[ast.exp
     return [one for one in (*found, node.returns) if one is not None]
 
 
-def binds(function: ast.AST, name: str) -> bool:
-    """Whether a function binds a name again."""
-    return any(
-        isinstance(node, ast.Name) and node.id == name and not isinstance(node.ctx, ast.Load)
-        for node in ast.walk(function)
-    )
-
-
 def names_of(node: ast.expr | None) -> list[str]:
     """The last words of the names in a name, a call or a tuple of them."""
     match node:

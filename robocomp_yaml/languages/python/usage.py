@@ -25,6 +25,7 @@ from robocomp_yaml.model import machine_names
 from robocomp_yaml.model.interface import Method, Sequence
 
 _MAIN = "specificworker.py"
+_RELEVANT = (ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef, ast.Import, ast.ImportFrom)
 _REPLACED = ("genericworker.py", "interfaces.py")
 _LIVE = {
     "set": OfferedMember(least=2, most=2, keywords=frozenset(("path", "value")), takes_path=True,
@@ -100,6 +101,7 @@ def read(files: Mapping[str, str], linked: LinkedComponent, worker: WorkerOffer)
     if is_robocomp:  # what RoboComp's own tool left in src/ is not used
         files = {path: text for path, text in files.items() if path not in _REPLACED}
     trees: dict[str, ast.Module] = {}
+    nodes: dict[str, list[ast.AST]] = {}
     faults: list[tuple[str, Span]] = []
     imported, todo = {_MAIN}, [_MAIN]
     while todo:
@@ -116,12 +118,13 @@ def read(files: Mapping[str, str], linked: LinkedComponent, worker: WorkerOffer)
             trees[path] = ast.Module([], [])
         except (ValueError, RecursionError, MemoryError):
             return CodeUsage()
-        found, is_dynamic = _imported(trees[path], files)
+        nodes[path] = [node for node in ast.walk(trees[path]) if isinstance(node, _RELEVANT)]
+        found, is_dynamic = _imported(nodes[path], files)
         imported.update(found if path in imported else ())
-        todo += files if is_dynamic else found
+        todo += files if is_dynamic or "__import__" in files[path] else found
     if faults:
         return CodeUsage(faults=tuple(faults))
-    classes = classes_of(trees)
+    classes = classes_of(nodes)
     if not classes.workers:
         return CodeUsage()
     modules = frozenset(worker.roots[MODULES].members)
@@ -144,11 +147,11 @@ def _is_wrong(path: str, text: str) -> bool:
     return read_code(path, text).faults > 0
 
 
-def _imported(tree: ast.Module, files: Collection[str]) -> tuple[list[str], bool]:
+def _imported(nodes: Iterable[ast.AST], files: Collection[str]) -> tuple[list[str], bool]:
     """The user's files that a module imports; and whether it may import others, by names that are computed."""
     found: list[str] = []
     is_dynamic = False
-    for node in ast.walk(tree):
+    for node in nodes:
         names: list[str] = []
         if isinstance(node, ast.Import):
             names = [alias.name for alias in node.names]
@@ -157,8 +160,6 @@ def _imported(tree: ast.Module, files: Collection[str]) -> tuple[list[str], bool
             module = node.module or ""
             names = [module, *(f"{module}.{alias.name}" for alias in node.names)]
             is_dynamic |= node.level > 0 or module == "importlib"
-        elif isinstance(node, ast.Name):
-            is_dynamic |= node.id == "__import__"
         for name in names:
             parts = name.split(".")
             heads = ("/".join(parts[:end]) for end in range(1, len(parts) + 1))

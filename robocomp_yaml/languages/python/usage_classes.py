@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 import msgspec
 
@@ -22,12 +22,13 @@ class UserClasses(msgspec.Struct, frozen=True):
     is_open: bool
 
 
-def classes_of(trees: Mapping[str, ast.Module]) -> UserClasses:
+def classes_of(files: Mapping[str, Sequence[ast.AST]]) -> UserClasses:
+    """The classes among the nodes of each file."""
     classes: dict[str, ast.ClassDef] = {}
     defined: set[str] = set()
     twice: set[str] = set()
-    for tree in trees.values():
-        for node in ast.walk(tree):
+    for nodes in files.values():
+        for node in nodes:
             if isinstance(node, ast.ClassDef):
                 twice.update({node.name} & classes.keys())
                 classes[node.name] = node

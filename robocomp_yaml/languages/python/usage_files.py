@@ -15,7 +15,6 @@ from robocomp_yaml.emit.usage.code import MODULES, SETTINGS, WORKER, Arguments, 
 from robocomp_yaml.languages.python.syntax import (
     all_names,
     annotations_of,
-    binds,
     constant,
     imports_all,
     names_of,
@@ -60,15 +59,16 @@ class UsageReader:
         self._found = FileUsage()
         self._caught: frozenset[str] = frozenset()
         self._rebound: frozenset[str] = frozenset()
+        self._again: set[str] = set()  # the parameters that the last scope binds again
 
     @cached_property
     def _lines(self) -> list[str]:
         return re.compile("\r\n|\r|\n").split(self._text)
 
     def read(self, tree: ast.Module) -> FileUsage:
-        self._rebound = frozenset(
-            name for node in ast.walk(tree) if isinstance(node, (ast.Global, ast.Nonlocal)) for name in node.names
-        )
+        if "global " in self._text or "nonlocal " in self._text:
+            scopes = (node for node in ast.walk(tree) if isinstance(node, (ast.Global, ast.Nonlocal)))
+            self._rebound = frozenset(name for node in scopes for name in node.names)
         frame = self._frame(tree.body)
         if any(imports_all(node, self._sources | {"genericworker"}) for node in tree.body):
             known = {name: Binding(MODULES, (Step(Word(name, Span(self._path))),)) for name in self._modules}
@@ -82,8 +82,8 @@ class UsageReader:
         """The variables of a scope, with what those are that are bound once."""
         counts: Counter[str] = Counter()
         values: dict[str, Binding] = {}
-        for argument in parameters_of(arguments):
-            counts[argument.arg] += 2
+        given = [argument.arg for argument in parameters_of(arguments)]
+        counts.update((*given, *given))
         todo = list(body)
         while todo:
             node = todo.pop()
@@ -113,6 +113,7 @@ class UsageReader:
                 ):
                     values[name] = Binding(value=value, is_element=True)
             todo += ast.iter_child_nodes(node)
+        self._again = {name for name in given if counts[name] > 2}
         return {
             name: values.get(name) if count == 1 and name not in self._rebound else None
             for name, count in counts.items()
@@ -232,14 +233,15 @@ class UsageReader:
             self._found.methods.append(word)
         self._visit_all((*node.decorator_list, *node.args.defaults, *annotations_of(node)), frames)
         frame = self._frame(node.body, node.args)
+        again = self._again
         first = next(iter([*node.args.posonlyargs, *node.args.args]), None)
         decorators = {name for one in node.decorator_list for name in names_of(one)}
-        if first is not None and not decorators & {"staticmethod", "classmethod"} and not binds(node, first.arg):
+        if first is not None and not decorators & {"staticmethod", "classmethod"} and first.arg not in again:
             frame[first.arg] = _SELF
         if self._is_robocomp:
             for argument in node.args.args[1:]:
                 is_params = node.name == "setParams" or argument.arg == "configData"
-                if is_params and not binds(node, argument.arg):
+                if is_params and argument.arg not in again:
                     frame[argument.arg] = Binding(SETTINGS)
         self._visit_all(node.body, (*frames, frame))
 
