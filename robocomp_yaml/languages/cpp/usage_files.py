@@ -24,6 +24,7 @@ _USES = frozenset(
     subscript_expression switch_statement throw_statement unary_expression update_expression while_statement
     field_initializer co_return_statement co_yield_statement decltype""".split()
 )
+_TEXTS = ("comment", "preproc_arg", "raw_string_content", "string_content", "string_literal", "system_lib_string")
 _INITIALIZERS = ("init_declarator", "optional_parameter_declaration", "lambda_capture_initializer", "declaration")
 _MACRO = re.compile(r"[A-Z][A-Z0-9_]+\Z")
 
@@ -75,16 +76,26 @@ class CppFile:
                 yield self._word(name)
 
     def occurrences(self, name: str, workers: Collection[str]) -> Iterator[Occurrence]:
-        """All occurrences of a name."""
-        for found in re.finditer(rb"\b%s\b" % re.escape(name.encode()), self._bytes):
-            node = self._tree.root_node.descendant_for_byte_range(found.start(), found.end())
-            if node is None or node.type in ("comment", "string_content", "raw_string_content", "system_lib_string"):
+        """All occurrences of a name, also through variables that it initializes."""
+        for node in self._nodes(name, 0, len(self._bytes)):
+            start = self._start(node, name, workers)
+            if isinstance(start, Occurrence):
+                yield start
                 continue
-            if node.type in ("preproc_arg", "string_literal"):
-                continue
-            yield self._occurrence(node, name, workers)
+            steps, end = self._steps([Step(self._word(node))], start)
+            yield Occurrence(chain=Chain(WORKER, tuple(steps)))
+            for chain in self._through_variable(steps, end):
+                yield Occurrence(chain=chain)
 
-    def _occurrence(self, node: Node, name: str, workers: Collection[str]) -> Occurrence:
+    def _nodes(self, name: str, start: int, end: int) -> Iterator[Node]:
+        """The nodes between two positions in bytes that are this word, except in comments and texts."""
+        for found in re.compile(rb"\b%s\b" % re.escape(name.encode())).finditer(self._bytes, start, end):
+            node = self._tree.root_node.descendant_for_byte_range(found.start(), found.end())
+            if node is not None and node.type not in _TEXTS:
+                yield node
+
+    def _start(self, node: Node, name: str, workers: Collection[str]) -> Node | Occurrence:
+        """The node at which a chain begins, if the word is a use of the worker."""
         parent = node.parent
         if parent is None or text(node) != name or node.type not in ("identifier", "field_identifier"):
             return _DECLARED
@@ -98,10 +109,11 @@ class CppFile:
             return _DECLARED
         if _is_uncertain(start) or _worker_around(start) not in workers:
             return _OTHER
-        return Occurrence(chain=self._chain(node, start))
+        return start
 
-    def _chain(self, node: Node, start: Node) -> Chain:
-        steps, now = [Step(self._word(node))], start
+    def _steps(self, head: list[Step], start: Node) -> tuple[list[Step], Node]:
+        """The steps of a chain that begins with some at a node, and the node at which it ends."""
+        steps, now = list(head), start
         while (parent := now.parent) is not None:
             if parent.type == "field_expression" and parent.child_by_field_name("argument") == now:
                 name = parent.child_by_field_name("field")
@@ -118,7 +130,35 @@ class CppFile:
             elif parent.type != "parenthesized_expression":
                 break
             now = parent
-        return Chain(WORKER, tuple(steps))
+        return steps, now
+
+    def _through_variable(self, steps: list[Step], end: Node) -> Iterator[Chain]:
+        """The chains that begin at a local variable, if a chain initializes it, and no other of its name is near."""
+        parent = end.parent
+        if parent is not None and parent.type == "init_declarator" and parent.child_by_field_name("value") == end:
+            declaration = parent.parent
+        elif parent is not None and parent.type == "for_range_loop" and parent.child_by_field_name("right") == end:
+            declaration, steps = parent, [*steps, Step(Word("", Span(self.path)), is_index=True)]
+        else:
+            return
+        if declaration is None or field(declaration, "type").type != "placeholder_type_specifier":
+            return
+        declarator = parent.child_by_field_name("declarator")
+        while declarator is not None and declarator.type == "reference_declarator":
+            declarator = declarator.named_children[-1]
+        function = _function_around(end)
+        if declarator is None or declarator.type != "identifier" or function is None:
+            return
+        uses = []
+        for node in self._nodes(text(declarator), function.start_byte, function.end_byte):
+            if node.type == "identifier" and node != declarator:
+                if node.parent is None or not _is_used(node, node.parent):
+                    return
+                uses.append(node)
+        for node in uses:
+            longer, _ = self._steps(steps, node)
+            if len(longer) > len(steps) and not _is_uncertain(node):
+                yield Chain(WORKER, tuple(longer))
 
     def _arguments(self, call: Node) -> Arguments:
         given = call.child_by_field_name("arguments")
@@ -231,6 +271,13 @@ def _worker_around(node: Node) -> str:
             return text(field(now, "name")) if outer else ""
         now = now.parent
     return ""
+
+
+def _function_around(node: Node) -> Node | None:
+    now: Node | None = node
+    while now is not None and now.type != "function_definition":
+        now = now.parent
+    return now
 
 
 def _class_around(node: Node) -> str:
