@@ -170,7 +170,7 @@ def modules(
 
 
 def _is_internal(name: str) -> bool:
-    return name.startswith("_") or name.endswith(("Disp", "Holder"))
+    return name.startswith("_") or name.endswith(("Disp", "Holder", "Ptr")) or name == "operator"
 
 
 def _types(scope: LinkedModule, in_code: Callable[[str], str]) -> dict[str, OfferedMember]:

@@ -7,11 +7,13 @@ parts of the preprocessor, in macros and in templates is not judged, nor is anyt
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+
+from msgspec import structs
 
 from robocomp_yaml.emit.lowering import ports as lowering
 from robocomp_yaml.emit.usage import offer as offers
-from robocomp_yaml.emit.usage.code import WORKER, CodeUsage, Word
+from robocomp_yaml.emit.usage.code import MODULES, WORKER, CodeUsage, Word
 from robocomp_yaml.emit.usage.judge import is_proxy
 from robocomp_yaml.emit.usage.offer import Offer, OfferedMember, WorkerOffer
 from robocomp_yaml.languages.cpp import LANGUAGE
@@ -39,8 +41,11 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
             members["statemachine"] = OfferedMember(Offer(offers.OTHER, "", is_in, is_complete=False))
     served = offers.served(ports)
     handled = offers.handlers(machine) if machine else frozenset()
+    modules = offers.modules(linked, ice_name, ice_name, lambda name: True)
+    if linked.component.compatibility:  # enumerators are outside of their enums, too
+        modules = structs.replace(modules, members={})
     return WorkerOffer(
-        {WORKER: Offer(offers.WORKER, linked.component.name, members, is_complete=False)},
+        {WORKER: Offer(offers.WORKER, linked.component.name, members, is_complete=False), MODULES: modules},
         served, handled, offers.states(machine) if machine else frozenset(),
     )  # fmt: skip
 
@@ -75,7 +80,8 @@ def read(files: Mapping[str, str], linked: LinkedComponent, worker: WorkerOffer)
     words = {word for text in files.values() for word in _WORD.findall(text)}
     names = {word for word in words if word in known or is_proxy(word)}
     handlers = {word for word in words if _METHOD.fullmatch(word)} if worker.served or worker.handlers else set()
-    if not names and not handlers:
+    modules = words & worker.roots[MODULES].members.keys() - _extended(files.values())
+    if not names and not handlers and not modules:
         return CodeUsage()
     parsed = [CppFile(path, text) for path, text in files.items() if _is_own(path)]
     classes = {name: bases for file in parsed for name, bases in file.classes()}
@@ -95,8 +101,14 @@ def read(files: Mapping[str, str], linked: LinkedComponent, worker: WorkerOffer)
         declared |= {name for name in names if name not in known}  # it may be declared there
     texts = {text for source in files.values() for text in _TEXT.findall(source)}
     chains = tuple(one.chain for one in uses if one.chain is not None)
+    chains += tuple(chain for file in parsed for name in sorted(modules) for chain in file.qualified(name))
     methods = tuple(word for file in parsed for word in file.methods(workers))
     return CodeUsage(chains, _unused(methods, files), frozenset(declared), frozenset(texts), is_shared=True)
+
+
+def _extended(texts: Iterable[str]) -> set[str]:
+    """The namespaces to which the code adds something."""
+    return {name for text in texts for name in re.findall(r"\bnamespace\s+(\w+)\s*(?:::|\{|=)", text)}
 
 
 def _is_own(path: str) -> bool:

@@ -11,7 +11,7 @@ from tree_sitter import Node, Tree
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.specific.code import field, lines_of, location, text
-from robocomp_yaml.emit.usage.code import WORKER, Arguments, Chain, Constant, Step, Word
+from robocomp_yaml.emit.usage.code import MODULES, WORKER, Arguments, Chain, Constant, Step, Word
 from robocomp_yaml.languages.cpp.code import parse
 
 # Where an identifier is used. Everywhere else, it is declared.
@@ -86,6 +86,30 @@ class CppFile:
             yield Occurrence(chain=Chain(WORKER, tuple(steps)))
             for chain in self._through_variable(steps, end):
                 yield Occurrence(chain=chain)
+
+    def qualified(self, module: str) -> Iterator[Chain]:
+        """The names in a Slice module: `RoboCompMouth::Shape::round`."""
+        if module.encode() not in self._bytes:
+            return
+        for node in self._nodes(module, 0, len(self._bytes)):
+            parent = node.parent
+            is_scope = (
+                parent is not None and parent.type == "qualified_identifier" and node.type == "namespace_identifier"
+            )
+            if not is_scope or parent is None or parent.child_by_field_name("scope") != node or _is_uncertain(node):
+                continue
+            if parent.parent is not None and parent.parent.type == "qualified_identifier":
+                if parent.parent.child_by_field_name("scope") != parent and _has_scope(parent.parent):
+                    continue  # the module of another namespace
+            steps, now = [Step(self._word(node))], parent.child_by_field_name("name")
+            while now is not None and now.type == "qualified_identifier":
+                if (scope := now.child_by_field_name("scope")) is None or "identifier" not in scope.type:
+                    break
+                steps.append(Step(self._word(scope)))
+                now = now.child_by_field_name("name")
+            if now is not None and now.type in ("identifier", "type_identifier"):
+                steps.append(Step(self._word(now)))
+            yield Chain(MODULES, tuple(steps))
 
     def _nodes(self, name: str, start: int, end: int) -> Iterator[Node]:
         """The nodes between two positions in bytes that are this word, except in comments and texts."""
@@ -271,6 +295,11 @@ def _worker_around(node: Node) -> str:
             return text(field(now, "name")) if outer else ""
         now = now.parent
     return ""
+
+
+def _has_scope(node: Node) -> bool:
+    """Whether a qualified name begins with a namespace, not with `::`."""
+    return node.child_by_field_name("scope") is not None
 
 
 def _function_around(node: Node) -> Node | None:
