@@ -42,12 +42,22 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
     served = offers.served(ports)
     handled = offers.handlers(machine) if machine else frozenset()
     modules = offers.modules(linked, ice_name, ice_name, lambda name: True)
-    if linked.component.compatibility:  # enumerators are outside of their enums, too
-        modules = structs.replace(modules, members={})
+    if linked.component.compatibility:
+        modules = structs.replace(
+            modules, members={name: _with_enumerators(one) for name, one in modules.members.items()}
+        )
     return WorkerOffer(
         {WORKER: Offer(offers.WORKER, linked.component.name, members, is_complete=False), MODULES: modules},
         served, handled, offers.states(machine) if machine else frozenset(),
     )  # fmt: skip
+
+
+def _with_enumerators(module: OfferedMember) -> OfferedMember:
+    """A module in which enumerators are outside of their enums, too, as in RoboComp's code."""
+    assert module.value is not None
+    enums = [one.value.members for one in module.value.members.values() if one.value is not None]
+    outside = {name: member for members in enums for name, member in members.items()}
+    return OfferedMember(structs.replace(module.value, members={**outside, **module.value.members}))
 
 
 def _parameters(linked: LinkedComponent) -> Offer:
@@ -101,7 +111,9 @@ def read(files: Mapping[str, str], linked: LinkedComponent, worker: WorkerOffer)
         declared |= {name for name in names if name not in known}  # it may be declared there
     texts = {text for source in files.values() for text in _TEXT.findall(source)}
     chains = tuple(one.chain for one in uses if one.chain is not None)
-    chains += tuple(chain for file in parsed for name in sorted(modules) for chain in file.qualified(name))
+    # Beside code for RoboComp's own tool, there may be files of that tool, which are not compiled.
+    compiled = [file for file in parsed if not linked.component.compatibility or "specificworker." in file.path]
+    chains += tuple(chain for file in compiled for name in sorted(modules) for chain in file.qualified(name))
     methods = tuple(word for file in parsed for word in file.methods(workers))
     return CodeUsage(chains, _unused(methods, files), frozenset(declared), frozenset(texts), is_shared=True)
 

@@ -161,4 +161,6 @@ def test_methods_that_nobody_calls(link: Link, method: str, code: str) -> None:
 def test_files_of_robocomps_own_tool_are_not_read(link: Link) -> None:
     left = {"genericworker.h": "class GenericWorker { std::shared_ptr<X> moth_proxy; };\n"}
     linked = link(component("cpp", "compatibility: robocomp\n"))
-    assert found(linked, {**worker("moth_proxy->close();"), **left}) == [("RC6301", "moth_proxy")]
+    left["mouthI.cpp"] = "RoboCompMouth::pose MouthI::move() { return RoboCompMouth::pose(); }\n"
+    files = {**worker("moth_proxy->close(); f(RoboCompMouth::round, RoboCompMouth::Pos());"), **left}
+    assert found(linked, files) == [("RC6301", "moth_proxy"), ("RC6314", "Pos")]
