@@ -145,7 +145,7 @@ void SpecificWorker::compute()
 
 RoboCompMouth::Pose SpecificWorker::Mouth_move(const RoboCompMouth::Pose& target, bool fast)
 {
-    auto pose = target;
+    auto pose = target; pose.shape = RoboCompMouth::Shape::wide;
     pose.opening = std::min(pose.opening, parameters.widest());
     events(pose);
     mouthevents_pubproxy->moved(pose);
@@ -263,6 +263,7 @@ MISTAKES = [
     one(INTERFACES, "a parameter of another type: the call in Python is stale", I_MOUTH, "fast: bool}", "fast: string}", "RC6318", f"{WORKER}:13:47", "check --code"),
     one(INTERFACES, "a member of a struct that is renamed, and still set", I_MOUTH, "{opening: float, ", "{gap: float, ", "RC6305", f"{WORKER}:12:35"),
     one(INTERFACES, "an enumerator that is removed, and still used", I_MOUTH, "[round, wide]", "[oval, wide]", "RC6315", f"{WORKER}:12:87"),
+    one(INTERFACES, "an enumerator that is removed, and still used in C++", I_MOUTH, "[round, wide]", "[round, oval]", "RC6315", f"{SOURCE}:15:60"),
     one(INTERFACES, "a type that is renamed, and still used", I_MOUTH, "{target: Pose, ", "{target: Poses, ", "RC1010", f"{I_MOUTH}:8:27"),
     one(INTERFACES, "a module that is renamed, and still imported by code", I_MOUTH, "module: RoboCompMouth", "module: RoboCompLips", "RC6313", f"{WORKER}:4:34"),
     one(INTERFACES, "a type that does not exist", I_SPEECH, "volume: int}", "volume: integer}", "RC1010", f"{I_SPEECH}:5:40"),
