@@ -41,17 +41,21 @@ def earlier_outcome(arguments: CompileArguments, *, planned: bool = False) -> Ou
     return Outcome.of_data(kept.replay, planned=planned)
 
 
-def diagnostics_of_code(paths: Sequence[str], include: Sequence[str]) -> list[Diagnostic] | None:
-    """What the last compile of these paths reported about the user's code; None if a file that it read has changed
-    since, or there is no stamp. Whether its generated files were edited does not matter."""
+def diagnostics_of_code(
+    paths: Sequence[str], include: Sequence[str]
+) -> tuple[list[Diagnostic], set[str]] | None:  # fmt: skip
+    """What the last compile of these paths reported about the user's code, and the files that have changed since; None
+    if there is no stamp, or if other files than those may matter now. Whether its generated files were edited does not
+    matter."""
     kept = stamp.load(*CompileArguments(paths, include).location())
-    if kept is None or not stamp.reads_the_same(kept):
+    changed = stamp.changed_inputs(kept) if kept is not None else None
+    if kept is None or changed is None:
         return None
     from robocomp_yaml.diag.code import Code
-    from robocomp_yaml.diag.codes import specific
+    from robocomp_yaml.diag.codes import specific, usage
 
-    of_code = {code.id for code in vars(specific).values() if isinstance(code, Code)}
-    return [one for one in Outcome.of_data(kept.replay).diagnostics if one.code in of_code]
+    of_code = {code.id for family in (specific, usage) for code in vars(family).values() if isinstance(code, Code)}
+    return [one for one in Outcome.of_data(kept.replay).diagnostics if one.code in of_code], changed
 
 
 def keep(new_stamp: stamp.RunStamp, arguments: CompileArguments) -> None:

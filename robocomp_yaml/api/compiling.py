@@ -69,7 +69,7 @@ class Compilation:
 
     def look(self, *, with_diff: bool = False) -> Outcome:
         """What `apply` would do now; with a unified diff of each file if `with_diff`."""
-        own = review(self._built.plans, merge=self._merge)
+        own = review(self._built, self._analysis.disk, merge=self._merge)
         changes = self._prepare(own, self._other_roots())
         diagnostics = in_order([*self._lasting(own), *changes.diagnostics])
         outcome = _outcome_of(self._analysis, self._built, changes, diagnostics, with_diff=with_diff)
@@ -80,7 +80,7 @@ class Compilation:
         and the action of the file is `refused`."""
         others = self._other_roots()
         recovered = writer.recover(self._built.plans, others)
-        own = review(self._built.plans, merge=self._merge)
+        own = review(self._built, self._analysis.disk, merge=self._merge)
         changes = writer.commit(self._prepare(own, others))
         schemas = self._refresh_schemas()
         lasting = self._lasting(own)

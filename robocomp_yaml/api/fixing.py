@@ -27,10 +27,14 @@ class Fixing:
 
     def __init__(
         self, before: Workspace, load: Callable[[Mapping[str, bytes]], Workspace], paths: Sequence[str],
-        *, unsafe: bool, environment: bool,
+        *, unsafe: bool, environment: bool, code: bool = False,
     ) -> None:  # fmt: skip
-        self._before, self._load, self._paths, self._environment = before, load, tuple(paths), environment
-        result = apply_fixes(self._look, _requested(before.analysis), unsafe=unsafe)
+        self._before, self._load, self._paths = before, load, tuple(paths)
+        self._environment, self._code = environment, code
+        in_code = set(_fixable_code(before, environment))
+        # Which comments suppress nothing, and what is wrong with code, is known only after a complete check.
+        self._is_complete = bool(before.analysis.allowed.by_file or in_code)
+        result = apply_fixes(self._look, _requested(before.analysis) | in_code, unsafe=unsafe)
         self._changed, self._fixed, self._left = result.changed, result.fixed, result.left
         self.written: tuple[EditedDocument, ...] = self._write(look_only=True)
         self._remaining: Workspace | None = None
@@ -63,7 +67,7 @@ class Fixing:
     @property
     def diagnostics(self) -> list[Diagnostic]:
         """The diagnostics that remain."""
-        return self.remaining.check(environment=self._environment)
+        return self.remaining.check(environment=self._environment, code=self._code)
 
     def diffs(self) -> Iterator[str]:
         """A unified diff of each document that changes, without secrets."""
@@ -90,10 +94,16 @@ class Fixing:
             document.path: UNREADABLE if document.tree is None else MISSHAPEN if document.model is None else UNDERSTOOD
             for document in analysis.linker.documents.read.values()
         }
-        # Which comments suppress nothing is known only after a complete check.
-        is_complete = bool(analysis.allowed.by_file)
-        found = workspace.check(environment=self._environment) if is_complete else analysis.diagnostics
+        found = workspace.check(environment=self._environment) if self._is_complete else analysis.diagnostics
         return CheckedDocuments(list(found), analysis.disk.contents, levels)
+
+
+def _fixable_code(workspace: Workspace, environment: bool) -> Iterator[str]:
+    """The paths of the user's code for whose diagnostics there are fixes."""
+    documents = {document.path for document in workspace.analysis.linker.documents.read.values()}
+    for diagnostic in workspace.check(environment=environment):
+        for fix in diagnostic.fixes:
+            yield from (edit.span.file for edit in fix.edits if fix.is_spelled and edit.span.file not in documents)
 
 
 def _requested(analysis: Analysis) -> set[str]:

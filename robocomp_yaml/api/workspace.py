@@ -44,11 +44,16 @@ class Workspace:
     def documents_read(self) -> int:
         return self.analysis.program.documents + len(self.analysis.discovered.scripts)
 
-    def check(self, *, environment: bool = False) -> list[Diagnostic]:
+    def check(self, *, environment: bool = False, code: bool = False) -> list[Diagnostic]:
         """All diagnostics, sorted by location: of the documents, of the user's code, of flat configs and of the
         programs of deployments. `environment` also checks that the libraries which components name, the programs on
-        PATH and the hosts are available."""
+        PATH and the hosts are available. `code` also runs the type checkers of languages over the user's code; it
+        raises Refused if one is not installed."""
         found = [*self._on_disk(environment), *(self._missing() if environment else ())]
+        if code and self.analysis.program.components:
+            from robocomp_yaml.api import code_checks
+
+            found += code_checks.check(self.analysis, found)
         return self.analysis.complete(found, environment=environment)
 
     def compile(
@@ -78,7 +83,7 @@ class Workspace:
         chosen = [which.component(name) for name in names]
         return build(self.analysis, chosen, build_type=build_type, jobs=jobs, defines=defines, report=report)
 
-    def fix(self, *, unsafe: bool = False, environment: bool = False) -> Fixing:
+    def fix(self, *, unsafe: bool = False, environment: bool = False, code: bool = False) -> Fixing:
         """The fixes of the diagnostics: those that leave only one possible meaning, and with `unsafe` also guesses.
         Nothing is written before its `apply`."""
         from robocomp_yaml.api.fixing import Fixing
@@ -86,7 +91,7 @@ class Workspace:
         def load(changed: Mapping[str, bytes]) -> Workspace:
             return Workspace(self._paths, self._include, {**self._overlay, **changed})
 
-        return Fixing(self, load, self._paths, unsafe=unsafe, environment=environment)
+        return Fixing(self, load, self._paths, unsafe=unsafe, environment=environment, code=code)
 
     @property
     def networks(self) -> dict[str, Network]:
@@ -185,11 +190,13 @@ class Workspace:
                 from robocomp_yaml.api import compile_stamps
 
                 kept = None if self._overlay else compile_stamps.diagnostics_of_code(self._paths, self._include)
-                if kept is not None:
-                    yield from kept
-                else:
+                ports = analysis.addresses.table
+                folders = existing_code.changed(analysis.program, kept[1]) if kept is not None else None
+                if kept is not None and folders is not None:
+                    yield from (one for one in kept[0] if not one.span.file.startswith(tuple(folders)))
+                if folders != []:
                     yield from existing_code.check(
-                        analysis.program, analysis.diagnostics, analysis.linker, analysis.addresses.table
+                        analysis.program, analysis.diagnostics, analysis.linker, ports, folders
                     )
         if analysis.networks:
             from robocomp_yaml.check.networks import check_environment

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 @click.command(cls=LibraryCommand, short_help="Report everything that is wrong with the documents.")
 @_options.paths
 @click.option("--environment", is_flag=True, help="Also report libraries, programs and hosts that are missing.")
+@click.option("--code", is_flag=True, help="Also run a type checker over the components' code in Python.")
 @click.option("--fix", is_flag=True, help="Apply the fixes that leave only one possible meaning.")
 @click.option("--unsafe-fixes", is_flag=True, help="Apply the other fixes too, which are guesses.")
 @click.option("--diff", is_flag=True, help="Show what the fixes would change; write nothing.")
@@ -30,8 +31,8 @@ if TYPE_CHECKING:
 @_options.format_
 @click.pass_context
 def command(
-    ctx: click.Context, paths: tuple[str, ...], environment: bool, fix: bool, unsafe_fixes: bool, diff: bool,
-    fail_on: _options.FailOn, include: tuple[str, ...], format_: str,
+    ctx: click.Context, paths: tuple[str, ...], environment: bool, code: bool, fix: bool, unsafe_fixes: bool,
+    diff: bool, fail_on: _options.FailOn, include: tuple[str, ...], format_: str,
 ) -> None:  # fmt: skip
     """Report everything that is wrong with the documents at PATHS (by default, below this folder).
 
@@ -41,11 +42,11 @@ def command(
 
     paths = paths or (".",)
     if fix or unsafe_fixes or diff:
-        fixing = api.load(*paths, include=include).fix(unsafe=unsafe_fixes, environment=environment)
+        fixing = api.load(*paths, include=include).fix(unsafe=unsafe_fixes, environment=environment, code=code)
         _fix(ctx, fixing, format_, fail_on, look_only=diff)
     with _options.progress("reading", paths) as on_read:
         workspace = api.load(*paths, include=include, on_read=on_read)
-    diagnostics = workspace.check(environment=environment)
+    diagnostics = workspace.check(environment=environment, code=code)
     _options.report(ctx, format_, diagnostics, workspace.documents_read, fail_on)
 
 

@@ -31,9 +31,11 @@ if TYPE_CHECKING:
 
 
 class Build(msgspec.Struct):
-    """The plans, and diagnostics about documents that cannot be compiled; `skipped` are the real paths of these."""
+    """The plans, and diagnostics about documents that cannot be compiled; `skipped` are the real paths of these.
+    `components` are those of plans, by root and owner."""
 
     plans: list[RootPlan] = []
+    components: dict[tuple[str, str], LinkedComponent] = {}
     diagnostics: list[Diagnostic] = []
     skipped: set[str] = set()
 
@@ -95,6 +97,7 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: EmitOpti
             files = tuple(file for file in files if not is_settings(file.path))
             plan = replace(plan, partial=True)
         result.plans.append(replace(plan, files=files))
+        result.components[plan.root, plan.owner] = component
     result.plans += shared.plans({(plan.root, plan.owner) for plan in result.plans})
     result.skipped |= _unused(program, state, result.skipped)
     return result

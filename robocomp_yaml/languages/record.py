@@ -28,8 +28,9 @@ class TargetLanguage(msgspec.Struct, frozen=True, kw_only=True, eq=False):
 
     `name` is the name in documents, `title` the name in messages. `package` holds the language's parts: modules that
     are imported when they are needed, and `templates/`. `plan` always exists; `code` if the language has MERGING;
-    `uses` if it has libraries or sources; `building` if it `has_building`, for builds that are more than the commands
-    of `build`; `checks` if it `has_checks`, for names that are illegal in the language. The checks run if a component
+    `uses` if it has libraries or sources; `usage` if it `has_usage`, for checks of the user's code; `checker` if it
+    `has_checker`, for `check --code`; `building` if it `has_building`, for builds that are more than the commands of
+    `build`; `checks` if it `has_checks`, for names that are illegal in the language. The checks run if a component
     is in the language; if it `warns_others`, they always run, and `checks.has_taken(module)` is called for migrated
     documents.
 
@@ -73,6 +74,8 @@ class TargetLanguage(msgspec.Struct, frozen=True, kw_only=True, eq=False):
     made_of: Mapping[str, tuple[str, ...]] = MappingProxyType({"generated": (), "src": (), "slice": (".ice",)})
     suffixes: tuple[str, ...] = ()
     comment: str = "//"
+    has_usage: bool = False
+    has_checker: bool = False
     has_building: bool = False
     has_checks: bool = False
     warns_others: bool = False

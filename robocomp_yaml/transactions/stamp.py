@@ -105,19 +105,24 @@ def is_current(stamp: RunStamp) -> bool:
 
 def reads_the_same(stamp: RunStamp) -> bool:
     """Whether the run would read the same again, whatever happened to the files that it wrote."""
+    return changed_inputs(stamp) == set()
+
+
+def changed_inputs(stamp: RunStamp) -> set[str] | None:
+    """The paths of the inputs whose contents changed since; None if the run might also read other files now."""
     try:
-        return (
+        is_same = (
             all(state_of(path) == state for path, state in stamp.states.items())
             and all(documents_in(names_in(folder)) == recorded for folder, recorded in stamp.listed.items())
             and all(names_in(folder) == recorded for folder, recorded in stamp.names.items())
             and all(walked(folder) == recorded for folder, recorded in stamp.walked.items())
             and list(_real_paths(stamp.inputs)) == [real for real, _ in stamp.inputs.values()]
-            and all(_state(path) == state for path, (_, state) in stamp.inputs.items())
             and stamp.tool == tool()
             and _builds(stamp.plugins) == stamp.plugins
         )
+        return {path for path, (_, state) in stamp.inputs.items() if _state(path) != state} if is_same else None
     except (OSError, ValueError, TypeError):
-        return False
+        return None
 
 
 def load(folder: str, name: str) -> RunStamp | None:

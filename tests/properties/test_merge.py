@@ -18,9 +18,11 @@ from random_components import changed, plan, random_model
 from random_edits import Files, edited
 from robocomp_yaml.diag.codes.specific import CONFLICT
 from robocomp_yaml.diag.diagnostic import has_errors
+from robocomp_yaml.emit.build import Build
 from robocomp_yaml.emit.specific import threeway
 from robocomp_yaml.emit.specific.reading import read
 from robocomp_yaml.emit.specific.review import review
+from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.transactions import writer
 from robocomp_yaml.transactions.plan import RootPlan
 from verdicts import CASES
@@ -104,7 +106,7 @@ def _methods(text: str) -> list[str]:
 
 
 def _write(plan: RootPlan, *, merge: bool) -> list:
-    own = review([plan], merge=merge)
+    own = review(Build([plan]), Disk(), merge=merge)
     changes = writer.prepare([plan], merges=own.merges)
     return [*own.diagnostics, *writer.commit(changes).diagnostics]
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from robocomp_yaml.addresses.table import PortTable
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -11,29 +12,67 @@ from robocomp_yaml.emit.layout import SOURCES
 from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import LinkedComponent, Program
 
+if TYPE_CHECKING:
+    from robocomp_yaml.emit.build import Build
+
+Ports = Callable[[LinkedComponent], PortTable]
+
 
 def has_code(program: Program) -> bool:
     """Whether a requested component has files of the user."""
     return any(_is_written(program.components[real]) for real in program.requested_components())
 
 
+def changed(program: Program, files: Collection[str]) -> list[str] | None:
+    """The folders of the components to whose code these files belong, with `/` at the end; None if one of the files is
+    no code of a component."""
+    folders = {os.path.normpath(_folder(linked)) for linked in program.components.values()}
+    found = set()
+    for file in files:
+        parts = file.split("/")
+        heads = ("/".join(parts[:end]) or "." for end, name in enumerate(parts) if name == SOURCES)
+        home = next((head for head in heads if head in folders), None)
+        if home is None:
+            return None
+        found.add(f"{home}/" if home != "." else "")
+    return sorted(found)
+
+
 def check(
-    program: Program, diagnostics: Sequence[Diagnostic], linker: Linker, ports: Callable[[LinkedComponent], PortTable]
-) -> Iterator[Diagnostic]:
-    """The diagnostics about the user's files of components; `diagnostics` are those of the documents, `ports` returns
-    the ports of a component's workspace."""
+    program: Program, diagnostics: Sequence[Diagnostic], linker: Linker, ports: Ports,
+    folders: Collection[str] | None = None,
+) -> Iterator[Diagnostic]:  # fmt: skip
+    """The diagnostics about the user's files of components, or only of those in some folders; `diagnostics` are those
+    of the documents, `ports` returns the ports of a component's workspace."""
+    from robocomp_yaml.emit.specific.review import review
+
+    yield from review(plans(program, diagnostics, linker, ports, folders), program.disk).diagnostics
+
+
+def plans(
+    program: Program, diagnostics: Sequence[Diagnostic], linker: Linker, ports: Ports,
+    folders: Collection[str] | None = None,
+) -> Build:  # fmt: skip
+    """What a compile would write for the requested components that have files of the user."""
     from robocomp_yaml.emit.build import build
     from robocomp_yaml.emit.options import EmitOptions
-    from robocomp_yaml.emit.specific.review import review
-    from robocomp_yaml.transactions.plan import RootPlan
 
     languages = {program.components[real].component.language.name for real in program.requested_components()}
     options = EmitOptions(
-        None, (), frozenset({*languages, "config"}), linker.workspace_of, ports, only=_is_written,
+        None, (), frozenset({*languages, "config"}), linker.workspace_of, ports,
+        only=lambda linked: _is_written(linked) and (folders is None or _slashed(linked) in folders),
     )  # fmt: skip
-    plans: Iterable[RootPlan] = build(program, diagnostics, options).plans
-    yield from review(plans).diagnostics
+    return build(program, diagnostics, options)
+
+
+def _folder(linked: LinkedComponent) -> str:
+    return os.path.dirname(linked.component.path) or "."
+
+
+def _slashed(linked: LinkedComponent) -> str:
+    folder = os.path.normpath(_folder(linked))
+    return f"{folder}/" if folder != "." else ""
 
 
 def _is_written(linked: LinkedComponent) -> bool:
-    return os.path.isdir(os.path.join(os.path.dirname(linked.component.path), SOURCES))
+    return os.path.isdir(os.path.join(_folder(linked), SOURCES))

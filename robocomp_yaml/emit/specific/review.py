@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING
 
 import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml.diag.codes import cdsl as codes
+from robocomp_yaml.diag.codes.specific import OBSOLETE
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.layout import SOURCES
@@ -16,6 +18,11 @@ from robocomp_yaml.emit.specific.user_file import UserFile
 from robocomp_yaml.transactions.manifest import BASE
 from robocomp_yaml.transactions.output_root import Root
 from robocomp_yaml.transactions.plan import ONCE, Merge, Merges, RootPlan
+
+if TYPE_CHECKING:
+    from robocomp_yaml.emit.build import Build
+    from robocomp_yaml.link.program import LinkedComponent
+    from robocomp_yaml.source.disk import Disk
 
 
 class Review(msgspec.Struct):
@@ -27,11 +34,23 @@ class Review(msgspec.Struct):
     absent: set[str] = set()
     names: dict[str, list[str]] = {}
 
+    def add_usage(self, linked: LinkedComponent, root: Root, disk: Disk, merged: Mapping[str, bytes]) -> None:
+        """Adds the diagnostics about the use that the code makes of the worker; `merged` are new contents of files."""
+        from robocomp_yaml.emit.usage import check  # only for code that somebody wrote
 
-def review(plans: Iterable[RootPlan], *, merge: bool = False) -> Review:
-    """Reviews the user's files of all plans. Only components with a file that is not up to date are parsed."""
+        suffixes = linked.component.language.target.suffixes
+        found = check.sources(root, suffixes, disk, merged)
+        if found is not None:
+            self.names.update(found.names)
+            known = {one.span for one in self.diagnostics if one.code == OBSOLETE.id}
+            self.diagnostics += (one for one in check.check(linked, root, found) if one.span not in known)
+
+
+def review(built: Build, disk: Disk, *, merge: bool = False) -> Review:
+    """Reviews the user's files of all plans. Only components with a file that is not up to date are parsed. `disk`
+    records what is read to see how they use the worker."""
     result = Review()
-    for plan in plans:
+    for plan in built.plans:
         root = Root(plan.root)
         files = list(_user_files(plan, root, merge, result))
         if merge:
@@ -56,6 +75,10 @@ def review(plans: Iterable[RootPlan], *, merge: bool = False) -> Review:
             result.names[root.shown(folder)] = reading.names(root, folder)
             result.contents.update((root.shown(path), data) for path, data in reading.code_in(root, folder))
         result.diagnostics += reporting.report(root, files, root.shown(plan.owner))
+        linked = built.components.get((plan.root, plan.owner))
+        if linked is not None and linked.component.language.target.has_usage:
+            merged_files = {file.path: file.data for file in files} if merge else {}
+            result.add_usage(linked, root, disk, merged_files)
     return result
 
 

@@ -51,6 +51,7 @@ LANGUAGE = TargetLanguage(
     },
     build=(("cmake", "-S", "{folder}", "-B", "{folder}/build"), ("cmake", "--build", "{folder}/build")),
     suffixes=("h", "hpp", "cpp"),
+    has_usage=True,
     has_building=True,
     has_checks=True,
     warns_others=True,

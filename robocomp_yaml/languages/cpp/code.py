@@ -8,7 +8,7 @@ from functools import cache
 
 import tree_sitter_cpp
 from msgspec.structs import replace
-from tree_sitter import Language, Node, Parser
+from tree_sitter import Language, Node, Parser, Tree
 
 from robocomp_yaml.emit.specific.code import (
     CLASS,
@@ -36,8 +36,13 @@ def _parser() -> Parser:
     return Parser(Language(tree_sitter_cpp.language()))
 
 
+def parse(source: str) -> Tree:
+    """The syntax tree of a file, at the same positions."""
+    return _parser().parse(_QT.sub(_replacement, source.encode()))
+
+
 def read(path: str, source: str) -> SourceCode:
-    root = _parser().parse(_QT.sub(_replacement, source.encode())).root_node
+    root = parse(source).root_node
     lines = lines_of(source)
     imports, import_end = [], 0
     for node in root.children:

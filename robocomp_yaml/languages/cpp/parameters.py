@@ -204,17 +204,15 @@ class _Types(Types):
         return ""
 
     def getters(self) -> Iterator[GetterView]:
-        taken = names(_METHODS_TAKEN)
-        getters = {member.name: taken.allocate(LANGUAGE.in_code(member.code_name)) for member in self.root.members}
-        for member in self.root.members:
+        for name, member, setting in accessors(self.root, self):
             group = inside(".", member.code_name)
-            name, made = getters[member.name], self.member_type(member, group)
+            made = self.member_type(member, group)
             field = LANGUAGE.in_code(member.code_name)
             if member.optional or isinstance(member.type, (BasicType, EnumType)):
                 body = f"return live_.now().{field};"
             else:
                 made, body = f"runtime::Held<{made}>", f"return live_.held(&parameters::Values::{field});"
-            setters = [(name, self.argument(inner), path) for name, inner, path in self.setters(member, taken)]
+            setters = [(setter, self.argument(inner), path) for setter, inner, path in setting]
             yield GetterView(
                 comment(about_member(member, "\n"), IN),
                 f"{made} {name}() const;",
@@ -227,6 +225,16 @@ class _Types(Types):
         made = self.member_type(member, None)
         is_small = isinstance(member.type, (BasicType, EnumType)) and made != "std::string" and not member.optional
         return made if is_small else f"const {made}&"
+
+
+def accessors(
+    root: RecordType, types: _Types | None = None
+) -> Iterator[tuple[str, ResolvedMember, list[tuple[str, ResolvedMember, str]]]]:
+    """The name of each getter with its member, and name, member and path of each of its setters."""
+    types, taken = types or _Types(root), names(_METHODS_TAKEN)
+    getters = {member.name: taken.allocate(LANGUAGE.in_code(member.code_name)) for member in root.members}
+    for member in root.members:
+        yield getters[member.name], member, list(types.setters(member, taken))
 
 
 def _enumerators(enum: EnumType) -> dict[str, str]:

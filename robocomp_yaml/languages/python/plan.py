@@ -137,7 +137,7 @@ def _rendered(template: str, view: View, code: Iterable[str] = ()) -> str:
 
 def needs(component: LinkedComponent) -> Callable[[str], bool]:
     """Whether a component outside of a workspace needs a file of the run time."""
-    folders = {"runtime", "slice", *windows.folders(component)}
+    folders = {"runtime", "slice", "typings", *windows.folders(component)}
     left_out = set() if component.machine and LANGUAGE.part("statemachine").scripts(component.machine) else {_SCRIPTING}
     return lambda path: path.partition("/")[0] in folders and path not in left_out
 

@@ -9,7 +9,7 @@ import msgspec
 from robocomp_yaml.languages._shared.text import IN
 from robocomp_yaml.languages.python.names import module_variable, parameters, proxy_method, python_name
 from robocomp_yaml.languages.python.text import about, docstring, signature
-from robocomp_yaml.languages.python.types import hint, qualified, result_hint
+from robocomp_yaml.languages.python.types import argument_hint, hint, qualified, result_hint
 from robocomp_yaml.link.program import Definition, LinkedModule
 from robocomp_yaml.model.interface import Constant, Enum, ExceptionType, Interface, Member, Struct
 
@@ -65,7 +65,8 @@ def _classes(definition: Definition, linked: LinkedModule) -> Iterator[ClassStub
         case Interface():
             yield ClassStub(f"{name}(Ice.Object)", doc, [], [])
             methods = list(_proxy_methods(definition, linked))
-            yield ClassStub(f"{definition.name}Prx(Ice.ObjectPrx)", doc, [], methods)
+            older = [f"{each}_{method.name}: Any" for method in definition.methods for each in ("begin", "end")]
+            yield ClassStub(f"{definition.name}Prx(Ice.ObjectPrx)", doc, older, methods)
         case Constant() | _:
             return
 
@@ -73,15 +74,21 @@ def _classes(definition: Definition, linked: LinkedModule) -> Iterator[ClassStub
 def _record(header: str, doc: str, members: Sequence[Member], linked: LinkedModule) -> ClassStub:
     """A struct or exception. Its constructor accepts every member, by position or by name."""
     fields = [f"{python_name(member.name)}: {hint(member.type, linked)}" for member in members]
+    given = [f"{python_name(member.name)}: {argument_hint(member.type, linked)} = ..." for member in members]
     notes = [f"  # {note}" if (note := about(member)) else "" for member in members]
-    made = signature("__init__", [f"{field} = ..." for field in fields], "None", IN * 2)
+    made = signature("__init__", given, "None", IN * 2)
     attributes = [field + note for field, note in zip(fields, notes, strict=True)]
     return ClassStub(header, doc, attributes, [MethodStub(made, "...")])
 
 
 def _proxy_methods(interface: Interface, linked: LinkedModule) -> Iterator[MethodStub]:
+    """Each operation, and its variant with a future."""
     for method in interface.methods:
-        names = parameters((member.name for member in method.inputs), ())
-        typed = [f"{n}: {hint(m.type, linked)}" for n, m in zip(names, method.inputs, strict=True)]
-        made = signature(proxy_method(method.name), typed, result_hint(method, linked), IN * 2)
+        names = list(parameters((member.name for member in method.inputs), ()))
+        typed = [f"{n}: {argument_hint(m.type, linked)}" for n, m in zip(names, method.inputs, strict=True)]
+        context = f"{'context_' if 'context' in names else 'context'}: dict[str, str] | None = ..."
+        result = result_hint(method, linked)
+        made = signature(proxy_method(method.name), [*typed, context], result, IN * 2)
         yield MethodStub(made, docstring(method.doc or f"{interface.name}.{method.name}", IN * 3))
+        future = f"Ice.InvocationFuture[{result}]"
+        yield MethodStub(signature(f"{method.name}Async", [*typed, context], future, IN * 2), "...")

@@ -34,6 +34,18 @@ def hint(ref: TypeRef, scope: LinkedModule) -> str:
             return qualified(home, definition.name)
 
 
+def argument_hint(ref: TypeRef, scope: LinkedModule) -> str:
+    """The type hint for an argument: Ice accepts any iterable as a sequence."""
+    if ref.is_basic:
+        return _BASIC_HINTS[ref.text]
+    home, definition = resolve(ref, scope)
+    match definition:
+        case Sequence(element=element):
+            return f"Iterable[{argument_hint(element, home)}]"
+        case _:
+            return hint(ref, scope)
+
+
 def result_hint(method: Method, scope: LinkedModule) -> str:
     """The type hint for the result of a method: several results are a tuple."""
     types = [hint(ref, scope) for ref in results(method)]

@@ -6,6 +6,7 @@ from __future__ import annotations
 import logging
 import os
 import sys
+from typing import Any
 
 from generated.runtime.errors import StartError
 
@@ -40,5 +41,6 @@ def require(log: logging.Logger) -> None:
         raise StartError(
             "the window has no screen: set DISPLAY, or QT_QPA_PLATFORM=offscreen to run without one"
         )
-    if sys.version_info[:2] == (3, 11) and QtCore.__version_info__ >= (6, 11):
-        log.warning("PySide6 %s may abort after some hundred signals: run %s", QtCore.__version__, INSTALL)
+    core: Any = QtCore  # its types do not have its version
+    if sys.version_info[:2] == (3, 11) and core.__version_info__ >= (6, 11):
+        log.warning("PySide6 %s may abort after some hundred signals: run %s", core.__version__, INSTALL)

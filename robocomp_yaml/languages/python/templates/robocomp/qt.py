@@ -23,7 +23,7 @@ try:
     from PySide6 import QtWidgets
 except ImportError:  # a server without the libraries for windows
     QtWidgets = ModuleType("PySide6.QtWidgets")
-    QtWidgets.QApplication = QtCore.QCoreApplication
+    setattr(QtWidgets, "QApplication", QtCore.QCoreApplication)
     sys.modules["PySide6.QtWidgets"] = QtWidgets
 
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import importlib
 import inspect
 import os
 import sys
@@ -39,7 +40,7 @@ class Stage(stage.Stage):
         qt.rename(self.log)
         from generated.qt.loop import Loop
 
-        kind = qt.QtWidgets.QApplication if self.component.base else qt.QtCore.QCoreApplication
+        kind: Any = qt.QtWidgets.QApplication if self.component.base else qt.QtCore.QCoreApplication
         if self.component.base:
             kind.setQuitOnLastWindowClosed(False)  # only the component's own window matters
         application = kind.instance() or kind([self.component.name, *sys.argv[1:]])
@@ -50,11 +51,8 @@ class Stage(stage.Stage):
 
     def worker_class(self) -> stage.WorkerClass:
         """Imports `genericworker` and `interfaces` from generated/, not what RoboComp's tool left in src/."""
-        import generated.robocomp.genericworker
-        import generated.robocomp.interfaces
-
-        sys.modules["genericworker"] = generated.robocomp.genericworker
-        sys.modules["interfaces"] = generated.robocomp.interfaces
+        for name in ("genericworker", "interfaces"):
+            sys.modules[name] = importlib.import_module(f"generated.robocomp.{name}")
         try:
             return super().worker_class()
         except SyntaxError as error:

@@ -272,8 +272,9 @@ def install() -> None:
     for name, value in globals().items():
         if name in ("Qt", "Signal", "Slot") or (name[0] == "Q" and name[1].isupper()):
             setattr(core, name, value)
-    widgets.QApplication = QCoreApplication  # type: ignore[attr-defined]
-    package.QtCore, package.QtWidgets = core, widgets  # type: ignore[attr-defined]
+    setattr(widgets, "QApplication", QCoreApplication)
+    setattr(package, "QtCore", core)
+    setattr(package, "QtWidgets", widgets)
     package.__path__ = []
     for module in (core, widgets, package):
         sys.modules[module.__name__] = module

@@ -58,10 +58,10 @@ def _typed(value: str) -> Any:
     return value
 
 
-def lists(namespace: dict[str, Any], module: ModuleType, *names: str) -> None:
-    """Adds a class for each sequence to a Slice module and to `interfaces`, as RoboComp's interfaces.py does; Ice itself
-    accepts any list."""
+def lists(module: ModuleType, *names: str) -> dict[str, Any]:
+    """Adds a class for each sequence, as RoboComp's interfaces.py does; Ice itself accepts any list. Returns the classes
+    by name: that file has them beside the modules, too."""
     for name in names:
         if not hasattr(module, name):
             setattr(module, name, type(name, (list,), {"__module__": module.__name__}))
-        namespace.setdefault(name, getattr(module, name))
+    return {name: getattr(module, name) for name in names}

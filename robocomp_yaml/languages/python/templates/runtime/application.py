@@ -117,6 +117,7 @@ class Application:
         running = self._stage.create(self._worker_class, context)
         self._gate.open(running)
         for port, subscriber in subscribers:
+            assert self._topics is not None
             self._topics.subscribe(port, subscriber)
         if behavior:
             behavior.is_running = True
@@ -166,11 +167,10 @@ class Application:
             for port in component.requires
         }
         if component.publishes or component.subscribes:
-            self._topics = Topics(self._communicator, settings, self._waiting, self._vitals)
+            self._topics = topics = Topics(self._communicator, settings, self._waiting, self._vitals)
+            proxies.update((port.accessor, topics.publisher(port)) for port in component.publishes)
         for port in component.requires:
             self._peers.add(proxies[port.accessor])
-        for port in component.publishes:
-            proxies[port.accessor] = self._topics.publisher(port)
         return proxies
 
     def _listen(self) -> list[tuple[Subscribed, Ice.ObjectPrx]]:

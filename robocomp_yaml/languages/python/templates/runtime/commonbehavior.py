@@ -21,7 +21,7 @@ from generated.runtime.stopping import Stopping
 LONGEST = 2**31 - 1  # the largest int of Slice
 
 
-class Behavior:
+class Behavior(Ice.Object):
     """The operations of CommonBehavior. They are served from the start, while the component waits for others."""
 
     def __init__(

@@ -116,7 +116,8 @@ class Store:
 
     def get(self, *keys: str) -> Any:
         """The value at a path of members, or None."""
-        kind, value = self.kind, self.values
+        kind: Any = self.kind
+        value = self.values
         for key in keys:
             member = kind.members.get(key)
             if member is None:

@@ -7,9 +7,12 @@ import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from generated.runtime.errors import StartError
+
+if TYPE_CHECKING:
+    import Ice
 
 VERSION = "@RUNTIME_VERSION@"
 """The version of the run time: a digest of all of its files."""
@@ -22,7 +25,7 @@ class Method:
 
     operation: str
     calls: str
-    throws: tuple[type, ...] = ()
+    throws: tuple[type[Ice.UserException], ...] = ()
     is_tuple: bool = False
 
 
@@ -32,7 +35,7 @@ class Implemented:
 
     name: str
     identity: str
-    interface: type
+    interface: type[Ice.Object]
     methods: tuple[Method, ...] = ()
 
 
@@ -42,7 +45,7 @@ class Required:
 
     name: str
     accessor: str
-    proxy: type
+    proxy: type[Ice.ObjectPrx]
     absent: str = "wait"
     timeout: float | None = None
 
@@ -54,7 +57,7 @@ class Published:
     name: str
     topic: str
     accessor: str
-    proxy: type
+    proxy: type[Ice.ObjectPrx]
 
 
 @dataclass(frozen=True)
@@ -63,7 +66,7 @@ class Subscribed:
 
     name: str
     topic: str
-    interface: type
+    interface: type[Ice.Object]
     methods: tuple[Method, ...] = ()
 
 

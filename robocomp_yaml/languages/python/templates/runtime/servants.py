@@ -67,7 +67,7 @@ class Gate:
 
 
 def servant(
-    interface: type, methods: Sequence[Method], gate: Gate, tally: Callable[[str], Tally]
+    interface: type[Ice.Object], methods: Sequence[Method], gate: Gate, tally: Callable[[str], Tally]
 ) -> Ice.Object:
     """An object of this interface, whose operations call the worker's methods. `tally` is what counts the calls of an
     operation of Slice."""

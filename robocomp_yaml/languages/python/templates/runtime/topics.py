@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator
 from contextlib import contextmanager
 from typing import Any
 
@@ -18,7 +18,7 @@ from generated.runtime.waiting import PATIENCE, Waiting, reason
 try:
     import IceStorm
 except ImportError:
-    IceStorm = None
+    IceStorm: Any = None  # type: ignore[no-redef]
 
 
 class Topics:
@@ -96,7 +96,7 @@ def _counted(proxy: type, tally: Tally) -> Any:
 
 
 @contextmanager
-def _providing(topic: str) -> Iterator[None]:
+def _providing(topic: str) -> Generator[None, None, None]:
     """Raises StartError for exceptions of Ice."""
     try:
         yield

@@ -1,0 +1,77 @@
+"""How code uses the worker, as facts that are the same for every language.
+
+A language's part `usage` reads them. It is silent about all that it cannot be sure of.
+"""
+
+from __future__ import annotations
+
+import msgspec
+
+from robocomp_yaml.diag.span import Span
+
+WORKER, MODULES, SETTINGS = "worker", "modules", "settings"
+"""Where a chain begins: at the worker, at the Slice modules, or at the properties that RoboComp's code gets."""
+
+
+class Word(msgspec.Struct, frozen=True):
+    text: str
+    span: Span
+
+
+class Constant(msgspec.Struct, frozen=True):
+    """A value that is written literally."""
+
+    value: object
+    span: Span
+
+
+class Arguments(msgspec.Struct, frozen=True):
+    """The arguments of a call: `count` by position and `names` by keyword; `is_exact` unless some are unpacked. `text`
+    is the first one if it is a literal text, `keys` are those of the first one if it is a literal mapping. `constant`
+    is the last one by position if it is a literal. `span` is that of the called name."""
+
+    count: int = 0
+    names: tuple[Word, ...] = ()
+    is_exact: bool = True
+    text: Word | None = None
+    keys: tuple[Word, ...] = ()
+    constant: Constant | None = None
+
+
+class Step(msgspec.Struct, frozen=True):
+    """One step of a chain: a name, called if it has `arguments`; or an index, whose name is '' unless it is a literal
+    text."""
+
+    word: Word
+    arguments: Arguments | None = None
+    is_index: bool = False
+
+
+class Chain(msgspec.Struct, frozen=True):
+    """Names that lead from one value to the next: `self.mouth_proxy.move(pose)`. If a value is assigned to its end,
+    `is_assigned`, and `constant` is the value if it is a literal. `caught` are the exceptions that the code around it
+    handles by name."""
+
+    root: str
+    steps: tuple[Step, ...]
+    is_assigned: bool = False
+    constant: Constant | None = None
+    caught: frozenset[str] = frozenset()
+
+
+class CodeUsage(msgspec.Struct, frozen=True):
+    """The use that the files of a component make of the worker.
+
+    `methods` are those of the classes that are derived from the generic worker. `own` are names that the code defines
+    itself, `texts` its literal texts: names in them may be used in ways that nobody sees. `is_open`: the worker may
+    have further attributes, which are set without their names; `is_shared`: other code may set some. `faults` are
+    errors of syntax, each with a text; with any, nothing else is read.
+    """
+
+    chains: tuple[Chain, ...] = ()
+    methods: tuple[Word, ...] = ()
+    own: frozenset[str] = frozenset()
+    texts: frozenset[str] = frozenset()
+    is_open: bool = False
+    is_shared: bool = False
+    faults: tuple[tuple[str, Span], ...] = ()

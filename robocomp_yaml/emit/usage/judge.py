@@ -1,0 +1,215 @@
+"""Compares the use that code makes of the worker with what the worker has: the same rules for every language."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterable, Iterator
+
+import msgspec
+
+from robocomp_yaml.diag.code import Code
+from robocomp_yaml.diag.codes import usage as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.suggest import did_you_mean, suggest
+from robocomp_yaml.emit.usage import offer as offers
+from robocomp_yaml.emit.usage.code import SETTINGS, WORKER, Arguments, Chain, CodeUsage, Constant, Step, Word
+from robocomp_yaml.emit.usage.offer import Offer, OfferedMember, ServedInterface, WorkerOffer
+from robocomp_yaml.emit.usage.values import keys, unknown, unknown_setting, where, wrong_paths, wrong_value
+from robocomp_yaml.link.program import LinkedComponent
+
+_PROXY = re.compile(r"\w+_(?:pub)?proxy\d*_*\Z")
+
+
+def is_proxy(name: str) -> bool:
+    """Whether a name has the form that names of proxies have."""
+    return _PROXY.match(name) is not None
+
+
+def judge(
+    linked: LinkedComponent, usage: CodeUsage, offer: WorkerOffer, config: Collection[str] = ()
+) -> Iterator[Diagnostic]:  # fmt: skip
+    """The diagnostics about the code of a component; `config` are the keys of its flat config."""
+    for text, span in usage.faults:
+        yield codes.SYNTAX.at(span, text=text)
+    if usage.faults:
+        return
+    judging = _Judging(linked, usage, offer)
+    for chain in usage.chains:
+        if chain.root in offer.roots:
+            yield from judging.chain(chain)
+        elif chain.root == SETTINGS and chain.steps[-1].word.text not in usage.texts:
+            yield from unknown_setting(linked, chain, config)
+    yield from judging.methods()
+
+
+class _Judging(msgspec.Struct):
+    linked: LinkedComponent
+    usage: CodeUsage
+    offer: WorkerOffer
+
+    def chain(self, chain: Chain) -> Iterator[Diagnostic]:
+        """Follows a chain to the first step that is not offered."""
+        now: Offer | None = self.offer.roots[chain.root]
+        if chain.root == WORKER and chain.steps[0].word.text in self.usage.own:
+            return
+        for number, step in enumerate(chain.steps):
+            if now is None:
+                return
+            if step.is_index:
+                now = now.element
+                continue
+            member = now.members.get(step.word.text)
+            if member is None:
+                if not self._may_exist(now, step, chain):
+                    yield self._unknown(now, step)
+                return
+            is_last = number + 1 == len(chain.steps)
+            if step.arguments is not None:
+                yield from self._call(now, step.word, member, step.arguments, chain)
+            elif is_last and chain.is_assigned and member.parameter is not None:
+                yield from self._assigned(member, step.word, chain.constant)
+            now = member.value
+
+    def _may_exist(self, now: Offer, step: Step, chain: Chain) -> bool:
+        name = step.word.text
+        if name in self.usage.texts or now.others(name) or "AttributeError" in chain.caught:
+            return True
+        if now.kind == offers.WORKER:
+            if chain.is_assigned or self.usage.is_open:
+                return True
+            return not is_proxy(name) and (self.usage.is_shared or not now.is_complete)
+        return not now.is_complete
+
+    def _unknown(self, now: Offer, step: Step) -> Diagnostic:
+        word, known = step.word, now.members
+        name, component = word.text, self.linked.component.name
+        match now.kind:
+            case offers.WORKER if is_proxy(name):
+                proxies = [one for one, member in known.items() if _is_of_proxy(member)]
+                lacking = self._lacking(name)
+                similar = [one for one in proxies if not lacking or one.lower() == name.lower()]
+                hint = lacking or f"`requires:` and `publishes:` of {self.linked.component.path} make the proxies"
+                return self._at(codes.UNKNOWN_PROXY, word, similar, hint, component=component)
+            case offers.WORKER:
+                return self._at(codes.UNKNOWN_ATTRIBUTE, word, known, component=component)
+            case offers.PROXY | offers.TOPIC:
+                code = codes.UNKNOWN_METHOD if now.kind == offers.PROXY else codes.UNKNOWN_EVENT
+                return self._at(code, word, known, _listed(known, "it has"), interface=now.name)
+            case offers.PARAMETERS | offers.RECORD:
+                if not_editable := self._not_editable(name, known):
+                    return codes.NOT_EDITABLE.at(word.span, name=not_editable, hint=_EDITABLE)
+                return self._at(codes.UNKNOWN_PARAMETER, word, known, where(self.linked), owner=now.name or component)
+            case offers.EVENTS:
+                return self._at(codes.UNKNOWN_OF_MACHINE, word, known, what="event", component=component)
+            case offers.MODULES:
+                hint = f"add the document of {name} to `imports:`, if the component needs it"
+                return self._at(codes.UNKNOWN_MODULE, word, known, hint, component=component)
+            case offers.ENUM:
+                return self._at(codes.UNKNOWN_ENUMERATOR, word, known, _listed(known, "it has"), enum=now.name)
+            case _:
+                return self._at(codes.UNKNOWN_TYPE, word, known, module=now.name)
+
+    def _call(
+        self, now: Offer, word: Word, member: OfferedMember, arguments: Arguments, chain: Chain
+    ) -> Iterator[Diagnostic]:  # fmt: skip
+        if member.takes_path:
+            yield from wrong_paths(self.linked, arguments)
+        if member.is_state and arguments.text and arguments.text.text not in self.offer.states:
+            component = self.linked.component.name
+            states = sorted(self.offer.states)
+            yield self._at(codes.UNKNOWN_OF_MACHINE, arguments.text, states, what="state", component=component)
+        if member.parameter is not None and member.most == 1 and arguments.constant is not None:
+            yield from wrong_value(member.parameter.type, member.path or member.parameter.name, arguments.constant)
+        if "TypeError" in chain.caught or not arguments.is_exact:
+            return
+        for name in arguments.names:
+            if member.keywords is not None and name.text not in member.keywords:
+                known = sorted(member.keywords - {"context"})
+                yield self._at(codes.UNKNOWN_ARGUMENT, name, known, owner=word.text, signature=member.signature)
+                return
+        count = arguments.count + len([one for one in arguments.names if one.text != "context"])
+        if count < member.least or (member.most is not None and count > member.most):
+            owner = f"{now.name}.{word.text}" if now.kind in (offers.PROXY, offers.TOPIC) else word.text
+            hint = f"it is {member.signature}" if member.signature else ""
+            yield codes.WRONG_ARGUMENTS.at(
+                word.span, owner=owner, expected=_arguments(member.least), count=count, hint=hint
+            )
+
+    def _assigned(self, member: OfferedMember, word: Word, constant: Constant | None) -> Iterator[Diagnostic]:
+        parameter = member.parameter
+        assert parameter is not None
+        if not parameter.editable and not parameter.is_group:
+            yield codes.NOT_EDITABLE.at(word.span, name=member.path or parameter.name, hint=_EDITABLE)
+        elif constant is not None:
+            yield from wrong_value(parameter.type, member.path or parameter.name, constant)
+
+    def methods(self) -> Iterator[Diagnostic]:
+        """Methods whose names are like those that others call, but that nobody calls."""
+        mine = {word.text for word in self.usage.methods}
+        used = {step.word.text for chain in self.usage.chains if chain.root == WORKER for step in chain.steps[:1]}
+        called = {name for one in self.offer.served for name in one.methods}
+        for word in self.usage.methods:
+            if word.text in used or word.text in self.usage.texts or word.text in called:
+                continue
+            if (interface := _served_by(word.text, self.offer.served)) is not None:
+                name = word.text.removeprefix(interface.prefix)
+                missing = [one.removeprefix(interface.prefix) for one in interface.methods if one not in mine]
+                what = "topic" if interface.is_topic else "interface"
+                hint = did_you_mean(name, missing, otherwise=_listed(missing, "the class lacks"))
+                meant = f"{interface.prefix}{hint.meant}" if hint.meant else ""
+                yield unknown(
+                    codes.NEVER_CALLED, word, meant, otherwise=hint.text, safe=hint.safe, what=what,
+                    owner=interface.name, method=name,
+                )  # fmt: skip
+            elif self.offer.handlers and word.text.startswith("sm_") and word.text not in self.offer.handlers:
+                missing = [one for one in sorted(self.offer.handlers) if one not in mine]
+                if suggest(word.text, missing):
+                    yield self._at(codes.NO_HANDLER, word, missing)
+
+    def _at(
+        self, code: Code, word: Word, known: Iterable[str], otherwise: str = "", **facts: object
+    ) -> Diagnostic:  # fmt: skip
+        hint = did_you_mean(word.text, known, otherwise=otherwise)
+        return unknown(code, word, hint.meant, otherwise=hint.text, safe=hint.safe, **facts)
+
+    def _lacking(self, name: str) -> str:
+        """The port that the document lacks for a proxy of this name; '' if there is no such interface."""
+        is_topic = "_pubproxy" in name
+        stem = re.sub(r"_(?:pub)?proxy.*", "", name)
+        has = {port.interface.name.lower() for port in (*self.linked.requires, *self.linked.publishes)}
+        if stem in has:
+            return ""
+        for scope in self.linked.imports:
+            for interface in scope.module.all_interfaces:
+                if interface.name.lower() == stem:
+                    key = "publishes" if is_topic or interface.is_topic else "requires"
+                    return f"add {interface.name} to `{key}:` of {self.linked.component.path}"
+        return ""
+
+    def _not_editable(self, name: str, known: Iterable[str]) -> str:
+        """The parameter that a setter would set, if it were editable."""
+        if not re.match(r"set[A-Z]", name):
+            return ""
+        stem = name.removeprefix("set").lower()
+        paths = keys(self.linked.parameters.parameters.root)
+        return next((path for path in paths if path.replace(".", "").lower() == stem), "")
+
+
+_EDITABLE = "add `editable: true` to the parameter, if components may change it while they run"
+
+
+def _is_of_proxy(member: OfferedMember) -> bool:
+    return member.value is not None and member.value.kind in (offers.PROXY, offers.TOPIC)
+
+
+def _listed(known: Iterable[str], head: str) -> str:
+    names = list(known)
+    return f"{head} {', '.join(names[:20])}" if names else ""
+
+
+def _arguments(count: int) -> str:
+    return "no arguments" if count == 0 else "1 argument" if count == 1 else f"{count} arguments"
+
+
+def _served_by(name: str, served: Iterable[ServedInterface]) -> ServedInterface | None:
+    return next((one for one in served if name.startswith(one.prefix)), None)

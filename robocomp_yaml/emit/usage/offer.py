@@ -1,0 +1,200 @@
+"""What the generated worker has for the user's code: a tree of offers, which is made from the linked documents.
+
+The languages differ in names, which they pass, and in what is a call.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+
+import msgspec
+
+from robocomp_yaml.emit.lowering.ports import LoweredPorts
+from robocomp_yaml.link.program import LinkedComponent, LinkedModule
+from robocomp_yaml.model import machine_names
+from robocomp_yaml.model.interface import Enum, ExceptionType, Interface, Method, Struct
+from robocomp_yaml.model.statemachine import StateMachine
+from robocomp_yaml.parameters.types import ListType, MapType, RecordType, ResolvedMember, Type
+
+WORKER, PROXY, TOPIC, PARAMETERS, RECORD, EVENTS, MODULES, MODULE, ENUM, OTHER = (
+    "worker", "proxy", "topic", "parameters", "record", "events", "modules", "module", "enum", "other"
+)  # fmt: skip
+
+
+class Offer(msgspec.Struct, frozen=True):
+    """What a value has. `name` is what messages call it by. Unless it `is_complete`, it may have other members, too;
+    `others` says whether a name is one of them. `element` is what an index leads to."""
+
+    kind: str
+    name: str = ""
+    members: Mapping[str, OfferedMember] = {}
+    is_complete: bool = True
+    others: Callable[[str], bool] = lambda name: name.startswith("_")
+    element: Offer | None = None
+
+
+class OfferedMember(msgspec.Struct, frozen=True):
+    """One member. `value` is what it is, or returns. A call has at least `least` and at most `most` arguments, by
+    position or with the `keywords`; None: unknown. `signature` is for messages. `takes_path`: its argument is the path
+    of a parameter, or a mapping of such paths; `is_state`: the name of a state. `parameter` is what an assignment, or
+    a setter, sets; `path` its path."""
+
+    value: Offer | None = None
+    least: int = 0
+    most: int | None = None
+    keywords: frozenset[str] | None = None
+    signature: str = ""
+    takes_path: bool = False
+    is_state: bool = False
+    parameter: ResolvedMember | None = None
+    path: str = ""
+
+
+class ServedInterface(msgspec.Struct, frozen=True):
+    """An interface whose methods the user's class has: `prefix` is what their names begin with, `methods` are all."""
+
+    name: str
+    prefix: str
+    methods: tuple[str, ...]
+    is_topic: bool = False
+
+
+class WorkerOffer(msgspec.Struct, frozen=True):
+    """All that code can use: by the root of its chains. `handlers` are the methods that the state machine calls;
+    `states` its states."""
+
+    roots: Mapping[str, Offer]
+    served: tuple[ServedInterface, ...] = ()
+    handlers: frozenset[str] = frozenset()
+    states: frozenset[str] = frozenset()
+
+
+NOTHING = Offer(OTHER, is_complete=False)
+
+
+def proxies(
+    ports: LoweredPorts, called: Callable[[str], str], others: Callable[[str], bool], *, outputs: bool,
+    keywords: Callable[[Method], Iterable[str]] | None = None,
+) -> dict[str, OfferedMember]:  # fmt: skip
+    """The proxies of the worker. `called` makes the name of an operation; `others` are methods of every proxy. With
+    `outputs`, calls have arguments for them. Every call may have a context."""
+    found = {}
+    for accessor, is_topic in [*((one, False) for one in ports.requires), *((one, True) for one in ports.publishes)]:
+        port = accessor.port
+        methods = {
+            called(method.name): _operation(method, called, outputs, keywords) for method in port.interface.methods
+        }
+        offer = Offer(TOPIC if is_topic else PROXY, port.interface.name, methods, others=others)
+        found[accessor.name] = OfferedMember(offer)
+    return found
+
+
+def _operation(
+    method: Method, called: Callable[[str], str], outputs: bool,
+    keywords: Callable[[Method], Iterable[str]] | None,
+) -> OfferedMember:  # fmt: skip
+    members = [*method.inputs, *(method.outputs if outputs else ())]
+    return OfferedMember(
+        least=len(members), most=len(members) + 1,
+        keywords=frozenset(("context", *keywords(method))) if keywords else None,
+        signature=f"{called(method.name)}({', '.join(f'{one.name}: {one.type.text}' for one in members)})",
+    )  # fmt: skip
+
+
+def served(ports: LoweredPorts) -> tuple[ServedInterface, ...]:
+    """The interfaces and topics whose methods the user's class has."""
+    return tuple(
+        ServedInterface(
+            service.port.interface.name, f"{service.port.interface.name}_",
+            tuple(called.name for called in service.methods), is_topic=service in ports.subscribes,
+        )
+        for service in (*ports.implements, *ports.subscribes)
+    )  # fmt: skip
+
+
+def record(type_: RecordType, in_code: Callable[[str], str], path: str = "", name: str = "") -> Offer:
+    """The members of a record of parameters, as attributes. `path` is the one of the group, '' also in a struct."""
+    members = {}
+    for member in type_.members:
+        below = f"{path}.{member.name}" if path else member.name
+        is_known = bool(path) or not name
+        members[in_code(member.code_name)] = OfferedMember(
+            value(member.type, in_code, below if is_known and member.is_group else ""),
+            parameter=member,
+            path=below if is_known else "",
+        )
+    return Offer(RECORD, name or (f"the group {path}" if path else ""), members)
+
+
+def value(type_: Type, in_code: Callable[[str], str], path: str = "") -> Offer | None:
+    """What a value of a type has."""
+    match type_:
+        case ListType(element=element) | MapType(element=element):
+            return Offer(OTHER, is_complete=False, element=value(element, in_code))
+        case RecordType(name=name):
+            return record(type_, in_code, path, f"the struct {name}" if name else "")
+        case _:
+            return None
+
+
+def events(machine: StateMachine, in_code: Callable[[str], str]) -> Offer:
+    """The events that the code may fire."""
+    fired = {in_code(event.name): OfferedMember(most=1) for event in machine_names.events(machine)}
+    return Offer(EVENTS, "the state machine", fired)
+
+
+def handlers(machine: StateMachine) -> frozenset[str]:
+    """The methods that a state machine calls when it enters or leaves states, and in every period."""
+    made = (machine_names.entry_handler, machine_names.exit_handler, machine_names.period_handler)
+    return frozenset(make(state.id) for state in machine_names.states_with_handlers(machine) for make in made)
+
+
+def states(machine: StateMachine) -> frozenset[str]:
+    return frozenset(state.id for state in machine.states if state.id)
+
+
+def modules(
+    linked: LinkedComponent, variable: Callable[[str], str], in_code: Callable[[str], str],
+    others: Callable[[str], bool],
+) -> Offer:  # fmt: skip
+    """The Slice modules with their types, as attributes. Two documents may define parts of one module."""
+    found: dict[str, dict[str, OfferedMember]] = {}
+    for scope in linked.modules():
+        found.setdefault(variable(scope.module.name), {}).update(_types(scope, in_code))
+    broken = {variable(scope.module.name) for scope in linked.modules() if scope.unresolved or linked.broken}
+    offers = {
+        name: OfferedMember(Offer(MODULE, name, members, is_complete=name not in broken, others=_is_internal))
+        for name, members in found.items()
+    }
+    return Offer(MODULES, linked.component.name, offers, is_complete=not linked.broken, others=others)
+
+
+def _is_internal(name: str) -> bool:
+    return name.startswith("_") or name.endswith(("Disp", "Holder", "Ptr")) or name == "operator"
+
+
+def _types(scope: LinkedModule, in_code: Callable[[str], str]) -> dict[str, OfferedMember]:
+    found = {}
+    for definition in scope.module.definitions:
+        name = in_code(definition.name)
+        match definition:
+            case Enum(enumerators=enumerators):
+                names = {in_code(one.name): OfferedMember() for one in enumerators}
+                found[name] = OfferedMember(Offer(ENUM, definition.name, names, others=_is_of_enum))
+            case Struct(members=members) | ExceptionType(members=members):
+                fields = frozenset(in_code(one.name) for one in members)
+                most = len(members) if isinstance(definition, Struct) else None
+                found[name] = OfferedMember(
+                    most=most, keywords=fields if isinstance(definition, Struct) else None,
+                    signature=f"{definition.name}({', '.join(one.name for one in members)})",
+                )  # fmt: skip
+            case Interface():
+                found[name] = OfferedMember()
+                found[f"{definition.name}Prx"] = OfferedMember()
+            case _:
+                found[name] = OfferedMember()
+    return found
+
+
+def _is_of_enum(name: str) -> bool:
+    return name.startswith("_") or name in ("name", "value", "valueOf", "ice_id", "ice_staticId")

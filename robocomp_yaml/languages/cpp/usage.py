@@ -1,0 +1,155 @@
+"""What the worker offers to code in C++, and which of that the user's code uses.
+
+A name that the code declares anywhere may hide the worker's own, so nothing is said about it. Code in conditional
+parts of the preprocessor, in macros and in templates is not judged, nor is anything near a syntax error.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+
+from msgspec import structs
+
+from robocomp_yaml.emit.lowering import ports as lowering
+from robocomp_yaml.emit.usage import offer as offers
+from robocomp_yaml.emit.usage.code import MODULES, WORKER, CodeUsage, Word
+from robocomp_yaml.emit.usage.judge import is_proxy
+from robocomp_yaml.emit.usage.offer import Offer, OfferedMember, WorkerOffer
+from robocomp_yaml.languages.cpp import LANGUAGE
+from robocomp_yaml.languages.cpp.names import PORTS, ice_name
+from robocomp_yaml.languages.cpp.parameters import accessors
+from robocomp_yaml.languages.cpp.usage_files import CppFile, Occurrence
+from robocomp_yaml.link.program import LinkedComponent
+
+_INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*"([^"]+)"', re.MULTILINE)
+_WORD = re.compile(r"\b[A-Za-z_]\w*")
+_TEXT = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
+_COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
+_METHOD = re.compile(r"\b(?:sm_\w+|[A-Z]\w*_\w+)\b")
+
+
+def offer(linked: LinkedComponent) -> WorkerOffer:
+    """What the worker of a component offers."""
+    ports, machine = lowering.lower(linked, PORTS), linked.machine
+    members = offers.proxies(ports, PORTS.called, _is_of_every_proxy, outputs=True)
+    if not linked.component.compatibility:
+        members["parameters"] = OfferedMember(_parameters(linked))
+        if machine:
+            members["events"] = OfferedMember(offers.events(machine, ice_name))
+            is_in = {"isIn": OfferedMember(least=1, most=1, is_state=True)}
+            members["statemachine"] = OfferedMember(Offer(offers.OTHER, "", is_in, is_complete=False))
+    served = offers.served(ports)
+    handled = offers.handlers(machine) if machine else frozenset()
+    modules = offers.modules(linked, ice_name, ice_name, lambda name: True)
+    if linked.component.compatibility:
+        modules = structs.replace(
+            modules, members={name: _with_enumerators(one) for name, one in modules.members.items()}
+        )
+    return WorkerOffer(
+        {WORKER: Offer(offers.WORKER, linked.component.name, members, is_complete=False), MODULES: modules},
+        served, handled, offers.states(machine) if machine else frozenset(),
+    )  # fmt: skip
+
+
+def _with_enumerators(module: OfferedMember) -> OfferedMember:
+    """A module in which enumerators are outside of their enums, too, as in RoboComp's code."""
+    assert module.value is not None
+    enums = [one.value.members for one in module.value.members.values() if one.value is not None]
+    outside = {name: member for members in enums for name, member in members.items()}
+    return OfferedMember(structs.replace(module.value, members={**outside, **module.value.members}))
+
+
+def _parameters(linked: LinkedComponent) -> Offer:
+    """The getters and setters of the parameters."""
+    root = linked.parameters.parameters.root
+    members = {
+        "now": OfferedMember(offers.record(root, LANGUAGE.in_code), most=0),
+        "set": OfferedMember(least=2, most=2, takes_path=True, signature="set(path, value)"),
+        "change": OfferedMember(least=1, most=1, signature="change(function)"),
+        "listen": OfferedMember(least=1, most=1, signature="listen(function)"),
+    }
+    for getter, member, setters in accessors(root):
+        value = offers.value(member.type, LANGUAGE.in_code, member.name if member.is_group else "")
+        members[getter] = OfferedMember(value, most=0, signature=f"{getter}()")
+        for setter, inner, path in setters:
+            members[setter] = OfferedMember(
+                least=1, most=1, signature=f"{setter}(value)", parameter=inner, path=path
+            )  # fmt: skip
+    return Offer(offers.PARAMETERS, linked.component.name, members)
+
+
+def _is_of_every_proxy(name: str) -> bool:
+    """Methods of Ice, and its asynchronous variants of the operations."""
+    return name.startswith(("ice_", "_", "begin_", "end_")) or name.endswith("Async")
+
+
+def read(files: Mapping[str, str], linked: LinkedComponent, worker: WorkerOffer) -> CodeUsage:
+    """The use that the files below src/ make of the worker, by their paths there."""
+    known = worker.roots[WORKER].members
+    words = {word for text in files.values() for word in _WORD.findall(text)}
+    names = {word for word in words if word in known or is_proxy(word)}
+    handlers = {word for word in words if _METHOD.fullmatch(word)} if worker.served or worker.handlers else set()
+    modules = words & worker.roots[MODULES].members.keys() - _extended(files.values())
+    if not names and not handlers and not modules:
+        return CodeUsage()
+    parsed = [CppFile(path, text) for path, text in files.items() if _is_own(path)]
+    classes = {name: bases for file in parsed for name, bases in file.classes()}
+    workers = {name for name in classes if _is_worker(name, classes)}
+    if not workers:
+        return CodeUsage()
+    uses: list[Occurrence] = []
+    declared: set[str] = set()
+    for file in parsed:
+        for name in sorted(names):
+            for occurrence in file.occurrences(name, workers):
+                if occurrence.is_declared:
+                    declared.add(name)
+                elif occurrence.chain is not None:
+                    uses.append(occurrence)
+    if not all(_is_known_include(one, files) for text in files.values() for one in _INCLUDE.findall(text)):
+        declared |= {name for name in names if name not in known}  # it may be declared there
+    texts = {text for source in files.values() for text in _TEXT.findall(source)}
+    chains = tuple(one.chain for one in uses if one.chain is not None)
+    # Beside code for RoboComp's own tool, there may be files of that tool, which are not compiled.
+    compiled = [file for file in parsed if not linked.component.compatibility or "specificworker." in file.path]
+    chains += tuple(chain for file in compiled for name in sorted(modules) for chain in file.qualified(name))
+    methods = tuple(word for file in parsed for word in file.methods(workers))
+    return CodeUsage(chains, _unused(methods, files), frozenset(declared), frozenset(texts), is_shared=True)
+
+
+def _extended(texts: Iterable[str]) -> set[str]:
+    """The namespaces to which the code adds something."""
+    return {name for text in texts for name in re.findall(r"\bnamespace\s+(\w+)\s*(?:::|\{|=)", text)}
+
+
+def _is_own(path: str) -> bool:
+    """Whether a file is not one that RoboComp's own tool left in src/."""
+    return not re.search(r"(^|/)(generic(worker|monitor)|specificmonitor|commonbehaviorI|ui_\w+|moc_\w+)\.\w+$", path)
+
+
+def _is_worker(name: str, classes: Mapping[str, list[str]]) -> bool:
+    """Whether a class is derived from the generic worker, and from nothing else."""
+    bases, seen = classes.get(name, []), {name}
+    while len(bases) == 1 and bases[0] in classes and bases[0] not in seen:
+        seen.add(bases[0])
+        bases = classes[bases[0]]
+    return bases == ["GenericWorker"]
+
+
+def _is_known_include(path: str, files: Mapping[str, str]) -> bool:
+    name = path.rpartition("/")[2]
+    generated = ("genericworker.h", "interfaces.h", "parameters.h", "statemachine.h", "ui_mainUI.h")
+    return name in generated or any(other == path or other.endswith(f"/{path}") for other in files)
+
+
+def _unused(methods: tuple[Word, ...], files: Mapping[str, str]) -> tuple[Word, ...]:
+    """The methods that the code only declares and defines, but does not use."""
+    counts = {word.text: 0 for word in methods}
+    for text in files.values():
+        for word in _METHOD.findall(_COMMENT.sub("", _TEXT.sub('""', text))):
+            if word in counts:
+                counts[word] += 1
+    written = {name: sum(word.text == name for word in methods) for name in counts}
+    first = {word.text: word for word in reversed(methods)}
+    return tuple(word for name, word in first.items() if counts[name] <= written[name])

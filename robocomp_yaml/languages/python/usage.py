@@ -1,0 +1,181 @@
+"""What the worker offers to code in Python, and which of that the user's code uses.
+
+The code is read with Python's own parser. A file counts if `specificworker.py` imports it, directly or not.
+"""
+
+from __future__ import annotations
+
+import ast
+import warnings
+from collections.abc import Collection, Iterable, Iterator, Mapping
+
+from msgspec import structs
+
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.emit.lowering import ports as lowering
+from robocomp_yaml.emit.usage import offer as offers
+from robocomp_yaml.emit.usage.code import MODULES, WORKER, CodeUsage
+from robocomp_yaml.emit.usage.offer import Offer, OfferedMember, WorkerOffer
+from robocomp_yaml.languages.python import LANGUAGE
+from robocomp_yaml.languages.python.names import PORTS, WORKER_ATTRIBUTES, module_variable, parameters, python_name
+from robocomp_yaml.languages.python.usage_classes import UserClasses, classes_of
+from robocomp_yaml.languages.python.usage_files import FileUsage, UsageReader
+from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.model import machine_names
+from robocomp_yaml.model.interface import Method, Sequence
+
+_MAIN = "specificworker.py"
+_RELEVANT = (ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef, ast.Import, ast.ImportFrom)
+_REPLACED = ("genericworker.py", "interfaces.py")
+_LIVE = {
+    "set": OfferedMember(least=2, most=2, keywords=frozenset(("path", "value")), takes_path=True,
+                         signature="set(path, value)"),
+    "change": OfferedMember(least=1, most=1, keywords=frozenset(("values",)), takes_path=True,
+                            signature="change({path: value, ...})"),
+    "listen": OfferedMember(least=1, most=1, keywords=frozenset(("listener",)), signature="listen(listener)"),
+}  # fmt: skip
+
+
+def offer(linked: LinkedComponent) -> WorkerOffer:
+    """What the worker of a component offers."""
+    ports, machine = lowering.lower(linked, PORTS), linked.machine
+    is_own = not linked.component.compatibility
+    members: dict[str, OfferedMember] = {name: OfferedMember() for name in WORKER_ATTRIBUTES} if is_own else {}
+    members |= offers.proxies(ports, PORTS.called, _is_of_every_proxy, outputs=False, keywords=_keywords)
+    if is_own:
+        values = offers.record(linked.parameters.parameters.root, LANGUAGE.in_code)
+        members["parameters"] = OfferedMember(
+            Offer(offers.PARAMETERS, linked.component.name,
+                  {**values.members, **_LIVE, "now": OfferedMember(values)})
+        )  # fmt: skip
+    if machine:
+        is_in = OfferedMember(least=1, most=1, is_state=True)
+        others = OfferedMember()
+        running = {"is_in": is_in, "states": others, "event": others, "fire": others}
+        members["events"] = OfferedMember(offers.events(machine, python_name))
+        members["statemachine" if is_own else machine_names.robocomp_machine(machine)] = OfferedMember(
+            Offer(offers.OTHER, "", running, is_complete=False)
+        )
+        handled = (*offers.handlers(machine), *(one.name for one in machine_names.guards(machine)))
+        members |= dict.fromkeys((*handled, *(one.name for one in machine_names.actions(machine))), others)
+    served = offers.served(ports)
+    members |= {name: OfferedMember() for one in served for name in one.methods if name not in members}
+    modules = offers.modules(linked, module_variable, python_name, _is_in_interfaces)
+    if not is_own:  # RoboComp's tool also has the sequences beside the modules
+        beside = dict.fromkeys(_sequences(linked), OfferedMember())
+        modules = structs.replace(modules, members={**beside, **modules.members})
+    return WorkerOffer(
+        {WORKER: Offer(offers.WORKER, linked.component.name, members, is_complete=is_own), MODULES: modules},
+        served,
+        offers.handlers(machine) if machine else frozenset(),
+        offers.states(machine) if machine else frozenset(),
+    )
+
+
+def _sequences(linked: LinkedComponent) -> list[str]:
+    return [
+        python_name(one.name) for scope in linked.modules() for one in scope.module.definitions
+        if isinstance(one, Sequence)
+    ]  # fmt: skip
+
+
+def _keywords(method: Method) -> Iterator[str]:
+    return parameters((member.name for member in method.inputs), ())
+
+
+def _is_of_every_proxy(name: str) -> bool:
+    """Methods of Ice, and Ice's asynchronous variants of the operations, which it makes of their names."""
+    return name.startswith(("ice_", "begin_", "end_", "_")) or name.endswith("Async") or name in _OF_PROXIES
+
+
+_OF_PROXIES = frozenset(("checkedCast", "uncheckedCast"))
+
+
+def _is_in_interfaces(name: str) -> bool:
+    return name.startswith("_") or name in ("Ice", "absent", "lists", "load", "os")
+
+
+def read(files: Mapping[str, str], linked: LinkedComponent, worker: WorkerOffer) -> CodeUsage:
+    """The use that the files below src/ make of the worker, by their paths there."""
+    is_robocomp = bool(linked.component.compatibility)
+    if is_robocomp:  # what RoboComp's own tool left in src/ is not used
+        files = {path: text for path, text in files.items() if path not in _REPLACED}
+    trees: dict[str, ast.Module] = {}
+    nodes: dict[str, list[ast.AST]] = {}
+    faults: list[tuple[str, Span]] = []
+    imported, todo = {_MAIN}, [_MAIN]
+    while todo:
+        path = todo.pop()
+        if path not in files or path in trees:
+            continue
+        try:
+            trees[path] = parsed(files[path])
+        except SyntaxError as error:
+            if not _is_wrong(path, files[path]):
+                return CodeUsage()  # an older or a newer Python accepts it
+            line, column = error.lineno or 1, error.offset or 1
+            faults.append((error.msg, Span(path, line, column, line, max(column + 1, error.end_offset or 0))))
+            trees[path] = ast.Module([], [])
+        except (ValueError, RecursionError, MemoryError):
+            return CodeUsage()
+        nodes[path] = [node for node in ast.walk(trees[path]) if isinstance(node, _RELEVANT)]
+        found, is_dynamic = _imported(nodes[path], files)
+        imported.update(found if path in imported else ())
+        todo += files if is_dynamic or "__import__" in files[path] else found
+    if faults:
+        return CodeUsage(faults=tuple(faults))
+    classes = classes_of(nodes)
+    if not classes.workers:
+        return CodeUsage()
+    modules = frozenset(worker.roots[MODULES].members)
+    every = {
+        path: UsageReader(path, files[path], classes, modules, is_robocomp).read(tree) for path, tree in trees.items()
+    }
+    return _together(every.values(), [one for path, one in every.items() if path in imported], classes)
+
+
+def parsed(text: str) -> ast.Module:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return ast.parse(text)
+
+
+def _is_wrong(path: str, text: str) -> bool:
+    """Whether the second parser sees an error, too."""
+    from robocomp_yaml.languages.python.code import read as read_code  # needed only for errors
+
+    return read_code(path, text).faults > 0
+
+
+def _imported(nodes: Iterable[ast.AST], files: Collection[str]) -> tuple[list[str], bool]:
+    """The user's files that a module imports; and whether it may import others, by names that are computed."""
+    found: list[str] = []
+    is_dynamic = False
+    for node in nodes:
+        names: list[str] = []
+        if isinstance(node, ast.Import):
+            names = [alias.name for alias in node.names]
+            is_dynamic |= "importlib" in names
+        elif isinstance(node, ast.ImportFrom):
+            module = node.module or ""
+            names = [module, *(f"{module}.{alias.name}" for alias in node.names)]
+            is_dynamic |= node.level > 0 or module == "importlib"
+        for name in names:
+            parts = name.split(".")
+            heads = ("/".join(parts[:end]) for end in range(1, len(parts) + 1))
+            paths = (path for head in heads for path in (f"{head}.py", f"{head}/__init__.py"))
+            found += [path for path in paths if path in files]
+    return found, is_dynamic
+
+
+def _together(every: Iterable[FileUsage], imported: Iterable[FileUsage], classes: UserClasses) -> CodeUsage:
+    """The use of all files. Files that may not be part of the program only count for what they define."""
+    known, mine = list(every), list(imported)
+    return CodeUsage(
+        chains=tuple(chain for one in mine for chain in one.chains),
+        methods=tuple(word for one in mine for word in one.methods),
+        own=classes.own.union(*(one.stored for one in known)),
+        texts=frozenset().union(*(one.texts for one in known)),
+        is_open=classes.is_open or any(one.is_open for one in known),
+        is_shared=any(one.is_shared for one in known),
+    )

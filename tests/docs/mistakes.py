@@ -1,0 +1,313 @@
+"""Mistakes in the five tasks that are prone to errors, as edits of one workspace, each with what must be reported.
+
+`test_mistakes.py` tries each of them, and `docs/mistakes.md` is made of the same data.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+CREATING = "Creating components"
+PROXIES = "Adding and removing proxies"
+INTERFACES = "Changing interfaces"
+PARAMETERS = "Configuration parameters"
+DEPLOYING = "Dependencies at deployment"
+
+WORKSPACE = {
+    "rcyaml.yaml": "interfaces: [interfaces]\n",
+    "interfaces/Mouth.idsl.yaml": """\
+module: RoboCompMouth
+types:
+  Shape: {enum: [round, wide]}
+  Pose: {struct: {opening: float, width: float, shape: Shape}}
+interfaces:
+  Mouth:
+    methods:
+      move: {in: {target: Pose, fast: bool}, returns: Pose}
+      close:
+topics:
+  MouthEvents:
+    methods:
+      moved: {in: {pose: Pose}}
+""",
+    "interfaces/Speech.idsl.yaml": """\
+module: RoboCompSpeech
+interfaces:
+  Speech:
+    methods:
+      say: {in: {text: string, volume: int}, returns: bool}
+      stop:
+""",
+    "interfaces/Camera.idsl.yaml": """\
+module: RoboCompCamera
+interfaces:
+  Camera:
+    methods:
+      getImage: {in: {width: int, height: int}, returns: string}
+""",
+    "speech/speech.cdsl.yaml": """\
+component: SpeechComp
+language: python
+imports: [Speech, Mouth, Camera]
+implements: [Speech]
+requires: [Mouth]
+subscribes: [MouthEvents]
+""",
+    "speech/speech.pdsl.yaml": """\
+component: speech.cdsl.yaml
+types:
+  Voice: {struct: {name: string, pitch: {type: float, range: [0.5, 2], default: 1}}}
+parameters:
+  speed: {type: int, range: [1, 400], unit: words/min, default: 150, editable: true}
+  device: {type: string, values: [alsa, pulse], default: alsa}
+  low: {type: int, default: 1}
+  high: {type: int, default: 9}
+  voices: {list: Voice, size: [1, 3], default: [{name: anna}]}
+  apiKey: {type: string, secret: true, optional: true}
+constraints:
+  - {that: low < high, else: low must be below high}
+""",
+    "speech/etc/config.yaml": """\
+parameters:
+  speed: 120
+  voices:
+    - name: bert
+      pitch: 1.5
+""",
+    "speech/src/specificworker.py": """\
+from __future__ import annotations
+
+from generated.genericworker import GenericWorker
+from generated.interfaces import RoboCompMouth
+
+
+class SpecificWorker(GenericWorker):
+    def initialize(self) -> None:
+        self.words: list[str] = []
+
+    def compute(self) -> None:
+        pose = RoboCompMouth.Pose(opening=10.0, width=50.0, shape=RoboCompMouth.Shape.round)
+        reached = self.mouth_proxy.move(pose, True)
+        self.log.info("%d words per minute, %.1f mm open", self.parameters.speed, reached.opening)
+        self.mouth_proxy.close()
+        if not self.words:
+            self.parameters.speed = 200
+
+    def Speech_say(self, text: str, volume: int) -> bool:
+        self.words.append(text)
+        return True
+
+    def Speech_stop(self) -> None:
+        self.words.clear()
+
+    def MouthEvents_moved(self, pose: RoboCompMouth.Pose) -> None:
+        self.log.info("%s", pose.opening)
+""",
+    "mouth/mouth.cdsl.yaml": """\
+component: MouthComp
+language: cpp
+imports: [Mouth, Camera]
+implements: [Mouth]
+requires: [Camera]
+publishes: [MouthEvents]
+""",
+    "mouth/mouth.pdsl.yaml": """\
+component: mouth.cdsl.yaml
+parameters:
+  widest: {type: float, range: [10, 90], unit: mm, default: 50, editable: true}
+""",
+    "mouth/src/specificworker.h": """\
+#pragma once
+
+#include "genericworker.h"
+
+class SpecificWorker : public GenericWorker
+{
+public:
+    void initialize();
+    void compute();
+    RoboCompMouth::Pose Mouth_move(const RoboCompMouth::Pose& target, bool fast);
+    void Mouth_close();
+};
+""",
+    "mouth/src/specificworker.cpp": """\
+#include "specificworker.h"
+
+void SpecificWorker::initialize()
+{
+    parameters.setWidest(60);
+}
+
+void SpecificWorker::compute()
+{
+    camera_proxy->getImage(640, 480);
+}
+
+RoboCompMouth::Pose SpecificWorker::Mouth_move(const RoboCompMouth::Pose& target, bool fast)
+{
+    auto pose = target; pose.shape = RoboCompMouth::Shape::wide;
+    pose.opening = std::min(pose.opening, parameters.widest());
+    events(pose);
+    mouthevents_pubproxy->moved(pose);
+    return pose;
+}
+
+void SpecificWorker::Mouth_close()
+{
+}
+""".replace("    events(pose);\n", ""),
+    "camera/camera.cdsl.yaml": """\
+component: CameraComp
+language: python
+imports: [Camera]
+implements: [Camera]
+""",
+    "camera/src/specificworker.py": """\
+from __future__ import annotations
+
+from generated.genericworker import GenericWorker
+
+
+class SpecificWorker(GenericWorker):
+    def initialize(self) -> None:
+        self.log.info("sees")
+
+    def compute(self) -> None:
+        pass
+
+    def Camera_getImage(self, width: int, height: int) -> str:
+        return " " * width * height
+""",
+    "head.ddsl.yaml": """\
+deployment: Head
+components:
+  speech: {component: speech, port: 11001}
+  mouth: {component: mouth, port: 11002}
+  camera: {component: camera, port: 11004}
+services: {storm: {icestorm: {port: 11003}}}
+""",
+}
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """`edits` are a path with an old and a new text, a path with a whole text, or a path alone, which is removed.
+    `at` is where it is reported: FILE:LINE:COLUMN, or FILE. `command` reports it."""
+
+    task: str
+    what: str
+    edits: tuple[tuple[str, ...], ...]
+    code: str
+    at: str
+    command: str = "check"
+
+
+SPEECH, MOUTH, HEAD = "speech/speech.cdsl.yaml", "mouth/mouth.cdsl.yaml", "head.ddsl.yaml"
+WORKER, HEADER, SOURCE = "speech/src/specificworker.py", "mouth/src/specificworker.h", "mouth/src/specificworker.cpp"
+I_MOUTH, I_SPEECH = "interfaces/Mouth.idsl.yaml", "interfaces/Speech.idsl.yaml"
+PROGRAM = "mouth/bin/MouthComp"
+I_CAMERA = "interfaces/Camera.idsl.yaml"
+PDSL, VALUES = "speech/speech.pdsl.yaml", "speech/etc/config.yaml"
+
+
+def one(task: str, what: str, path: str, old: str, new: str, code: str, at: str, command: str = "check") -> Mistake:
+    return Mistake(task, what, ((path, old, new),), code, at, command)
+
+
+MISTAKES = [
+    one(CREATING, "a misspelled key", SPEECH, "implements:", "implement:", "RC0202", f"{SPEECH}:4:1"),
+    one(CREATING, "a key in other letters", SPEECH, "requires:", "Requires:", "RC0202", f"{SPEECH}:5:1"),
+    one(CREATING, "an unknown language", SPEECH, "python", "pyton", "RC0204", f"{SPEECH}:2:11"),
+    one(CREATING, "no language", SPEECH, "language: python\n", "", "RC0203", f"{SPEECH}:1:1"),
+    one(CREATING, "an import of a file that does not exist", SPEECH, "Camera]", "Kamera]", "RC2101", f"{SPEECH}:3:26"),
+    one(CREATING, "an import in other letters", SPEECH, "[Speech, Mouth", "[Speech, mouth", "RC2102", f"{SPEECH}:3:19"),
+    one(CREATING, "an interface in other letters", SPEECH, "implements: [Speech]", "implements: [speech]", "RC2003", f"{SPEECH}:4:14"),
+    one(CREATING, "an interface whose document is not imported", SPEECH, "imports: [Speech, Mouth, Camera]", "imports: [Speech, Camera]", "RC2003", f"{SPEECH}:5:12"),
+    one(CREATING, "a topic that is implemented", SPEECH, "implements: [Speech]", "implements: [Speech, MouthEvents]", "RC2008", f"{SPEECH}:4:22"),
+    one(CREATING, "the same interface twice", SPEECH, "requires: [Mouth]", "requires: [Mouth, Mouth]", "RC2005", f"{SPEECH}:5:19"),
+    Mistake(CREATING, "two components in one folder", (("speech/other.cdsl.yaml", "component: OtherComp\nlanguage: python\n"),), "RC2010", "speech/speech.cdsl.yaml:1:12"),
+    Mistake(CREATING, "two components of one name", (("other/speech.cdsl.yaml", "component: SpeechComp\nlanguage: python\n"),), "RC2011", "speech/speech.cdsl.yaml:1:12"),
+    one(CREATING, "a tab in the indentation", I_SPEECH, "  Speech:", "\tSpeech:", "RC0101", f"{I_SPEECH}:3:1"),
+    one(CREATING, "a method of the worker whose name has a typing error, in Python", WORKER, "def Speech_stop", "def Speech_stopp", "RC6312", f"{WORKER}:23:9"),
+    one(CREATING, "a method of the worker whose name has a typing error, in C++", SOURCE, "SpecificWorker::Mouth_close", "SpecificWorker::Mouth_clsoe", "RC6312", f"{SOURCE}:21:22"),
+    one(CREATING, "an attribute of the worker that does not exist", WORKER, "self.log.info(\"%s\"", "self.logger.info(\"%s\"", "RC6316", f"{WORKER}:27:14"),
+    one(CREATING, "a syntax error in the user's code", WORKER, "def compute(self) -> None:", "def compute(self) -> None", "RC6317", f"{WORKER}:11:30"),
+    one(CREATING, "a variable that is not defined", WORKER, "return True", "return sucess", "RC6318", f"{WORKER}:21:16", "check --code"),
+    #
+    one(PROXIES, "a requirement in other letters", SPEECH, "requires: [Mouth]", "requires: [mouth]", "RC2003", f"{SPEECH}:5:12"),
+    one(PROXIES, "the plural", SPEECH, "requires: [Mouth]", "requires: [Mouths]", "RC2003", f"{SPEECH}:5:12"),
+    one(PROXIES, "the name of the component instead of the interface", SPEECH, "requires: [Mouth]", "requires: [MouthComp]", "RC2003", f"{SPEECH}:5:12"),
+    one(PROXIES, "a topic that is required", SPEECH, "requires: [Mouth]", "requires: [Mouth, MouthEvents]", "RC2008", f"{SPEECH}:5:19"),
+    one(PROXIES, "code that still uses a removed proxy, in Python", SPEECH, "requires: [Mouth]\n", "", "RC6301", f"{WORKER}:13:24"),
+    one(PROXIES, "code that still uses a removed proxy, in C++", MOUTH, "requires: [Camera]\n", "", "RC6301", f"{SOURCE}:10:5"),
+    one(PROXIES, "code that still publishes to a removed topic", MOUTH, "publishes: [MouthEvents]\n", "", "RC6301", f"{SOURCE}:17:5"),
+    one(PROXIES, "code that uses a proxy which the document lacks", WORKER, "self.mouth_proxy.close()", "self.camera_proxy.getImage()", "RC6301", f"{WORKER}:15:14"),
+    one(PROXIES, "a proxy under the name of its interface", WORKER, "self.mouth_proxy.close()", "self.Mouth_proxy.close()", "RC6301", f"{WORKER}:15:14"),
+    one(PROXIES, "the accessor of a topic in Python's spelling, in C++", SOURCE, "mouthevents_pubproxy", "mouthevents_proxy", "RC6301", f"{SOURCE}:17:5"),
+    one(PROXIES, "a method that the interface lacks, in Python", WORKER, "self.mouth_proxy.close()", "self.mouth_proxy.shut()", "RC6302", f"{WORKER}:15:26"),
+    one(PROXIES, "a method that the interface lacks, in C++", SOURCE, "camera_proxy->getImage", "camera_proxy->getPicture", "RC6302", f"{SOURCE}:10:19"),
+    one(PROXIES, "an event that the topic lacks", SOURCE, "->moved(pose)", "->move(pose)", "RC6303", f"{SOURCE}:17:27"),
+    one(PROXIES, "a subscriber whose method has another name", WORKER, "def MouthEvents_moved", "def MouthEvents_onMoved", "RC6201", f"{WORKER}:7:7"),
+    one(PROXIES, "a wrong type of argument", WORKER, "move(pose, True)", "move(10.0, True)", "RC6318", f"{WORKER}:13:41", "check --code"),
+    one(PROXIES, "a result that is used as another type", WORKER, "reached.opening)", "reached.open)", "RC6318", f"{WORKER}:14:83", "check --code"),
+    #
+    one(INTERFACES, "a method that is added, and not yet implemented", I_SPEECH, "      stop:\n", "      stop:\n      pause:\n", "RC6201", f"{WORKER}:7:7"),
+    one(INTERFACES, "a method that is renamed, and still called in Python", I_MOUTH, "      close:", "      shut:", "RC6302", f"{WORKER}:15:26"),
+    one(INTERFACES, "a method that is renamed, and still called in C++", I_CAMERA, "      getImage:", "      getPicture:", "RC6302", f"{SOURCE}:10:19"),
+    one(INTERFACES, "a method that is removed, and still implemented", I_SPEECH, "      stop:\n", "", "RC6203", f"{WORKER}:23:9"),
+    one(INTERFACES, "a new parameter: the call in Python is stale", I_MOUTH, "fast: bool}", "fast: bool, force: float}", "RC6304", f"{WORKER}:13:36"),
+    one(INTERFACES, "a new parameter: the call in C++ is stale", I_CAMERA, "height: int}", "height: int, depth: int}", "RC6304", f"{SOURCE}:10:19"),
+    one(INTERFACES, "a new parameter: the method in Python is stale", I_SPEECH, "volume: int}", "volume: int, voice: string}", "RC6202", f"{WORKER}:19:9"),
+    one(INTERFACES, "a new parameter: the method in C++ is stale", I_MOUTH, "fast: bool}", "fast: bool, force: float}", "RC6202", f"{HEADER}:10:25"),
+    one(INTERFACES, "a parameter of another type: the method in Python is stale", I_SPEECH, "volume: int}", "volume: string}", "RC6202", f"{WORKER}:19:9"),
+    one(INTERFACES, "a parameter of another type: the call in Python is stale", I_MOUTH, "fast: bool}", "fast: string}", "RC6318", f"{WORKER}:13:47", "check --code"),
+    one(INTERFACES, "a member of a struct that is renamed, and still set", I_MOUTH, "{opening: float, ", "{gap: float, ", "RC6305", f"{WORKER}:12:35"),
+    one(INTERFACES, "an enumerator that is removed, and still used", I_MOUTH, "[round, wide]", "[oval, wide]", "RC6315", f"{WORKER}:12:87"),
+    one(INTERFACES, "an enumerator that is removed, and still used in C++", I_MOUTH, "[round, wide]", "[round, oval]", "RC6315", f"{SOURCE}:15:60"),
+    one(INTERFACES, "a type that is renamed, and still used", I_MOUTH, "{target: Pose, ", "{target: Poses, ", "RC1010", f"{I_MOUTH}:8:27"),
+    one(INTERFACES, "a module that is renamed, and still imported by code", I_MOUTH, "module: RoboCompMouth", "module: RoboCompLips", "RC6313", f"{WORKER}:4:34"),
+    one(INTERFACES, "a type that does not exist", I_SPEECH, "volume: int}", "volume: integer}", "RC1010", f"{I_SPEECH}:5:40"),
+    one(INTERFACES, "a name twice", I_MOUTH, "{opening: float, width: float,", "{opening: float, Opening: float,", "RC1004", f"{I_MOUTH}:4:35"),
+    Mistake(INTERFACES, "a document that is deleted, and still imported", ((I_MOUTH,),), "RC2101", f"{SPEECH}:3:19"),
+    one(INTERFACES, "an event with a result", I_MOUTH, "moved: {in: {pose: Pose}}", "moved: {in: {pose: Pose}, returns: bool}", "RC0204", f"{I_MOUTH}:13:33"),
+    #
+    one(PARAMETERS, "a misspelled parameter in the values", VALUES, "speed:", "sped:", "RC3301", f"{VALUES}:2:3"),
+    one(PARAMETERS, "a parameter in other letters in the values", VALUES, "speed:", "Speed:", "RC3301", f"{VALUES}:2:3"),
+    one(PARAMETERS, "a value out of its range", VALUES, "speed: 120", "speed: 1200", "RC3303", f"{VALUES}:2:10"),
+    one(PARAMETERS, "a value with its unit", VALUES, "speed: 120", "speed: 120 words/min", "RC3302", f"{VALUES}:2:10"),
+    one(PARAMETERS, "a text instead of a number", VALUES, "speed: 120", 'speed: "120"', "RC3302", f"{VALUES}:2:10"),
+    one(PARAMETERS, "a value that is not one of the allowed ones", VALUES, "speed: 120", "device: jack", "RC3303", f"{VALUES}:2:11"),
+    one(PARAMETERS, "a misspelled member of a record", VALUES, "pitch:", "picth:", "RC3301", f"{VALUES}:5:7"),
+    one(PARAMETERS, "a member that is missing", VALUES, "    - name: bert\n      pitch: 1.5\n", "    - pitch: 1.5\n", "RC3307", f"{VALUES}:4:7"),
+    one(PARAMETERS, "values that break a constraint", VALUES, "speed: 120", "low: 10", "RC3308", f"{VALUES}:2:3"),
+    one(PARAMETERS, "a default out of its range", PDSL, "default: 150", "default: 500", "RC3113", f"{PDSL}:5:65"),
+    one(PARAMETERS, "a secret in plain text", VALUES, "speed: 120", "apiKey: 7dQf93kLmZp2", "RC3311", f"{VALUES}:2:11"),
+    one(PARAMETERS, "a removed parameter that the values still set", PDSL, "  speed: {type: int, range: [1, 400], unit: words/min, default: 150, editable: true}\n", "", "RC3301", f"{VALUES}:2:3"),
+    Mistake(PARAMETERS, "a removed parameter that code still reads", ((PDSL, "  speed: {type: int, range: [1, 400], unit: words/min, default: 150, editable: true}\n", ""), (VALUES, "  speed: 120\n", "")), "RC6306", f"{WORKER}:14:76"),
+    one(PARAMETERS, "a misspelled parameter in Python", WORKER, "self.parameters.speed, reached", "self.parameters.sped, reached", "RC6306", f"{WORKER}:14:76"),
+    one(PARAMETERS, "a misspelled parameter in C++", SOURCE, "parameters.widest()", "parameters.widset()", "RC6306", f"{SOURCE}:16:54"),
+    one(PARAMETERS, "a misspelled path in code", WORKER, "self.parameters.speed = 200", 'self.parameters.set("voices[0].picth", 1.2)', "RC6306", f"{WORKER}:17:34"),
+    one(PARAMETERS, "code that sets a value out of its range, in Python", WORKER, "speed = 200", "speed = 2000", "RC6308", f"{WORKER}:17:37"),
+    one(PARAMETERS, "code that sets a value out of its range, in C++", SOURCE, "setWidest(60)", "setWidest(600)", "RC6308", f"{SOURCE}:5:26"),
+    one(PARAMETERS, "code that sets a parameter which is not editable", WORKER, "self.parameters.speed = 200", 'self.parameters.device = "pulse"', "RC6307", f"{WORKER}:17:29"),
+    one(PARAMETERS, "a misspelled key of an entry", HEAD, "speech: {component: speech, port: 11001}", "speech: {component: speech, port: 11001, set: {sped: 3}}", "RC3301", f"{HEAD}:3:50"),
+    #
+    one(DEPLOYING, "nobody serves what a component requires", HEAD, "  mouth: {component: mouth, port: 11002}\n", "", "RC4201", f"{HEAD}:3:3"),
+    one(DEPLOYING, "two serve it", HEAD, "services:", "  mouth2: {component: mouth, port: 11005}\nservices:", "RC4202", f"{HEAD}:3:3"),
+    one(DEPLOYING, "a topic without an IceStorm", HEAD, "services: {storm: {icestorm: {port: 11003}}}\n", "", "RC4208", f"{HEAD}:3:3"),
+    one(DEPLOYING, "two components at one port", HEAD, "port: 11002", "port: 11001", "RC4303", f"{HEAD}:4:35"),
+    one(DEPLOYING, "an unknown host", HEAD, "port: 11002}", "port: 11002, host: brian}", "RC4002", f"{HEAD}:4:48"),
+    one(DEPLOYING, "a folder without a component", HEAD, "component: mouth", "component: mout", "RC4101", f"{HEAD}:4:22"),
+    one(DEPLOYING, "a connection to an unknown entry", HEAD, "port: 11001}", "port: 11001, connect: {Mouth: moth}}", "RC4205", f"{HEAD}:3:61"),
+    one(DEPLOYING, "a connection of a port that the component lacks", HEAD, "port: 11001}", "port: 11001, connect: {Moth: mouth}}", "RC4007", f"{HEAD}:3:54"),
+    one(DEPLOYING, "a connection to a component that does not serve the interface", HEAD, "port: 11001}", "port: 11001, connect: {Mouth: storm}}", "RC4204", f"{HEAD}:3:61"),
+    one(DEPLOYING, "components that wait for each other", "camera/camera.cdsl.yaml", "imports: [Camera]\n", "imports: [Camera, Mouth]\nrequires: [Mouth]\n", "RC4401", f"{HEAD}:4:3"),
+    one(DEPLOYING, "an `after:` that leads back", HEAD, "port: 11002}", "port: 11002, after: [speech]}", "RC4401", f"{HEAD}:3:3"),
+    one(DEPLOYING, "an entry twice", HEAD, "services:", "  mouth: {component: mouth, port: 11005}\nservices:", "RC0103", f"{HEAD}:6:3"),
+    one(DEPLOYING, "a port out of range", HEAD, "port: 11002", "port: 110020", "RC0204", f"{HEAD}:4:35"),
+    one(DEPLOYING, "ports of instances that are too high", HEAD, "mouth: {component: mouth, port: 11002", "\"mouth{i}\": {component: mouth, port: 65535, instances: 3", "RC4302", f"{HEAD}:4:40"),
+    one(DEPLOYING, "a misspelled restart policy", HEAD, "port: 11002}", "port: 11002, restart: onfailure}", "RC0204", f"{HEAD}:4:51"),
+    Mistake(DEPLOYING, "a component that is not built", ((PROGRAM,),), "RC4403", f"{HEAD}:4:3"),
+    Mistake(DEPLOYING, "a component that is older than its code", ((SOURCE, "640", "320"),), "RC7016", f"{HEAD}:4:3", "deploy plan head.ddsl.yaml"),
+    Mistake(DEPLOYING, "a program that does not exist", ((HEAD, "component: mouth, port: 11002", "program: bin/mouht"),), "RC4404", f"{HEAD}:4:3"),
+]  # fmt: skip

@@ -1,0 +1,166 @@
+"""What is reported about the use of the worker in C++: all that is certain, and nothing else."""
+
+from __future__ import annotations
+
+import pytest
+
+from judged_code import MACHINE, Link, component, found
+
+HEADER = """\
+#ifndef SPECIFICWORKER_H
+#define SPECIFICWORKER_H
+#include "genericworker.h"
+
+class SpecificWorker : public GenericWorker
+{
+Q_OBJECT
+public slots:
+    void compute();
+    void Ear_hear(const std::string& text);
+private:
+    int turns = 0;
+};
+#endif
+"""
+
+
+def worker(body: str, more: str = "", header: str = HEADER) -> dict[str, str]:
+    source = f'#include "specificworker.h"\n{more}\nvoid SpecificWorker::compute()\n{{\n    {body}\n}}\n'
+    return {"specificworker.h": header, "specificworker.cpp": source}
+
+
+@pytest.mark.parametrize(
+    ("body", "code", "text"),
+    [
+        ("moth_proxy->close();", "RC6301", "moth_proxy"),
+        ("this->moth_proxy->close();", "RC6301", "moth_proxy"),
+        ("if (moth_proxy) turns++;", "RC6301", "moth_proxy"),
+        ("run([this] { moth_proxy->close(); });", "RC6301", "moth_proxy"),
+        ("news_proxy->told(1);", "RC6301", "news_proxy"),
+        ("mouth_proxy->shut();", "RC6302", "shut"),
+        ("this->mouth_proxy->shut();", "RC6302", "shut"),
+        ("auto x = (mouth_proxy)->shut();", "RC6302", "shut"),
+        ("try { mouth_proxy->shut(); } catch (const Ice::Exception& e) { }", "RC6302", "shut"),
+        ("std::cout << \"ä\" << mouth_proxy->shut();", "RC6302", "shut"),
+        ("news_pubproxy->tell(1);", "RC6303", "tell"),
+        ("mouth_proxy->move(pose);", "RC6304", "move"),
+        ("mouth_proxy->move(f(1, 2), g<int, int>(), h, 4);", "RC6304", "move"),
+        ("mouth_proxy->where();", "RC6304", "where"),
+        ("auto s = parameters.sped();", "RC6306", "sped"),
+        ("auto s = parameters.now()->sped;", "RC6306", "sped"),
+        ("auto s = parameters.camera()->fsp;", "RC6306", "fsp"),
+        ("auto s = parameters.motors()[0].speed;", "RC6306", "speed"),
+        ("const auto now = parameters.now(); std::cout << now->sped;", "RC6306", "sped"),
+        ("for (const auto& motor : parameters.motors()) std::cout << motor.speed;", "RC6306", "speed"),
+        ("auto& p = parameters; p.setSpeed(0);", "RC6308", "0"),
+        ("auto mouth = mouth_proxy; run([mouth] { mouth->shut(); });", "RC6302", "shut"),
+        ("auto motor = parameters.motors()[0]; use(motor.speed);", "RC6306", "speed"),
+        ("parameters.set(\"motors[0].velo\", 1);", "RC6306", "motors[0].velo"),
+        ("parameters.setSpede(3);", "RC6306", "setSpede"),
+        ("parameters.setDevice(\"x\");", "RC6307", "setDevice"),
+        ("parameters.setCameraLens(\"x\");", "RC6307", "setCameraLens"),
+        ("parameters.setSpeed(0);", "RC6308", "0"),
+        ("parameters.setSpeed(-5);", "RC6308", "-5"),
+        ("parameters.set(\"motors[0].vel\", 2.5);", "RC6308", "2.5"),
+        ("parameters.speed(1);", "RC6304", "speed"),
+        ("RoboCompMouth::Pos p;", "RC6314", "Pos"),
+        ("std::vector<RoboCompMouth::Pos> p;", "RC6314", "Pos"),
+        ("auto s = ::RoboCompMouth::Shape::oval;", "RC6315", "oval"),
+        ("if (s == RoboCompMouth::Shape::oval) return;", "RC6315", "oval"),
+        ("auto s = RoboCompMouth::round;", "RC6314", "round"),
+        ("events.begin();", "RC6310", "begin"),
+        ("if (statemachine.isIn(\"quiet\")) return;", "RC6310", "quiet"),
+    ],
+)  # fmt: skip
+def test_what_is_reported(link: Link, body: str, code: str, text: str) -> None:
+    assert found(link(component("cpp", MACHINE)), worker(body)) == [(code, text)]
+
+
+@pytest.mark.parametrize(
+    ("body", "more"),
+    [
+        ("mouth_proxy->close(); mouth_proxy->move(pose, true); mouth_proxy->move(pose, true, context);", ""),
+        ("mouth_proxy->where(pose, age); mouth_proxy->moveAsync(pose, true).get(); news_pubproxy->told(\"x\");", ""),
+        ("mouth_proxy->ice_ping(); mouth_proxy.get(); mouth_proxy.reset(); mouth_proxy = nullptr; *mouth_proxy;", ""),
+        ("other->mouth_proxy->shut(); other.moth_proxy->close();", ""),
+        ("auto moth_proxy = make(); moth_proxy->close();", ""),
+        ("for (auto& moth_proxy : all) moth_proxy->close();", ""),
+        ("auto [moth_proxy, b] = all; moth_proxy->close();", ""),
+        ("moth_proxy->close();", "static std::shared_ptr<X> moth_proxy;"),
+        ("moth_proxy->close();", "#define moth_proxy mouth_proxy"),
+        ("moth_proxy->close();", '#include "../../classes/elsewhere.h"'),
+        ("int mouth_proxy = 3; mouth_proxy->shut();", ""),
+        ("run([mouth_proxy = make()] { mouth_proxy->shut(); });", ""),
+        ("CALL(mouth_proxy->shut())", "#define CALL(x)"),
+        ("mouth_proxy->move(BOTH);", "#define BOTH pose, true"),
+        ("mouth_proxy->move(given...);", ""),
+        ("\n#ifdef OLD\n    mouth_proxy->shut();\n#endif\n", ""),
+        ("\n#if 0\n    moth_proxy->shut();\n#endif\n", ""),
+        ("// moth_proxy->close();\n    /* mouth_proxy->shut(); */ std::string s = \"moth_proxy->close()\";", ""),
+        ("turns++;", "template <typename T> void f(T mouth_proxy) { mouth_proxy->shut(); }"),
+        ("turns++;", "void Other::f() { mouth_proxy->shut(); moth_proxy->shut(); }"),
+        ("turns++;", "void f() { moth_proxy->shut(); }"),
+        ("mouth_proxy->shut(;", ""),
+        ("auto s = parameters.speed() + parameters.motors()[0].vel + parameters.camera()->fps;", ""),
+        ("for (const auto& m : parameters.motors()) use(m); auto n = parameters.motors().size();", ""),
+        ("parameters.setSpeed(3); parameters.setSpeed(x); parameters.setCameraFps(3); parameters.set(path, 3);", ""),
+        ("parameters.set(\"offsets.a.vel\", 1); parameters.change([](auto& values) { values.speed = 3; });", ""),
+        ("auto now = parameters.now(); use(now->speed, now->motors[0].vel, now->camera.fps);", ""),
+        ("auto mouth = mouth_proxy; { auto mouth = other; mouth->shut(); }", ""),
+        ("std::shared_ptr<Other> mouth = convert(mouth_proxy); mouth->shut();", ""),
+        ("auto mouth = convert(mouth_proxy); mouth->shut(); auto p = mouth_proxy.get(); p->close();", ""),
+        ("for (auto motor : parameters.motors()) { use(motor.vel); } f([](auto motor) { motor.speed; });", ""),
+        ("events.start(); events.stop({{\"a\", \"b\"}}); statemachine.isIn(\"talking\"); statemachine.states();", ""),
+        ("RoboCompMouth::Pose p{1, RoboCompMouth::Shape::round}; RoboCompMouth::Path q; f(RoboCompMouth::WIDEST);", ""),
+        ("std::shared_ptr<RoboCompMouth::MouthPrx> m; RoboCompMouth::Mouth::WhereResult r; RoboCompNose::X x;", ""),
+        ("other::RoboCompMouth::Anything x; using namespace RoboCompMouth; RoboCompMouth::operator==(a, b);", ""),
+        ("RoboCompMouth::Own x;", "namespace RoboCompMouth { struct Own {}; }"),
+        ("// RoboCompMouth::Pos\n", ""),
+        ("std::vector<int> parameters; parameters.push_back(1);", ""),
+    ],
+)  # fmt: skip
+def test_what_is_right_or_too_dynamic_to_know(link: Link, body: str, more: str) -> None:
+    assert found(link(component("cpp", MACHINE)), worker(body, more)) == []
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        HEADER.replace("public GenericWorker", "public GenericWorker, public Other"),
+        HEADER.replace("public GenericWorker", "public Base<int>"),
+        HEADER.replace("class SpecificWorker", "class OtherWorker"),
+        HEADER.replace("int turns = 0;", "int turns = 0; std::shared_ptr<X> moth_proxy, mouth_proxy;"),
+        "",
+    ],
+)
+def test_classes_that_are_not_known(link: Link, header: str) -> None:
+    assert found(link(component("cpp")), worker("moth_proxy->close(); mouth_proxy->shut();", header=header)) == []
+
+
+def test_a_class_between_is_followed(link: Link) -> None:
+    base = (
+        "#include <genericworker.h>\nclass Base : public GenericWorker\n{\n    void f() { mouth_proxy->shut(); }\n};\n"
+    )
+    header = HEADER.replace("public GenericWorker", "public Base").replace("genericworker.h", "base.h")
+    files = {**worker("mouth_proxy->close();", header=header), "base.h": base}
+    assert found(link(component("cpp")), files) == [("RC6302", "shut")]
+
+
+@pytest.mark.parametrize(
+    ("method", "code"), [("Ear_haer", "RC6312"), ("sm_silnet", "RC6311"), ("sm_help", ""), ("Nose_x", "")]
+)
+def test_methods_that_nobody_calls(link: Link, method: str, code: str) -> None:
+    linked = link(component("cpp", MACHINE))
+    header = HEADER.replace("private:", f"    void {method}();\nprivate:")
+    files = worker("turns++;", f'void SpecificWorker::{method}() {{ log.info("{method}()"); }}  // {method}', header)
+    assert set(found(linked, files)) == ({(code, method)} if code else set())
+    used = worker(f"{method}();", f"void SpecificWorker::{method}() {{ }}", header)
+    assert found(linked, used) == []
+
+
+def test_files_of_robocomps_own_tool_are_not_read(link: Link) -> None:
+    left = {"genericworker.h": "class GenericWorker { std::shared_ptr<X> moth_proxy; };\n"}
+    linked = link(component("cpp", "compatibility: robocomp\n"))
+    left["mouthI.cpp"] = "RoboCompMouth::pose MouthI::move() { return RoboCompMouth::pose(); }\n"
+    files = {**worker("moth_proxy->close(); f(RoboCompMouth::round, RoboCompMouth::Pos());"), **left}
+    assert found(linked, files) == [("RC6301", "moth_proxy"), ("RC6314", "Pos")]

@@ -1,0 +1,198 @@
+"""What is reported about the use of the worker in Python: all that is certain, and nothing else."""
+
+from __future__ import annotations
+
+import textwrap
+
+import pytest
+
+from judged_code import MACHINE, Link, component, found
+
+HEAD = "from generated.genericworker import GenericWorker\nfrom generated.interfaces import RoboCompMouth\n"
+CLASS = "\n\nclass SpecificWorker(GenericWorker):\n    def Ear_hear(self, text):\n        pass\n\n"
+
+
+def worker(body: str, head: str = "") -> dict[str, str]:
+    method = "    def compute(self):\n" + textwrap.indent(textwrap.dedent(body), "        ")
+    return {"specificworker.py": HEAD + head + CLASS + method + "\n"}
+
+
+@pytest.mark.parametrize(
+    ("body", "code", "text"),
+    [
+        ("self.moth_proxy.close()", "RC6301", "moth_proxy"),
+        ("self.ear_proxy.hear('x')", "RC6301", "ear_proxy"),
+        ("if self.moth_proxy: pass", "RC6301", "moth_proxy"),
+        ("print('ä', self.moth_proxy)", "RC6301", "moth_proxy"),
+        ("self.mouth_proxy.shut()", "RC6302", "shut"),
+        ("f = self.mouth_proxy.shut", "RC6302", "shut"),
+        ("mouth = self.mouth_proxy\nmouth.shut()", "RC6302", "shut"),
+        ("me = self\nme.mouth_proxy.shut()", "RC6302", "shut"),
+        ("def later():\n    self.mouth_proxy.shut()\nlater()", "RC6302", "shut"),
+        ("run = lambda: self.mouth_proxy.shut()", "RC6302", "shut"),
+        ("[self.mouth_proxy.shut() for _ in range(3)]", "RC6302", "shut"),
+        ("try:\n    self.mouth_proxy.shut()\nexcept Exception:\n    pass", "RC6302", "shut"),
+        ("print(self.mouth_proxy.move(\n    RoboCompMouth.Pose(),\n    True,\n).openning, self.mouth_proxy.shut())", "RC6302", "shut"),
+        ("self.news_proxy.tell('x')", "RC6303", "tell"),
+        ("self.mouth_proxy.move(1)", "RC6304", "move"),
+        ("self.mouth_proxy.move(1, 2, {}, 3)", "RC6304", "move"),
+        ("self.mouth_proxy.where(1, 2)", "RC6304", "where"),
+        ("move = self.mouth_proxy.move\nmove(1)", "RC6304", "move"),
+        ("self.mouth_proxy.move(1, slow=True)", "RC6305", "slow"),
+        ("RoboCompMouth.Pose(gap=1)", "RC6305", "gap"),
+        ("RoboCompMouth.Pose(1, 2, 3)", "RC6304", "Pose"),
+        ("print(self.parameters.sped)", "RC6306", "sped"),
+        ("print(self.parameters.now.sped)", "RC6306", "sped"),
+        ("print(self.parameters.camera.fsp)", "RC6306", "fsp"),
+        ("print(self.parameters.motors[0].speed)", "RC6306", "speed"),
+        ("for m in self.parameters.motors:\n    print(m.speed)", "RC6306", "speed"),
+        ("print([m.speed for m in self.parameters.motors])", "RC6306", "speed"),
+        ("print(self.parameters.offsets['a'].speed)", "RC6306", "speed"),
+        ("self.parameters.set('sped', 3)", "RC6306", "sped"),
+        ("self.parameters.set('motors[0].velo', 1)", "RC6306", "motors[0].velo"),
+        ("self.parameters.change({'speed': 3, 'camera.fsp': 4})", "RC6306", "camera.fsp"),
+        ("self.parameters.device = 'x'", "RC6307", "device"),
+        ("self.parameters.speed = 0", "RC6308", "0"),
+        ("self.parameters.speed = 'fast'", "RC6308", "'fast'"),
+        ("self.parameters.set('motors[0].vel', -1.5)", "RC6308", "-1.5"),
+        ("print(RoboCompMouth.Pos)", "RC6314", "Pos"),
+        ("print(RoboCompMouth.Shape.oval)", "RC6315", "oval"),
+        ("print(self.lgo)", "RC6316", "lgo"),
+        ("from generated.interfaces import RoboCompNose", "RC6313", "RoboCompNose"),
+        ("self.events.begin()", "RC6310", "begin"),
+        ("print(self.statemachine.is_in('quiet'))", "RC6310", "quiet"),
+    ],
+)  # fmt: skip
+def test_what_is_reported(link: Link, body: str, code: str, text: str) -> None:
+    assert found(link(component("python", MACHINE)), worker(body)) == [(code, text)]
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "self.mouth_proxy.close()\nself.mouth_proxy.move(1, True)\nself.mouth_proxy.move(1, fast=True, context={})",
+        "self.mouth_proxy.move(1, True, {})\nself.mouth_proxy.moveAsync(1, True).result()\nself.mouth_proxy.begin_close()",
+        "self.mouth_proxy.ice_ping()\nself.mouth_proxy.ice_oneway().close()\nself.news_proxy.told('x')",
+        "self.mouth_proxy.move(*[1, True])\nself.mouth_proxy.move(**{})",
+        "pose, age = self.mouth_proxy.where()",
+        "self.own_proxy = 1\nprint(self.own_proxy)",
+        "self.mouth_proxy = Fake()\nself.mouth_proxy.anything()",
+        "setattr(self, name, 1)\nprint(self.anything, self.a_proxy)",
+        "self.__dict__.update(a=1)\nprint(self.a)",
+        "vars(self)['a'] = 1\nprint(self.a)",
+        "if hasattr(self, 'more_proxy'):\n    self.more_proxy.go()",
+        "getattr(self.mouth_proxy, 'shut')()\nself.mouth_proxy.shut()",
+        "loadUi('a.ui', self)\nprint(self.button)",
+        "try:\n    self.mouth_proxy.shut()\nexcept AttributeError:\n    pass",
+        "try:\n    self.mouth_proxy.move(1)\nexcept (TypeError, OSError):\n    pass",
+        "with contextlib.suppress(AttributeError):\n    self.mouth_proxy.shut()",
+        "if False:\n    self.mouth_proxy.shut()",
+        "self = other\nself.mouth_proxy.shut()",
+        "mouth = self.mouth_proxy\nmouth = other\nmouth.shut()",
+        "for mouth in (self.mouth_proxy, other):\n    mouth.shut()",
+        "def f(mouth=self.mouth_proxy):\n    mouth.shut()",
+        "global mouth\nmouth = self.mouth_proxy\nmouth.shut()",
+        "RoboCompMouth = other\nRoboCompMouth.Anything()",
+        "print(RoboCompMouth.WIDEST, RoboCompMouth.MouthPrx, RoboCompMouth.Ear, RoboCompMouth.Shape.valueOf(1), RoboCompMouth.Path)",
+        "print(RoboCompMouth.Pose(), RoboCompMouth.Pose(1), RoboCompMouth.Pose(opening=1, shape=RoboCompMouth.Shape.wide))",
+        "print(self.parameters.motors[0].vel, self.parameters.camera.fps, self.parameters.period.compute)",
+        "print(len(self.parameters.motors), self.parameters.offsets.items(), self.parameters.device.upper())",
+        "self.parameters.camera.fps\nself.parameters.set('camera.fps', 3)\nself.parameters.set(path, 3)",
+        "self.parameters.set('offsets.a.vel', 1)\nself.parameters.set('speed', None)\nself.parameters.set('motors.0.vel', 2)",
+        "self.parameters.speed = 400\nself.parameters.speed += 1\nself.parameters.speed = speed",
+        "self.parameters.listen(self.on_change)\nself.on_change = None",
+        "self.events.start()\nself.events.stop(3)\nprint(self.statemachine.states, self.statemachine.is_in('talking'))",
+        "print(self.log, self.mutex, self.communicator, self.getPeriod(), self._own, self.Ear_hear, self.sm_silent)",
+        "class Other:\n    def f(self):\n        return self.anything\nprint(Other())",
+        "print('self.moth_proxy.close()')  # self.moth_proxy.close()",
+    ],
+)
+def test_what_is_right_or_too_dynamic_to_know(link: Link, body: str) -> None:
+    assert found(link(component("python", MACHINE)), worker(body)) == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "class SpecificWorker(GenericWorker, Foreign):\n    def compute(self):\n        self.a_proxy.go()\n",
+        "class SpecificWorker(GenericWorker, metaclass=Meta):\n    def compute(self):\n        self.a_proxy.go()\n",
+        "@decorated\nclass SpecificWorker(GenericWorker):\n    def compute(self):\n        self.a_proxy.go()\n",
+        "class Mixin:\n    a_proxy = None\n\nclass SpecificWorker(Mixin, GenericWorker):\n    def compute(self):\n        self.a_proxy.go()\n",
+        "class SpecificWorker(GenericWorker):\n    @property\n    def a_proxy(self):\n        return 1\n    def f(self):\n        self.a_proxy.go()\n",
+        "class SpecificWorker(GenericWorker):\n    def __getattr__(self, name):\n        return 1\n    def f(self):\n        self.a_proxy.go()\n",
+        "class SpecificWorker(GenericWorker):\n    @staticmethod\n    def f(self):\n        self.a_proxy.go()\n",
+        "class Other:\n    def compute(self):\n        self.a_proxy.go()\n",
+        "print 'Python 2'\nclass SpecificWorker(GenericWorker):\n    def f(self):\n        self.a_proxy.go()\n",
+        "\x00",
+        "",
+    ],
+)
+def test_classes_that_are_not_known(link: Link, text: str) -> None:
+    assert found(link(component("python")), {"specificworker.py": HEAD + text}) == []
+
+
+def test_all_files_that_the_worker_imports_are_read(link: Link) -> None:
+    linked = link(component("python"))
+    base = "\n\nclass Base(GenericWorker):\n    def helper(self):\n        self.mouth_proxy.shut()\n        self.later.go()\n"
+    main = "from base import Base\n\n\nclass SpecificWorker(Base):\n    def compute(self):\n        self.later = 1\n"
+    files = {"specificworker.py": main, "base.py": HEAD + base, "unused.py": "def f(:\n"}
+    assert found(linked, files) == [("RC6302", "shut")]
+
+
+def test_a_syntax_error_is_the_only_report(link: Link) -> None:
+    files = worker("self.moth_proxy.close()\nif True")
+    assert found(link(component("python")), files) == [("RC6317", "")]
+
+
+@pytest.mark.parametrize(
+    ("method", "code"),
+    [("Ear_haer", "RC6312"), ("Ear_", "RC6312"), ("sm_silnet", "RC6311"), ("sm_help", ""), ("Nose_x", "")],
+)
+def test_methods_that_nobody_calls(link: Link, method: str, code: str) -> None:
+    linked = link(component("python", MACHINE))
+    text = HEAD + CLASS + f"    def {method}(self):\n        pass\n"
+    assert found(linked, {"specificworker.py": text}) == ([(code, method)] if code else [])
+    used = text + f"\n    def compute(self):\n        self.{method}()\n"
+    assert found(linked, {"specificworker.py": used}) == []
+
+
+ROBOCOMP = """\
+from genericworker import *
+import interfaces as ifaces
+
+
+class SpecificWorker(GenericWorker):
+    def __init__(self, proxy_map, configData, startup_check=False):
+        super().__init__(proxy_map)
+        {in_init}
+
+    def setParams(self, params):
+        {in_params}
+        return True
+"""
+
+
+@pytest.mark.parametrize(
+    ("in_init", "in_params", "reported"),
+    [
+        ("pass", "self.a = params['spede']", [("RC6309", "spede")]),
+        ("self.a = configData['camera']['fsp']", "pass", [("RC6309", "fsp")]),
+        ("self.a = configData['camera']['fps'] + configData['Period']['Compute']", "pass", []),
+        ("pass", "self.a = params['speed'] + params['flat'] + params['Mouth.Endpoints'] + params['MouthProxy']", []),
+        ("pass", "self.a = params['spede'] if 'spede' in params else 1", []),
+        ("pass", "self.a = params.get('spede', 1)", []),
+        ("pass", "self.a = params[name]", []),
+        ("pass", "params['own'] = 1", []),
+        ("self.button.clicked.connect(self.x)", "self.mouth_proxy.shut()", [("RC6302", "shut")]),
+        ("self.nose_proxy = proxy_map['NoseProxy']", "self.nose_proxy.smell()", []),
+        ("self.nose_proxy.smell()", "pass", [("RC6301", "nose_proxy")]),
+        ("ifaces.RoboCompMouth.Pose(1, 2)", "ifaces.Path([ifaces.RoboCompMouth.Pos()])", [("RC6314", "Pos")]),
+        ("RoboCompMouth.Shape.oval", "Pose(1)", [("RC6315", "oval")]),
+        ("ifaces.RoboCompNose.A()", "pass", [("RC6313", "RoboCompNose")]),
+    ],
+)
+def test_code_for_robocomps_own_tool(link: Link, in_init: str, in_params: str, reported: list[tuple[str, str]]) -> None:
+    linked = link(component("python", "compatibility: robocomp\n"))
+    left = {"genericworker.py": "class GenericWorker: pass\n", "interfaces.py": "x = 1\n"}
+    files = {"specificworker.py": ROBOCOMP.format(in_init=in_init, in_params=in_params), **left}
+    assert found(linked, files, ("flat",)) == reported
