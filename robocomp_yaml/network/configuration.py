@@ -10,14 +10,14 @@ import os
 from collections.abc import Iterator
 
 import msgspec
-from msgspec.structs import replace
+from msgspec.structs import astuple, replace
 
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.link.program import LinkedParameters, LinkedValues, Program
+from robocomp_yaml.link.program import LinkedParameters, LinkedValues
 from robocomp_yaml.network.configuration_base import ConfigurationBase
 from robocomp_yaml.network.draft import Draft, LocatedText, listening
-from robocomp_yaml.parameters.layers.effective import document_faults
+from robocomp_yaml.parameters.layers.effective import document_faults, effective
 from robocomp_yaml.parameters.layers.merge import MergedValue, data_of, merged
 from robocomp_yaml.parameters.layers.overlay import overlay
 from robocomp_yaml.parameters.specification.document import ValuesDocument
@@ -31,6 +31,7 @@ from robocomp_yaml.parameters.writing.properties import (
 )
 from robocomp_yaml.parameters.writing.write import Property, Writer
 from robocomp_yaml.semantics import connections
+from robocomp_yaml.source.content import content
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, mapping_at, text_at
 
 _PARAMETERS = "What the deployment sets"
@@ -42,10 +43,28 @@ class Configuration(msgspec.Struct):
 
     draft: Draft
     base: ConfigurationBase
-    program: Program
     text: str | None = None
     secrets: tuple[str, ...] = ()
     diagnostics: list[Diagnostic] = []
+
+    def causes(self) -> tuple[object, ...]:
+        """What `make` depends on, as causes for a memory."""
+        draft, values = self.draft, self.base.values
+        entry, component = draft.instance.entry, draft.instance.component
+        own = component.parameters if component is not None else None
+        located: list[tuple[str, LocatedText]] = [*self._endpoints(), *draft.proxies.items(), *draft.topics.items()]
+        if draft.manager is not None:
+            located.append(("", draft.manager))
+        return (
+            self._file,
+            astuple(draft.span),
+            content(entry.settings) if entry.settings is not None else None,
+            values.causes() if values is not None else self.base.flat,
+            (own.parameters, own.document, own.broken) if own is not None else None,
+            len(draft.proxies),
+            len(draft.topics),
+            tuple((name, given.text, astuple(given.span)) for name, given in located),
+        )
 
     def make(self) -> None:
         values = self.base.values
@@ -80,7 +99,7 @@ class Configuration(msgspec.Struct):
         empty = ValuesDocument(self._file, mapping_at(self.draft.span, {}))
         below = LinkedValues(empty, (base,) if base is not None else (), linked)
         layer = replace(below, document=ValuesDocument(self._file, self._layer(linked, below)))
-        values, found = self.program.effective(layer)
+        values, found = effective(layer)
         self.diagnostics += found
         if values is None:
             return None

@@ -64,14 +64,22 @@ def derive(linked: LinkedDeployment, program: Program) -> tuple[Network, list[Di
             text: str | None = gates.program(draft)
             hidden: tuple[str, ...] = ()
         else:
-            configuration = Configuration(draft, base(draft), program)
-            configuration.make()
-            diagnostics += configuration.diagnostics
-            text, hidden = configuration.text, configuration.secrets
+            text, hidden, faults = _configuration(Configuration(draft, base(draft)), (linked.real, draft.name), program)
+            diagnostics += faults
         network.processes[draft.name] = processes.of_draft(draft, text, known, hidden)
     diagnostics += length_faults(linked, drafts, network)
     diagnostics += _put_in_order(network, needs)
     return network, diagnostics
+
+
+def _configuration(
+    configuration: Configuration, process: tuple[str, str], program: Program
+) -> tuple[str | None, tuple[str, ...], tuple[Diagnostic, ...]]:
+    def make() -> tuple[str | None, tuple[str, ...], tuple[Diagnostic, ...]]:
+        configuration.make()
+        return configuration.text, configuration.secrets, tuple(configuration.diagnostics)
+
+    return program.memory.result(("configuration", *process), configuration.causes(), make)
 
 
 def _explicit(drafts: Drafts, gates: Gates) -> Iterable[Dependence]:
