@@ -7,7 +7,9 @@ processes by what they depend on. `memory` explains how. The result is always th
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+import gc
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 
 from robocomp_yaml.api.workspace import Workspace
 from robocomp_yaml.memory import Memory
@@ -43,7 +45,8 @@ class LivingWorkspace:
     def look(self, *paths: str, on_read: Callable[[str], None] | None = None) -> Workspace:
         """The documents at these paths, which may be others than those of this workspace, and all that they refer to.
         Does not notice changes on the disk since the last `refresh` or `load`."""
-        return Workspace(paths, self.include, self.unsaved, on_read, self._memory, self._files)
+        with _uncollected():
+            return Workspace(paths, self.include, self.unsaved, on_read, self._memory, self._files)
 
     def load(self, on_read: Callable[[str], None] | None = None) -> Workspace:
         """All documents, as `api.load` reads them."""
@@ -51,3 +54,15 @@ class LivingWorkspace:
         workspace = self.look(*self.paths, on_read=on_read)
         self._memory.forget_unused()
         return workspace
+
+
+@contextmanager
+def _uncollected() -> Iterator[None]:
+    """Without the garbage collector, which would visit all kept documents while new ones are made."""
+    was_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_enabled:
+            gc.enable()
