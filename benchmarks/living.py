@@ -102,6 +102,7 @@ def edits(living: api.LivingWorkspace, path: str, runs: int, look: Callable[[], 
     for number in range(runs):
         living.edit(path, text.replace("# ", f"# {number} ", 1))
         took.append(cpu(lambda: look().check()))
+        gc.collect()
     living.edit(path, None)
     return took
 
