@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable
 
 from lsprotocol import types
 
-from robocomp_yaml.lsp.messages import path_of
+from robocomp_yaml.lsp import navigation
+from robocomp_yaml.lsp.messages import real_path
 from robocomp_yaml.lsp.server import Server, folders_of, watchers
 from robocomp_yaml.lsp.session import EditedText
 
@@ -32,18 +32,18 @@ def make(include: Iterable[str] = ()) -> Server:
     @server.feature(types.TEXT_DOCUMENT_DID_OPEN)
     async def opened(params: types.DidOpenTextDocumentParams) -> None:
         item = params.text_document
-        if path := _real(item.uri):
+        if path := real_path(item.uri):
             await server.edited(EditedText(item.uri, path, item.text, item.version))
 
     @server.feature(types.TEXT_DOCUMENT_DID_CHANGE)
     async def changed(params: types.DidChangeTextDocumentParams) -> None:
         item = params.text_document
-        if params.content_changes and (path := _real(item.uri)):
+        if params.content_changes and (path := real_path(item.uri)):
             await server.edited(EditedText(item.uri, path, params.content_changes[-1].text, item.version))
 
     @server.feature(types.TEXT_DOCUMENT_DID_CLOSE)
     async def closed(params: types.DidCloseTextDocumentParams) -> None:
-        if path := _real(params.text_document.uri):
+        if path := real_path(params.text_document.uri):
             await server.closed(path)
 
     @server.feature(types.TEXT_DOCUMENT_DID_SAVE)
@@ -56,8 +56,8 @@ def make(include: Iterable[str] = ()) -> Server:
 
     @server.feature(types.WORKSPACE_DID_CHANGE_WORKSPACE_FOLDERS)
     async def folders_changed(params: types.DidChangeWorkspaceFoldersParams) -> None:
-        added = [path for one in params.event.added if (path := _real(one.uri))]
-        removed = {path for one in params.event.removed if (path := _real(one.uri))}
+        added = [path for one in params.event.added if (path := real_path(one.uri))]
+        removed = {path for one in params.event.removed if (path := real_path(one.uri))}
 
         def change() -> None:
             server.session.folders[:] = [*(one for one in server.session.folders if one not in removed), *added]
@@ -69,7 +69,7 @@ def make(include: Iterable[str] = ()) -> Server:
         types.TEXT_DOCUMENT_CODE_ACTION, types.CodeActionOptions(code_action_kinds=[types.CodeActionKind.QuickFix])
     )
     async def actions(params: types.CodeActionParams) -> list[types.CodeAction]:
-        path, only = _real(params.text_document.uri) or "", params.context.only
+        path, only = real_path(params.text_document.uri) or "", params.context.only
 
         def job() -> list[types.CodeAction]:
             if path not in server.session.open or not (only is None or any("quickfix".startswith(one) for one in only)):
@@ -84,7 +84,7 @@ def make(include: Iterable[str] = ()) -> Server:
         from robocomp_yaml.api.formatting import layout
 
         def job() -> list[types.TextEdit]:
-            document = server.session.open.get(_real(params.text_document.uri) or "")
+            document = server.session.open.get(real_path(params.text_document.uri) or "")
             after = layout(document.path, document.raw)[0] if document is not None else None
             if document is None or not isinstance(after, bytes) or after == document.raw:
                 return []  # a broken document stays as it is
@@ -93,9 +93,5 @@ def make(include: Iterable[str] = ()) -> Server:
 
         return await server.run(job)
 
+    navigation.add(server)
     return server
-
-
-def _real(uri: str) -> str | None:
-    path = path_of(uri)
-    return os.path.realpath(path) if path else None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterable
 
 from lsprotocol import types
@@ -85,6 +86,12 @@ def _touches(one: types.Range, other: types.Range) -> bool:
 def path_of(uri: str) -> str | None:
     """The path of a document; None if it is no file."""
     return uris.to_fs_path(uri) if uri.startswith("file:") else None
+
+
+def real_path(uri: str) -> str | None:
+    """The real path of a document; None if it is no file."""
+    path = path_of(uri)
+    return os.path.realpath(path) if path else None
 
 
 def uri_of_path(path: str) -> str:

@@ -17,6 +17,7 @@ import msgspec
 from robocomp_yaml.api.living import LivingWorkspace
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.workspace import root_above
+from robocomp_yaml.lsp.names import Names
 from robocomp_yaml.source.discover import WORKSPACE_FILE, kind_of
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.spelled import DocumentTexts
@@ -42,6 +43,13 @@ class EditedText(msgspec.Struct):
         return self.text.encode("utf-8", "surrogatepass")  # half a pair is an error of the document, not of ours
 
 
+class KnownNames(msgspec.Struct, frozen=True):
+    """The names of a program, with the texts in which they are."""
+
+    names: Names
+    texts: DocumentTexts
+
+
 class OpenWorkspace:
     """A workspace with open documents. `root` is its folder, or the document itself if it belongs to none. `found` are
     its last diagnostics, and `texts` the texts that they refer to. `beyond` are those of open documents that only the
@@ -51,6 +59,7 @@ class OpenWorkspace:
         self.root, self.living = root, LivingWorkspace((root,), include)
         self.is_known = False  # whether it was analysed as a whole
         self.found: Found = {}
+        self.names: KnownNames | None = None
         self.texts = DocumentTexts({}, {})
         self.beyond: dict[str, list[tuple[Diagnostic, str]]] = {}
 
@@ -66,12 +75,14 @@ class Session:
 
     def edit(self, document: EditedText) -> None:
         """A document was opened or changed."""
+        self._forget_names()
         self.open[document.path] = document
         for workspace in self.workspaces.values():
             workspace.living.edit(document.path, document.raw)
 
     def close(self, path: str) -> list[str]:
         """A document was closed. Returns the paths whose diagnostics go with it."""
+        self._forget_names()
         self.open.pop(path, None)
         for workspace in self.workspaces.values():
             workspace.living.edit(path, None)
@@ -84,6 +95,7 @@ class Session:
 
     def refresh(self) -> None:
         """Files may have changed on the disk."""
+        self._forget_names()
         for workspace in self.workspaces.values():
             workspace.living.refresh()
 
@@ -128,6 +140,21 @@ class Session:
         line_of = _lines(analysis.texts, path)
         beyond = [one for one, line in workspace.beyond.get(path, []) if line_of(one) == line and one not in own]
         return [*own, *beyond], analysis.texts
+
+    def _forget_names(self) -> None:
+        for workspace in self.workspaces.values():
+            workspace.names = None
+
+    def names_around(self, path: str) -> KnownNames:
+        """The names of the workspace of a document, which are collected when they are asked for."""
+        workspace = self.workspace_of(path)
+        if workspace.names is None:
+            analysis = workspace.living.look(workspace.root).analysis
+            workspace.names = KnownNames(Names(analysis.program), analysis.texts)
+        return workspace.names
+
+    def names_everywhere(self) -> list[KnownNames]:
+        return [self.names_around(path) for path in {self.root_of(path): path for path in self.open}.values()]
 
     def of_workspace(self, root: str, is_cancelled: Callable[[], bool] = lambda: False) -> Found:
         """All diagnostics of a workspace, also of documents that had some before. Raises Cancelled."""

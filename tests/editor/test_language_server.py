@@ -275,3 +275,45 @@ def test_half_a_pair_and_a_long_line_do_not_end_it(ws: Path) -> None:
         assert found[0].range.start.line == 3
 
     edited(test)
+
+
+def test_names_are_found_across_documents_and_in_unsaved_texts(ws: Path) -> None:
+    interface, component = ws / "interfaces/Speech.idsl.yaml", ws / "speech/speech.cdsl.yaml"
+    named = types.TextDocumentIdentifier(component.as_uri())
+    text = COMPONENT.replace("component:", f"# {ROBOT}\ncomponent:").replace("implements: ", f"# {ROBOT}\nimplements: ")
+
+    async def test(editor: Editor) -> None:
+        await editor.start(ws)
+        editor.open(component)
+        editor.change(component, text)
+        editor.open(interface)
+        editor.change(interface, f"# {ROBOT}\n{SPEECH}")
+        there = types.Position(5, 15)
+        (where,) = [await editor.client.text_document_definition_async(types.DefinitionParams(named, there))]
+        assert isinstance(where, types.Location)
+        assert where.uri == interface.as_uri() and where.range == _at(3, 2, 8)
+        found = await editor.client.text_document_references_async(
+            types.ReferenceParams(types.ReferenceContext(True), named, there)
+        )
+        assert [(one.uri, one.range) for one in found or ()] == [
+            (interface.as_uri(), _at(3, 2, 8)), (component.as_uri(), _at(5, 13, 19)),
+        ]  # fmt: skip
+        shown = await editor.client.text_document_hover_async(types.HoverParams(named, there))
+        assert shown is not None and isinstance(shown.contents, types.MarkupContent)
+        assert "interface RoboCompSpeech.Speech" in shown.contents.value and "used once" in shown.contents.value
+        assert (
+            await editor.client.text_document_definition_async(types.DefinitionParams(named, types.Position(0, 0)))
+            is None
+        )
+
+        symbols = await editor.client.text_document_document_symbol_async(
+            types.DocumentSymbolParams(types.TextDocumentIdentifier(interface.as_uri()))
+        )
+        assert [one.name for one in symbols or ()] == ["RoboCompSpeech", "Speech"]
+        inner = [one for one in symbols or () if isinstance(one, types.DocumentSymbol)][1].children
+        assert [one.name for one in inner or ()] == ["say"]
+        everywhere = await editor.client.workspace_symbol_async(types.WorkspaceSymbolParams("spcomp"))
+        assert [one.name for one in everywhere or ()] == ["SpeechComp"]
+        assert not editor.messages
+
+    edited(test)
