@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from lsprotocol import types
 
-from robocomp_yaml.lsp import navigation
+from robocomp_yaml.lsp import completion, navigation
 from robocomp_yaml.lsp.messages import real_path
 from robocomp_yaml.lsp.server import Server, folders_of, watchers
 from robocomp_yaml.lsp.session import EditedText
@@ -94,4 +94,5 @@ def make(include: Iterable[str] = ()) -> Server:
         return await server.run(job)
 
     navigation.add(server)
+    completion.add(server)
     return server

@@ -16,6 +16,7 @@ import msgspec
 
 from robocomp_yaml.api.living import LivingWorkspace
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.workspace import root_above
 from robocomp_yaml.lsp.names import Names
 from robocomp_yaml.source.discover import WORKSPACE_FILE, kind_of
@@ -48,6 +49,7 @@ class KnownNames(msgspec.Struct, frozen=True):
 
     names: Names
     texts: DocumentTexts
+    linker: Linker
 
 
 class OpenWorkspace:
@@ -150,8 +152,13 @@ class Session:
         workspace = self.workspace_of(path)
         if workspace.names is None:
             analysis = workspace.living.look(workspace.root).analysis
-            workspace.names = KnownNames(Names(analysis.program), analysis.texts)
+            workspace.names = KnownNames(Names(analysis.program), analysis.texts, analysis.linker)
         return workspace.names
+
+    def importable(self, path: str) -> list[str]:
+        """The names of the documents that a document can import."""
+        linker = self.names_around(path).linker
+        return linker.search.known(path, linker.workspace_of(path))
 
     def names_everywhere(self) -> list[KnownNames]:
         return [self.names_around(path) for path in {self.root_of(path): path for path in self.open}.values()]

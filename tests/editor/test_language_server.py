@@ -317,3 +317,25 @@ def test_names_are_found_across_documents_and_in_unsaved_texts(ws: Path) -> None
         assert not editor.messages
 
     edited(test)
+
+
+def test_names_are_completed_with_their_import(ws: Path) -> None:
+    component = ws / "speech/speech.cdsl.yaml"
+    named = types.TextDocumentIdentifier(component.as_uri())
+    text = f"component: SpeechComp\nlanguage: python\nimplements: [{ROBOT}, Sp"
+
+    async def test(editor: Editor) -> None:
+        await editor.start(ws)
+        editor.open(component, text)
+        found = await editor.client.text_document_completion_async(
+            types.CompletionParams(named, types.Position(2, len("implements: [") + 6))
+        )
+        assert isinstance(found, (list, tuple))
+        (item,) = found
+        assert item.label == "Speech" and item.detail == "interface RoboCompSpeech.Speech, imports Speech"
+        assert isinstance(item.text_edit, types.TextEdit) and item.text_edit.range == _at(2, 17, 19)
+        (more,) = item.additional_text_edits or ()
+        assert more.new_text == "\nimports: [Speech]" and more.range == _at(1, 16, 16)
+        assert not editor.messages
+
+    edited(test)
