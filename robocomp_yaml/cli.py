@@ -40,6 +40,7 @@ COMMANDS = {
     "config": "Check, show, change and export the values of parameters.",
     "graph": "Draw a deployment, or the components of a folder.",
     "deploy": "Run a network of components: plan, up, status, logs, down.",
+    "lsp": "Serve editors: diagnostics as you type, fixes, formatting.",
     "schema": "Print the JSON Schema of a kind of document.",
     "explain": "Explain a diagnostic, with examples.",
 }

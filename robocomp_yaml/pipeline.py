@@ -32,10 +32,11 @@ from robocomp_yaml.link.documents import Documents
 from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.link.workspace import ImportSearch
+from robocomp_yaml.memory import Memory
 from robocomp_yaml.network.networks import DerivedNetworks, networks_of
 from robocomp_yaml.source.allowances import Allowance
 from robocomp_yaml.source.discover import WORKSPACE_FILE, DiscoveredDocuments, discover
-from robocomp_yaml.source.disk import Disk
+from robocomp_yaml.source.disk import Disk, Files
 from robocomp_yaml.source.spelled import DocumentTexts, spelled
 
 if TYPE_CHECKING:
@@ -109,12 +110,17 @@ def analyse(
     include: Iterable[str] = (),
     on_read: Callable[[str], None] | None = None,
     overlay: Mapping[str, bytes] | None = None,
+    memory: Memory | None = None,
+    files: Files | None = None,
 ) -> Analysis:
     """The analysis of the documents at these paths. `include` are folders to search for imports; `on_read` is called
-    with the path of each document that is read. `overlay` has contents by path that replace those on the disk."""
-    disk = Disk(overlay)
+    with the path of each document that is read. `overlay` has contents by path that replace those on the disk. `memory`
+    has what earlier analyses computed; the result is the same without it. `files` are the files of the disk."""
+    disk = Disk(overlay, files)
+    memory = memory if memory is not None else Memory()
     discovered = discover(list(paths), disk)
-    linker = Linker(Documents(disk, on_read or (lambda path: None)), ImportSearch(search_folders(include), disk))
+    documents = Documents(disk, on_read or (lambda path: None), memory=memory)
+    linker = Linker(documents, ImportSearch(search_folders(include), disk))
     program = linker.link(discovered.documents)
     addresses = Addresses(linker, program)
     derived = networks_of(program, addresses)

@@ -128,7 +128,8 @@ class FlatValues:
 
 def flat_values(flat: FlatConfig, linked: LinkedParameters, component: LinkedComponent | None) -> FlatValues:
     """The values of a flat config, which are read once for its parameters."""
-    return linked.once((flat.path, flat.text), lambda: FlatValues(flat, linked, component))
+    ports = tuple(port.name for port in component.ports) if component is not None else None
+    return linked.once((flat.path, flat.text, ports), lambda: FlatValues(flat, linked, component))
 
 
 class _Reader(PropertyReader):

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from robocomp_yaml.api.compiling import Compilation
     from robocomp_yaml.api.deploying import Deployment
     from robocomp_yaml.api.fixing import Fixing
+    from robocomp_yaml.api.living import LivingWorkspace
     from robocomp_yaml.api.migrating import Migration
     from robocomp_yaml.api.outcome import File, Outcome
     from robocomp_yaml.api.values import Change, Values
@@ -41,13 +42,14 @@ if TYPE_CHECKING:
 
 __all__ = [
     "ERROR", "NOTE", "WARNING", "Attached", "Built", "Change", "Compilation", "Deployment", "Diagnostic", "Faulty",
-    "File", "Fixing", "Line", "Migration", "Network", "Outcome", "Plan", "Refused", "Related", "Result", "Span",
-    "Status", "Value", "Values", "Workspace", "load", "migrate",
+    "File", "Fixing", "Line", "LivingWorkspace", "Migration", "Network", "Outcome", "Plan", "Refused", "Related",
+    "Result", "Span", "Status", "Value", "Values", "Workspace", "follow", "load", "migrate",
 ]  # fmt: skip
 
 _HOMES = {
     "api.building": "Built", "api.compiling": "Compilation", "api.deploying": "Deployment", "api.fixing": "Fixing",
-    "api.migrating": "Migration", "api.outcome": "File Outcome", "api.values": "Change Values",
+    "api.living": "LivingWorkspace", "api.migrating": "Migration",
+    "api.outcome": "File Outcome", "api.values": "Change Values",
     "api.workspace": "Workspace", "deploy.attached": "Attached", "deploy.engine": "Line",
     "deploy.operations": "Result Status", "deploy.plan": "Plan", "network.network": "Network",
     "parameters.editing.show": "Value",
@@ -69,6 +71,14 @@ def load(
 
     texts = {path: text.encode() if isinstance(text, str) else text for path, text in (overlay or {}).items()}
     return Workspace(paths or (".",), tuple(include), texts, on_read)
+
+
+def follow(*paths: str, include: Iterable[str] = ()) -> LivingWorkspace:
+    """The same documents, for programs that analyse them again and again while they change, such as editors: each
+    analysis redoes only what depends on a change."""
+    from robocomp_yaml.api.living import LivingWorkspace
+
+    return LivingWorkspace(paths or (".",), include)
 
 
 def migrate(

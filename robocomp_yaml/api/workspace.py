@@ -19,7 +19,9 @@ if TYPE_CHECKING:
     from robocomp_yaml.api.values import Values
     from robocomp_yaml.building.job import BuildEvent
     from robocomp_yaml.emit.graphs.picture import Picture
+    from robocomp_yaml.memory import Memory
     from robocomp_yaml.network.network import Network
+    from robocomp_yaml.source.disk import Files
 
 
 class Workspace:
@@ -31,10 +33,10 @@ class Workspace:
 
     def __init__(
         self, paths: Sequence[str], include: Sequence[str], overlay: Mapping[str, bytes],
-        on_read: Callable[[str], None] | None = None,
+        on_read: Callable[[str], None] | None = None, memory: Memory | None = None, files: Files | None = None,
     ) -> None:  # fmt: skip
-        self._paths, self._include, self._overlay = tuple(paths), tuple(include), overlay
-        self.analysis: Analysis = analyse(self._paths, self._include, on_read, overlay)
+        self._paths, self._include, self._overlay, self._memory = tuple(paths), tuple(include), overlay, memory
+        self.analysis: Analysis = analyse(self._paths, self._include, on_read, overlay, memory, files)
 
     @property
     def documents(self) -> tuple[str, ...]:
@@ -89,7 +91,7 @@ class Workspace:
         from robocomp_yaml.api.fixing import Fixing
 
         def load(changed: Mapping[str, bytes]) -> Workspace:
-            return Workspace(self._paths, self._include, {**self._overlay, **changed})
+            return Workspace(self._paths, self._include, {**self._overlay, **changed}, memory=self._memory)
 
         return Fixing(self, load, self._paths, unsafe=unsafe, environment=environment, code=code)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import click
 
@@ -16,6 +16,7 @@ from robocomp_yaml.diag.render.json import dumps, fix_as_data, run_as_data
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.fixing import Fixing
+    from robocomp_yaml.api.workspace import Workspace
     from robocomp_yaml.fixing import AttemptedFix
 
 
@@ -26,13 +27,14 @@ if TYPE_CHECKING:
 @click.option("--fix", is_flag=True, help="Apply the fixes that leave only one possible meaning.")
 @click.option("--unsafe-fixes", is_flag=True, help="Apply the other fixes too, which are guesses.")
 @click.option("--diff", is_flag=True, help="Show what the fixes would change; write nothing.")
+@click.option("--watch", is_flag=True, help="Check again after each change, until Ctrl-C.")
 @_options.fail_on
 @_options.include
 @_options.format_
 @click.pass_context
 def command(
     ctx: click.Context, paths: tuple[str, ...], environment: bool, code: bool, fix: bool, unsafe_fixes: bool,
-    diff: bool, fail_on: _options.FailOn, include: tuple[str, ...], format_: str,
+    diff: bool, watch: bool, fail_on: _options.FailOn, include: tuple[str, ...], format_: str,
 ) -> None:  # fmt: skip
     """Report everything that is wrong with the documents at PATHS (by default, below this folder).
 
@@ -41,6 +43,10 @@ def command(
     from robocomp_yaml import api
 
     paths = paths or (".",)
+    if watch:
+        if fix or unsafe_fixes or diff or format_ != "text":
+            raise click.UsageError("--watch prints text, and applies no fixes", ctx)
+        _watch(ctx, paths, include, fail_on, environment=environment)
     if fix or unsafe_fixes or diff:
         fixing = api.load(*paths, include=include).fix(unsafe=unsafe_fixes, environment=environment, code=code)
         _fix(ctx, fixing, format_, fail_on, look_only=diff)
@@ -48,6 +54,21 @@ def command(
         workspace = api.load(*paths, include=include, on_read=on_read)
     diagnostics = workspace.check(environment=environment, code=code)
     _options.report(ctx, format_, diagnostics, workspace.documents_read, fail_on)
+
+
+def _watch(
+    ctx: click.Context, paths: tuple[str, ...], include: tuple[str, ...], fail_on: _options.FailOn, *, environment: bool
+) -> NoReturn:
+    from robocomp_yaml.commands import _watching
+
+    def run(workspace: Workspace) -> tuple[()]:
+        diagnostics = workspace.check(environment=environment)
+        if ctx.obj.verbosity >= 0 or diagnostics:
+            tell("text", diagnostics, workspace.documents_read, _options.colored(ctx))
+        fail_on.explain(diagnostics)
+        return ()
+
+    _watching.watch(ctx, paths, include, run)
 
 
 def _fix(ctx: click.Context, fixing: Fixing, format_: str, fail_on: _options.FailOn, *, look_only: bool) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections import Counter
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import click
 
@@ -18,6 +18,7 @@ from robocomp_yaml.diag.render import tell
 from robocomp_yaml.diag.render.json import dumps, run_as_data
 
 if TYPE_CHECKING:
+    from robocomp_yaml.api.workspace import Workspace
     from robocomp_yaml.plugins import Plugins
 
 SHOWN = 6  # files of a folder with the same action that are listed; if there are more, their number is printed
@@ -46,6 +47,7 @@ def _targets(plugins: Plugins) -> list[str]:
 @click.option("--diff", is_flag=True, help="Show what would change in each file; write nothing.")
 @click.option("--check", is_flag=True, help="Write nothing; exit with 1 if anything would change (for CI).")
 @click.option("--adopt", is_flag=True, help="Overwrite files that rcyaml did not write; keep them as .orig.")
+@click.option("--watch", is_flag=True, help="Compile again after each change, until Ctrl-C.")
 @click.option("--merge", is_flag=True, help="Update your files in src/ by a three-way merge.")
 @_options.fail_on
 @_options.include
@@ -53,7 +55,7 @@ def _targets(plugins: Plugins) -> list[str]:
 @click.pass_context
 def command(
     ctx: click.Context, paths: tuple[str, ...], output: str | None, standalone: bool, targets: tuple[str, ...],
-    dry_run: bool, diff: bool, check: bool, adopt: bool, merge: bool, fail_on: _options.FailOn,
+    dry_run: bool, diff: bool, check: bool, adopt: bool, merge: bool, watch: bool, fail_on: _options.FailOn,
     include: tuple[str, ...], format_: str,
 ) -> None:  # fmt: skip
     """Compile the documents at PATHS (by default, below this folder).
@@ -66,6 +68,22 @@ def command(
 
     paths = paths or (".",)
     look_only = dry_run or diff or check
+    if watch:
+        if look_only or format_ != "text":
+            raise click.UsageError(
+                "--watch writes files and prints text: it needs no --dry-run, --diff, --check, --format"
+            )
+        _watch(
+            ctx,
+            paths,
+            include,
+            fail_on,
+            output=output,
+            targets=targets,
+            adopt=adopt,
+            merge=merge,
+            standalone=standalone,
+        )
     outcome = None
     if not (diff or merge or ctx.obj.verbosity > 0):
         arguments = compile_stamps.CompileArguments(paths, include, output, targets, standalone)
@@ -80,10 +98,32 @@ def command(
     _report(ctx, outcome, format_, fail_on, diff=diff, check=check)
 
 
+def _watch(
+    ctx: click.Context, paths: tuple[str, ...], include: tuple[str, ...], fail_on: _options.FailOn, **how: Any
+) -> NoReturn:
+    from robocomp_yaml.commands import _watching
+
+    def run(workspace: Workspace) -> list[str]:
+        outcome = workspace.compile(**how).apply()
+        _tell(ctx, outcome, "text", fail_on)
+        return [file.path for file in outcome.files if file.action in WRITTEN]
+
+    _watching.watch(ctx, paths, include, run)
+
+
 def _report(
     ctx: click.Context, outcome: Outcome, format_: str, fail_on: _options.FailOn, *, diff: bool, check: bool
 ) -> None:  # fmt: skip
-    """Prints what was done to the files and the diagnostics, and ends the command."""
+    """Prints what was done, and ends the command."""
+    _tell(ctx, outcome, format_, fail_on, diff=diff, check=check)
+    ctx.exit(1 if check and outcome.dirty else fail_on.code(outcome.diagnostics))
+
+
+def _tell(
+    ctx: click.Context, outcome: Outcome, format_: str, fail_on: _options.FailOn, *, diff: bool = False,
+    check: bool = False,
+) -> None:  # fmt: skip
+    """Prints what was done to the files and the diagnostics."""
     diagnostics, color = outcome.diagnostics, _options.colored(ctx)
     if format_ == "json":
         files = [
@@ -104,7 +144,6 @@ def _report(
         if ctx.obj.verbosity >= 0 and not diff:
             terminal.say(*_skipped(outcome), _summary(outcome), *_to_build(outcome))
         fail_on.explain(diagnostics)
-    ctx.exit(1 if check and outcome.dirty else fail_on.code(diagnostics))
 
 
 def _listed(outcome: Outcome, verbose: bool) -> Iterator[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import AbstractContextManager, nullcontext
+from functools import partial
 
 import msgspec
 from msgspec.structs import replace
@@ -120,8 +121,12 @@ def schemas(linked: LinkedComponent) -> Iterator[FilePlan]:
     served = [port.name for port in linked.implements] + [f"{port.name}Topic" for port in linked.subscribes]
     ports = {"endpoints": [*served, "CommonBehavior"], "proxies": [port.name for port in linked.requires]}
     parameters, name = linked.parameters.parameters, linked.component.name
+
+    def text(mode: str) -> str:
+        return _one_line_per_key(document_schema(parameters, name, ports, mode))
+
     for path, mode in ((SCHEMA, DOCUMENT), (EFFECTIVE_SCHEMA, EFFECTIVE)):
-        yield FilePlan(path, _one_line_per_key(document_schema(parameters, name, ports, mode)))
+        yield FilePlan(path, linked.parameters.once(f"schema {mode} {name} {ports}", partial(text, mode)))
 
 
 def _one_line_per_key(schema: dict[str, object]) -> str:
@@ -142,8 +147,10 @@ def _docs(linked: LinkedComponent) -> Iterator[FilePlan]:
         "# An example with every parameter and its possible values. The first line of your document names the schema "
         "beside this file."
     )
-    yield FilePlan(DOCS, reference(parameters, linked.component.name))
-    yield FilePlan(EXAMPLE, new_document(parameters, f"../{document}", head, []))
+    once, name = linked.parameters.once, linked.component.name
+    yield FilePlan(DOCS, once(f"reference {name}", lambda: reference(parameters, name)))
+    text = once(f"example {document}", lambda: new_document(parameters, f"../{document}", head, []))
+    yield FilePlan(EXAMPLE, text)
 
 
 def component_root(path: str, options: EmitOptions) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Sequence
+from typing import Any
 
 import msgspec
 
@@ -21,6 +22,7 @@ from robocomp_yaml.model.component import Component
 from robocomp_yaml.model.interface import Literal
 from robocomp_yaml.parameters.resolution.resolve import leaves_types_unknown, of_no_document, resolve
 from robocomp_yaml.parameters.specification.document import ParameterDocument, ValuesDocument
+from robocomp_yaml.parameters.types import Parameters
 from robocomp_yaml.source.discover import kind_of, of_kind
 from robocomp_yaml.source.disk import Disk
 
@@ -35,6 +37,7 @@ class Attachments(msgspec.Struct):
     tables: Tables
     root_of: Callable[[str], str]
     diagnostics: list[Diagnostic] = []
+    _references: References = References(Disk())
     _parameters_of: dict[str, list[tuple[str, Span]]] = {}  # by component: its parameter documents
     _component_of: dict[str, str] = {}  # by parameter or values document: what `component:` names
     _extends: dict[str, list[str]] = {}
@@ -44,9 +47,8 @@ class Attachments(msgspec.Struct):
     def _disk(self) -> Disk:
         return self.documents.disk
 
-    @property
-    def _references(self) -> References:
-        return References(self._disk)
+    def __post_init__(self) -> None:
+        self._references = References(self._disk)
 
     def follow(self, document: Document) -> Iterator[Document]:
         """Yields the documents that a document refers to, and reports references that cannot be resolved."""
@@ -111,7 +113,7 @@ class Attachments(msgspec.Struct):
     def _is_named(self, document: Document, folder: str, name: str) -> bool:
         """Whether `component:` refers to this component by path, or by name, which `_follow_reference` reports."""
         names = (document.component, references.stem(document.path))
-        return name in names or os.path.realpath(os.path.join(folder, name)) == document.real
+        return name in names or self._disk.real(os.path.join(folder, name)) == document.real
 
     def _follow_reference(self, document: Document, model: ParameterDocument | ValuesDocument) -> Iterator[Document]:
         """The component (or, for values, the parameters) that `component:` names. Parameters of a component without a
@@ -190,9 +192,9 @@ class Attachments(msgspec.Struct):
         self.diagnostics += self._elsewhere()
         for document in list(self.documents.read.values()):
             if isinstance(document.model, ParameterDocument) and document.real not in self.tables.parameters:
-                parameters, faults = resolve(document.model)
+                parameters, faults, made = self._resolved("", document.model)
                 self.diagnostics += faults
-                linked = LinkedParameters(parameters, document.model, broken=leaves_types_unknown(faults))
+                linked = LinkedParameters(parameters, document.model, leaves_types_unknown(faults), made)
                 self.tables.parameters[document.real] = linked
                 self.diagnostics += self._unclaimed(document.model)
         self._join_layers()
@@ -213,7 +215,7 @@ class Attachments(msgspec.Struct):
         """Reports parameters that name no component, beside a component without parameters."""
         folder = os.path.dirname(document.path)
         beside = self._references.beside(folder, "cdsl")
-        component = self.tables.components.get(os.path.realpath(beside[0])) if len(beside) == 1 else None
+        component = self.tables.components.get(self._disk.real(beside[0])) if len(beside) == 1 else None
         if component is not None and not document.component and component.parameters.document is None:
             yield codes.UNCLAIMED.at(
                 document.span,
@@ -238,18 +240,31 @@ class Attachments(msgspec.Struct):
         period = component.component.period
         document = self.documents.read[reals[0]].model if reals else None
         if reals and not isinstance(document, ParameterDocument):
-            own = LinkedParameters(of_no_document(period), component=component, broken=True)
+            own = self._without_document(component, broken=True)
             tie(component, parameters=own, broken=True)
         elif isinstance(document, ParameterDocument):
-            parameters, faults = resolve(document, period)
+            parameters, faults, made = self._resolved(real, document, period)
             self.diagnostics += faults
             broken = leaves_types_unknown(faults)
-            own = LinkedParameters(parameters, document, broken, component=component)
+            own = LinkedParameters(parameters, document, broken, made, component=component)
             tie(component, parameters=own, broken=component.broken or broken)
             self.tables.parameters.setdefault(reals[0], component.parameters)
         else:
-            broken = component.parameters.broken
-            tie(component, parameters=LinkedParameters(of_no_document(period), None, broken, component=component))
+            tie(component, parameters=self._without_document(component, broken=component.parameters.broken))
+
+    def _resolved(
+        self, component: str, document: ParameterDocument, period: int | None = None
+    ) -> tuple[Parameters, list[Diagnostic], dict[str, Any]]:
+        """The parameters of a document for a component, their problems, and what is made of them once."""
+        part, causes = ("parameters", component, document.path), (document, period)
+        return self.documents.memory.result(part, causes, lambda: (*resolve(document, period), {}))
+
+    def _without_document(self, component: LinkedComponent, *, broken: bool) -> LinkedParameters:
+        period = component.component.period
+        parameters, made = self.documents.memory.result(
+            ("no parameters", period), (), lambda: (of_no_document(period), dict[str, Any]())
+        )
+        return LinkedParameters(parameters, None, broken, made, component=component)
 
     def _join_layers(self) -> None:
         values = self.tables.values
@@ -266,9 +281,9 @@ class Attachments(msgspec.Struct):
                     tie(values[other], is_extended=True)
         for linked in values.values():
             home = self._references.components_of(linked.document.path)
-            components = [found for path in home if (found := self.tables.components.get(os.path.realpath(path)))]
+            components = [found for path in home if (found := self.tables.components.get(self._disk.real(path)))]
             for base in reversed(linked.layers()):  # its own component, or that of its nearest layer
-                target = self._component_of.get(os.path.realpath(base.document.path))
+                target = self._component_of.get(self._disk.real(base.document.path))
                 if target is not None:
                     tie(linked, parameters=self._parameters(target, components))
                     break

@@ -28,9 +28,10 @@ class ReferenceHint(msgspec.Struct, frozen=True):
 
 
 class References(msgspec.Struct, frozen=True):
-    """Resolves references to documents on a disk."""
+    """Resolves references to documents on a disk, whose folders are read once."""
 
     disk: Disk
+    _beside: dict[tuple[str, str], list[str]] = {}
 
     def is_document(self, path: str, kinds: tuple[str, ...]) -> bool:
         if os.path.basename(path) == "config.yaml" and self.disk.has_file(path):
@@ -39,8 +40,10 @@ class References(msgspec.Struct, frozen=True):
 
     def beside(self, folder: str, kind: str) -> list[str]:
         """The documents of a kind in a folder, sorted."""
-        paths = (os.path.normpath(os.path.join(folder, name)) for name in self.disk.documents(folder))
-        return [path for path in paths if self.is_document(path, (kind,))]
+        if (folder, kind) not in self._beside:
+            paths = (os.path.normpath(os.path.join(folder, name)) for name in self.disk.documents(folder))
+            self._beside[folder, kind] = [path for path in paths if self.is_document(path, (kind,))]
+        return self._beside[folder, kind]
 
     def components_of(self, values: str) -> list[str]:
         """The component documents of which a path is `etc/config.yaml`; none for other paths."""

@@ -171,4 +171,4 @@ def too_large(deployments: Mapping[str, Deployment], disk: Disk) -> dict[str, Di
 def _included(model: Deployment, disk: Disk) -> Iterator[str]:
     """The real paths of the documents that a document includes, with repetitions."""
     for path in filter(None, (paths.include_path(model, include.text, disk) for include in model.all_includes)):
-        yield os.path.realpath(path)
+        yield disk.real(path)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib
-import os
 from collections.abc import Callable, Iterator
 from functools import cache
 from typing import TYPE_CHECKING
@@ -12,6 +11,7 @@ import msgspec
 
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
+from robocomp_yaml.memory import Memory
 from robocomp_yaml.model import build_interface
 from robocomp_yaml.plugins import NONE, Plugins
 from robocomp_yaml.source import schema
@@ -50,9 +50,12 @@ def builder(kind: str) -> Callable[[Mapping, str], Model]:
 def read_tree(path: str, disk: Disk) -> tuple[Node | None, list[Diagnostic]]:
     """The tree of a YAML file, None if it cannot be read, decoded or parsed, and diagnostics."""
     raw, diagnostics = disk.read(path)
-    text, in_text = decode(path, raw) if raw is not None else (None, [])
-    tree, in_tree = parse(path, text) if text is not None else (None, [])
-    return tree, [*diagnostics, *in_text, *in_tree]
+    return _tree_of(path, raw) if raw is not None else (None, diagnostics)
+
+
+def _tree_of(path: str, raw: bytes) -> tuple[Node | None, list[Diagnostic]]:
+    text, diagnostics = decode(path, raw)
+    return parse(path, text) if text is not None else (None, diagnostics)
 
 
 class Document(msgspec.Struct, frozen=True, eq=False):
@@ -71,11 +74,12 @@ class Document(msgspec.Struct, frozen=True, eq=False):
 
 class Documents(msgspec.Struct):
     """The documents of a run by real path, with the diagnostics of each by itself. `plugins_of` returns the plug-ins of
-    a document's workspace; `on_read` is called with the path of each document."""
+    a document's workspace; `on_read` is called with the path of each document. `memory` keeps documents by content."""
 
     disk: Disk = msgspec.field(default_factory=Disk)
     on_read: Callable[[str], None] = lambda path: None
     plugins_of: Callable[[str], Plugins] = lambda path: NONE
+    memory: Memory = msgspec.field(default_factory=Memory)
     read: dict[str, Document] = {}
     diagnostics: list[Diagnostic] = []
     _glanced: dict[str, tuple[Document, list[Diagnostic]]] = {}
@@ -91,7 +95,7 @@ class Documents(msgspec.Struct):
 
     def glance(self, path: str, kind: str = "") -> Document:
         """The document at a path, which may be no part of the run: its diagnostics are not reported before `get`."""
-        real = os.path.realpath(path)
+        real = self.disk.real(path)
         document = self.read.get(real)
         if document is not None:
             return document
@@ -104,33 +108,46 @@ class Documents(msgspec.Struct):
         return {document.path: document.tree for document in self.read.values()}
 
     def _load(self, path: str, real: str, kind: str) -> tuple[Document, list[Diagnostic]]:
-        """Decodes, parses, validates and builds, until a pass reports an error."""
-        tree, diagnostics = read_tree(path, self.disk)
-        if tree is None:
+        raw, diagnostics = self.disk.read(path)
+        if raw is None:
             return Document(path, real, kind), diagnostics
-        misfits = self._misfits(path, kind, tree)
-        model = None
-        if not has_errors(misfits):
-            assert isinstance(tree, Mapping)
-            model = builder(kind)(tree, path)
-        module, component = text_at_top(tree, "module"), text_at_top(tree, COMPONENT)
-        diagnostics += (misfit for misfit in misfits if not self._is_of_a_plugin(path, kind, tree, misfit))
-        return Document(path, real, kind, model, module, component, tree), diagnostics
+        plugins = self.plugins_of(path) if kind in MARKED else NONE
+        causes = raw, plugins.languages, plugins.whole
+        return self.memory.result(
+            ("document", path, real, kind), causes, lambda: _made(Document(path, real, kind), raw, plugins)
+        )
 
-    def _is_of_a_plugin(self, path: str, kind: str, tree: Node, misfit: Diagnostic) -> bool:
-        """Whether an unknown language may be that of a plug-in that cannot be loaded, which is reported already."""
-        if kind not in MARKED or not isinstance(tree, Mapping) or self.plugins_of(path).whole:
-            return False
-        language = tree.get("language")
-        return misfit.code == codes.WRONG_SHAPE.id and language is not None and language.span.holds(misfit.span)
 
-    def _misfits(self, path: str, kind: str, tree: Node) -> list[Diagnostic]:
-        """Validates a document by the schema of its kind."""
-        more = self.plugins_of(path).languages if kind in MARKED else ()
-        diagnostics = schema.validate(kind, tree, more)
-        if not diagnostics and kind == "idsl" and isinstance(tree, Mapping):
-            diagnostics = list(_kinds_of_types(tree))
-        return diagnostics
+def _made(document: Document, raw: bytes, plugins: Plugins) -> tuple[Document, list[Diagnostic]]:
+    """Decodes, parses, validates and builds, until a pass reports an error."""
+    path, kind = document.path, document.kind
+    tree, diagnostics = _tree_of(path, raw)
+    if tree is None:
+        return document, diagnostics
+    misfits = _misfits(kind, tree, plugins)
+    model = None
+    if not has_errors(misfits):
+        assert isinstance(tree, Mapping)
+        model = builder(kind)(tree, path)
+    module, component = text_at_top(tree, "module"), text_at_top(tree, COMPONENT)
+    diagnostics += (misfit for misfit in misfits if not _is_of_a_plugin(kind, tree, misfit, plugins))
+    return Document(path, document.real, kind, model, module, component, tree), diagnostics
+
+
+def _is_of_a_plugin(kind: str, tree: Node, misfit: Diagnostic, plugins: Plugins) -> bool:
+    """Whether an unknown language may be that of a plug-in that cannot be loaded, which is reported already."""
+    if kind not in MARKED or not isinstance(tree, Mapping) or plugins.whole:
+        return False
+    language = tree.get("language")
+    return misfit.code == codes.WRONG_SHAPE.id and language is not None and language.span.holds(misfit.span)
+
+
+def _misfits(kind: str, tree: Node, plugins: Plugins) -> list[Diagnostic]:
+    """Validates a document by the schema of its kind."""
+    diagnostics = schema.validate(kind, tree, plugins.languages)
+    if not diagnostics and kind == "idsl" and isinstance(tree, Mapping):
+        diagnostics = list(_kinds_of_types(tree))
+    return diagnostics
 
 
 def _kinds_of_types(tree: Mapping) -> Iterator[Diagnostic]:

@@ -142,7 +142,7 @@ class Expansion(msgspec.Struct):
             components = paths.component_paths(part.document, entry.target.text, self.disk)
             if len(components) == 1:
                 component = components[0]
-                tie(linked, component=self.tables.components.get(os.path.realpath(component)))
+                tie(linked, component=self.tables.components.get(self.disk.real(component)))
             tie(linked, broken=linked.broken or linked.component is None)
         tie(linked, folder=paths.entry_folder(part.document, entry, component))
         config = self._config(part.document, linked)
@@ -157,7 +157,7 @@ class Expansion(msgspec.Struct):
     def _config(self, document: Deployment, linked: LinkedInstance) -> str:
         if linked.entry.config is None:
             default = paths.joined(linked.folder, os.path.join("etc", "config.yaml"))
-            return default if linked.component is not None and os.path.realpath(default) in self.tables.values else ""
+            return default if linked.component is not None and self.disk.real(default) in self.tables.values else ""
         candidates = paths.config_paths(document, linked.folder, linked.entry.config.text)
         config = next((path for path in candidates if self.disk.has_file(path)), "")
         tie(linked, broken=linked.broken or not config)
@@ -166,7 +166,7 @@ class Expansion(msgspec.Struct):
     def _link_values(
         self, part: ExpandedDocument, linked: LinkedInstance, component: LinkedComponent, path: str
     ) -> None:
-        values = self.tables.values.get(os.path.realpath(path))
+        values = self.tables.values.get(self.disk.real(path))
         tie(linked, values=values)
         if values is None:
             tie(linked, broken=True)
@@ -203,7 +203,7 @@ class Expansion(msgspec.Struct):
             tie(linked, broken=is_unknown)
         if group.facade is not None:
             facades = paths.component_paths(part.document, group.facade.text, self.disk)
-            facade = self.tables.components.get(os.path.realpath(facades[0])) if len(facades) == 1 else None
+            facade = self.tables.components.get(self.disk.real(facades[0])) if len(facades) == 1 else None
             tie(linked, facade=facade, broken=linked.broken or facade is None)
         if group.include is not None:
             whole, before = part.is_whole, len(self._in_order)
@@ -217,9 +217,9 @@ class Expansion(msgspec.Struct):
     ) -> str:
         """Expands an included deployment in a scope. Returns its real path, or '' if it cannot be used."""
         path = paths.include_path(part.document, include.text, self.disk)
-        real = os.path.realpath(path) if path else ""
+        real = self.disk.real(path) if path else ""
         target = self.deployments.get(real)
-        chain = (*part.chain, os.path.realpath(part.document.path))
+        chain = (*part.chain, self.disk.real(part.document.path))
         if target is not None and real in chain:
             if real == chain[0] == min(chain):  # each cycle is reported once
                 cycle = " → ".join(os.path.basename(one) for one in (*chain, real))

@@ -95,6 +95,7 @@ class Linker(msgspec.Struct):
             requested=requested,
             documents=len(self.documents.read),
             disk=self.documents.disk,
+            memory=self.documents.memory,
             plugins_of=self._plugins_of,
         )
 
@@ -124,7 +125,7 @@ class Linker(msgspec.Struct):
             if root is None:
                 self._by_folder[folder] = WorkspaceSettings(folder)
             else:
-                real = os.path.realpath(root)
+                real = self.documents.disk.real(root)
                 if real not in self.workspaces:
                     self.workspaces[real], diagnostics = read(root, self.documents.disk)
                     self.diagnostics += diagnostics

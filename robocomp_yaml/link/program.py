@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from robocomp_yaml.digraph import postorder
+from robocomp_yaml.memory import Memory
 from robocomp_yaml.model.interface import (
     Constant,
     ExceptionType,
@@ -135,7 +136,7 @@ class Tables(msgspec.Struct):
 class Program(msgspec.Struct, frozen=True):
     """All documents of a run. Keys are real paths. `requested` are the documents that the user named; the others are
     there because requested ones refer to them. `documents` is the number of all. Checks read other files through
-    `disk`; `plugins_of` returns the plug-ins of a document's workspace."""
+    `disk`; `plugins_of` returns the plug-ins of a document's workspace. `memory` keeps results for the next program."""
 
     modules: Mapping[str, LinkedModule] = {}
     components: Mapping[str, LinkedComponent] = {}
@@ -146,6 +147,7 @@ class Program(msgspec.Struct, frozen=True):
     documents: int = 0
     disk: Disk = msgspec.field(default_factory=Disk)
     plugins_of: Callable[[str], Plugins] = lambda path: NONE
+    memory: Memory = msgspec.field(default_factory=Memory)
     _effective: dict[LayeredValues, tuple[Effective | None, Sequence[Diagnostic]]] = {}
 
     def effective(self, values: LayeredValues) -> tuple[Effective | None, Sequence[Diagnostic]]:
@@ -154,7 +156,8 @@ class Program(msgspec.Struct, frozen=True):
         if values not in self._effective:
             from robocomp_yaml.parameters.layers.effective import effective  # most components have no values
 
-            self._effective[values] = effective(values)
+            part = "effective", values.document.path
+            self._effective[values] = self.memory.result(part, values.causes(), lambda: effective(values))
         return self._effective[values]
 
     def documents_of_components(self) -> dict[str, LinkedComponent | None]:

@@ -12,7 +12,7 @@ import os
 from collections.abc import Collection, Iterator
 
 import msgspec
-from msgspec.structs import replace
+from msgspec.structs import astuple, replace
 
 from robocomp_yaml.addresses.flat_values import flat_values
 from robocomp_yaml.addresses.workspaces import Addresses
@@ -40,6 +40,7 @@ from robocomp_yaml.parameters.writing.properties import (
 from robocomp_yaml.parameters.writing.write import Property, Writer
 from robocomp_yaml.semantics import connections, references
 from robocomp_yaml.semantics.texts import unquoted
+from robocomp_yaml.source.content import content
 from robocomp_yaml.source.properties import entry_line
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, mapping_at, text_at
 
@@ -64,6 +65,44 @@ class Configuration(msgspec.Struct):
     @property
     def base(self) -> ConfigurationBase:
         return self.draft.base
+
+    def causes(self) -> tuple[object, ...]:
+        """What `make` depends on, as causes for a memory."""
+        draft, values = self.draft, self.base.values
+        entry, component = draft.instance.entry, draft.instance.component
+        own = component.parameters if component is not None else None
+        located: list[tuple[str, LocatedText]] = [*self._endpoints(), *draft.proxies.items(), *draft.topics.items()]
+        if draft.manager is not None:
+            located.append(("", draft.manager))
+        return (
+            self._file,
+            astuple(draft.span),
+            content(entry.settings) if entry.settings is not None else None,
+            values.causes() if values is not None else None,
+            (*self._of_flat(), component, *sorted(self.external)) if self.base.flat is not None else None,
+            self.base.is_own,
+            (own.parameters, own.document, own.broken) if own is not None else None,
+            len(draft.proxies),
+            len(draft.topics),
+            tuple((name, given.text, astuple(given.span)) for name, given in located),
+        )
+
+    def _of_flat(self) -> tuple[object, ...]:
+        """The content of the flat config, and who wrote it."""
+        flat = self.base.flat
+        if flat is None:
+            return ()
+        return flat.path, flat.text, flat.is_written, flat.is_unchanged, *sorted(flat.base.items())
+
+    def make_once(self, process: tuple[str, str]) -> None:
+        """As `make`, unless nothing has changed since an earlier analysis. `process` are deployment and name."""
+
+        def result() -> tuple[str | None, tuple[str, ...], list[Diagnostic], LinkedValues | None]:
+            self.make()
+            return self.text, self.secrets, self.diagnostics, self._layers
+
+        kept = self.program.memory.result(("configuration", *process), self.causes(), result)
+        self.text, self.secrets, self.diagnostics, self._layers = kept
 
     def make(self) -> None:
         base, component = self.base, self.draft.instance.component

@@ -65,7 +65,7 @@ def derive(linked: LinkedDeployment, program: Program, addresses: Addresses) -> 
         else:
             outside = {one.port for one in connections.connections if one.source == draft.name and not one.target}
             configuration = Configuration(draft, program, addresses, outside)
-            configuration.make()
+            configuration.make_once((linked.real, draft.name))
             settings[draft.name] = configuration.settings
             diagnostics += configuration.diagnostics
             text, hidden = configuration.text, configuration.secrets

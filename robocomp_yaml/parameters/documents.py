@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable, Sequence
 from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 import msgspec
@@ -10,6 +10,7 @@ import msgspec
 from robocomp_yaml.diag.span import Span
 
 if TYPE_CHECKING:
+    from robocomp_yaml.diag.diagnostic import Diagnostic
     from robocomp_yaml.parameters.specification.document import ParameterDocument, ValuesDocument
     from robocomp_yaml.parameters.types import Parameters
 
@@ -18,18 +19,20 @@ Made = TypeVar("Made")
 
 class ResolvedParameters(msgspec.Struct, frozen=True, eq=False):
     """Parameters with their document, if they have one. `broken`: some have no valid type, so that values are not
-    judged."""
+    judged. `made` is what `once` returned: it depends on the parameters alone, and is kept as long as they are.
+    `faults` are those of values documents."""
 
     parameters: Parameters
     document: ParameterDocument | None = None
     broken: bool = False
-    _made: dict[object, Any] = {}
+    made: dict[Hashable, Any] = {}
+    faults: dict[LayeredValues, Sequence[Diagnostic]] = {}
 
-    def once(self, name: object, make: Callable[[], Made]) -> Made:
+    def once(self, name: Hashable, make: Callable[[], Made]) -> Made:
         """The result of `make`, cached by name: validators, for example."""
-        if name not in self._made:
-            self._made[name] = make()
-        made: Made = self._made[name]
+        if name not in self.made:
+            self.made[name] = make()
+        made: Made = self.made[name]
         return made
 
 
@@ -50,6 +53,12 @@ class LayeredValues(msgspec.Struct, frozen=True, eq=False):
         root = self.document.root
         entry = root.entries.get("parameters") or root.entries.get("component")
         return entry[0].span if entry else Span(root.file)
+
+    def causes(self) -> tuple[object, ...]:
+        """What its values depend on, as causes for a memory."""
+        own = self.parameters
+        of_parameters = (own.parameters, own.document, own.broken) if own is not None else None
+        return of_parameters, *((layer.document, layer.is_extended, layer.broken) for layer in self.layers())
 
     def layers(self) -> list[Self]:
         """All layers, each once: the most general first, this document last."""

@@ -63,6 +63,14 @@ _REFERENCE: Schema = {
     },
     "additionalProperties": False,
 }
+_TEXTS = ("title", "description", "errorMessage")
+_REFERENCE_OF_GATES: Schema = {
+    **{key: value for key, value in _REFERENCE.items() if key not in _TEXTS},
+    "properties": {
+        name: {key: value for key, value in made.items() if key not in _TEXTS}
+        for name, made in _REFERENCE["properties"].items()
+    },
+}
 _REFERENCE_CHOICE = {
     "type": "object",
     "defaultSnippets": [
@@ -87,15 +95,15 @@ def fits(linked: ResolvedParameters, mode: str, data: object) -> bool:
 
 
 def values_schema(parameters: Parameters, mode: str) -> Schema:
-    """The schema of the data under `parameters:` alone, without words."""
-    builder = _SchemaBuilder(mode)
+    """The schema of the data under `parameters:` alone, without texts: the schema of the gate."""
+    builder = _SchemaBuilder(mode, is_gate=True)
     made = builder.record(parameters.root)
     return {"$schema": "http://json-schema.org/draft-07/schema#", **made, "definitions": builder.definitions}
 
 
-def validator_of_complete(type_: Type) -> jsonschema_rs.Draft7Validator:
-    """The validator for one complete value of a type."""
-    builder = _SchemaBuilder(COMPLETE)
+def gate_of_complete(type_: Type) -> jsonschema_rs.Draft7Validator:
+    """The gate for one complete value of a type."""
+    builder = _SchemaBuilder(COMPLETE, is_gate=True)
     made = builder.type(type_)
     return jsonschema_rs.Draft7Validator({**made, "definitions": builder.definitions})
 
@@ -103,7 +111,7 @@ def validator_of_complete(type_: Type) -> jsonschema_rs.Draft7Validator:
 def document_schema(parameters: Parameters, name: str, ports: Mapping[str, Iterable[str]], mode: str) -> Schema:
     """The self-contained schema of a values document of the component `name`. `ports` has the names that are known
     under `endpoints` and `proxies`."""
-    builder = _SchemaBuilder(mode, has_words=True)
+    builder = _SchemaBuilder(mode)
     made = new_schema("config")
     made["$id"] = f"https://rcyaml.invalid/schemas/values/{name}.{mode}.schema.json"
     made["title"] = f"Values of {name}"
@@ -124,15 +132,22 @@ _PORTS = {"endpoints": "endpoint", "proxies": "proxy"}
 
 
 class _SchemaBuilder(msgspec.Struct):
-    """Builds schemas in one mode. Structs are in `definitions`."""
+    """Builds schemas in one mode. Structs are in `definitions`. A gate has no texts."""
 
     mode: str
-    has_words: bool = False
-    definitions: dict[str, Schema] = msgspec.field(default_factory=lambda: {"reference": _REFERENCE})
+    is_gate: bool = False
+    definitions: dict[str, Schema] = {}
+
+    def __post_init__(self) -> None:
+        self.definitions["reference"] = _REFERENCE_OF_GATES if self.is_gate else _REFERENCE
 
     @property
     def for_editors(self) -> bool:
-        return self.has_words and self.mode == DOCUMENT
+        return self.mode == DOCUMENT and not self.is_gate
+
+    @property
+    def has_texts(self) -> bool:
+        return not self.is_gate
 
     def type(self, type_: Type, *, nullable: bool = False) -> Schema:
         match type_:
@@ -228,16 +243,18 @@ class _SchemaBuilder(msgspec.Struct):
             needed = [member.name for member in type_.members if not member.optional]
         if needed:
             made["required"] = needed
-        if type_.name and self.has_words:
+        if type_.name and self.has_texts:
             made["title"] = type_.name
-        if type_.doc and self.has_words:
+        if type_.doc and self.has_texts:
             made["description"] = type_.doc
             made |= {"markdownDescription": prose(type_.doc)} if self.for_editors else {}
         return made
 
     def member(self, member: ResolvedMember) -> Schema:
         made = self.type(member.type, nullable=self.mode == DOCUMENT)
-        return made | self.about(member) if self.has_words else made
+        if self.has_texts:
+            made |= self.about(member)
+        return made
 
     def about(self, member: ResolvedMember) -> Schema:
         """Title, description and default; for editors also Markdown and examples."""

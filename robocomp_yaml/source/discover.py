@@ -103,6 +103,11 @@ def discover(paths: list[str] | tuple[str, ...], disk: Disk | None = None) -> Di
     )
 
 
+def is_skipped(path: str) -> bool:
+    """Whether a relative path is in a folder in which no documents are searched."""
+    return any(part in _SKIPPED or part.startswith(".") for part in path.split(os.sep))
+
+
 def of_kind(folder: str, kind: str, disk: Disk | None = None) -> list[str]:
     """The documents of a kind below a folder, in the order of `documents_below`; '' is the working folder."""
     disk = disk or Disk()
@@ -124,7 +129,7 @@ def documents_below(
     for where, folders, names in disk.walk(folder, on_error):
         if roots is not None and ".rcyaml" in folders and os.path.isfile(os.path.join(where, MANIFEST)):
             roots.append(os.path.normpath(where))
-        folders[:] = [name for name in folders if name not in _SKIPPED and not name.startswith(".")]
+        folders[:] = [name for name in folders if not is_skipped(name)]
         for name in names:
             if name.endswith(".yaml") and kind_of(path := os.path.normpath(os.path.join(where, name)), disk):
                 documents.append(path)

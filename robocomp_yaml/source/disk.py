@@ -17,10 +17,61 @@ from robocomp_yaml.source.text import MAX_DOCUMENT, read_bytes
 
 _Made = TypeVar("_Made")
 FILE, FOLDER, OTHER, NOTHING = "file", "folder", "other", ""
+_Answer = TypeVar("_Answer")
+
+
+def state_of(path: str) -> str:
+    """The kind of a path on the disk, as `Disk.state`."""
+    try:
+        mode = os.stat(path).st_mode
+    except (OSError, ValueError):  # of names with a NUL
+        return OTHER if os.path.lexists(path) else NOTHING
+    return FILE if stat.S_ISREG(mode) else FOLDER if stat.S_ISDIR(mode) else OTHER
+
+
+def names_in(folder: str) -> list[str]:
+    """The names in a folder of the disk, sorted; none if it cannot be read."""
+    try:
+        return sorted(os.listdir(folder or "."))
+    except OSError:
+        return []
+
+
+def _peek(path: str, size: int) -> bytes:
+    try:
+        with open(path, "rb", opener=regular) as file:
+            return file.read(size)
+    except OSError:
+        return b""
+
+
+class Files:
+    """The files of the disk, as they are at each request."""
+
+    def get(self, request: Callable[..., _Answer], *arguments: Any) -> _Answer:
+        return request(*arguments)
+
+
+class KeptFiles(Files):
+    """The files of the disk, as they were at the first request after `forget`."""
+
+    def __init__(self) -> None:
+        self._answers: dict[tuple[Any, ...], Any] = {}
+
+    def get(self, request: Callable[..., _Answer], *arguments: Any) -> _Answer:
+        known = request, *arguments
+        if known not in self._answers:
+            self._answers[known] = request(*arguments)
+        answer: _Answer = self._answers[known]
+        return answer
+
+    def forget(self) -> None:
+        self._answers.clear()
 
 
 class Disk:
-    """`overlay` maps paths to contents that replace those of the disk, whether or not such a file exists.
+    """`overlay` maps paths to contents that replace those of the disk, whether or not such a file exists. `files` are
+    the files of the disk.
 
     The Disk records every request by its path: `contents`, the bytes of each file that was read; `states`, the kind of
     each path (FILE, FOLDER, NOTHING, or OTHER such as a pipe or a broken link); `listed`, the documents in a folder;
@@ -28,9 +79,15 @@ class Disk:
     may become readable without a change that the Disk could detect.
     """
 
-    def __init__(self, overlay: Mapping[str, bytes] | None = None) -> None:
-        self._overlay = {os.path.realpath(path): text for path, text in (overlay or {}).items()}
+    def __init__(self, overlay: Mapping[str, bytes] | None = None, files: Files | None = None) -> None:
+        self._files = files or Files()
+        self._real: dict[str, str] = {}
+        self._overlay = {self.real(path): text for path, text in (overlay or {}).items()}
         self._folders = {folder for path in self._overlay for folder in folders_above(path)}
+        self._inside: dict[str, set[str]] = {}  # the names that the overlay adds to folders
+        for folder, name in map(os.path.split, (*self._overlay, *self._folders)):
+            if name:  # the root folder has none
+                self._inside.setdefault(folder, set()).add(name)
         self.contents: dict[str, bytes] = {}
         self.states: dict[str, str] = {}
         self.listed: dict[str, list[str]] = {}
@@ -46,12 +103,24 @@ class Disk:
         made: _Made = self._made[name]
         return made
 
+    def real(self, path: str) -> str:
+        """The real path, without links. Each folder is resolved once."""
+        known = self._real.get(path)
+        if known is None:
+            folder, name = os.path.split(path)
+            if name in ("", os.curdir, os.pardir) or self._files.get(os.path.islink, path):
+                known = self._files.get(os.path.realpath, path)
+            else:
+                known = os.path.join(self.real(folder or os.curdir), name)
+            self._real[path] = known
+        return known
+
     def read(self, path: str, limit: int = MAX_DOCUMENT) -> tuple[bytes | None, list[Diagnostic]]:
         """The content of a file of at most `limit` bytes; None, with diagnostics, if it cannot be read."""
         diagnostics: list[Diagnostic] = []
         raw = self._unsaved(path)
         if raw is None:
-            raw, diagnostics = read_bytes(self._on_disk(path), limit)
+            raw, diagnostics = self._files.get(read_bytes, self._on_disk(path), limit)
         if raw is not None:
             self.contents[path] = raw
         else:
@@ -61,23 +130,16 @@ class Disk:
     def peek(self, path: str, size: int) -> bytes:
         """The first `size` bytes of a file; none if it cannot be read. This request is not recorded."""
         raw = self._unsaved(path)
-        if raw is not None:
-            return raw[:size]
-        try:
-            with open(self._on_disk(path), "rb", opener=regular) as file:
-                return file.read(size)
-        except OSError:
-            return b""
+        return raw[:size] if raw is not None else self._files.get(_peek, self._on_disk(path), size)
 
     def state(self, path: str) -> str:
-        """The kind of a path: _Made = TypeVar("_Made")
-        FILE, FOLDER, OTHER or NOTHING."""
-        if self._overlay and (real := os.path.realpath(path)) in self._overlay:
+        """The kind of a path: FILE, FOLDER, OTHER or NOTHING."""
+        if self._overlay and (real := self.real(path)) in self._overlay:
             kind = FILE
         elif self._overlay and real in self._folders:
             kind = FOLDER
         else:
-            kind = state_of(self._on_disk(path))
+            kind = self._files.get(state_of, self._on_disk(path))
         self.states[path] = kind
         return kind
 
@@ -99,10 +161,9 @@ class Disk:
         return self.seen[folder]
 
     def _names(self, folder: str) -> set[str]:
-        names = set(names_in(self._on_disk(folder)))
+        names = set(self._files.get(names_in, self._on_disk(folder)))
         if self._overlay:
-            real = os.path.realpath(folder)
-            names |= {*_inside(real, self._folders), *_inside(real, self._overlay)}
+            names |= self._inside.get(self.real(folder or os.curdir), set())
         return names
 
     def walk(
@@ -118,12 +179,13 @@ class Disk:
         todo = [folder]
         while todo:  # without recursion: folders may be deep
             here = todo.pop()
-            real = os.path.realpath(here) if self._overlay else ""
+            real = self.real(here) if self._overlay else ""
             quiet = real in self._folders and not os.path.lexists(here)  # a folder of the overlay only
             _, folders, names = next(os.walk(here, onerror=None if quiet else closed), ("", [], []))
             if self._overlay:
-                folders = list({*folders, *_inside(real, self._folders)})
-                names = list({*names, *_inside(real, self._overlay)})
+                more = self._inside.get(real, set())
+                folders = list({*folders, *(name for name in more if os.path.join(real, name) in self._folders)})
+                names = list({*names, *(name for name in more if os.path.join(real, name) in self._overlay)})
             folders.sort()
             names.sort()
             yield here, folders, names
@@ -132,39 +194,18 @@ class Disk:
 
     def _on_disk(self, path: str) -> str:
         """A path that the system can resolve: it cannot go up from a folder that exists only in the overlay."""
-        if not self._overlay or os.path.lexists(path):
+        if not self._overlay or self._files.get(os.path.lexists, path):
             return path
-        real = os.path.realpath(path)
-        return real if os.path.lexists(real) else path
+        real = self.real(path)
+        return real if self._files.get(os.path.lexists, real) else path
 
     def _unsaved(self, path: str) -> bytes | None:
-        return self._overlay.get(os.path.realpath(path)) if self._overlay else None
-
-
-def state_of(path: str) -> str:
-    """The kind of a path on the disk, as `Disk.state`."""
-    try:
-        mode = os.stat(path).st_mode
-    except (OSError, ValueError):  # of names with a NUL
-        return OTHER if os.path.lexists(path) else NOTHING
-    return FILE if stat.S_ISREG(mode) else FOLDER if stat.S_ISDIR(mode) else OTHER
-
-
-def names_in(folder: str) -> list[str]:
-    """The names in a folder of the disk, sorted; none if it cannot be read."""
-    try:
-        return sorted(os.listdir(folder or "."))
-    except OSError:
-        return []
+        return self._overlay.get(self.real(path)) if self._overlay else None
 
 
 def documents_in(names: Iterable[str]) -> list[str]:
     """Those of the names that may be documents, in upper or lower case, sorted."""
     return sorted(name for name in names if name.lower().endswith(".yaml"))
-
-
-def _inside(folder: str, paths: Iterable[str]) -> Iterator[str]:
-    return (os.path.basename(path) for path in paths if os.path.dirname(path) == folder != path)
 
 
 def folders_above(path: str) -> Iterator[str]:

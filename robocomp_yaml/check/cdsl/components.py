@@ -16,6 +16,7 @@ from robocomp_yaml.diag.fix import removal
 from robocomp_yaml.link.program import LinkedComponent, Port, Program
 from robocomp_yaml.link.workspace import root_above
 from robocomp_yaml.model.component import LINK, LISTS, PIP, Component, Library
+from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.file_names import LONGEST_NAME, is_too_long, shortened
 
 _NUMBERS = r" *(>=|<=|==|=|>|<)? *\d+(\.\d+)* *"
@@ -40,17 +41,17 @@ def check(program: Program) -> Iterator[Diagnostic]:
             hint="give each component a folder of its own",
             related=[Related("the other component", first.span)],
         )
-    yield from _same_names(components)
+    yield from _same_names(components, program.disk)
 
 
-def _same_names(components: list[Component]) -> Iterator[Diagnostic]:
+def _same_names(components: list[Component], disk: Disk) -> Iterator[Diagnostic]:
     """A component's name is unique in its workspace, except that the same component may be in several languages.
     Documents without a workspace count as one workspace. The component with the longer path is reported, because copies
     are called `speech2`, `speech (copy)` or `old/speech`."""
 
     def identity(component: Component) -> tuple[str, str, str]:
-        root = root_above(os.path.dirname(component.path))
-        return component.name, component.language.name, "" if root is None else os.path.realpath(root)
+        root = root_above(os.path.dirname(component.path), disk)
+        return component.name, component.language.name, "" if root is None else disk.real(root)
 
     names = Counter(component.name for component in components)
     same = [component for component in components if names[component.name] > 1]

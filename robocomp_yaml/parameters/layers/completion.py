@@ -14,7 +14,7 @@ from typing import Any
 
 from robocomp_yaml.parameters.defaults import defaults
 from robocomp_yaml.parameters.documents import ResolvedParameters
-from robocomp_yaml.parameters.json_schema import COMPLETE, fits, validator_of_complete
+from robocomp_yaml.parameters.json_schema import COMPLETE, fits, gate_of_complete
 from robocomp_yaml.parameters.types import BasicType, ListType, MapType, RecordType, ResolvedMember, Type
 
 Data = dict[str, Any]
@@ -70,7 +70,7 @@ class _RecordCompleter:
 
     def __init__(self, type_: RecordType) -> None:
         self.type = type_
-        self.is_complete = validator_of_complete(type_).is_valid
+        self.is_complete = gate_of_complete(type_).is_valid
         self.added: dict[tuple[str, ...], Data] = {}
         self.normalize: Completer | None = None
 

@@ -36,7 +36,9 @@ class Effective(msgspec.Struct, frozen=True):
 
 def document_faults(values: LayeredValues, linked: ResolvedParameters) -> Sequence[Diagnostic]:
     """The problems of the values that a document itself sets. Missing values are no problem."""
-    return linked.once(values, lambda: tuple(_document_faults(values, linked)))
+    if values not in linked.faults:
+        linked.faults[values] = tuple(_document_faults(values, linked))
+    return linked.faults[values]
 
 
 def _document_faults(values: LayeredValues, linked: ResolvedParameters) -> Iterator[Diagnostic]:

@@ -1,0 +1,68 @@
+"""A living analysis: documents that are analysed again after each change, with the results that the change does not
+concern kept.
+
+Documents are kept by their content, parameters with their compiled gates, effective values and configurations of
+processes by what they depend on. `memory` explains how. The result is always that of a fresh analysis.
+"""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+
+from robocomp_yaml.api.workspace import Workspace
+from robocomp_yaml.memory import Memory
+from robocomp_yaml.source.disk import Disk, KeptFiles
+
+
+class LivingWorkspace:
+    """The documents at some paths, on the disk or unsaved in an editor. Not for several threads at once; the working
+    folder stays the same."""
+
+    def __init__(self, paths: Iterable[str] = (".",), include: Iterable[str] = ()) -> None:
+        self.paths, self.include = tuple(paths), tuple(include)
+        self._unsaved: dict[str, tuple[str, bytes]] = {}
+        self._memory, self._files = Memory(), KeptFiles()
+
+    @property
+    def unsaved(self) -> dict[str, bytes]:
+        """The texts of unsaved documents, by path."""
+        return dict(self._unsaved.values())
+
+    def edit(self, path: str, text: str | bytes | None) -> None:
+        """Replaces the text of a document, whether or not the file exists. None: the file counts again."""
+        real = Disk().real(path)
+        if text is None:
+            self._unsaved.pop(real, None)
+        else:
+            self._unsaved[real] = path, text.encode() if isinstance(text, str) else text
+
+    def refresh(self) -> None:
+        """Files may have changed on the disk: `look` will read them again."""
+        self._files.forget()
+
+    def look(self, *paths: str, on_read: Callable[[str], None] | None = None) -> Workspace:
+        """The documents at these paths, which may be others than those of this workspace, and all that they refer to.
+        Does not notice changes on the disk since the last `refresh` or `load`."""
+        with _uncollected():
+            return Workspace(paths, self.include, self.unsaved, on_read, self._memory, self._files)
+
+    def load(self, on_read: Callable[[str], None] | None = None) -> Workspace:
+        """All documents, as `api.load` reads them."""
+        self.refresh()
+        workspace = self.look(*self.paths, on_read=on_read)
+        self._memory.forget_unused()
+        return workspace
+
+
+@contextmanager
+def _uncollected() -> Iterator[None]:
+    """Without the garbage collector, which would visit all kept documents while new ones are made."""
+    was_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_enabled:
+            gc.enable()

@@ -1,0 +1,103 @@
+"""What has to be watched for changes after a run, and which changes need another one."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+
+from robocomp_yaml.api.workspace import Workspace
+from robocomp_yaml.source.discover import documents_below, is_skipped
+from robocomp_yaml.source.disk import Disk, documents_in, names_in, state_of
+from robocomp_yaml.source.text import read_bytes
+
+_SOURCES = "src"
+
+
+def folders(workspace: Workspace, paths: Iterable[str], home: str) -> list[str]:
+    """The folders with everything that a run of these paths in the folder `home` depends on, none inside another
+    one."""
+    linker, needed = workspace.analysis.linker, set[str]()
+    for path in paths:
+        needed.add(os.path.dirname(path) if path.endswith(".yaml") else path)
+    needed |= {os.path.dirname(document.path) for document in linker.documents.read.values()}
+    for settings in linker.workspaces.values():
+        needed |= {settings.root, *settings.interfaces}
+    needed |= {*linker.search.extra}
+    real = sorted({os.path.realpath(os.path.join(home, folder)) for folder in needed})
+    outer: list[str] = []
+    for folder in real:
+        if not any(folder == other or folder.startswith(os.path.join(other, "")) for other in outer):
+            outer.append(folder)
+    return outer
+
+
+class Concern:
+    """Whether a run that used this workspace depends on a path below the watched `folders`. `written` are the files
+    that the run itself wrote."""
+
+    def __init__(self, workspace: Workspace, folders: Iterable[str], written: Iterable[str] = ()) -> None:
+        self._disk, self._folders = workspace.analysis.disk, tuple(folders)
+        asked = (*self._disk.contents, *self._disk.states)
+        self._asked = {os.path.realpath(path) for path in asked}
+        self._sources = tuple(
+            os.path.join(os.path.realpath(os.path.dirname(linked.component.path) or os.curdir), _SOURCES, "")
+            for linked in workspace.analysis.program.components.values()
+        )
+        self._written = {os.path.realpath(path): _version(path) for path in written}
+
+    def about(self, path: str) -> bool:
+        """Whether a change of this file or folder may change the result."""
+        real = os.path.join(os.path.realpath(os.path.dirname(path)), os.path.basename(path))
+        if self.is_own(real):
+            return False
+        if real in self._asked or self.is_source(real):
+            return True
+        is_possible = real.endswith(".yaml") or not os.path.isfile(real)
+        return is_possible and not is_skipped(
+            next((real[len(one) :] for one in self._folders if real.startswith(one)), "")
+        )
+
+    def is_own(self, real: str) -> bool:
+        """Whether it is as the run itself wrote it."""
+        return real in self._written and self._written[real] == _version(real)
+
+    def is_source(self, path: str) -> bool:
+        """Whether it is the user's code, as it is saved: not a file that editors add for a moment."""
+        name = os.path.basename(path)
+        is_temporary = name.startswith((".", "#")) or name.endswith(("~", ".swp", ".tmp", ".pyc")) or name.isdigit()
+        return path.startswith(self._sources) and "__pycache__" not in path and not is_temporary
+
+
+def is_current(disk: Disk, concern: Concern) -> bool:
+    """Whether a run would read the same from the disk again, apart from what the run itself wrote."""
+
+    def is_own(path: str) -> bool:
+        return concern.is_own(os.path.realpath(path))
+
+    return (
+        all(read_bytes(path)[0] == raw or is_own(path) for path, raw in disk.contents.items())
+        and all(state_of(path) == state or is_own(path) for path, state in disk.states.items())
+        and all(documents_in(names_in(folder)) == listed for folder, listed in disk.listed.items())
+        and all(names_in(folder) == names for folder, names in disk.seen.items())
+        and all(list(documents_below(folder)) == found for folder, found in disk.walked.items())
+        and not disk.unreadable
+    )
+
+
+def shown(paths: Iterable[str]) -> str:
+    """Some of the changed paths, for people: documents first."""
+    names = sorted({_relative(path) for path in paths}, key=lambda name: (not name.endswith(".yaml"), name))
+    return f"{', '.join(names[:3])}{f' and {len(names) - 3} more' if len(names) > 3 else ''}"
+
+
+def _relative(path: str) -> str:
+    relative = os.path.relpath(path)
+    return path if relative.startswith(os.pardir) else relative
+
+
+def _version(path: str) -> tuple[int, int]:
+    try:
+        status = os.stat(path)
+    except OSError:
+        return 0, 0
+    return status.st_mtime_ns, status.st_ino

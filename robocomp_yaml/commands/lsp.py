@@ -1,0 +1,26 @@
+"""`rcyaml lsp`: the language server, for editors."""
+
+from __future__ import annotations
+
+import click
+
+from robocomp_yaml.commands import _options
+from robocomp_yaml.commands._command import LibraryCommand
+
+
+@click.command(cls=LibraryCommand, short_help="Serve editors: diagnostics as you type, fixes, formatting.")
+@_options.include
+@click.pass_context
+def command(ctx: click.Context, include: tuple[str, ...]) -> None:
+    """Serve an editor by the language server protocol, on standard input and output.
+
+    Editors start it by themselves: docs/editor.md shows how to configure them. It needs pygls: pip install
+    'rcyaml[lsp]'.
+    """
+    try:
+        from robocomp_yaml.lsp import features
+    except ImportError as error:
+        if (error.name or "").partition(".")[0] not in ("pygls", "lsprotocol"):
+            raise
+        raise click.UsageError("lsp needs pygls: pip install 'rcyaml[lsp]'", ctx) from None
+    features.make(include).start_io()

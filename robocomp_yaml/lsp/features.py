@@ -1,0 +1,98 @@
+"""What the server does with the messages of an editor. A module with a feature of its own adds it by `add`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from lsprotocol import types
+
+from robocomp_yaml.lsp import completion, navigation
+from robocomp_yaml.lsp.messages import real_path
+from robocomp_yaml.lsp.server import Server, folders_of, watchers
+from robocomp_yaml.lsp.session import EditedText
+
+
+def make(include: Iterable[str] = ()) -> Server:
+    """A server that knows all messages."""
+    server, include = Server(), tuple(include)
+
+    @server.feature(types.INITIALIZE)
+    def begin(params: types.InitializeParams) -> None:
+        server.begin(folders_of(params), include)
+
+    @server.feature(types.INITIALIZED)
+    async def watch(params: types.InitializedParams) -> None:
+        capabilities = server.client_capabilities.workspace
+        files = capabilities.did_change_watched_files if capabilities else None
+        if files is not None and files.dynamic_registration:
+            method = types.WORKSPACE_DID_CHANGE_WATCHED_FILES
+            registration = types.Registration("rcyaml-files", method, watchers())
+            await server.client_register_capability_async(types.RegistrationParams([registration]))
+
+    @server.feature(types.TEXT_DOCUMENT_DID_OPEN)
+    async def opened(params: types.DidOpenTextDocumentParams) -> None:
+        item = params.text_document
+        if path := real_path(item.uri):
+            await server.edited(EditedText(item.uri, path, item.text, item.version))
+
+    @server.feature(types.TEXT_DOCUMENT_DID_CHANGE)
+    async def changed(params: types.DidChangeTextDocumentParams) -> None:
+        item = params.text_document
+        if params.content_changes and (path := real_path(item.uri)):
+            await server.edited(EditedText(item.uri, path, params.content_changes[-1].text, item.version))
+
+    @server.feature(types.TEXT_DOCUMENT_DID_CLOSE)
+    async def closed(params: types.DidCloseTextDocumentParams) -> None:
+        if path := real_path(params.text_document.uri):
+            await server.closed(path)
+
+    @server.feature(types.TEXT_DOCUMENT_DID_SAVE)
+    async def saved(params: types.DidSaveTextDocumentParams) -> None:
+        await server.saved()
+
+    @server.feature(types.WORKSPACE_DID_CHANGE_WATCHED_FILES)
+    async def files_changed(params: types.DidChangeWatchedFilesParams) -> None:
+        await server.saved()
+
+    @server.feature(types.WORKSPACE_DID_CHANGE_WORKSPACE_FOLDERS)
+    async def folders_changed(params: types.DidChangeWorkspaceFoldersParams) -> None:
+        added = [path for one in params.event.added if (path := real_path(one.uri))]
+        removed = {path for one in params.event.removed if (path := real_path(one.uri))}
+
+        def change() -> None:
+            server.session.folders[:] = [*(one for one in server.session.folders if one not in removed), *added]
+
+        await server.run(change)
+        await server.saved()
+
+    @server.feature(
+        types.TEXT_DOCUMENT_CODE_ACTION, types.CodeActionOptions(code_action_kinds=[types.CodeActionKind.QuickFix])
+    )
+    async def actions(params: types.CodeActionParams) -> list[types.CodeAction]:
+        path, only = real_path(params.text_document.uri) or "", params.context.only
+
+        def job() -> list[types.CodeAction]:
+            if path not in server.session.open or not (only is None or any("quickfix".startswith(one) for one in only)):
+                return []
+            found, texts = server.session.of_document(path)
+            return server.messages(texts).actions(found, params.range)
+
+        return await server.run(job)
+
+    @server.feature(types.TEXT_DOCUMENT_FORMATTING)
+    async def formatted(params: types.DocumentFormattingParams) -> list[types.TextEdit]:
+        from robocomp_yaml.api.formatting import layout
+
+        def job() -> list[types.TextEdit]:
+            document = server.session.open.get(real_path(params.text_document.uri) or "")
+            after = layout(document.path, document.raw)[0] if document is not None else None
+            if document is None or not isinstance(after, bytes) or after == document.raw:
+                return []  # a broken document stays as it is
+            whole = types.Range(types.Position(0, 0), server.lines(document.text).end())
+            return [types.TextEdit(whole, after.decode())]
+
+        return await server.run(job)
+
+    navigation.add(server)
+    completion.add(server)
+    return server

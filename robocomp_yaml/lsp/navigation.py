@@ -1,0 +1,122 @@
+"""Definition, references, hover and symbols."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import TypeVar
+
+from lsprotocol import types
+
+from robocomp_yaml.lsp import names
+from robocomp_yaml.lsp.messages import Messages, real_path
+from robocomp_yaml.lsp.names import DefinedName, Key, Names
+from robocomp_yaml.lsp.server import Server
+
+_Answer = TypeVar("_Answer")
+_SYMBOLS = {
+    names.MODULE: types.SymbolKind.Module, names.INTERFACE: types.SymbolKind.Interface,
+    names.TOPIC: types.SymbolKind.Interface, names.METHOD: types.SymbolKind.Method,
+    names.EVENT: types.SymbolKind.Event, names.TYPE: types.SymbolKind.Struct,
+    names.EXCEPTION: types.SymbolKind.Struct, names.CONSTANT: types.SymbolKind.Constant,
+    names.MEMBER: types.SymbolKind.Field, names.COMPONENT: types.SymbolKind.Class,
+    names.PARAMETER: types.SymbolKind.Property, names.PARAMETER_TYPE: types.SymbolKind.Struct,
+    names.DEPLOYMENT: types.SymbolKind.Package, names.ENTRY: types.SymbolKind.Object,
+    names.GROUP: types.SymbolKind.Namespace,
+}  # fmt: skip
+_MANY = 500  # symbols of a workspace
+
+
+def add(server: Server) -> None:
+    async def asked(
+        params: types.DefinitionParams | types.ReferenceParams | types.HoverParams,
+        answer: Callable[[DefinedName, types.Range, Names, Messages], _Answer],
+    ) -> _Answer | None:
+        """The answer about the name at a position; None if there is none."""
+        path = real_path(params.text_document.uri)
+
+        def job() -> _Answer | None:
+            document = server.session.open.get(path or "")
+            known = server.session.names_around(document.path) if document is not None else None
+            if document is None or known is None:
+                return None
+            lines = server.lines(document.text)
+            found = known.names.at(document.path, *lines.place(params.position))
+            if found is None:
+                return None
+            return answer(found[1], lines.range(found[0]), known.names, server.messages(known.texts))
+
+        return await server.run(job)
+
+    @server.feature(types.TEXT_DOCUMENT_DEFINITION)
+    async def definition(params: types.DefinitionParams) -> types.Location | None:
+        return await asked(params, lambda one, _, known, messages: messages.location(one.span))
+
+    @server.feature(types.TEXT_DOCUMENT_REFERENCES)
+    async def references(params: types.ReferenceParams) -> list[types.Location] | None:
+        def answer(one: DefinedName, _: types.Range, known: Names, messages: Messages) -> list[types.Location]:
+            own = [one.span] if params.context.include_declaration else []
+            spans = sorted({*own, *known.uses.get(one.key, ())})
+            return [messages.location(span) for span in spans]
+
+        return await asked(params, answer)
+
+    @server.feature(types.TEXT_DOCUMENT_HOVER)
+    async def hover(params: types.HoverParams) -> types.Hover | None:
+        def answer(one: DefinedName, where: types.Range, known: Names, messages: Messages) -> types.Hover:
+            count = len(set(known.uses.get(one.key, ())))
+            uses = "not used" if not count else "used once" if count == 1 else f"used {count} times"
+            parts = [f"```\n{one.says}\n```", one.doc, uses]
+            text = "\n\n".join(part for part in parts if part)
+            return types.Hover(types.MarkupContent(types.MarkupKind.Markdown, text), where)
+
+        return await asked(params, answer)
+
+    @server.feature(types.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
+    async def symbols(params: types.DocumentSymbolParams) -> list[types.DocumentSymbol]:
+        path = real_path(params.text_document.uri)
+
+        def job() -> list[types.DocumentSymbol]:
+            known = server.session.names_around(path) if path in server.session.open and path else None
+            if known is None or path is None:
+                return []
+            return _tree(known.names.in_document(path), server.messages(known.texts))
+
+        return await server.run(job)
+
+    @server.feature(types.WORKSPACE_SYMBOL)
+    async def all_symbols(params: types.WorkspaceSymbolParams) -> list[types.WorkspaceSymbol]:
+        def job() -> list[types.WorkspaceSymbol]:
+            found = []
+            for known in server.session.names_everywhere():
+                messages = server.messages(known.texts)
+                for one in known.names.defined.values():
+                    if _matches(params.query, one.name) and one.kind in _SYMBOLS:
+                        found.append(types.WorkspaceSymbol(messages.location(one.span), one.name, _SYMBOLS[one.kind]))
+            return found[:_MANY]
+
+        return await server.run(job)
+
+
+def _matches(query: str, name: str) -> bool:
+    """Whether the letters of the query are in the name, in this order."""
+    rest = iter(name.lower())
+    return all(letter in rest for letter in query.lower())
+
+
+def _tree(defined: Iterable[DefinedName], messages: Messages) -> list[types.DocumentSymbol]:
+    made: dict[Key, types.DocumentSymbol] = {}
+    top: list[types.DocumentSymbol] = []
+    for one in defined:
+        where = messages.location(one.span).range
+        kind = _SYMBOLS.get(one.kind, types.SymbolKind.Key)
+        made[one.key] = symbol = types.DocumentSymbol(one.name, kind, where, where, one.says, children=[])
+        outer = made.get(one.inside)
+        (top if outer is None else list_of(outer)).append(symbol)
+    return top
+
+
+def list_of(symbol: types.DocumentSymbol) -> list[types.DocumentSymbol]:
+    """The children of a symbol, to which others are added."""
+    children = symbol.children
+    assert isinstance(children, list)
+    return children

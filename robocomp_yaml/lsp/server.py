@@ -1,0 +1,182 @@
+"""`rcyaml lsp`: the language server over the protocol.
+
+All analyses run in one thread, one after the other, so that the server answers meanwhile. There are two stages: the
+edited document and all that it names, at once; its workspace, when typing rests. The second stage is given up as soon
+as anything else is to be done.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import gc
+import traceback
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any, TypeVar
+
+from lsprotocol import types
+from pygls.lsp.server import LanguageServer
+
+from robocomp_yaml import __version__
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.lsp.messages import SOURCE, Messages, path_of, uri_of_path
+from robocomp_yaml.lsp.positions import UTF16, TextLines
+from robocomp_yaml.lsp.session import Cancelled, EditedText, Session
+from robocomp_yaml.source.spelled import DocumentTexts
+
+AT_ONCE, AT_REST = 0.02, 0.25  # seconds after the last key
+_WATCHED = "**/*"
+_Made = TypeVar("_Made")
+Versions = dict[str, int | None]
+
+
+class Server(LanguageServer):
+    """The server with its session. `session` is used only in the thread of analyses."""
+
+    def __init__(self) -> None:
+        super().__init__(SOURCE, __version__, types.TextDocumentSyncKind.Full)
+        self.session = Session()
+        self._worker = ThreadPoolExecutor(1, "analysis")
+        self._jobs = 0
+        self._at_once: dict[str, asyncio.TimerHandle] = {}
+        self._at_rest: dict[str, asyncio.TimerHandle] = {}
+        self._shown: dict[str, str] = {}  # the URIs with diagnostics, by path
+
+    async def run(self, job: Callable[[], _Made]) -> _Made:
+        """The result of a job in the thread of analyses. The analysis of a workspace that runs there is given up."""
+        self._jobs += 1
+        return await asyncio.get_running_loop().run_in_executor(self._worker, job)
+
+    # Documents
+
+    def begin(self, folders: Iterable[str], include: Iterable[str]) -> None:
+        self.session = Session(folders, include)
+
+    async def edited(self, document: EditedText) -> None:
+        await self.run(lambda: self.session.edit(document))
+        self._later(self._at_once, document.path, AT_ONCE, self._check_document)
+        await self._check_later()
+
+    async def closed(self, path: str) -> None:
+        gone = await self.run(lambda: self.session.close(path))
+        for one in gone:
+            self._publish(one, [], DocumentTexts({}, {}), {})
+        await self._check_later()
+
+    async def saved(self) -> None:
+        """Files may have changed on the disk."""
+        await self.run(self.session.refresh)
+        await self._check_later()
+
+    async def _check_later(self) -> None:
+        for root in await self.run(self.session.roots):
+            self._later(self._at_rest, root, AT_REST, self._check_workspace)
+
+    def _later(
+        self, timers: dict[str, asyncio.TimerHandle], path: str, seconds: float, check: Callable[[str], Any]
+    ) -> None:
+        if path in timers:
+            timers[path].cancel()
+        loop = asyncio.get_running_loop()
+        timers[path] = loop.call_later(seconds, lambda: loop.create_task(self._guarded(check, path)))
+
+    async def _guarded(self, check: Callable[[str], Any], path: str) -> None:
+        """A check that fails is reported, and the server continues."""
+        try:
+            await check(path)
+        except Exception as error:  # noqa: BLE001 (whatever is wrong with one document, the others are checked)
+            self.failed(f"cannot check {path}", error)
+
+    def failed(self, what: str, error: BaseException) -> None:
+        reason = f"{type(error).__name__}: {error}"
+        self.window_show_message(types.ShowMessageParams(types.MessageType.Error, f"rcyaml: {what}: {reason}"))
+        text = "".join(traceback.format_exception(error))
+        self.window_log_message(types.LogMessageParams(types.MessageType.Error, text))
+
+    # Diagnostics
+
+    async def _check_document(self, path: str) -> None:
+        def check() -> tuple[list[Diagnostic], DocumentTexts, Versions] | None:
+            if path not in self.session.open or not self.session.is_document(path):
+                return None
+            return *self.session.of_document(path), self.session.versions()
+
+        made = await self.run(check)
+        if made is not None and made[2].get(path) == self.session.versions().get(path):
+            self._publish(path, *made)
+
+    async def _check_workspace(self, root: str) -> None:
+        """Checks a workspace. If anything else is to be done meanwhile, this begins again later."""
+        jobs = self._jobs
+
+        def check() -> tuple[dict[str, list[Diagnostic]], DocumentTexts, Versions] | None:
+            if root not in self.session.roots():
+                return None
+            workspace = self.session.workspace_of_root(root)
+            is_first = not workspace.is_known
+            found = self.session.of_workspace(root, lambda: self._jobs != jobs)
+            gc.collect()
+            if is_first:
+                gc.freeze()  # the collector need not visit the kept documents
+            return found, workspace.texts, self.session.versions()
+
+        try:
+            made = await asyncio.get_running_loop().run_in_executor(self._worker, check)
+        except Cancelled:
+            self._later(self._at_rest, root, AT_REST, self._check_workspace)
+            return
+        if made is None:
+            return
+        found, texts, versions = made
+        if versions != self.session.versions():  # an edit came in between, after which this begins again
+            return
+        for file, diagnostics in found.items():
+            self._publish(file, diagnostics, texts, versions)
+
+    def _publish(
+        self, path: str, diagnostics: Iterable[Diagnostic], texts: DocumentTexts, versions: Versions
+    ) -> None:  # fmt: skip
+        """Shows the diagnostics of a document, or that it has none."""
+        messages = self.messages(texts)
+        shown = [messages.diagnostic(one) for one in diagnostics]
+        if not shown and path not in self._shown and path not in self.session.open:
+            return
+        uri = self._shown.get(path) or self._uri_of(path)
+        if shown:
+            self._shown[path] = uri
+        else:
+            self._shown.pop(path, None)
+        self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, shown, versions.get(path)))
+
+    def messages(self, texts: DocumentTexts) -> Messages:
+        known: dict[str, TextLines] = {}
+
+        def lines_of(path: str) -> TextLines:
+            if path not in known:
+                document = texts.get(path)
+                known[path] = self.lines(document.text if document is not None else "")
+            return known[path]
+
+        return Messages(lines_of, self._uri_of, self._version_of)
+
+    def lines(self, text: str) -> TextLines:
+        encoding = self.workspace.position_encoding
+        return TextLines(text, str(getattr(encoding, "value", encoding)) if encoding else UTF16)
+
+    def _uri_of(self, path: str) -> str:
+        document = self.session.open.get(path)
+        return document.uri if document is not None else uri_of_path(path)
+
+    def _version_of(self, path: str) -> int | None:
+        document = self.session.open.get(path)
+        return document.version if document is not None else None
+
+
+def watchers() -> types.DidChangeWatchedFilesRegistrationOptions:
+    return types.DidChangeWatchedFilesRegistrationOptions([types.FileSystemWatcher(_WATCHED)])
+
+
+def folders_of(params: types.InitializeParams) -> list[str]:
+    """The folders that the editor has opened."""
+    named = [folder.uri for folder in params.workspace_folders or ()] or [params.root_uri or ""]
+    return [path for uri in named if (path := path_of(uri))]

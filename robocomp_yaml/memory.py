@@ -1,0 +1,59 @@
+"""Results of passes that are kept from one analysis to the next.
+
+A pass is a pure function: equal input gives an equal result. Memory holds the last result of each part of a pass,
+together with its causes, which are everything that it depends on. As long as the causes are equal, the result is the
+same object, so that it is again an equal cause of later passes. An analysis without a past has an empty memory.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable
+from typing import Any, TypeVar
+
+_Kept = TypeVar("_Kept")
+
+
+class Memory:
+    """`kept` is how many results are kept."""
+
+    def __init__(self) -> None:
+        self._results: dict[Hashable, tuple[tuple[Any, ...], Any]] = {}
+        self._used: set[Hashable] = set()
+        self._used_before: set[Hashable] = set()
+
+    @property
+    def kept(self) -> int:
+        return len(self._results)
+
+    def result(self, part: Hashable, causes: tuple[Any, ...], make: Callable[[], _Kept]) -> _Kept:
+        """The result of `make` for this part of a pass: the kept one if its causes are the same. Only one result is
+        kept for each part."""
+        self._used.add(part)
+        known = self._results.get(part)
+        if known is not None and _is_same(known[0], causes):
+            result: _Kept = known[1]
+            return result
+        result = make()
+        self._results[part] = causes, result
+        return result
+
+    def forget_unused(self) -> None:
+        """Drops what no analysis has used since the call before the last one."""
+        for part in self._results.keys() - self._used - self._used_before:
+            del self._results[part]
+        self._used, self._used_before = set(), self._used
+
+
+_PLAIN = frozenset((str, bytes, int, float, bool, type(None)))
+
+
+def _is_same(one: Any, other: Any) -> bool:
+    """Whether two causes are the same: plain data if they are equal, everything else if it is the same object. Models
+    that are equal may differ in their locations."""
+    if one is other:
+        return True
+    if type(one) is not type(other):
+        return False
+    if type(one) is tuple:
+        return len(one) == len(other) and all(map(_is_same, one, other))
+    return type(one) in _PLAIN and bool(one == other)

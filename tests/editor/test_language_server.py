@@ -1,0 +1,341 @@
+"""`rcyaml lsp`, driven by a client over its standard streams."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("pygls")
+
+from lsprotocol import types
+
+from conftest import write_tree
+from editor.editing import Editor, edited
+
+pytestmark = pytest.mark.processes
+
+SPEECH = "module: RoboCompSpeech\ninterfaces:\n  Speech: {methods: {say: {in: {text: string}}}}\n"
+COMPONENT = "component: SpeechComp\nlanguage: python\nimports: [Speech]\nimplements: [Speech]\n"
+ROBOT = "\U0001f916"
+PLACE = {
+    "rcyaml.yaml": "interfaces: [interfaces]\n",
+    "interfaces/Speech.idsl.yaml": SPEECH,
+    "speech/speech.cdsl.yaml": COMPONENT,
+    "speech/speech.pdsl.yaml": "component: speech.cdsl.yaml\nparameters: {volume: {type: int, default: 3, range: [0, 9]}}\n",
+    "speech/etc/config.yaml": "component: ../speech.cdsl.yaml\nparameters: {volume: 4}\n",
+    "robot.ddsl.yaml": "deployment: Robot\ncomponents: {speech: {component: speech}}\n",
+}
+
+
+@pytest.fixture
+def ws(tmp_path: Path) -> Path:
+    folder = write_tree(tmp_path / "ws", {**PLACE, "speech/bin/SpeechComp": ""})
+    (folder / "speech/bin/SpeechComp").chmod(0o755)
+    return folder
+
+
+def _at(line: int, start: int, end: int) -> types.Range:
+    return types.Range(types.Position(line, start), types.Position(line, end))
+
+
+def _applied(text: str, edits: list[types.TextEdit]) -> str:
+    lines = text.split("\n")
+    for edit in sorted(edits, key=lambda one: (one.range.start.line, one.range.start.character), reverse=True):
+        assert edit.range.start.line == edit.range.end.line
+        line = lines[edit.range.start.line].encode("utf-16-le")
+        start, end = 2 * edit.range.start.character, 2 * edit.range.end.character
+        lines[edit.range.start.line] = (line[:start] + edit.new_text.encode("utf-16-le") + line[end:]).decode(
+            "utf-16-le"
+        )
+    return "\n".join(lines)
+
+
+def test_marks_come_with_the_keys_and_go_again(ws: Path) -> None:
+    interface, component = ws / "interfaces/Speech.idsl.yaml", ws / "speech/speech.cdsl.yaml"
+
+    async def test(editor: Editor) -> None:
+        await editor.start(ws)
+        editor.open(interface)
+        editor.open(component)
+        await editor.until_codes(component)
+        for _ in range(3):
+            editor.change(interface, SPEECH.replace("string", "strng"))
+            found = await editor.until_codes(interface, "RC1010")
+            assert found[0].range == _at(2, 38, 43) and found[0].source == "rcyaml"
+            assert found[0].severity == types.DiagnosticSeverity.Error
+            assert found[0].message == "unknown type 'strng'\ndid you mean 'string'?"
+            editor.change(interface, SPEECH)
+            await editor.until_codes(interface)
+        editor.change(interface, "module: [")
+        await editor.until_codes(interface, "RC0101")
+        editor.change(interface, SPEECH)
+        await editor.until_codes(interface)
+        assert not editor.messages
+
+    edited(test)
+
+
+def test_unsaved_texts_count_in_all_documents(ws: Path) -> None:
+    interface, component, values = (
+        ws / "interfaces/Speech.idsl.yaml", ws / "speech/speech.cdsl.yaml", ws / "speech/etc/config.yaml",
+    )  # fmt: skip
+
+    async def test(editor: Editor) -> None:
+        await editor.start(ws)
+        editor.open(interface)
+        await editor.until_codes(interface)
+        editor.change(interface, SPEECH.replace("  Speech:", "  Talk:"))
+        found = await editor.until_codes(component, "RC2003")  # it is not even open
+        assert found[0].range.start.line == 3
+        editor.open(component)
+        editor.change(component, COMPONENT.replace("implements: [Speech]", "implements: [Talk]"))
+        await editor.until_codes(component)
+
+        editor.open(ws / "speech/speech.pdsl.yaml")
+        editor.change(ws / "speech/speech.pdsl.yaml", PLACE["speech/speech.pdsl.yaml"].replace("[0, 9]", "[0, 3]"))
+        await editor.until_codes(values, "RC3303")
+        editor.close(ws / "speech/speech.pdsl.yaml")  # not saved: the file counts again
+        await editor.until_codes(values)
+
+        new = ws / "interfaces/Mouth.idsl.yaml"
+        editor.open(new, "module: RoboCompMouth\ninterfaces: {Mouth: {methods: {shut: {}}}}\n")
+        editor.change(
+            component,
+            COMPONENT.replace("imports: [Speech]\nimplements: [Speech]", "imports: [Mouth]\nimplements: [Mouth]"),
+        )
+        await editor.until_codes(component)
+        editor.close(new)
+        await editor.until_codes(component, "RC2101")
+
+    edited(test)
+
+
+def test_changes_on_the_disk_count(ws: Path) -> None:
+    component = ws / "speech/speech.cdsl.yaml"
+
+    async def test(editor: Editor) -> None:
+        await editor.start(ws)
+        await editor.until(editor.watched.is_set)
+        editor.open(component)
+        await editor.until_codes(component)
+        aside = (ws / "interfaces/Speech.idsl.yaml").rename(ws / "aside")
+        event = types.FileEvent(aside.as_uri(), types.FileChangeType.Deleted)
+        editor.client.workspace_did_change_watched_files(types.DidChangeWatchedFilesParams([event]))
+        await editor.until_codes(component, "RC2101")
+        aside.rename(ws / "interfaces/Speech.idsl.yaml")
+        editor.saved(component)
+        await editor.until_codes(component)
+
+    edited(test)
+
+
+@pytest.mark.parametrize(("encoding", "column"), [("utf-16", 41), ("utf-8", 43), ("utf-32", 40)])
+@pytest.mark.parametrize("end", ["\n", "\r\n"])
+def test_positions_behind_an_emoji(ws: Path, encoding: str, column: int, end: str) -> None:
+    interface = ws / "interfaces/Speech.idsl.yaml"
+    text = f"module: RoboCompSpeech # \U0001f916 é{end}interfaces:{end}  S: {{doc: '\U0001f916', methods: {{say: {{in: {{a: strng}}}}}}}}{end}"
+
+    async def test(editor: Editor) -> None:
+        started = await editor.start(ws, encodings=[encoding])
+        assert started.capabilities.position_encoding == encoding
+        editor.open(interface, text)
+        found = (await editor.until_codes(interface, "RC1010"))[0]
+        assert found.range == _at(2, column, column + 5)
+        action, *_ = await editor.actions(interface, found.range)
+        assert action.edit is not None and action.edit.document_changes
+        change = action.edit.document_changes[0]
+        assert isinstance(change, types.TextDocumentEdit)
+        assert [(one.range, one.new_text) for one in change.edits if isinstance(one, types.TextEdit)] == [
+            (found.range, "string")
+        ]
+
+    edited(test)
+
+
+def test_fixes_are_quick_fixes(ws: Path) -> None:
+    component = ws / "speech/speech.cdsl.yaml"
+    text = "component: SpeechComp\nlanguage: python\n# \U0001f916\nimplements: [Speech]\n"
+
+    async def test(editor: Editor) -> None:
+        await editor.start(ws)
+        editor.open(component, text)
+        found = (await editor.until_codes(component, "RC2003"))[0]
+        assert await editor.actions(component, _at(0, 0, 0)) == []
+        (action,) = await editor.actions(component, _at(3, 15, 15))
+        assert action.title == "Import 'Speech'" and action.kind == types.CodeActionKind.QuickFix
+        assert list(action.diagnostics or ()) == [found]
+        assert action.edit is not None and action.edit.document_changes
+        change = action.edit.document_changes[0]
+        assert isinstance(change, types.TextDocumentEdit) and change.text_document.version == 1
+        fixed = _applied(text, [one for one in change.edits if isinstance(one, types.TextEdit)])
+        editor.change(component, fixed)
+        await editor.until_codes(component)
+        assert "imports: [Speech]\n" in fixed
+
+    edited(test)
+
+
+def test_documents_are_formatted_as_by_fmt(ws: Path) -> None:
+    interface = ws / "interfaces/Speech.idsl.yaml"
+
+    async def test(editor: Editor) -> None:
+        await editor.start(ws)
+        editor.open(interface, "module:   RoboCompSpeech # \U0001f916\r\n\r\n\r\n\r\ninterfaces: {  Speech: }")
+        (edit,) = await editor.formatted(interface)
+        assert edit.new_text == "module: RoboCompSpeech # \U0001f916\n\ninterfaces: {Speech: }\n"
+        assert edit.range == types.Range(types.Position(0, 0), types.Position(4, 24))
+        editor.change(interface, edit.new_text)
+        assert not await editor.formatted(interface)
+        editor.change(interface, "module: [")
+        assert not await editor.formatted(interface)  # what is broken stays
+
+    edited(test)
+
+
+def test_several_workspaces_and_a_file_outside_of_any(tmp_path: Path) -> None:
+    one, two = (write_tree(tmp_path / name, PLACE) for name in ("one", "two"))
+    alone = (
+        write_tree(tmp_path / "alone", {"Speech.idsl.yaml": SPEECH, "other.cdsl.yaml": "component: 3\n"})
+        / "Speech.idsl.yaml"
+    )
+
+    async def test(editor: Editor) -> None:
+        await editor.start(one, two)
+        for ws in (one, two):
+            editor.open(ws / "interfaces/Speech.idsl.yaml")
+        editor.open(alone)
+        editor.change(two / "interfaces/Speech.idsl.yaml", SPEECH.replace("  Speech:", "  Talk:"))
+        editor.change(alone, SPEECH.replace("string", "strng"))
+        await editor.until_codes(two / "speech/speech.cdsl.yaml", "RC2003")
+        await editor.until_codes(alone, "RC1010")
+        await editor.rest()
+        assert editor.codes(one / "speech/speech.cdsl.yaml") == []
+        assert str(alone.with_name("other.cdsl.yaml")) not in editor.shown
+        editor.close(alone)
+        await editor.until_codes(alone)
+        editor.close(two / "interfaces/Speech.idsl.yaml")
+        await editor.until_codes(two / "speech/speech.cdsl.yaml")
+
+    edited(test)
+
+
+def test_other_files_are_left_alone(ws: Path) -> None:
+    async def test(editor: Editor) -> None:
+        await editor.start(ws)
+        editor.open(ws / "compose.yaml", "services: [")
+        editor.client.text_document_did_open(
+            types.DidOpenTextDocumentParams(types.TextDocumentItem("untitled:Untitled-1", "yaml", 1, "module: ["))
+        )
+        editor.open(ws / "interfaces/Speech.idsl.yaml", "module: [")
+        await editor.until_codes(ws / "interfaces/Speech.idsl.yaml", "RC0101")
+        await editor.rest()
+        assert str(ws / "compose.yaml") not in editor.shown and not editor.messages
+
+    edited(test)
+
+
+def test_a_handler_that_fails_says_so_and_the_server_lives_on(ws: Path, tmp_path: Path) -> None:
+    interface = ws / "interfaces/Speech.idsl.yaml"
+    broken = tmp_path / "broken.py"
+    broken.write_text(
+        "from robocomp_yaml.link import linker\nfrom robocomp_yaml.lsp import features\n"
+        "link = linker.Linker.link\n"
+        "def fails(self, paths):\n"
+        "    program = link(self, paths)\n"
+        "    if any(b'explode' in raw for raw in self.documents.disk.contents.values()):\n"
+        "        raise ZeroDivisionError('on purpose')\n"
+        "    return program\n"
+        "linker.Linker.link = fails\n"
+        "features.make().start_io()\n"
+    )
+
+    async def test(editor: Editor) -> None:
+        await editor.start(ws, command=[sys.executable, str(broken)])
+        editor.open(interface)
+        await editor.until_codes(interface)
+        editor.change(interface, f"{SPEECH}# explode\n")
+        await editor.until(lambda: any("on purpose" in one and "Speech.idsl.yaml" in one for one in editor.messages))
+        editor.change(interface, SPEECH.replace("string", "strng"))
+        await editor.until_codes(interface, "RC1010")
+
+    edited(test)
+
+
+def test_half_a_pair_and_a_long_line_do_not_end_it(ws: Path) -> None:
+    interface = ws / "interfaces/Speech.idsl.yaml"
+
+    async def test(editor: Editor) -> None:
+        await editor.start(ws)
+        editor.open(interface, f"{SPEECH}# \u2028 {'x' * 100_000}\n# {ROBOT * 1000}\n")
+        await editor.until_codes(interface)
+        editor.change(interface, f"# a\u2028b\x85c\n{SPEECH.replace('string', 'strng')}")
+        found = await editor.until_codes(interface, "RC1010")
+        assert found[0].range.start.line == 3
+
+    edited(test)
+
+
+def test_names_are_found_across_documents_and_in_unsaved_texts(ws: Path) -> None:
+    interface, component = ws / "interfaces/Speech.idsl.yaml", ws / "speech/speech.cdsl.yaml"
+    named = types.TextDocumentIdentifier(component.as_uri())
+    text = COMPONENT.replace("component:", f"# {ROBOT}\ncomponent:").replace("implements: ", f"# {ROBOT}\nimplements: ")
+
+    async def test(editor: Editor) -> None:
+        await editor.start(ws)
+        editor.open(component)
+        editor.change(component, text)
+        editor.open(interface)
+        editor.change(interface, f"# {ROBOT}\n{SPEECH}")
+        there = types.Position(5, 15)
+        (where,) = [await editor.client.text_document_definition_async(types.DefinitionParams(named, there))]
+        assert isinstance(where, types.Location)
+        assert where.uri == interface.as_uri() and where.range == _at(3, 2, 8)
+        found = await editor.client.text_document_references_async(
+            types.ReferenceParams(types.ReferenceContext(True), named, there)
+        )
+        assert [(one.uri, one.range) for one in found or ()] == [
+            (interface.as_uri(), _at(3, 2, 8)), (component.as_uri(), _at(5, 13, 19)),
+        ]  # fmt: skip
+        shown = await editor.client.text_document_hover_async(types.HoverParams(named, there))
+        assert shown is not None and isinstance(shown.contents, types.MarkupContent)
+        assert "interface RoboCompSpeech.Speech" in shown.contents.value and "used once" in shown.contents.value
+        assert (
+            await editor.client.text_document_definition_async(types.DefinitionParams(named, types.Position(0, 0)))
+            is None
+        )
+
+        symbols = await editor.client.text_document_document_symbol_async(
+            types.DocumentSymbolParams(types.TextDocumentIdentifier(interface.as_uri()))
+        )
+        assert [one.name for one in symbols or ()] == ["RoboCompSpeech", "Speech"]
+        inner = [one for one in symbols or () if isinstance(one, types.DocumentSymbol)][1].children
+        assert [one.name for one in inner or ()] == ["say"]
+        everywhere = await editor.client.workspace_symbol_async(types.WorkspaceSymbolParams("spcomp"))
+        assert [one.name for one in everywhere or ()] == ["SpeechComp"]
+        assert not editor.messages
+
+    edited(test)
+
+
+def test_names_are_completed_with_their_import(ws: Path) -> None:
+    component = ws / "speech/speech.cdsl.yaml"
+    named = types.TextDocumentIdentifier(component.as_uri())
+    text = f"component: SpeechComp\nlanguage: python\nimplements: [{ROBOT}, Sp"
+
+    async def test(editor: Editor) -> None:
+        await editor.start(ws)
+        editor.open(component, text)
+        found = await editor.client.text_document_completion_async(
+            types.CompletionParams(named, types.Position(2, len("implements: [") + 6))
+        )
+        assert isinstance(found, (list, tuple))
+        (item,) = found
+        assert item.label == "Speech" and item.detail == "interface RoboCompSpeech.Speech, imports Speech"
+        assert isinstance(item.text_edit, types.TextEdit) and item.text_edit.range == _at(2, 17, 19)
+        (more,) = item.additional_text_edits or ()
+        assert more.new_text == "\nimports: [Speech]" and more.range == _at(1, 16, 16)
+        assert not editor.messages
+
+    edited(test)

@@ -1,0 +1,177 @@
+"""After any sequence of edits, the living analysis says the same as a fresh one: diagnostics, networks and values."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from random import Random
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from conftest import write_tree
+from robocomp_yaml import api
+from robocomp_yaml.link.program import LinkedValues
+from verdicts import CASES
+
+WORKSPACE = {
+    "rcyaml.yaml": "interfaces: [interfaces]\nlint: {RC1103: off}\n",
+    "interfaces/Pose.idsl.yaml": "module: RoboCompPose\ntypes:\n  Pose: {struct: {x: {type: float, unit: mm}, y: float}}\n",
+    "interfaces/Arm.idsl.yaml": (
+        "module: RoboCompArm\nimports: [Pose]\ninterfaces:\n"
+        "  Arm: {methods: {moveTo: {in: {pose: Pose.Pose}, returns: bool}}}\n"
+        "topics:\n  Moved: {methods: {hasMoved: {in: {pose: Pose.Pose}}}}\n"
+    ),
+    "interfaces/Eye.idsl.yaml": "module: RoboCompEye\ninterfaces:\n  Eye: {methods: {look: {in: {far: bool}}}}\n",
+    "arm/arm.cdsl.yaml": (
+        "component: ArmComp\nlanguage: python\nimports: [Arm, Eye]\nimplements: [Arm]\nrequires: [Eye]\n"
+        "publishes: [Moved]\nperiod: 50\n"
+    ),
+    "arm/arm.pdsl.yaml": (
+        "component: arm.cdsl.yaml\ntypes: {Joint: {struct: {name: string, limit: {type: int, default: 90}}}}\nparameters:\n  speed: {type: float, range: [0, 2], default: 1}\n"
+        "  joints: {list: Joint, default: []}\n"
+        "  camera: {group: {width: {type: int, default: 640}, token: string}}\n"
+    ),
+    "arm/etc/base.config.yaml": "component: ../arm.cdsl.yaml\nparameters: {speed: 0.5, camera: {token: {env: TOKEN}}}\n",
+    "arm/etc/config.yaml": (
+        "component: ../arm.cdsl.yaml\nextends: [base.config.yaml]\nparameters:\n  joints: [{name: elbow}]\n"
+    ),
+    "eye/eye.cdsl.yaml": "component: EyeComp\nlanguage: cpp\nimports: [Eye, Arm]\nimplements: [Eye]\nsubscribes: [Moved]\n",
+    "eye/etc/config": "Endpoints.Eye=tcp -p 12000\nsize=3\n",
+    "tool/tool.pdsl.yaml": "component: tool\nparameters:\n  device: string\n",
+    "tool/tool.config.yaml": "component: tool.pdsl.yaml\nparameters: {device: /dev/null}\n",
+    "robot.ddsl.yaml": (
+        "deployment: Robot\nhosts: {left: 10.0.0.2, right: 10.0.0.3}\nservices: {storm: {icestorm: {host: left}}}\n"
+        "components:\n  arm: {component: arm, host: left, connect: {Eye: eye0}, set: {speed: 1.5}}\n"
+        "  'eye{i}': {component: eye, host: right, config: etc/config, instances: 2}\n"
+        "  log: {program: sh, args: [-c, 'sleep 9'], host: right, after: [arm]}\n"
+    ),
+    "lab.ddsl.yaml": (
+        "deployment: Lab\nservices: {storm: {icestorm: }}\ncomponents:\n  arm: {component: arm/arm.cdsl.yaml, connect: {Eye: eye1}}\n"
+        "  eye1: {component: eye}\n  eye2: {component: eye}\n"
+        "groups: {eyes: {components: [eye1, eye2]}}\n"
+    ),
+    "whole.ddsl.yaml": "deployment: Whole\ninclude: [robot.ddsl.yaml]\ncomponents:\n  more: {program: sleep, args: [9]}\n",
+}  # fmt: skip
+WORDS = (
+    "Arm", "Eye", "Pose", "Moved", "ArmComp", "float", "int", "speed", "1.5", "50", "arm", "eye", "left", "token",
+    "python", "moveTo", "0.5", "off", "etc/config", "[", "{", ": ", "RoboComp",
+)  # fmt: skip
+NEW = ("Leg", "spede", "string", "bool", "-3", "1e400", "ARM", "", "]", "'", "{}", "elbow", "warning", "# x\n", "\t")
+
+
+class Edited:
+    """A workspace on the disk with some unsaved documents, which are edited at random, and its living analysis."""
+
+    def __init__(self, random: Random) -> None:
+        self.random = random
+        self.unsaved: dict[str, str] = {}
+        self.living = api.follow()
+
+    def step(self) -> str:
+        random = self.random
+        edits: list[Callable[[str], object]] = [
+            self.shift, self.change, self.change, self.change, self.cut, self.repair, self.repair, self.save, self.remove,
+            self.rename, self.close, self.copy,
+        ]  # fmt: skip
+        edit, name = random.choice(edits), random.choice([*WORKSPACE, *self.unsaved, *self.files()])
+        edit(name)
+        return f"{edit.__name__} {name}"
+
+    def files(self) -> list[str]:
+        return [os.path.join(where, name)[2:] for where, _, names in os.walk(".") for name in sorted(names)]
+
+    def text(self, name: str) -> str:
+        path = Path(name)
+        return self.unsaved.get(name) or (path.read_text() if path.is_file() else WORKSPACE.get(name, ""))
+
+    def put(self, name: str, text: str) -> None:
+        if self.random.random() < 0.6:
+            self.unsaved[name] = text
+            self.living.edit(name, text)
+        else:
+            self.close(name)
+            Path(name).parent.mkdir(parents=True, exist_ok=True)
+            Path(name).write_text(text)
+
+    def shift(self, name: str) -> None:
+        self.put(name, f"# {self.random.random()}\n{self.text(name)}")
+
+    def change(self, name: str) -> None:
+        text, word = self.text(name), self.random.choice([word for word in WORDS if word in self.text(name)] or [""])
+        self.put(name, text.replace(word, self.random.choice((*WORDS, *NEW)), 1) if word else text)
+
+    def cut(self, name: str) -> None:
+        lines = self.text(name).splitlines(keepends=True)
+        del lines[self.random.randrange(max(len(lines), 1)) :][:1]
+        self.put(name, "".join(lines))
+
+    def repair(self, name: str) -> None:
+        self.put(name, WORKSPACE.get(name, ""))
+
+    def save(self, name: str) -> None:
+        if name in self.unsaved:
+            Path(name).parent.mkdir(parents=True, exist_ok=True)
+            Path(name).write_text(self.unsaved[name])
+            self.close(name)
+
+    def close(self, name: str) -> None:
+        self.unsaved.pop(name, None)
+        self.living.edit(name, None)
+
+    def remove(self, name: str) -> None:
+        self.close(name)
+        Path(name).unlink(missing_ok=True)
+        if self.random.random() < 0.1:
+            shutil.rmtree(Path(name).parent if "/" in name else "arm", ignore_errors=True)
+
+    def rename(self, name: str) -> None:
+        if Path(name).is_file():
+            other = self.random.choice((name.replace("arm", "leg"), name.replace("Arm", "Leg"), f"x{Path(name).name}"))
+            Path(other).parent.mkdir(parents=True, exist_ok=True)
+            Path(name).rename(other)
+
+    def copy(self, name: str) -> None:
+        self.put(f"{Path(name).parent}/copy-{Path(name).name}".removeprefix("./"), self.text(name))
+
+
+def said(workspace: api.Workspace) -> tuple[object, ...]:
+    analysis = workspace.analysis
+    values = {
+        real: analysis.program.effective(linked) for real, linked in analysis.program.values.items() if usable(linked)
+    }
+    return (
+        workspace.check(),
+        {path: repr(network) for path, network in workspace.networks.items()},
+        {real: (effective and effective.data, faults) for real, (effective, faults) in values.items()},
+        workspace.documents,
+    )
+
+
+def usable(linked: LinkedValues) -> bool:
+    return linked.parameters is not None and not linked.parameters.broken
+
+
+@pytest.mark.parametrize("shown", ["whole", "document"])
+@settings(max_examples=max(CASES // 10, 2), deadline=None, suppress_health_check=list(HealthCheck))
+@given(seed=st.integers(0, 1 << 40))
+def test_a_living_analysis_equals_a_fresh_one(tmp_path_factory: pytest.TempPathFactory, seed: int, shown: str) -> None:
+    home, folder = os.getcwd(), tmp_path_factory.mktemp("living")
+    os.chdir(folder)
+    try:
+        write_tree(Path(), WORKSPACE)
+        edited, done = Edited(Random(seed)), list[str]()
+        for _ in range(25):
+            done.append(edited.step())
+            if shown == "whole":
+                assert said(edited.living.load()) == said(api.load(overlay=edited.unsaved)), done
+            else:
+                edited.living.refresh()
+                name = edited.random.choice([*WORKSPACE, *edited.unsaved])
+                assert said(edited.living.look(name)) == said(api.load(name, overlay=edited.unsaved)), (done, name)
+    finally:
+        os.chdir(home)
+        shutil.rmtree(folder)

@@ -1,0 +1,100 @@
+"""Each name of a program is found where it is defined and where it is used, at the exact text."""
+
+from __future__ import annotations
+
+import pytest
+
+pytest.importorskip("pygls")
+
+from in_memory import ROOT, analysed
+from robocomp_yaml.lsp.names import DefinedName, Names
+
+# A name between « and » is defined or used under the number behind it: the first of each number is the definition.
+MARKED = {
+    "interfaces/Pose.idsl.yaml": (
+        "module: «RoboCompPose»1\n"
+        "types:\n  «Pose»2: {struct: {x: float}}\n  «Path»3: {sequence: «Pose»2}\n"
+        "exceptions: {«Lost»4: {struct: {at: «Pose»2}}}\n"
+    ),
+    "interfaces/Speech.idsl.yaml": (
+        "module: «RoboCompSpeech»5\nimports: [«Pose»1]\n"
+        "interfaces:\n  «Speech»6: {methods: {«say»7: {in: {at: «Pose.Pose»2}, returns: «Pose.Path»3, throws: [«Pose.Lost»4]}}}\n"
+        "topics: {«Heard»8: {methods: {«word»9: {in: {at: «Pose.Pose»2}}}}}\n"
+    ),
+    "speech/speech.cdsl.yaml": (
+        "component: «SpeechComp»10\nlanguage: python\nimports: [../interfaces/Speech]\n"
+        "implements: [«Speech»6]\npublishes: [{Mine: «Speech.Heard»8}]\n"
+    ),
+    "speech/speech.pdsl.yaml": (
+        "component: speech.cdsl.yaml\ntypes: {«Voice»11: {enum: [low, high]}}\n"
+        "parameters:\n  «voice»12: {type: «Voice»11, default: low}\n  «camera»13: {group: {«width»14: {type: int, default: 1}}}\n"
+    ),
+    "speech/etc/config.yaml": (
+        "component: ../speech.cdsl.yaml\nparameters: {«camera»13: {«width»14: 3}}\n"
+    ),
+    "ear/ear.cdsl.yaml": "component: EarComp\nlanguage: python\nimports: [../interfaces/Speech]\nrequires: [{Left: «Speech»6}]\n",
+    "robot.ddsl.yaml": (
+        "deployment: Robot\nhosts: {«left»15: 10.0.0.2}\nservices: {«storm»16: {icestorm: {host: «left»15}}}\ncomponents:\n"
+        "  «mouth»17: {component: «speech»10, host: «left»15, set: {«voice»12: high, «camera.width»14: 2}, after: [«storm»16]}\n"
+        "  ear: {component: ear, host: «left»15, connect: {Left: «mouth»17}, after: [«mouth»17]}\n"
+        "groups: {both: {components: [«mouth»17, ear]}}\n"
+    ),
+}  # fmt: skip
+
+
+def _without_marks() -> tuple[dict[str, str], dict[str, list[tuple[str, int, int, int]]]]:
+    """The documents, and for each number the places: file, line, columns."""
+    texts: dict[str, str] = {}
+    places: dict[str, list[tuple[str, int, int, int]]] = {}
+    for file, marked in MARKED.items():
+        plain = ""
+        rest = marked
+        while "«" in rest:
+            before, _, rest = rest.partition("«")
+            word, _, rest = rest.partition("»")
+            number = rest[: len(rest) - len(rest.lstrip("0123456789"))]
+            rest = rest[len(number) :]
+            plain += before
+            line, column = plain.count("\n") + 1, len(plain) - plain.rfind("\n")
+            places.setdefault(number, []).append((f"{ROOT}/{file}", line, column, column + len(word)))
+            plain += word
+        texts[file] = plain + rest
+    return texts, places
+
+
+TEXTS, PLACES = _without_marks()
+
+
+@pytest.fixture(scope="module")
+def names() -> Names:
+    analysis = analysed(TEXTS)
+    assert [one for one in analysis.diagnostics if one.severity == "error"] == []
+    return Names(analysis.program)
+
+
+@pytest.mark.parametrize("number", PLACES)
+def test_a_name_is_found_wherever_it_is(names: Names, number: str) -> None:
+    places = PLACES[number]
+    found: list[DefinedName] = []
+    for file, line, start, end in places:
+        for column in (start, (start + end) // 2, end):
+            at = names.at(file, line, column)
+            assert at is not None, (file, line, column)
+            assert (at[0].line, at[0].column, at[0].end_column) == (line, start, end)
+            found.append(at[1])
+    assert len({one.key for one in found}) == 1
+    span = found[0].span
+    assert (span.file, span.line, span.column, span.end_column) == places[0]
+    uses = {(one.file, one.line, one.column, one.end_column) for one in names.uses.get(found[0].key, ())}
+    assert uses >= set(places[1:])
+
+
+def test_what_is_no_name_is_none(names: Names) -> None:
+    assert names.at(f"{ROOT}/robot.ddsl.yaml", 1, 3) is None  # a key
+    assert names.at(f"{ROOT}/nothing.yaml", 1, 1) is None
+
+
+def test_the_names_of_a_document_are_in_its_order(names: Names) -> None:
+    found = names.in_document(f"{ROOT}/interfaces/Speech.idsl.yaml")
+    assert [one.name for one in found] == ["RoboCompSpeech", "Speech", "say", "Heard", "word"]
+    assert found[2].says == "Speech.say(at: Pose.Pose) → Pose.Path" and found[2].inside == found[1].key
