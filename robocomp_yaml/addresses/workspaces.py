@@ -63,7 +63,7 @@ class Addresses:
             return Program()
         return Linker(self._linker.documents, self._linker.search).link(documents)
 
-    def given_endpoint(self, linked: LinkedComponent, own: OwnAddresses, name: str) -> OwnText | None:
+    def own_endpoint(self, linked: LinkedComponent, own: OwnAddresses, name: str) -> OwnText | None:
         """The endpoint of an adapter that a component's own configuration sets; None for what rcyaml writes if nobody
         sets one."""
         text = own.endpoints.get(name)
@@ -75,7 +75,7 @@ class Addresses:
             return None
         return None if self.table(linked).is_default_endpoint(linked, name, text) else text
 
-    def given_proxy(self, linked: LinkedComponent, own: OwnAddresses, port: Port) -> OwnText | None:
+    def own_proxy(self, linked: LinkedComponent, own: OwnAddresses, port: Port) -> OwnText | None:
         """The proxy of a port that a component's own configuration sets; None for what rcyaml writes if nobody sets
         one."""
         text = own.proxies.get(port.name)

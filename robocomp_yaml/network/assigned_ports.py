@@ -104,7 +104,7 @@ def _fix_by_own(draft: Draft, offer: Offer, addresses: Addresses) -> Iterator[Di
     """Sets the endpoint that the component's own configuration sets. A plain port listens as all ports of the
     deployment do; a host, a protocol or options are kept."""
     component = draft.instance.component
-    own = addresses.given_endpoint(component, draft.own, offer.adapter) if component is not None else None
+    own = addresses.own_endpoint(component, draft.own, offer.adapter) if component is not None else None
     if component is None or own is None:
         return
     try:

@@ -223,7 +223,7 @@ class Connections(msgspec.Struct):
 
     def _unresolved(self, draft: Draft, port: Port) -> None:
         linked, name, component = self.drafts.linked, port.interface.name, draft.instance.component
-        own = self.addresses.given_proxy(component, draft.own, port) if component is not None else None
+        own = self.addresses.own_proxy(component, draft.own, port) if component is not None else None
         if own is not None:  # the component's own choice is an external server
             external = Connection(draft.name, port.name, name, "", proxy=own.text, span=draft.span)
             self.connections.append(external)

@@ -82,10 +82,10 @@ class ProcessSettings:
         if component is None or self._is_as_written(one.key):
             return False
         if one.section == "endpoints":
-            return self._addresses.given_endpoint(component, own, one.name) is not None
+            return self._addresses.own_endpoint(component, own, one.name) is not None
         port = next((port for port in component.requires if port.name == one.name), None)
         if one.section == "proxies" and port is not None:
-            return self._addresses.given_proxy(component, own, port) is not None
+            return self._addresses.own_proxy(component, own, port) is not None
         return bool(self._draft.base.manager) or one.name != "manager"
 
 
