@@ -21,7 +21,7 @@ from robocomp_yaml.network.network import Network
 
 _SIGNS = {START: "+", STOP: "-", RESTART: "~", CHANGE: "*", KEEP: "="}
 _TINTS = {START: "32", STOP: "31", RESTART: "33", CHANGE: "36", KEEP: "2"}
-PRESENT = "another one is around"
+PRESENT = "another one is present"
 """The state of a shared IceStorm that is not started, because another one answers at its address."""
 
 _LOG_TINTS = ("36", "33", "32", "35", "34", "96", "93", "92", "95", "94")

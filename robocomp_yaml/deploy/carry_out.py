@@ -151,6 +151,7 @@ class _Starts(msgspec.Struct):
     _tasks: dict[str, asyncio.Task[bool]] = {}
     _turns: dict[str, asyncio.Task[set[str]]] = {}
     _before: dict[str, list[str]] = {}
+    _stopped: set[str] = set()
 
     async def run(self) -> StartOutcome:
         starting = {step.name for step in self._plan.of(START, RESTART)}
@@ -179,13 +180,14 @@ class _Starts(msgspec.Struct):
                         task.result()
                 if self._is_over():
                     break
-            if not (self._outcome.failed or self._outcome.is_late):
-                ready = [
-                    step for step in self._plan.of(START, RESTART, CHANGE, KEEP) if self._tasks[step.name].result()
-                ]
+            if not pending:
+                every = self._plan.of(START, RESTART, CHANGE, KEEP)
+                ready = [step for step in every if self._tasks[step.name].result()]
                 await asyncio.gather(*(self._lasts(step, step.name in starting) for step in ready))
         finally:
-            await _cancel([*self._turns.values(), *self._tasks.values()])
+            await _cancel(self._tasks.values())
+            await _cancel([turn for name, turn in self._turns.items() if name not in self._stopped])
+            await asyncio.gather(*self._turns.values(), return_exceptions=True)  # a stop that has begun goes on
         if self._outcome.is_late:
             self._outcome.late = [*self._since]
             for name in self._outcome.late:
@@ -194,7 +196,8 @@ class _Starts(msgspec.Struct):
         tried = {*self._outcome.began, *self._outcome.failed}
         self._outcome.skipped = [step.name for step in self._plan.of(START, RESTART) if step.name not in tried]
         for name in self._outcome.skipped:
-            self._report(ProcessEvent(name, UNCHANGED if name in self._turns else SKIPPED))
+            goes_on = name in self._turns and name not in self._stopped
+            self._report(ProcessEvent(name, UNCHANGED if goes_on else SKIPPED))
         return self._outcome
 
     async def _turn(self, steps: list[PlanStep]) -> set[str]:
@@ -207,6 +210,7 @@ class _Starts(msgspec.Struct):
         if self._is_over():
             return set()
         going = [step for step in steps if self._may_start(step)]
+        self._stopped.update(step.name for step in going)
         await stop_all(self._engine, [step.running for step in going if step.running], self._report)
         if going:
             await self._engine.prepare([step.spec for step in going if step.spec])
@@ -265,12 +269,17 @@ class _Starts(msgspec.Struct):
         A process that ended in the meantime must become ready again, and no process may end again and again."""
         assert step.spec
         is_server = step.spec.process.is_server
-        end = time.monotonic() + min(step.spec.process.ready.within, self._limit.left or math.inf)
-        running = None if is_new else step.running
+        began, left = time.monotonic(), self._limit.left
+        end = began + (step.spec.process.ready.within if left is None else min(step.spec.process.ready.within, left))
+        running, pid, since = None if is_new else step.running, 0, began
         while True:
             running = running or await self._watch.of(step.name)(time.monotonic())
             why = fault(running, is_server=is_server) if running else "it was stopped in the meantime"
-            if running and not why and (running.state != RUNNING or running.uptime >= LASTING):
+            if running and running.pid != pid:
+                pid, since = running.pid, time.monotonic()
+            # Its uptime is unknown if it runs on another host with a wrong clock.
+            lasted = running is not None and max(running.uptime, time.monotonic() - since) >= LASTING
+            if running and not why and (running.state != RUNNING or lasted):
                 if not (is_new and running.restarts) or await self._is_ready(step.spec, running):
                     return
             if time.monotonic() > end or (running and running.state not in ALIVE):

@@ -142,7 +142,7 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
     is restarted. `is_ice` is False for a program that does not use Ice. `folders` must exist before it starts. `role`
     is SERVER or TASK, '' if the document does not set it. `settled` are the least seconds that a process without a
     condition must run before it is ready. It does not start if the proxies of `unless`
-    answer before: then another one is around.
+    answer before: then another one is present.
     """
 
     name: str

@@ -136,3 +136,17 @@ def test_what_another_host_lacks_is_told_before_anything_starts(talk: Deployment
     memory = {name: one["memory"] for name, one in status.items()}
     assert memory["watch"] > 0 and memory["blink"] is None is memory["pan"] is status["pan"]["cpu"]
     assert talk.deploy("status").count("unknown") == 4
+
+
+def test_a_process_that_moves_leaves_no_configuration_behind(talk: Deployment) -> None:
+    """With a folder of its own on each host, which the namespaces here share, the file on the old host is removed."""
+    talk.hosts.need_a_network("so no other host")
+    config = Path(talk.folder, "config", "pan")
+    assert config.read_text() == "password=hunter2\n"
+    document = talk.root / "talk.ddsl.yaml"
+    document.write_text(document.read_text().replace(", config: pan.conf, host: arm", ", config: pan.conf, host: head"))
+    talk.deploy("up")
+    assert talk.until_ready()["pan"]["host"] == "head" and config.read_text() == "password=hunter2\n"
+    document.write_text("".join(line for line in document.read_text().splitlines(True) if "pan:" not in line))
+    talk.deploy("up")
+    assert not config.exists()

@@ -1,4 +1,4 @@
-"""An IceStorm that is started unless another one is around: that of the including deployment, or one that answers."""
+"""An IceStorm that is started unless another one is present: that of the including deployment, or one that answers."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def test_one_that_answers_is_used(folder: Path, rcyaml: Rcyaml) -> None:
     assert planned(rcyaml, "leg/leg.ddsl.yaml") == {"base"}
     assert rcyaml("deploy", "up", "leg/leg.ddsl.yaml").stdout == "base   ready\nLeg: 1 process as desired\n"
     status = rcyaml("deploy", "status", "leg/leg.ddsl.yaml")
-    assert status.exit_code == 0 and "storm    another one is around" in status.stdout
+    assert status.exit_code == 0 and "storm    another one is present" in status.stdout
     assert rcyaml("deploy", "down", "arm.ddsl.yaml").exit_code == 0
     assert planned(rcyaml, "leg/leg.ddsl.yaml") == {"storm"}
     assert "storm  ready" in rcyaml("deploy", "up", "leg/leg.ddsl.yaml").stdout

@@ -21,7 +21,16 @@ from robocomp_yaml.deploy import registered
 from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
 from robocomp_yaml.deploy.icegrid import start_up
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles
-from robocomp_yaml.deploy.icegrid.obstacles import AT_ONCE, CHECK, MISSING, missing, of_answer, too_long, used_ports
+from robocomp_yaml.deploy.icegrid.obstacles import (
+    AT_ONCE,
+    CHECK,
+    MISSING,
+    has_own_path,
+    missing,
+    of_answer,
+    too_long,
+    used_ports,
+)
 from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.local.log_reader import LineReader, LogReader, merged
 from robocomp_yaml.deploy.local.obstacles import CheckedSpecs, is_local, obstacles
@@ -62,6 +71,7 @@ class IceGridEngine:
         self._no_node: dict[str, Diagnostic] = {}  # by the name of the host
         self._cleared = CheckedSpecs()
         self._has_staged = self._has_changed = False
+        self._addresses: dict[str, str] = {}  # of the hosts that were used before
         self._unreached: dict[str, set[str]] = {}  # processes that could not be ended, by the name of the host
         self._lock = threading.Lock()
         self._calls = ThreadPoolExecutor(_CALLS, "icegrid")
@@ -80,6 +90,7 @@ class IceGridEngine:
             self._nodes = asyncio.create_task(self._call("", "reached", self._ensure_nodes, self._grid))
             await asyncio.sleep(0)  # so that it starts
         self._specs = self._files.specs()
+        self._addresses = {spec.process.host: spec.address for spec in self._specs.values() if spec}
         self._kept = self._desired = self._files.desired()
         return True
 
@@ -143,7 +154,7 @@ class IceGridEngine:
         looked up in a PATH of its own is not checked."""
         found: list[Diagnostic] = []
         for host in dict.fromkeys(spec.process.host for spec in specs):
-            own = [one for one in specs if one.process.host == host and not _has_own_path(one)]
+            own = [one for one in specs if one.process.host == host and not has_own_path(one)]
             while own:
                 rows = [(str(number), one.process.cwd, one.command[0]) for number, one in enumerate(own[:AT_ONCE])]
                 server = replace(own[0], process=replace(own[0].process, name=CHECK, cwd="/", env=()))
@@ -354,8 +365,10 @@ class IceGridEngine:
             lost = await self._beside("", "ended", start_up.ended, grid, self._network.name)
             self._unreached |= {host: set() for host in lost if host not in self._unreached}
         elif grid:
+            if self._has_changed:
+                await self._beside("", "left", start_up.end_idle_nodes, grid, self._specs, self._addresses)
             await self._beside("", "left", grid.close)
-        self.notes += [self._not_reached(host, sorted(names)) for host, names in self._unreached.items()]
+        self.notes += [not_reached(self._network, host, sorted(names)) for host, names in self._unreached.items()]
         self._unreached.clear()
         if self._has_changed and not end:
             with contextlib.suppress(OSError):  # a full or read-only disk
@@ -363,13 +376,6 @@ class IceGridEngine:
                 registered.keep(one or registered.entry_of(self._network, self.name))
                 registered.copy(self._files.folder, self._files.copied)
         self._calls.shutdown(wait=False)
-
-    def _not_reached(self, host: str, names: list[str]) -> Diagnostic:
-        one = self._network.hosts.get(host)
-        what = " and ".join(f"'{name}'" for name in names) or "its node"
-        reason = f"it does not answer; {what} there is ended as soon as it does"
-        where = one.span if one and one.span.file else Span(self._network.path)
-        return deploying.NO_NODE.at(where, name=host, address=one.address if one else "", reason=reason, hint="")
 
     def _reached(self) -> GridSession:
         assert self._grid, "open it first"
@@ -394,7 +400,3 @@ class IceGridEngine:
             path = error.filename or self._network.folder
             reason = (error.strerror or str(error)).lower()
             raise DeployFailed(deploying.FOLDER.at(Span(self._network.path), path=path, reason=reason)) from error
-
-
-def _has_own_path(spec: ProcessSpec) -> bool:
-    return "/" not in spec.command[0] and any(variable.name == "PATH" for variable in spec.process.env)

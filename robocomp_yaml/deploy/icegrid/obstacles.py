@@ -4,7 +4,9 @@ hosts."""
 from __future__ import annotations
 
 import asyncio
+import errno
 import importlib.util
+import os
 import shutil
 from collections.abc import Mapping, Sequence
 
@@ -15,6 +17,8 @@ from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.deploy.states import OVER
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.network.network import Network
 
 _TOO_LONG = "its configuration is longer than the 100,000 bytes that IceGrid carries to another host"
 
@@ -46,15 +50,19 @@ def missing() -> str:
 CHECK = "rcyaml.check"
 """The name of the server that runs MISSING. No process can have this name."""
 
-AT_ONCE = 60
+AT_ONCE = 40
 """Processes that MISSING is asked about at a time: an exit code has one byte."""
 
-_FOLDER, _FILE = 2, 62  # the first exit codes of MISSING; 0, 1, 124 and 127 have other meanings
+_FOLDER, _FILE, _RIGHT = 2, 42, 82  # the first exit codes of MISSING; 0, 1, 124 and 127 have other meanings
 
 MISSING = f"""\
 while (( $# )); do
     cd -- "${{2:-/}}" 2>/dev/null || exit $(( $1 + {_FOLDER} ))
-    found=$(command -v -- "$3") && [[ -f $found && -x $found ]] || exit $(( $1 + {_FILE} ))
+    case $3 in
+        */*) [[ -f $3 ]] || exit $(( $1 + {_FILE} ))
+             [[ -x $3 ]] || exit $(( $1 + {_RIGHT} )) ;;
+        *) type -P -- "$3" >/dev/null || exit $(( $1 + {_FILE} )) ;;
+    esac
     shift 3
 done
 """
@@ -93,15 +101,34 @@ async def used_ports(specs: Sequence[ProcessSpec], running: Mapping[str, Running
 
 def of_answer(specs: Sequence[ProcessSpec], code: int) -> tuple[int, Diagnostic] | None:
     """What MISSING found, with the number of the process; None if it found nothing."""
-    number, is_folder = (code - _FOLDER, True) if code < _FILE else (code - _FILE, False)
+    first = next((one for one in (_RIGHT, _FILE, _FOLDER) if code >= one), code + 1)
+    number = code - first
     if not 0 <= number < len(specs):
         return None
     spec = specs[number]
     program, host = spec.command[0], spec.process.host
     file = f"the file '{program}' is missing" if "/" in program else f"PATH contains no program '{program}'"
-    what = f"its folder '{spec.process.cwd}' does not exist" if is_folder else f"{file}, or it cannot be executed"
+    what = {
+        _FOLDER: f"its folder '{spec.process.cwd}' does not exist",
+        _FILE: f"{file} ({os.strerror(errno.ENOENT)})",
+        _RIGHT: f"'{program}' is not executable ({os.strerror(errno.EACCES)})",
+    }[first]
     reason = f"{what}, on the host '{host}'"
     found = deploying.CANNOT.at(
         spec.process.span, hint=spec.process.build, name=spec.name, what="started", reason=reason
     )  # fmt: skip
     return number, found
+
+
+def has_own_path(spec: ProcessSpec) -> bool:
+    """Whether the program of a process is looked up in a PATH that the document sets."""
+    return "/" not in spec.command[0] and any(variable.name == "PATH" for variable in spec.process.env)
+
+
+def not_reached(network: Network, host: str, names: Sequence[str]) -> Diagnostic:
+    """The diagnostic for a host that does not answer while these processes, or only its node, are to be ended."""
+    one = network.hosts.get(host)
+    what = " and ".join(f"'{name}'" for name in names) or "its node"
+    reason = f"it does not answer; {what} there is ended as soon as it does"
+    where = one.span if one and one.span.file else Span(network.path)
+    return deploying.NO_NODE.at(where, name=host, address=one.address if one else "", reason=reason, hint="")

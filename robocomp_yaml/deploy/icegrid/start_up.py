@@ -20,6 +20,7 @@ from robocomp_yaml.deploy.icegrid.daemons import NodeStart, outcome
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry, free_port, registry_address
 from robocomp_yaml.deploy.local.obstacles import is_local
 from robocomp_yaml.deploy.local.record import clear_up
+from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.deploy.time_limit import until
 from robocomp_yaml.diag.codes import deploying as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -161,6 +162,23 @@ def ended(grid: GridSession, application: str) -> list[str]:
         end_here(files)
         registered.forget(files.folder)
     return lost
+
+
+def end_idle_nodes(
+    grid: GridSession, specs: Mapping[str, ProcessSpec | None], addresses: Mapping[str, str]
+) -> None:  # fmt: skip
+    """Ends the nodes of other hosts on which nothing of the deployment is left, after a move. `addresses` are those of
+    the hosts that were used before."""
+    from robocomp_yaml.deploy.icegrid import leftovers
+
+    nodes, used = grid.files.nodes(), {spec.process.host for spec in specs.values() if spec}
+    for host, is_started in list(nodes.items()):
+        is_far = host in addresses and not is_local(addresses[host])
+        if is_far and host not in used and grid.has_node(host) and not leftovers.of_host(grid.files, host):
+            end_node(grid, host, is_started=is_started)
+            if is_started:
+                del nodes[host]
+    grid.files.keep_nodes(nodes)
 
 
 def end_node(grid: GridSession, host: str, *, is_started: bool | None = None) -> None:
