@@ -76,9 +76,13 @@ def servant(
 
 
 def _operation(method: Method, gate: Gate, tally: Callable[[str], Tally]) -> Callable[..., Any]:
+    found: list[Tally] = []
+
     def operation(self: Ice.Object, *arguments: Any) -> Any:
-        inputs, current = arguments[:-1], arguments[-1]
-        return gate.enter(lambda worker: _call(worker, method, inputs, gate.log, tally(current.operation)))
+        if not found:
+            found.append(tally(arguments[-1].operation))  # the last one is Ice's `current`
+        inputs = arguments[:-1]
+        return gate.enter(lambda worker: _call(worker, method, inputs, gate.log, found[0]))
 
     return operation
 

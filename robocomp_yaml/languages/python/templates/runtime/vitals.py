@@ -18,13 +18,13 @@ Entry = tuple[str, Texts, Numbers]
 class Tally:
     """Counts calls of one method, or events of one topic, and measures them. Times are in seconds."""
 
-    def __init__(self, counted: str, texts: Optional[Texts] = None) -> None:
+    def __init__(self, counted: str, texts: Optional[Texts] = None, *, is_timed: bool = True) -> None:
         self._counted = counted
         self._texts = texts or {}
         self._lock = threading.Lock()
         self._count = self._exceptions = self._failures = 0
         self._total = self._longest = self._last = 0.0
-        self._is_timed = False
+        self._is_timed = is_timed
 
     def add(self) -> None:
         """Counts one that takes no time."""
@@ -37,21 +37,21 @@ class Tally:
         now = time.monotonic()
         taken = now - begin
         with self._lock:
-            self._is_timed = True
             self._count += 1
-            self._exceptions += exception
-            self._failures += failure
             self._total += taken
             self._last = now
             if taken > self._longest:
                 self._longest = taken
+            if exception or failure:
+                self._exceptions += exception
+                self._failures += failure
 
     def entry(self, name: str) -> Entry:
         with self._lock:
             numbers: Numbers = {self._counted: self._count}
             if self._count:
                 numbers["last"] = time.monotonic() - self._last
-            if self._is_timed:
+            if self._is_timed and self._count:
                 numbers["exceptions"] = self._exceptions
                 numbers["failures"] = self._failures
                 numbers["mean"] = self._total / self._count
@@ -176,7 +176,7 @@ class Vitals:
 
     def topic(self, port: str, topic: str, direction: str) -> Tally:
         """The tally of a topic that is published (`direction` 'out') or subscribed ('in')."""
-        counted = Tally("events", {"direction": direction, "topic": topic})
+        counted = Tally("events", {"direction": direction, "topic": topic}, is_timed=direction == "in")
         with self._lock:
             return self._topics.setdefault(f"{port} {direction}", counted)
 
@@ -186,7 +186,7 @@ class Vitals:
             return self._name, self._texts, {"since": now - self._since, "uptime": now - self._begin}
 
     def calls(self) -> list[Entry]:
-        return _entries(self._calls)
+        return [entry for entry in _entries(self._calls) if entry[2]["calls"]]
 
     def topics(self) -> list[Entry]:
         return [(name.partition(" ")[0], texts, numbers) for name, texts, numbers in _entries(self._topics)]
