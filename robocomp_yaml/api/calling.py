@@ -16,7 +16,7 @@ from robocomp_yaml.diag.errors import Faulty
 from robocomp_yaml.model.interface import Method
 
 if TYPE_CHECKING:
-    from robocomp_yaml.wire.client import Client
+    from robocomp_yaml.wire.client import IceClient
     from robocomp_yaml.wire.interfaces import Operation
 
 TIMEOUT = 10.0
@@ -80,13 +80,13 @@ class RemoteMethod:
         return made
 
     @contextmanager
-    def connected(self, config: str = "", timeout: float = TIMEOUT) -> Iterator[Calls]:
+    def connected(self, config: str = "", timeout: float = TIMEOUT) -> Iterator[MethodCalls]:
         """A connection for calls; `config` is a file with properties of Ice, such as those of TLS, `timeout` the
         seconds that a call may take."""
         from robocomp_yaml.wire.client import client
 
         with client(config, timeout) as made:
-            yield Calls(self, made, timeout)
+            yield MethodCalls(self, made, timeout)
 
     def call(self, words: Sequence[str] = (), config: str = "", timeout: float = TIMEOUT) -> Reply:
         """One call. Raises Refused, Faulty if the arguments are wrong, and NoAnswer."""
@@ -95,15 +95,15 @@ class RemoteMethod:
             return calls.call(made)
 
 
-class Calls(msgspec.Struct, frozen=True):
+class MethodCalls(msgspec.Struct, frozen=True):
     """A connection to a method."""
 
     method: RemoteMethod
-    client: Client
+    client: IceClient
     timeout: float
 
     def call(self, arguments: tuple[Any, ...]) -> Reply:
-        """Calls once. Raises NoAnswer."""
+        """MethodCalls once. Raises NoAnswer."""
         import Ice
 
         from robocomp_yaml.wire import failures

@@ -10,7 +10,7 @@ from typing import Any
 import msgspec
 
 from robocomp_yaml.api.addresses import Addresses
-from robocomp_yaml.api.calling import TIMEOUT, Calls, RemoteMethod, Reply
+from robocomp_yaml.api.calling import TIMEOUT, MethodCalls, RemoteMethod, Reply
 from robocomp_yaml.api.refusals import meant
 from robocomp_yaml.api.values import Change, Values, judged, spells_text
 from robocomp_yaml.diag.errors import Faulty, NoAnswer, Refused
@@ -78,7 +78,7 @@ class RunningParameters:
         get = RemoteMethod(self.addresses, f"{behavior}.getParameterList")
         put = RemoteMethod(self.addresses, f"{behavior}.setParameterList")
         with get.connected(config, timeout) as calls:
-            yield Session(self, calls, Calls(put, calls.client, timeout))
+            yield Session(self, calls, MethodCalls(put, calls.client, timeout))
 
     def _steps(self, path: str, known: Mapping[str, Listed]) -> tuple[list[str], Type | None]:
         """The steps of a path, and its type; None if only the component knows it. Raises Refused."""
@@ -110,7 +110,7 @@ class RunningParameters:
 class Session:
     """A connection to a running component."""
 
-    def __init__(self, parameters: RunningParameters, getting: Calls, setting: Calls) -> None:
+    def __init__(self, parameters: RunningParameters, getting: MethodCalls, setting: MethodCalls) -> None:
         self._of, self._get, self._put = parameters, getting, setting
 
     def listed(self) -> dict[str, Listed]:

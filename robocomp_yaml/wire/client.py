@@ -41,7 +41,7 @@ class OutOfTime(Exception):
     """There is a connection, and the call did not return in time."""
 
 
-class Client(msgspec.Struct):
+class IceClient(msgspec.Struct):
     """A communicator, for calls and for objects of its own."""
 
     communicator: Any
@@ -105,7 +105,7 @@ def proxy_of(communicator: Any, text: str) -> Any:
 
 
 @contextmanager
-def client(config: str = "", limit: float = 10.0) -> Iterator[Client]:
+def client(config: str = "", limit: float = 10.0) -> Iterator[IceClient]:
     """A client while the context lasts. `config` is a file of Ice properties, such as those of TLS; `limit` are the
     seconds that connecting may take. Raises Refused if Ice cannot be initialized with it."""
     data = Ice.InitializationData()
@@ -120,7 +120,7 @@ def client(config: str = "", limit: float = 10.0) -> Iterator[Client]:
         where = f" with {config}" if config else ""
         raise Refused(f"Ice cannot be initialized{where}: {reason_of(error)}") from None
     try:
-        yield Client(communicator)
+        yield IceClient(communicator)
     finally:
         communicator.destroy()
 

@@ -31,7 +31,7 @@ class MessageType:
     def __init__(self, interface: WireInterface, operation: Operation) -> None:
         self.operation = operation
         self.name = f"{interface.id.removeprefix('::').replace('::', '.')}.{operation.name}"
-        file = _File(f"{self.name}.proto")
+        file = _ProtoFile(f"{self.name}.proto")
         file.message(self.name, operation.inputs)
         self.schema: bytes = descriptor_pb2.FileDescriptorSet(file=[file.proto]).SerializeToString(deterministic=True)
         pool = descriptor_pool.DescriptorPool()
@@ -62,7 +62,7 @@ def _dotted(id_: str) -> str:
     return id_.removeprefix("::").replace("::", ".")
 
 
-class _File:
+class _ProtoFile:
     """A file that is being made, with the types that its messages need."""
 
     def __init__(self, name: str) -> None:
