@@ -35,6 +35,8 @@ settings.register_profile(
     "fuzz", derandomize=False, database=DirectoryBasedExampleDatabase(ROOT / ".fuzz" / "examples"), deadline=None,
     print_blob=True, suppress_health_check=list(HealthCheck),
 )  # fmt: skip
+# The first of them, where only the unit tests run; all tests together take all.
+settings.register_profile("quick", settings.get_profile("fixed"), max_examples=40)
 settings.load_profile("fuzz" if FUZZING else "fixed")
 
 # What takes longest begins first where whole files are handed out to several processes (`--dist loadfile`).
@@ -130,8 +132,10 @@ def link(tmp_path: Path) -> Callable[[Tree], LinkedComponent]:
     return linked
 
 
-def pytest_configure() -> None:
+def pytest_configure(config: pytest.Config) -> None:
     """Tests interrupt what they start, which ignores that if we do: so does what a script runs in the background."""
+    if config.option.markexpr == "unit" and not FUZZING:
+        settings.load_profile("quick")
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 

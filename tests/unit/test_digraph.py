@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from robocomp_yaml import digraph
 
-LONG = 3_000  # more than the interpreter recurses
+LONG = 1_500  # more than the interpreter recurses
 CHAIN = {number: [number + 1] for number in range(LONG)} | {LONG: []}
 
 graphs = st.dictionaries(st.integers(0, 8), st.lists(st.integers(0, 8), max_size=4)).map(
