@@ -83,15 +83,16 @@ def _unknown_path(
 
 
 def wrong_value(type_: Type, path: str, constant: Constant) -> Iterator[Diagnostic]:
-    """A literal value that the parameter rejects. None resets it."""
+    """A literal value that the parameter rejects. None resets it. A secret is not quoted, and so not judged."""
     data = constant.value
-    if data is None or not isinstance(type_, (BasicType, EnumType)):
+    if data is None or not isinstance(type_, (BasicType, EnumType)) or is_secret(type_):
         return
     if isinstance(data, int) and not isinstance(data, bool) and isinstance(type_, BasicType) and not type_.is_integer:
         data = float(data) if type_.is_number else data
     if wrong(type_, data):
-        value = "this value" if is_secret(type_) else repr(constant.value)
-        yield codes.WRONG_VALUE.at(constant.span, name=path, value=value, hint=f"it must be {in_words(type_)}")
+        yield codes.WRONG_VALUE.at(
+            constant.span, name=path, value=repr(constant.value), hint=f"it must be {in_words(type_)}"
+        )
 
 
 def keys(record: RecordType, head: str = "") -> Iterator[str]:

@@ -97,6 +97,13 @@ def _is_in_interfaces(name: str) -> bool:
 
 def read(files: Mapping[str, str], linked: LinkedComponent, worker: WorkerOffer) -> CodeUsage:
     """The use that the files below src/ make of the worker, by their paths there."""
+    try:
+        return _read(files, linked, worker)
+    except RecursionError:  # data that is written as code
+        return CodeUsage()
+
+
+def _read(files: Mapping[str, str], linked: LinkedComponent, worker: WorkerOffer) -> CodeUsage:
     is_robocomp = bool(linked.component.compatibility)
     if is_robocomp:  # what RoboComp's own tool left in src/ is not used
         files = {path: text for path, text in files.items() if path not in _REPLACED}

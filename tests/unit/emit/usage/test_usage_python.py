@@ -131,6 +131,18 @@ def test_classes_that_are_not_known(link: Link, text: str) -> None:
     assert found(link(component("python")), {"specificworker.py": HEAD + text}) == []
 
 
+@pytest.mark.parametrize("data", ["x = " + "1 + " * 5000 + "1", "x = " + "[" * 80 + "]" * 80, "x = a" + ".b" * 5000])
+def test_deep_data_is_no_traceback(link: Link, data: str) -> None:
+    files = worker("self.mouth_proxy.shut()", f"{data}\n")
+    assert found(link(component("python")), files) in ([], [("RC6302", "shut")])
+
+
+def test_a_secret_is_not_quoted(link: Link) -> None:
+    documents = component("python")
+    documents["x.pdsl.yaml"] += "  pin: {type: int, range: [1, 9], secret: true, optional: true, editable: true}\n"
+    assert found(link(documents), worker("self.parameters.pin = 1234567")) == []
+
+
 def test_all_files_that_the_worker_imports_are_read(link: Link) -> None:
     linked = link(component("python"))
     base = "\n\nclass Base(GenericWorker):\n    def helper(self):\n        self.mouth_proxy.shut()\n        self.later.go()\n"
