@@ -87,6 +87,7 @@ format: $(VENV)/tests
 
 bench: $(VENV)/rcyaml
 	@$(VENV)/bin/python benchmarks/run.py
+	@$(VENV)/bin/python benchmarks/living.py
 
 clean:
 	rm -rf $(VENV) .demo

@@ -174,7 +174,7 @@ def add(server: Server) -> None:
             place = typed_at(document.text, *lines.place(params.position))
             if place is None:
                 return []
-            known = server.session.names_around(path)
+            known = server.session.names_around(path, may_be_old=True)
             where = lines.range(Span(path, place.line, place.column, place.line, place.end_column))
             made = proposals(path, place, known.names, server.session.importable(path))
             return [_item(one, where, _importing(server, path, place, one.imports)) for one in made]

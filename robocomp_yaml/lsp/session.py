@@ -16,9 +16,9 @@ import msgspec
 
 from robocomp_yaml.api.living import LivingWorkspace
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.link.linker import Linker
-from robocomp_yaml.link.workspace import root_above
+from robocomp_yaml.link.workspace import ImportSearch, above, root_above
 from robocomp_yaml.lsp.names import Names
+from robocomp_yaml.pipeline import Analysis
 from robocomp_yaml.source.discover import WORKSPACE_FILE, kind_of
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.spelled import DocumentTexts
@@ -49,7 +49,7 @@ class KnownNames(msgspec.Struct, frozen=True):
 
     names: Names
     texts: DocumentTexts
-    linker: Linker
+    search: ImportSearch
 
 
 class OpenWorkspace:
@@ -62,6 +62,7 @@ class OpenWorkspace:
         self.is_known = False  # whether it was analysed as a whole
         self.found: Found = {}
         self.names: KnownNames | None = None
+        self.last_names: KnownNames | None = None  # of the texts before the last edits
         self.texts = DocumentTexts({}, {})
         self.beyond: dict[str, list[tuple[Diagnostic, str]]] = {}
 
@@ -147,18 +148,25 @@ class Session:
         for workspace in self.workspaces.values():
             workspace.names = None
 
-    def names_around(self, path: str) -> KnownNames:
-        """The names of the workspace of a document, which are collected when they are asked for."""
+    def names_around(self, path: str, *, may_be_old: bool = False) -> KnownNames:
+        """The names of the workspace of a document, which are collected when they are asked for. Those before the last
+        edits are good enough for what is typed in the document now."""
         workspace = self.workspace_of(path)
+        if workspace.names is None and may_be_old and workspace.last_names is not None:
+            return workspace.last_names
         if workspace.names is None:
-            analysis = workspace.living.look(workspace.root).analysis
-            workspace.names = KnownNames(Names(analysis.program), analysis.texts, analysis.linker)
+            return self._collect_names(workspace, workspace.living.look(workspace.root).analysis)
         return workspace.names
+
+    def _collect_names(self, workspace: OpenWorkspace, analysis: Analysis) -> KnownNames:
+        known = KnownNames(Names(analysis.program), analysis.texts, analysis.linker.search)
+        workspace.names = workspace.last_names = known
+        return known
 
     def importable(self, path: str) -> list[str]:
         """The names of the documents that a document can import."""
-        linker = self.names_around(path).linker
-        return linker.search.known(path, linker.workspace_of(path))
+        search = self.names_around(path, may_be_old=True).search
+        return search.known(path, above(path, search.disk)[0])
 
     def names_everywhere(self) -> list[KnownNames]:
         return [self.names_around(path) for path in {self.root_of(path): path for path in self.open}.values()]
@@ -180,6 +188,8 @@ class Session:
         for one in whole.check():
             workspace.found.setdefault(one.span.file, []).append(one)
         workspace.texts, workspace.is_known = whole.analysis.texts, True
+        if workspace.last_names is not None:  # they are asked for
+            self._collect_names(workspace, whole.analysis)
         workspace.beyond = {path: self._beyond(workspace, path) for path in self.open if path in workspace.found}
         return {**{path: [] for path in (*before, *self._in(root))}, **workspace.found}
 
