@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterator, Sequence
 from typing import Any
 
 import msgspec
@@ -254,7 +254,7 @@ class Attachments(msgspec.Struct):
 
     def _resolved(
         self, component: str, document: ParameterDocument, period: int | None = None
-    ) -> tuple[Parameters, list[Diagnostic], dict[str, Any]]:
+    ) -> tuple[Parameters, list[Diagnostic], dict[Hashable, Any]]:
         """The parameters of a document for a component, their problems, and what is made of them once."""
         part, causes = ("parameters", component, document.path), (document, period)
         return self.documents.memory.result(part, causes, lambda: (*resolve(document, period), {}))
@@ -262,7 +262,7 @@ class Attachments(msgspec.Struct):
     def _without_document(self, component: LinkedComponent, *, broken: bool) -> LinkedParameters:
         period = component.component.period
         parameters, made = self.documents.memory.result(
-            ("no parameters", period), (), lambda: (of_no_document(period), dict[str, Any]())
+            ("no parameters", period), (), lambda: (of_no_document(period), dict[Hashable, Any]())
         )
         return LinkedParameters(parameters, None, broken, made, component=component)
 

@@ -21,7 +21,7 @@ from robocomp_yaml.deploy import registered
 from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
 from robocomp_yaml.deploy.icegrid import start_up
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles
-from robocomp_yaml.deploy.icegrid.obstacles import (
+from robocomp_yaml.deploy.icegrid.obstacles import (, not_reached
     AT_ONCE,
     CHECK,
     MISSING,
