@@ -48,9 +48,8 @@ IN_ENTRY = [
 ]
 COMPLETIONS = [
     ("|", ["deployment document", "hosts: …", "services: …", "components: …", "groups: …", "include: […]", "deployment",
-           "doc", "hosts", "services", "ports", "components", "groups", "include"]),
+           "doc", "hosts", "services", "ports", "components", "alive", "groups", "include"]),
     (D + "ports: |", ["range of ports"]),
-           "doc", "hosts", "services", "components", "alive", "groups", "include"]),
     ("deployment: |", ["ShellyHead"]),
     (D + "hosts: |", ["host", "host of another user"]),
     (D + "hosts:\n  |", ["host", "host of another user"]),

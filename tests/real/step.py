@@ -17,6 +17,7 @@ from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
 from pathlib import Path
 from types import ModuleType
+from typing import ClassVar
 from unittest.mock import MagicMock
 
 ROOT = Path(sys.argv[1]).resolve()
@@ -27,7 +28,7 @@ OURS = {"generated", "genericworker", "interfaces", "specificworker", "Ice", "Ic
 class Fake(ModuleType):
     """A module with every name."""
 
-    __path__: list[str] = []
+    __path__: ClassVar[list[str]] = []
 
     def __getattr__(self, name: str) -> object:
         if name.startswith("__"):

@@ -21,12 +21,13 @@ from robocomp_yaml.deploy import registered
 from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
 from robocomp_yaml.deploy.icegrid import start_up
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles
-from robocomp_yaml.deploy.icegrid.obstacles import (, not_reached
+from robocomp_yaml.deploy.icegrid.obstacles import (
     AT_ONCE,
     CHECK,
     MISSING,
     has_own_path,
     missing,
+    not_reached,
     of_answer,
     too_long,
     used_ports,
