@@ -37,10 +37,8 @@ async def selected(
     async with aclosing(await engine.lines(names, 0, True)) as further:  # before the others are read: none is missed
         async with aclosing(await engine.lines(names, _ALL, False)) as lines:
             found = [line async for line in lines if chosen.accepts(line)]
-        shown = {id(line) for name in names for line in _last([one for one in found if one.name == name], last)}
-        for line in found:
-            if id(line) in shown:
-                yield line
+        for line in _last(found, last):
+            yield line
         if follow:
             seen = set(found)
             async for line in further:
@@ -49,4 +47,13 @@ async def selected(
 
 
 def _last(lines: list[Line], count: int | None) -> list[Line]:
-    return lines if count is None else lines[len(lines) - min(count, len(lines)) :]
+    """The last lines of each process."""
+    if count is None:
+        return lines
+    kept: list[Line] = []
+    left: dict[str, int] = {}
+    for line in reversed(lines):
+        left[line.name] = left.get(line.name, count) - 1
+        if left[line.name] >= 0:
+            kept.append(line)
+    return kept[::-1]

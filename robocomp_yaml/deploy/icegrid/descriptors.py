@@ -153,12 +153,12 @@ def alive_rule(process: Process) -> str:
     alive, asked = process.alive, liveness.question(process.alive)
     if alive is None or asked is None:
         return ""
-    host, port, message = asked
+    host, port, question = asked
     late = max(liveness.START, liveness.READY * process.ready.within)
     times = [alive.every, alive.within, alive.worker, late]
     every, within, worker, late_ms = (f"{1000 * time:.0f}" for time in times)
     then = "restart" if alive.restarts else "tell"
-    escaped = re.sub("..", r"\\x\g<0>", message)
+    escaped = re.sub("..", r"\\x\g<0>", question)
     return f"{every} {within} {alive.misses} {then} {worker} {late_ms} {host} {port} {escaped}"
 
 

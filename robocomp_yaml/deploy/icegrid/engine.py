@@ -19,19 +19,9 @@ from msgspec.structs import replace
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy import registered
 from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
+from robocomp_yaml.deploy.icegrid import obstacles as of_hosts
 from robocomp_yaml.deploy.icegrid import start_up
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles
-from robocomp_yaml.deploy.icegrid.obstacles import (
-    AT_ONCE,
-    CHECK,
-    MISSING,
-    has_own_path,
-    missing,
-    not_reached,
-    of_answer,
-    too_long,
-    used_ports,
-)
 from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.local.log_reader import LineReader, LogReader, merged
 from robocomp_yaml.deploy.local.obstacles import CheckedSpecs, is_local, obstacles
@@ -79,7 +69,7 @@ class IceGridEngine:
 
     async def open(self, network: Network, *, create: bool) -> bool:
         self._network, self._files = network, GridFiles(network.folder)
-        if lacking := missing():
+        if lacking := of_hosts.missing():
             raise DeployFailed(deploying.NO_REGISTRY.at(Span(network.path), reason=lacking))
         self._grid = await self._call("", "reached", self._reach, create)
         if self._grid is None:
@@ -145,24 +135,28 @@ class IceGridEngine:
         lost = {spec.process.host: self._no_node[spec.process.host] for spec in specs
                 if spec.process.host in self._no_node}  # fmt: skip
         far = [spec for spec in specs if not is_local(spec.address) and spec.process.host not in lost]
-        found += await used_ports(far, running)
+        found += await of_hosts.used_ports(far, running)
         if far and self._grid:
             found += await self._beside("", "asked", self._missing_programs, far)
-        return [*lost.values(), *found, *too_long(specs)]
+        return [*lost.values(), *found, *of_hosts.too_long(specs)]
 
     def _missing_programs(self, specs: Sequence[ProcessSpec]) -> list[Diagnostic]:
         """Diagnostics for programs and folders that other hosts lack, before anything is started. A program that is
         looked up in a PATH of its own is not checked."""
         found: list[Diagnostic] = []
         for host in dict.fromkeys(spec.process.host for spec in specs):
-            own = [one for one in specs if one.process.host == host and not has_own_path(one)]
+            own = [one for one in specs if one.process.host == host and not of_hosts.has_own_path(one)]
             while own:
-                rows = [(str(number), one.process.cwd, one.command[0]) for number, one in enumerate(own[:AT_ONCE])]
-                server = replace(own[0], process=replace(own[0].process, name=CHECK, cwd="/", env=()))
-                command = ("bash", "-c", MISSING, "bash", *(word for row in rows for word in row))
-                lacking = of_answer(own[:AT_ONCE], self._run(self._reached(), server, command, _WRITE_WITHIN))
+                rows = [
+                    (str(number), one.process.cwd, one.command[0]) for number, one in enumerate(own[: of_hosts.AT_ONCE])
+                ]
+                server = replace(own[0], process=replace(own[0].process, name=of_hosts.CHECK, cwd="/", env=()))
+                command = ("bash", "-c", of_hosts.MISSING, "bash", *(word for row in rows for word in row))
+                lacking = of_hosts.of_answer(
+                    own[: of_hosts.AT_ONCE], self._run(self._reached(), server, command, _WRITE_WITHIN)
+                )
                 found += [lacking[1]] if lacking else []
-                own = own[lacking[0] + 1 if lacking else AT_ONCE :]
+                own = own[lacking[0] + 1 if lacking else of_hosts.AT_ONCE :]
         return found
 
     async def stage(self, specs: Sequence[ProcessSpec]) -> None:
@@ -369,7 +363,9 @@ class IceGridEngine:
             if self._has_changed:
                 await self._beside("", "left", start_up.end_idle_nodes, grid, self._specs, self._addresses)
             await self._beside("", "left", grid.close)
-        self.notes += [not_reached(self._network, host, sorted(names)) for host, names in self._unreached.items()]
+        self.notes += [
+            of_hosts.not_reached(self._network, host, sorted(names)) for host, names in self._unreached.items()
+        ]
         self._unreached.clear()
         if self._has_changed and not end:
             with contextlib.suppress(OSError):  # a full or read-only disk

@@ -60,14 +60,19 @@ def _run(grid: GridSession, host: str, server: Any) -> None:
         grid.remove(_APPLICATION)
 
 
-def clean(grid: GridSession, host: str, names: Iterable[str] = (), *, with_key: bool = False) -> None:
-    """Removes configurations from a host that answers: those of these processes, or all. `with_key` also removes the
-    key of its node, which runs on without the file. A failure is ignored."""
+def clean(
+    grid: GridSession, host: str, names: Iterable[str] = (), *, everything: bool = False, with_key: bool = False
+) -> None:  # fmt: skip
+    """Removes configurations from a host that answers: those of these processes, or `everything`. `with_key` also
+    removes the key of its node, which runs on without the file. A failure is ignored."""
     from robocomp_yaml.deploy.icegrid.grid import GridFailed
 
     own = f"{grid.files.root}/nodes/{host}"
-    paths = [f"{grid.files.folder}/config/{name}" for name in names] or [f"{grid.files.folder}/config"]
+    paths = [f"{grid.files.folder}/config/{name}" for name in names]
+    paths += [f"{grid.files.folder}/config"] if everything else []
     paths += [f"{own}/key.pem", f"{own}/certificate.pem", f"{own}/settings"] if with_key else []
+    if not paths:
+        return
     with contextlib.suppress(GridFailed):
         _run(grid, host, descriptors.cleaner(paths, grid.user_of(host)))
 

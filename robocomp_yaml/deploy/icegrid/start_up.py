@@ -175,20 +175,23 @@ def end_idle_nodes(
     for host, is_started in list(nodes.items()):
         is_far = host in addresses and not is_local(addresses[host])
         if is_far and host not in used and grid.has_node(host) and not leftovers.of_host(grid.files, host):
-            end_node(grid, host, is_started=is_started)
+            # The folder of configurations can be shared by all hosts.
+            end_node(grid, host, is_started=is_started, with_configurations=False)
             if is_started:
                 del nodes[host]
     grid.files.keep_nodes(nodes)
 
 
-def end_node(grid: GridSession, host: str, *, is_started: bool | None = None) -> None:
+def end_node(
+    grid: GridSession, host: str, *, is_started: bool | None = None, with_configurations: bool = True
+) -> None:  # fmt: skip
     """Removes the configurations of this deployment from a host, and ends its node, with its key, if rcyaml started it.
     A node that was started by hand stays."""
     from robocomp_yaml.deploy.icegrid import leftovers
 
     files = grid.files
     is_started = files.nodes().get(host, False) if is_started is None else is_started
-    leftovers.clean(grid, host, with_key=is_started)
+    leftovers.clean(grid, host, everything=with_configurations, with_key=is_started)
     if is_started:
         grid.shut_down_node(host)
 

@@ -21,7 +21,9 @@ OWN = "tcp -h 127.0.0.1 -p 4711"
 
 
 def served(root: Path) -> list[tuple[str, str, tuple[str, ...]]]:
-    found = Expectations(analyse([str(root)])).servers("RoboCompLamp", "Lamp")
+    analysis = analyse([str(root)])
+    eye = next(one for one in analysis.program.components.values() if one.component.name == "Eye")
+    found = Expectations(analysis).servers(eye.requires[0])
     return [(one.endpoint, one.identity, one.users) for one in found]
 
 
@@ -41,10 +43,12 @@ def test_at_the_address_in_a_flat_config(tmp_path: Path, line: str, endpoint: st
 
 
 def test_at_the_address_in_a_values_document(tmp_path: Path) -> None:
-    """It counts before the next compile, and overrides the generated file."""
+    """It counts before the next compile."""
     values = "component: ../eye.cdsl.yaml\nproxies: {Lamp: 'lamp:tcp -h localhost -p 4711'}\n"
-    write_tree(tmp_path, {**DOCUMENTS, "eye/etc/config": "LampProxy=lamp:tcp -p 1\n", "eye/etc/config.yaml": values})
+    write_tree(tmp_path, {**DOCUMENTS, "eye/etc/config.yaml": values})
     assert served(tmp_path) == [(OWN, "lamp", ("Eye",))]
+    write_tree(tmp_path, {"eye/etc/config": "LampProxy=lamp:tcp -p 1\n"})
+    assert served(tmp_path) == [("tcp -h 127.0.0.1 -p 1", "lamp", ("Eye",))], "the user's file counts"
 
 
 def test_every_address_once(tmp_path: Path) -> None:
