@@ -216,9 +216,12 @@ def test_a_change_applies_without_a_restart(served: Served) -> None:
     os.kill(pid, signal.SIGSTOP)
     until(lambda: served.why, "a notice")
     os.kill(pid, signal.SIGCONT)
+    until(lambda: not served.why, "life")
+    served.say(30)
+    until(lambda: served.why, "another notice")
     served.process = replace(served.process, alive=None)
-    assert served.place.up(served.process).diagnostics == []
-    assert served.place.pids()["c"] == pid
+    served.place.up(served.process)
+    assert served.place.pids()["c"] == pid and not served.why, "it is not asked any more"
 
 
 def test_a_restart_waits_for_its_port(served: Served) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import struct
+from contextlib import suppress
 from typing import NamedTuple
 
 from robocomp_yaml.deploy.local import procfs
@@ -74,7 +75,8 @@ class AliveWatch:
             self._patient_until = self._loop.time() + max(SILENCE, alive["worker"])
         self._child.note_alive(why)
         if why and alive["restarts"]:
-            await self._child.replace()
+            with suppress(TimeoutError):  # it hangs in the kernel
+                await self._child.replace()
 
     def _is_late(self) -> bool:
         """Whether a process should have answered long ago."""

@@ -166,6 +166,8 @@ class _Service:
         """From now on, asks whether a process is alive. `question` is None if it is not asked."""
         if watch := self._watches.pop(name, None):
             watch.cancel()
+        if not question and name in self.children:
+            self.children[name].not_alive = ""
         if question:
             host, port, message = question
             asked = Question(host, port, bytes.fromhex(message))

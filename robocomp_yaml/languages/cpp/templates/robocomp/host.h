@@ -58,6 +58,11 @@ public:
     void compute() override;
 
 private:
+    bool countsTurns() const override
+    {
+        return false;
+    }
+
     /// Creates the worker, in the main thread.
     virtual void make() = 0;
 

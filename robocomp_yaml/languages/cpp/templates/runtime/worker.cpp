@@ -102,7 +102,7 @@ void Worker::run()
         {
             log.error("compute() failed");
         }
-        turns_.end(failed);
+        countsTurns() ? turns_.end(failed) : turns_.idle();
     }
     afterTurns();
 }
@@ -129,7 +129,7 @@ bool Worker::waitForTurn()
     lastTurn_ += passed * period_;
     if (!stopping_)
     {
-        turns_.begin(passed - 1);
+        countsTurns() ? turns_.begin(passed - 1) : turns_.busy();
     }
     return !stopping_;
 }

@@ -88,6 +88,12 @@ protected:
 
     virtual void takeTurn();
 
+    /// Whether compute() is the user's, so that its turns are counted.
+    virtual bool countsTurns() const
+    {
+        return true;
+    }
+
     virtual void afterTurns()
     {
     }

@@ -1,0 +1,100 @@
+"""Generated components whose worker is stuck, deployed: they are started again, unless they say that they take long."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import Result
+
+from processes import until
+
+pytest.importorskip("Ice", reason="Ice's Python module is not installed")
+
+Rcyaml = Callable[..., Result]
+WORKER = """\
+import os
+import time
+
+from generated.genericworker import GenericWorker
+
+
+class SpecificWorker(GenericWorker):
+    def compute(self):
+        if os.path.exists("stuck"):
+            os.unlink("stuck")
+            if os.path.exists("patient"):
+                self.mayTake(60)
+            self.log.info("stuck")
+            time.sleep(5)
+            self.log.info("free again")
+"""
+DOCUMENT = """\
+deployment: Robot
+alive: {every: 500 ms, worker: 2 s}
+components:
+  lamp: {component: lamp, ready: 20 s}
+"""
+
+
+@pytest.fixture
+def lamp(tmp_path: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder of a component that runs, and is stuck for 5 s when there is a file `stuck`."""
+    monkeypatch.setenv("PATH", f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}")
+    (tmp_path / "lamp").mkdir()
+    (tmp_path / "lamp" / "lamp.cdsl.yaml").write_text("component: Lamp\nlanguage: python\nperiod: 50 ms\n")
+    (tmp_path / "robot.ddsl.yaml").write_text(DOCUMENT)
+    assert rcyaml("compile", ".").exit_code == 0
+    (tmp_path / "lamp" / "src" / "specificworker.py").write_text(WORKER)
+    up = rcyaml("deploy", "up", "robot.ddsl.yaml")
+    assert up.exit_code == 0, up.output
+    return tmp_path / "lamp"
+
+
+def status(rcyaml: Rcyaml) -> dict[str, Any]:
+    answer = rcyaml("deploy", "status", "robot.ddsl.yaml", "--format", "json").stdout
+    (process,) = json.loads(answer)["processes"]
+    return dict(process)
+
+
+def logs(rcyaml: Rcyaml) -> str:
+    return rcyaml("deploy", "logs", "robot.ddsl.yaml").stdout
+
+
+def test_a_stuck_worker(rcyaml: Rcyaml, lamp: Path) -> None:
+    before = status(rcyaml)
+    (lamp / "stuck").touch()
+    until(lambda: status(rcyaml)["restarts"] == 1 and status(rcyaml)["ready"], lambda: logs(rcyaml))
+    now = status(rcyaml)
+    assert now["pid"] != before["pid"] and now["last_exit"].startswith("not alive: its worker has shown no life for ")
+    assert "free again" not in logs(rcyaml)
+    assert rcyaml("deploy", "down", "robot.ddsl.yaml").exit_code == 0
+
+
+def test_a_worker_that_says_that_it_takes_long(rcyaml: Rcyaml, lamp: Path) -> None:
+    before = status(rcyaml)
+    (lamp / "patient").touch()
+    (lamp / "stuck").touch()
+    until(lambda: "free again" in logs(rcyaml), lambda: logs(rcyaml))
+    now = status(rcyaml)
+    assert (now["pid"], now["restarts"], now["ready"]) == (before["pid"], 0, True)
+    assert rcyaml("deploy", "down", "robot.ddsl.yaml").exit_code == 0
+
+
+def test_it_is_only_told(rcyaml: Rcyaml, lamp: Path) -> None:
+    (lamp.parent / "robot.ddsl.yaml").write_text(DOCUMENT.replace("2 s}", "2 s, then: tell}"))
+    plan = rcyaml("deploy", "plan", "robot.ddsl.yaml").stdout
+    assert "alive.then: restart → tell" in plan and "1 to change" in plan
+    assert rcyaml("deploy", "up", "robot.ddsl.yaml").exit_code == 0
+    (lamp / "stuck").touch()
+    until(lambda: "life" in status(rcyaml)["not_alive"], lambda: logs(rcyaml))
+    shown = rcyaml("deploy", "status", "robot.ddsl.yaml")
+    assert shown.exit_code == 1 and "not alive: its worker has shown no life for" in shown.stdout
+    until(lambda: status(rcyaml)["ready"], lambda: logs(rcyaml))
+    assert status(rcyaml)["restarts"] == 0 and "rcyaml: alive again" in logs(rcyaml)
+    assert rcyaml("deploy", "down", "robot.ddsl.yaml").exit_code == 0
