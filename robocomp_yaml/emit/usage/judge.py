@@ -67,7 +67,7 @@ class _Judging(msgspec.Struct):
             if step.arguments is not None:
                 yield from self._call(now, step.word, member, step.arguments, chain)
             elif is_last and chain.is_assigned and member.parameter is not None:
-                yield from self._assigned(member, step.word, chain.constant)
+                yield from self._assigned(now, member, step.word, chain.constant)
             now = member.value
 
     def _may_exist(self, now: Offer, step: Step, chain: Chain) -> bool:
@@ -135,9 +135,15 @@ class _Judging(msgspec.Struct):
                 word.span, owner=owner, expected=_arguments(member.least), count=count, hint=hint
             )
 
-    def _assigned(self, member: OfferedMember, word: Word, constant: Constant | None) -> Iterator[Diagnostic]:
+    def _assigned(
+        self, now: Offer, member: OfferedMember, word: Word, constant: Constant | None
+    ) -> Iterator[Diagnostic]:  # fmt: skip
         parameter = member.parameter
         assert parameter is not None
+        if now.kind == offers.RECORD:
+            hint = f'call `set("{member.path or "PATH"}", value)` of the parameters'
+            yield codes.NOT_ASSIGNED.at(word.span, name=member.path or parameter.name, hint=hint)
+            return
         if not parameter.editable and not parameter.is_group:
             yield codes.NOT_EDITABLE.at(word.span, name=member.path or parameter.name, hint=_EDITABLE)
         elif constant is not None:
