@@ -97,8 +97,9 @@ def headers(folder: Path) -> list[str]:
     sources = sorted(path for path in (TABLE.parent / "templates").rglob("*") if path.is_file())
     texts = [path.read_text(encoding="utf-8") for path in sources]
     texts += [(folder / name).read_text() for name in ("M.h", "M.cpp")]
-    names = {name for text in texts for name in _INCLUDE.findall(text)} - {"M.h", "CommonBehavior.ice.h"}
-    names = {name for name in names if not name.startswith(("machine/", "qt/", "robocomp/", "runtime/"))}
+    names = {name for text in texts for name in _INCLUDE.findall(text)} - {"M.h"}
+    of_run_time = ("machine/", "qt/", "robocomp/", "runtime/")
+    names = {name for name in names if not name.startswith(of_run_time) and not name.endswith(".ice.h")}
     ours = {"IceUtil/PushDisableWarnings.h", "IceUtil/PopDisableWarnings.h", "IceUtil/UndefSysMacros.h"}
     return [*sorted(names - ours), "IceUtil/UndefSysMacros.h"]
 
