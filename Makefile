@@ -5,7 +5,8 @@ export VENV
 # Debian's module of Ice is for Debian's own python3. A newer Python that is first on PATH cannot load it.
 PYTHON ?= $(or $(RCYAML_PYTHON),$(shell /usr/bin/python3 -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null \
   && echo /usr/bin/python3 || echo python3))
-JOBS ?= 2
+# Many tests wait for processes: three at once use two cores.
+JOBS ?= 3
 FUZZ_MINUTES ?= 10
 MUTANTS ?= 60
 SEED ?= 1
