@@ -68,4 +68,4 @@ def test_the_properties_come_back(text: str) -> None:
             meant = {key: value for key, value in ice.read(text).values.items() if not ice.unwritable(key, value)}
             assert exported(entry.outputs[0]) == meant or any("quotes" in d.message for d in entry.diagnostics)
         else:
-            assert entry.status == "refused"
+            assert entry.status in ("refused", "skipped")  # the latter if there is nothing in it

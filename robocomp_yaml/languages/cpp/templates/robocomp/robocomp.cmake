@@ -55,8 +55,16 @@ if(component_listed)
   list(REMOVE_DUPLICATES component_specific)
   list(REMOVE_ITEM component_unlisted ${component_specific})
 endif()
-list(FILTER component_specific EXCLUDE REGEX
-  "^${component_root}/(src|generated)/(main|monitor|genericworker|genericmonitor|specificmonitor|${component_legacy})[.]cpp$")
+set(component_kept)
+foreach(file IN LISTS component_specific)
+  get_filename_component(folder "${file}" DIRECTORY)
+  get_filename_component(name "${file}" NAME)
+  if(NOT name MATCHES "^(main|monitor|genericworker|genericmonitor|specificmonitor|${component_legacy})[.]cpp$"
+      OR NOT (folder STREQUAL "${component_root}/src" OR folder STREQUAL "${component_root}/generated"))
+    list(APPEND component_kept "${file}")
+  endif()
+endforeach()
+set(component_specific ${component_kept})
 
 # The C++ standard: the highest that the lists or the document name.
 string(REGEX MATCHALL "CMAKE_CXX_STANDARD +[0-9]+|-std=(c|gnu)[+][+][0-9a-z]+" component_standards "${component_flags}")
