@@ -9,8 +9,10 @@ import importlib.util
 import os
 import shutil
 import subprocess
+import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -141,3 +143,23 @@ def robocomps_qt(request: pytest.FixtureRequest, tmp_path: Path) -> Mapping[str,
     (tmp_path / "hidden" / "PySide6").mkdir(parents=True)
     (tmp_path / "hidden" / "PySide6" / "__init__.py").write_text(NO_QT)
     return {"PYTHONPATH": str(tmp_path / "hidden")}
+
+
+_TALKING = ("test_call", "test_topic_commands")
+"""Modules whose commands know interfaces by themselves: another test of this process may have loaded the same Slice."""
+
+
+@pytest.fixture
+def rcyaml(request: pytest.FixtureRequest, rcyaml: Callable[..., Any]) -> Callable[..., Any]:
+    """Runs `rcyaml ARGS` in tmp_path, for modules that talk to components in a process of its own."""
+    if request.module.__name__.rpartition(".")[2] not in _TALKING:
+        return rcyaml
+
+    def run(*args: str, stdin: str | None = None) -> Any:
+        command = [sys.executable, "-m", "robocomp_yaml", *args]
+        done = subprocess.run(command, input=stdin or "", capture_output=True, text=True, check=False)
+        return SimpleNamespace(
+            exit_code=done.returncode, stdout=done.stdout, stderr=done.stderr, output=done.stdout + done.stderr
+        )
+
+    return run

@@ -175,10 +175,13 @@ class Application:
 
     def _listen(self) -> list[tuple[Subscribed, Ice.ObjectPrx]]:
         """An object for each subscription. IceStorm identifies subscribers by identity, so it must be unique."""
-        subscribers = []
+        subscribers: list[tuple[Subscribed, Ice.ObjectPrx]] = []
+        topics = self._topics
+        if topics is None:
+            return subscribers
         for port in self._component.subscribes:
             adapter = self._adapter(f"{port.name}Topic", self._settings.topic_endpoints(port.name))
-            tally = self._vitals.topic(port.name, self._topics.name(port), "in")
+            tally = self._vitals.topic(port.name, topics.name(port), "in")
             servant = servants.servant(port.interface, port.methods, self._gate, lambda operation, tally=tally: tally)
             subscribers.append((port, adapter.addWithUUID(servant)))
             adapter.activate()

@@ -49,7 +49,7 @@ class Facet:
             yield port, {"role": role, "interface": interface, "hash": content}, {}
 
 
-def servant(component: Component, schedule: Schedule, vitals: Vitals) -> Facet:
+def servant(component: Component, schedule: Schedule, vitals: Vitals) -> Any:
     """An Ice object with the operations of Introspection."""
     [module] = load(["RcYaml.ice"], ["RcYaml"], str(SHIPPED))
     return type("IntrospectionServant", (Facet, module.Introspection), {})(module, component, schedule, vitals)
