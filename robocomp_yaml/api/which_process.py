@@ -13,6 +13,7 @@ from robocomp_yaml.api.refusals import meant
 from robocomp_yaml.deploy.alone import Alone
 from robocomp_yaml.diag.diagnostic import has_errors
 from robocomp_yaml.diag.errors import Faulty, Refused
+from robocomp_yaml.diag.listing import some
 from robocomp_yaml.link.deployments import LinkedDeployment
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.link.workspace import root_above
@@ -143,13 +144,8 @@ def _unknown(name: str, analyses: Mapping[str, Analysis], otherwise: str, *, is_
     entries = [one for process in processes for one in (process.name, *process.aliases)]
     components = [] if is_only else [component_in(path) for path in of_kind(root_above("") or ".", "cdsl")]
     where = otherwise if is_only else f"no deployment or component has the name '{name}'"
-    hint = f"the entries are {_listed(entries)}" if entries else ""
+    hint = f"the entries are {some(entries, 8)}" if entries else ""
     return where + meant(name, [*entries, *filter(None, components)], hint)
-
-
-def _listed(names: Sequence[str], limit: int = 8) -> str:
-    more = f" and {len(names) - limit} more" if len(names) > limit else ""
-    return ", ".join(names[:limit]) + more
 
 
 def _by_itself(

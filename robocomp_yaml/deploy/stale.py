@@ -16,6 +16,7 @@ from robocomp_yaml.check.ddsl.files import is_this_machine
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.listing import some
 from robocomp_yaml.network.network import Network
 
 _SHOWN = 3  # files
@@ -53,10 +54,9 @@ def diagnostics(network: Network, found: Iterable[StaleComponent]) -> Iterator[D
             continue
         first = network.processes[one.processes[0]]
         shown = list(map(shown_path, one.look.changed))
-        more = f" and {len(shown) - _SHOWN} more" if len(shown) > _SHOWN else ""
         type_ = f" --type {one.look.type}" if one.look.type not in ("", RELEASE) else ""
         yield deploying.STALE.at(
-            first.span, name=first.name, changed=", ".join(shown[:_SHOWN]) + more, hint=f"`{one.unit.command}{type_}`",
+            first.span, name=first.name, changed=some(shown, _SHOWN), hint=f"`{one.unit.command}{type_}`",
             related=[Related("also started here", network.processes[name].span) for name in one.processes[1:_SHOWN]],
         )  # fmt: skip
 

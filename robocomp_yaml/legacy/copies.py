@@ -8,6 +8,7 @@ interface that is only in a folder of `-I`, as a legacy file, is migrated into t
 from __future__ import annotations
 
 import os
+from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
 
 from robocomp_yaml.diag.codes import migration as codes
@@ -29,10 +30,10 @@ def from_search_path(
 ) -> Iterator[LedgerEntry]:
     """Yield the legacy interfaces in the folders of the search path that files import, directly or not, and that no
     document and no file of the run defines."""
-    todo, files = [*entries], [entry.file for entry in entries if not entry.skipped]
+    interfaces = InterfaceFiles.of((entry.file for entry in entries if not entry.skipped), search)
+    todo = deque(entries)
     while todo:
-        importer = todo.pop(0)
-        interfaces = InterfaceFiles.of(files, search)
+        importer = todo.popleft()
         for imported in imports_of(importer.file):
             stem, document = imported.stem, importer.legacy.document(f"{base_name(importer.file.path)}.yaml")
             match, other_case = search.find(stem, document, homes.of(document))
@@ -46,9 +47,8 @@ def from_search_path(
                     codes.FROM_SEARCH_PATH.at(imported.span, name=stem, path=path),
                     *entry.file.diagnostics,
                 ]
-                files.append(entry.file)
+                interfaces.add(entry.file)
                 todo.append(entry)
-                interfaces = InterfaceFiles.of(files, search)
                 yield entry
 
 

@@ -37,10 +37,14 @@ class InterfaceFiles(msgspec.Struct, frozen=True):
     def of(cls, files: Iterable[Converted], search: ImportSearch) -> InterfaceFiles:
         interfaces = cls(search)
         for file in files:
-            if file.rules is not None and file.rules.kind == INTERFACES:
-                by_stem = interfaces.copies if is_copy(file) else interfaces.by_stem
-                by_stem.setdefault(base_name(file.path), []).append(file)
+            interfaces.add(file)
         return interfaces
+
+    def add(self, file: Converted) -> None:
+        """Add a file of the run, if it is an interface."""
+        if file.rules is not None and file.rules.kind == INTERFACES:
+            by_stem = self.copies if is_copy(file) else self.by_stem
+            by_stem.setdefault(base_name(file.path), []).append(file)
 
     def imported(self, importer: Converted, stem: str) -> Converted | None:
         """Return the file of the run that an import refers to: the one in the importer's folder, else the first; else
