@@ -28,10 +28,10 @@ from robocomp_yaml.check.allowed import Allowances, AllowanceVerdict
 from robocomp_yaml.check.networks import check_networks
 from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
 from robocomp_yaml.diag.hidden import Hidden
-from robocomp_yaml.link.documents import Documents
+from robocomp_yaml.link.documents import Document, Documents
 from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.link.workspace import ImportSearch
+from robocomp_yaml.link.workspace import ImportSearch, Workspaces
 from robocomp_yaml.memory import Memory
 from robocomp_yaml.network.networks import DerivedNetworks, networks_of
 from robocomp_yaml.source.allowances import Allowance
@@ -44,11 +44,13 @@ if TYPE_CHECKING:
 
 
 class Analysis(msgspec.Struct, frozen=True):
-    """A linked program with its sorted diagnostics, the disk and the texts that they come from, its networks and
-    the addresses of its components. `used` are the comments that suppress a diagnostic."""
+    """A linked program with its sorted diagnostics, the documents by real path, the disk and the texts that they come
+    from, its networks and the addresses of its components. `used` are the comments that suppress a diagnostic."""
 
     program: Program
-    linker: Linker
+    documents: Mapping[str, Document]
+    workspaces: Workspaces
+    search: ImportSearch
     discovered: DiscoveredDocuments
     disk: Disk
     derived: DerivedNetworks
@@ -70,7 +72,7 @@ class Analysis(msgspec.Struct, frozen=True):
     def complete(self, diagnostics: Iterable[Diagnostic], *, environment: bool = False) -> list[Diagnostic]:
         """The same, if no pass follows. Then it is also known which comments suppress nothing, and these are reported
         for the requested documents."""
-        more, read = self.without_suppressed(diagnostics), self.linker.documents.read
+        more, read = self.without_suppressed(diagnostics), self.documents
         requested = [read[real].path for real in self.program.requested if real in read]
         files = {*requested, *(path for path in self.allowed.by_file if os.path.basename(path) == WORKSPACE_FILE)}
         unused = self.allowed.unused(sorted(files), self.used | more.used, environment=environment)
@@ -80,12 +82,12 @@ class Analysis(msgspec.Struct, frozen=True):
 
     def without_suppressed(self, diagnostics: Iterable[Diagnostic]) -> AllowanceVerdict:
         """The diagnostics that no comment suppresses."""
-        return self.allowed.judge(diagnostics, lambda file: self.linker.workspace_of(file).lint)
+        return self.allowed.judge(diagnostics, lambda file: self.workspaces.of(file).lint)
 
     def for_users(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
         """Diagnostics as users see them: with the severities that their workspaces set, with fixes that say which text
         to write, and without secrets."""
-        return self.redacted(spelled(_with_lint(diagnostics, self.linker), self.texts))
+        return self.redacted(spelled(_with_lint(diagnostics, self.workspaces), self.texts))
 
     def redacted(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
         """Diagnostics without the secrets that the documents contain."""
@@ -95,7 +97,7 @@ class Analysis(msgspec.Struct, frozen=True):
 
     def hidden(self, files: set[str] | None = None) -> Hidden:
         """The secrets that these documents contain, by default all documents."""
-        documents = self.linker.documents.read.values()
+        documents = self.documents.values()
         files = {document.path for document in documents} if files is None else files
         return secrets.hidden(self.program, documents, files) if files else Hidden()
 
@@ -119,27 +121,32 @@ def analyse(
     disk = Disk(overlay, files)
     memory = memory if memory is not None else Memory()
     discovered = discover(list(paths), disk)
-    documents = Documents(disk, on_read or (lambda path: None), memory=memory)
-    linker = Linker(documents, ImportSearch(search_folders(include), disk))
-    program = linker.link(discovered.documents)
-    addresses = Addresses(linker, program)
+    workspaces, search = Workspaces(disk), ImportSearch(search_folders(include), disk)
+
+    def linker_of(known: Mapping[str, Document]) -> Linker:
+        read = Documents(disk, on_read or (lambda path: None), workspaces.plugins_of, memory, known)
+        return Linker(read, search, workspaces)
+
+    linker = linker_of({})
+    program, documents = linker.link(discovered.documents), linker.documents.read
+    addresses = Addresses(program, workspaces, lambda paths: linker_of(documents).link(paths))
     derived = networks_of(program, addresses)
-    diagnostics = [*discovered.diagnostics, *linker.documents.diagnostics, *linker.diagnostics]
-    for check in checks(program, [one.plugins for one in linker.workspaces.values()]):
+    diagnostics = [*discovered.diagnostics, *linker.documents.diagnostics, *workspaces.diagnostics, *linker.diagnostics]
+    for check in checks(program, [one.plugins for one in workspaces.declared]):
         diagnostics += check(program)
     diagnostics += check_networks(derived, program)
     diagnostics += addresses.faults()
-    diagnostics += secrets.check(program, linker.documents.read.values())
-    texts = DocumentTexts(disk.contents, linker.documents.trees())
+    diagnostics += secrets.check(program, documents.values())
+    texts = DocumentTexts(disk.contents, {document.path: document.tree for document in documents.values()})
     allowed = Allowances.of(texts, program.plugins_of)
-    analysis = Analysis(program, linker, discovered, disk, derived, addresses, texts, allowed)
+    analysis = Analysis(program, documents, workspaces, search, discovered, disk, derived, addresses, texts, allowed)
     judged = analysis.without_suppressed([*diagnostics, *analysis.allowed.faults])
     return replace(analysis, diagnostics=tuple(in_order(analysis.for_users(judged.reported))), used=judged.used)
 
 
-def _with_lint(diagnostics: Iterable[Diagnostic], linker: Linker) -> Iterator[Diagnostic]:
+def _with_lint(diagnostics: Iterable[Diagnostic], workspaces: Workspaces) -> Iterator[Diagnostic]:
     """Diagnostics with the severities that the `lint:` of their workspaces sets. `off` drops one."""
     for diagnostic in diagnostics:
-        severity = linker.workspace_of(diagnostic.span.file).lint.get(diagnostic.code, diagnostic.severity)
+        severity = workspaces.of(diagnostic.span.file).lint.get(diagnostic.code, diagnostic.severity)
         if severity != "off":
             yield diagnostic if severity == diagnostic.severity else diagnostic.as_severity(severity)

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable, Iterable
 
 from robocomp_yaml.addresses.own import OwnAddresses, OwnText
 from robocomp_yaml.addresses.port_numbers import USUAL, default_port, usable
 from robocomp_yaml.addresses.table import PortTable, assign
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import LinkedComponent, Port, Program
-from robocomp_yaml.link.workspace import WorkspaceSettings
+from robocomp_yaml.link.workspace import Workspaces, WorkspaceSettings
 from robocomp_yaml.model.port_range import PortRange
 from robocomp_yaml.source.discover import of_kind
 
@@ -18,14 +18,15 @@ from robocomp_yaml.source.discover import of_kind
 class Addresses:
     """The addresses of the components of a program, and of the other components of their workspaces."""
 
-    def __init__(self, linker: Linker, program: Program) -> None:
-        self._linker, self._program = linker, program
+    def __init__(self, program: Program, workspaces: Workspaces, link: Callable[[Iterable[str]], Program]) -> None:
+        """`link` returns the program of further documents."""
+        self._program, self._workspaces, self._link = program, workspaces, link
         self._tables: dict[str, PortTable] = {}
 
     def table(self, linked: LinkedComponent) -> PortTable:
         """The ports of a component's workspace. If a component is in no workspace, these are the ports of the
         components of this run."""
-        return self._of(self._linker.workspace_of(linked.component.path))
+        return self._of(self._workspaces.of(linked.component.path))
 
     def all(self) -> PortTable:
         """The ports of all components of this run, in the range of the workspace around the working folder."""
@@ -36,14 +37,14 @@ class Addresses:
         """The diagnostics of the workspaces' own ranges of ports. Without such a range, no port is assigned."""
         ranged = {}
         for linked in self._program.components.values():
-            workspace = self._linker.workspace_of(linked.component.path)
+            workspace = self._workspaces.of(linked.component.path)
             if workspace.declared and usable(workspace.ports) is not None:
                 ranged[workspace.root] = workspace
         return [fault for workspace in ranged.values() for fault in self._of(workspace).diagnostics]
 
     def range_of(self, document: str) -> PortRange:
         """The range of default ports of a document's workspace."""
-        return usable(self._linker.workspace_of(document).ports) or USUAL
+        return usable(self._workspaces.of(document).ports) or USUAL
 
     def _of(self, workspace: WorkspaceSettings) -> PortTable:
         key = workspace.root if workspace.declared else ""
@@ -61,7 +62,7 @@ class Addresses:
         documents = of_kind(workspace.root, "cdsl", self._program.disk)
         if {os.path.realpath(path) for path in documents} <= self._program.components.keys():
             return Program()
-        return Linker(self._linker.documents, self._linker.search).link(documents)
+        return self._link(documents)
 
     def own_endpoint(self, linked: LinkedComponent, own: OwnAddresses, name: str) -> OwnText | None:
         """The endpoint of an adapter that a component's own configuration sets; None for what rcyaml writes if nobody

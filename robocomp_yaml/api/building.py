@@ -40,7 +40,7 @@ class Built(msgspec.Struct, frozen=True):
 def units(analysis: Analysis, components: Iterable[LinkedComponent] | None = None) -> list[Unit]:
     """These components as they are built; by default, the requested ones."""
     chosen = _components(analysis) if components is None else components
-    return [unit_of(linked, analysis.linker.workspace_of(linked.component.path)) for linked in chosen]
+    return [unit_of(linked, analysis.workspaces.of(linked.component.path)) for linked in chosen]
 
 
 def _components(analysis: Analysis, documents: Iterable[str] = ()) -> list[LinkedComponent]:

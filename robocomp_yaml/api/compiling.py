@@ -39,7 +39,7 @@ class Compilation:
         self._analysis, self._arguments, self._adopt, self._merge = analysis, arguments, adopt, merge
         self._output = arguments.output
         options = EmitOptions(
-            self._output, analysis.discovered.folders, frozenset(arguments.targets), analysis.linker.workspace_of,
+            self._output, analysis.discovered.folders, frozenset(arguments.targets), analysis.workspaces.of,
             analysis.addresses.table, standalone=arguments.standalone,
         )  # fmt: skip
         self._built = build(analysis.program, analysis.diagnostics, options)
@@ -120,7 +120,7 @@ class Compilation:
         written is compiled all the same."""
         schemas: dict[str, bytes] = {}
         fences = AllowedFolders(self._arguments.paths, None)
-        for workspace in self._analysis.linker.workspaces.values():
+        for workspace in self._analysis.workspaces.declared:
             if not fences.contain(workspace.root):
                 continue
             try:
@@ -140,7 +140,7 @@ class Compilation:
         be unnoticed."""
         disk = self._analysis.disk
         walked = {folder: stamp.walked(folder) for folder in disk.walked}  # this run may have created new roots
-        plugins = [workspace.plugins for workspace in self._analysis.linker.workspaces.values()]
+        plugins = [workspace.plugins for workspace in self._analysis.workspaces.declared]
         if any(one.broken for one in plugins) or any(one.code == PLUGIN_FAILED.id for one in again.diagnostics):
             return None  # what is missing is not part of the stamp
         if disk.unreadable or any(walked[folder][: len(found)] != found for folder, found in disk.walked.items()):
@@ -177,7 +177,7 @@ def _outcome_of(
         for change in root.changes:
             diff = hidden.without(change.diff(properties=is_settings(change.path))) if with_diff else ""
             by_path[change.path] = File(root.root, change.path, change.action, change.orig, diff)
-    program, read = analysis.program, analysis.linker.documents.read
+    program, read = analysis.program, analysis.documents
     faulty = {os.path.realpath(one.span.file) for one in diagnostics if one.severity == ERROR}
     left_out = {read[real].path: real in faulty for real in built.skipped & program.requested}
     files, skipped = tuple(by_path.values()), dict(sorted(left_out.items()))

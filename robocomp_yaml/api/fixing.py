@@ -92,7 +92,7 @@ class Fixing:
         analysis = workspace.analysis
         levels = {
             document.path: UNREADABLE if document.tree is None else MISSHAPEN if document.model is None else UNDERSTOOD
-            for document in analysis.linker.documents.read.values()
+            for document in analysis.documents.values()
         }
         found = workspace.check(environment=self._environment) if self._is_complete else analysis.diagnostics
         return CheckedDocuments(list(found), analysis.disk.contents, levels)
@@ -100,7 +100,7 @@ class Fixing:
 
 def _fixable_code(workspace: Workspace, environment: bool) -> Iterator[str]:
     """The paths of the user's code for whose diagnostics there are fixes."""
-    documents = {document.path for document in workspace.analysis.linker.documents.read.values()}
+    documents = {document.path for document in workspace.analysis.documents.values()}
     for diagnostic in workspace.check(environment=environment):
         for fix in diagnostic.fixes:
             yield from (edit.span.file for edit in fix.edits if fix.is_spelled and edit.span.file not in documents)
@@ -109,7 +109,7 @@ def _fixable_code(workspace: Workspace, environment: bool) -> Iterator[str]:
 def _requested(analysis: Analysis) -> set[str]:
     """The paths of the requested documents, of those below requested folders, and of their state machines and workspace
     files."""
-    program, read = analysis.program, analysis.linker.documents.read
+    program, read = analysis.program, analysis.documents
     machines = {
         path
         for real, linked in program.components.items()
@@ -117,7 +117,7 @@ def _requested(analysis: Analysis) -> set[str]:
         for path in linked.machine_files
     }
     settings = {
-        path for each in analysis.linker.workspaces.values()
+        path for each in analysis.workspaces.declared
         if any(stays_inside(folder, os.path.abspath(each.root)) for folder in analysis.discovered.folders)
         and (path := os.path.normpath(os.path.join(each.root, WORKSPACE_FILE))) in analysis.disk.contents
     }  # fmt: skip

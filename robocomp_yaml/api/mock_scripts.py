@@ -44,7 +44,7 @@ def check(analysis: Analysis, include: Iterable[str]) -> Iterator[Diagnostic]:
         yield from diagnostics
         if root is None:
             continue
-        workspace = analysis.linker.workspace_of(path)
+        workspace = analysis.workspaces.of(path)
         folder = workspace.root if workspace.declared else os.path.dirname(path)
         if folder not in around:
             around[folder] = analysis if _covers(analysis, folder) else analyse([folder or "."], include)

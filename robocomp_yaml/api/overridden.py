@@ -61,7 +61,7 @@ def in_values(
     overlay: dict[str, bytes] = {}
     for name, value in settings.items():
         overlay = {os.path.realpath(path): Values(path, include, overlay).set(name, value).after}
-    read = analysis.linker.documents.read
+    read = analysis.documents
     requested = [read[real].path for real in analysis.program.requested if real in read]
     return analyse(requested, include, overlay=overlay)
 

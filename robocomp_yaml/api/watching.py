@@ -16,13 +16,13 @@ _SOURCES = "src"
 def folders(workspace: Workspace, paths: Iterable[str], home: str) -> list[str]:
     """The folders with everything that a run of these paths in the folder `home` depends on, none inside another
     one."""
-    linker, needed = workspace.analysis.linker, set[str]()
+    analysis, needed = workspace.analysis, set[str]()
     for path in paths:
         needed.add(os.path.dirname(path) if path.endswith(".yaml") else path)
-    needed |= {os.path.dirname(document.path) for document in linker.documents.read.values()}
-    for settings in linker.workspaces.values():
+    needed |= {os.path.dirname(document.path) for document in analysis.documents.values()}
+    for settings in analysis.workspaces.declared:
         needed |= {settings.root, *settings.interfaces}
-    needed |= {*linker.search.extra}
+    needed |= {*analysis.search.extra}
     real = sorted({os.path.realpath(os.path.join(home, folder)) for folder in needed})
     outer: list[str] = []
     for folder in real:

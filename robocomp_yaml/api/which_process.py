@@ -165,7 +165,7 @@ def _by_itself(
 
         analysis = in_values(analysis, path, overrides.settings, include)
     linked = analysis.program.components[os.path.realpath(path)]
-    workspace = analysis.linker.workspace_of(path)
+    workspace = analysis.workspaces.of(path)
     root = workspace.root if workspace.declared else os.path.dirname(path)
     network = Alone(linked, root, analysis.program, analysis.addresses.table(linked)).network()
     return ChosenProcess(analysis, network, network.processes[linked.component.name], path, network.folder)

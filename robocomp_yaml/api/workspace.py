@@ -99,7 +99,7 @@ class Workspace:
     def networks(self) -> dict[str, Network]:
         """The networks of the deployments, by the paths of their documents. A deployment whose errors leave no network
         is missing."""
-        documents = self.analysis.linker.documents.read
+        documents = self.analysis.documents
         return {documents[real].path: network for real, network in self.analysis.networks.items()}
 
     def network(self, path: str = "") -> Network:
@@ -125,7 +125,7 @@ class Workspace:
         path = path or self._paths[0]
         # The plug-ins are those of the workspace that contains the document, or the documents of the folder.
         inside = os.path.join(path, "") if os.path.isdir(path) else path
-        plugins = self.analysis.linker.workspace_of(inside).plugins
+        plugins = self.analysis.workspaces.of(inside).plugins
         if form not in forms(plugins):
             raise Refused(f"unknown picture '{form}'; choose one of {', '.join(forms(plugins))}")
         picture = self._picture(path)
@@ -157,7 +157,7 @@ class Workspace:
         deployments = self.analysis.program.deployments
         top = {real for real, linked in deployments.items() if not linked.is_included}
         candidates = {os.path.realpath(path)} if path else top
-        read = self.analysis.linker.documents.read
+        read = self.analysis.documents
         found = [read[real].path for real in self.analysis.networks if real in candidates]
         if found:
             from robocomp_yaml.api.which import only_deployment
@@ -198,7 +198,7 @@ class Workspace:
                     yield from (one for one in kept[0] if not one.span.file.startswith(tuple(folders)))
                 if folders != []:
                     yield from existing_code.check(
-                        analysis.program, analysis.diagnostics, analysis.linker, ports, folders
+                        analysis.program, analysis.diagnostics, analysis.workspaces, ports, folders
                     )
         if analysis.networks:
             from robocomp_yaml.check.networks import check_environment
@@ -212,4 +212,4 @@ class Workspace:
     def _missing(self) -> Iterator[Diagnostic]:
         from robocomp_yaml.emit.environment import missing
 
-        return missing(self.analysis.program.components.values(), self.analysis.linker.workspace_of)
+        return missing(self.analysis.program.components.values(), self.analysis.workspaces.of)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Callable, Iterator
+from collections.abc import Mapping as Map
 from functools import cache
 from typing import TYPE_CHECKING
 
@@ -74,12 +75,14 @@ class Document(msgspec.Struct, frozen=True, eq=False):
 
 class Documents(msgspec.Struct):
     """The documents of a run by real path, with the diagnostics of each by itself. `plugins_of` returns the plug-ins of
-    a document's workspace; `on_read` is called with the path of each document. `memory` keeps documents by content."""
+    a document's workspace; `on_read` is called with the path of each document. `memory` keeps documents by content.
+    `known` are documents that another run read; their diagnostics were reported there."""
 
     disk: Disk = msgspec.field(default_factory=Disk)
     on_read: Callable[[str], None] = lambda path: None
     plugins_of: Callable[[str], Plugins] = lambda path: NONE
     memory: Memory = msgspec.field(default_factory=Memory)
+    known: Map[str, Document] = {}
     read: dict[str, Document] = {}
     diagnostics: list[Diagnostic] = []
     _glanced: dict[str, tuple[Document, list[Diagnostic]]] = {}
@@ -87,7 +90,9 @@ class Documents(msgspec.Struct):
     def get(self, path: str, kind: str = "") -> Document:
         """The document at a path, which becomes part of the run. `kind` is for a name that does not have the kind."""
         document = self.glance(path, kind)
-        if document.real not in self.read:
+        if document.real in self.known:
+            self.read[document.real] = document
+        elif document.real not in self.read:
             self.read[document.real], diagnostics = self._glanced.pop(document.real)
             self.diagnostics += diagnostics
             self.on_read(path)
@@ -96,16 +101,12 @@ class Documents(msgspec.Struct):
     def glance(self, path: str, kind: str = "") -> Document:
         """The document at a path, which may be no part of the run: its diagnostics are not reported before `get`."""
         real = self.disk.real(path)
-        document = self.read.get(real)
+        document = self.read.get(real) or self.known.get(real)
         if document is not None:
             return document
         if real not in self._glanced:
             self._glanced[real] = self._load(path, real, kind_of(path, self.disk) or kind or "idsl")
         return self._glanced[real][0]
-
-    def trees(self) -> dict[str, Node | None]:
-        """The trees of the documents of the run, by their paths."""
-        return {document.path: document.tree for document in self.read.values()}
 
     def _load(self, path: str, real: str, kind: str) -> tuple[Document, list[Diagnostic]]:
         raw, diagnostics = self.disk.read(path)

@@ -19,9 +19,8 @@ from robocomp_yaml.diag.suggest import did_you_mean, meaning, suggest
 from robocomp_yaml.link.documents import Document, Documents
 from robocomp_yaml.link.knot import tie
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port, Program, Tables
-from robocomp_yaml.link.workspace import SUFFIX, ImportSearch, WorkspaceSettings, read, root_above
+from robocomp_yaml.link.workspace import SUFFIX, ImportSearch, Workspaces, WorkspaceSettings
 from robocomp_yaml.model.interface import Import, Interface, Module
-from robocomp_yaml.plugins import Plugins
 
 if TYPE_CHECKING:
     from robocomp_yaml.link.attachments import Attachments
@@ -38,15 +37,13 @@ class Linker(msgspec.Struct):
 
     documents: Documents
     search: ImportSearch
+    workspaces: Workspaces
     tables: Tables = msgspec.field(default_factory=Tables)
-    workspaces: dict[str, WorkspaceSettings] = {}
     diagnostics: list[Diagnostic] = []
-    _by_folder: dict[str, WorkspaceSettings] = {}
     _imported: dict[str, list[str]] = {}  # by real path: the real paths of the imported modules
 
     def link(self, paths: Iterable[str]) -> Program:
         """Returns the program of these documents and of all documents to which they refer."""
-        self.documents.plugins_of = self._plugins_of
         todo = [self.documents.get(path) for path in paths]
         requested = frozenset(document.real for document in todo)
         components: list[tuple[Document, LinkedComponent]] = []
@@ -96,11 +93,8 @@ class Linker(msgspec.Struct):
             documents=len(self.documents.read),
             disk=self.documents.disk,
             memory=self.documents.memory,
-            plugins_of=self._plugins_of,
+            plugins_of=self.workspaces.plugins_of,
         )
-
-    def _plugins_of(self, path: str) -> Plugins:
-        return self.workspace_of(path).plugins
 
     def _expanded(self, component: Component) -> LinkedComponent:
         """The component with the interfaces that its options add."""
@@ -113,24 +107,9 @@ class Linker(msgspec.Struct):
 
     def _root_of(self, path: str) -> str:
         """The root of a document's workspace; without a declared workspace, the folder of its component."""
-        workspace = self.workspace_of(path)
+        workspace = self.workspaces.of(path)
         is_deep = not workspace.declared and os.path.basename(os.path.abspath(workspace.root or ".")) == "etc"
         return os.path.normpath(os.path.join(workspace.root, os.pardir)) if is_deep else workspace.root
-
-    def workspace_of(self, path: str) -> WorkspaceSettings:
-        """The settings of a document's workspace; without a declared workspace, its root is the document's folder."""
-        folder = os.path.dirname(path)
-        if folder not in self._by_folder:
-            root = root_above(folder, self.documents.disk)
-            if root is None:
-                self._by_folder[folder] = WorkspaceSettings(folder)
-            else:
-                real = self.documents.disk.real(root)
-                if real not in self.workspaces:
-                    self.workspaces[real], diagnostics = read(root, self.documents.disk)
-                    self.diagnostics += diagnostics
-                self._by_folder[folder] = self.workspaces[real]
-        return self._by_folder[folder]
 
     def _read_machine(self, linked: LinkedComponent) -> None:
         if linked.component.machine is not None or not linked.component.statemachine:
@@ -148,7 +127,7 @@ class Linker(msgspec.Struct):
     ) -> list[Document]:
         """The imported documents. The names of modules that imports without a usable document might define are added to
         `unresolved`."""
-        workspace = self.workspace_of(document.path)
+        workspace = self.workspaces.of(document.path)
         documents: dict[str, Document] = {}
         for imported in imports:
             path, other_case = self.search.find(imported.text, document.path, workspace)
@@ -217,7 +196,7 @@ class Linker(msgspec.Struct):
         for linked in sorted(self.tables.modules.values(), key=lambda m: m.module.path):
             if any(i.name == interface for i in linked.module.all_interfaces):
                 return linked.module.stem
-        known = self.search.known(document.path, self.workspace_of(document.path))
+        known = self.search.known(document.path, self.workspaces.of(document.path))
         return interface if interface in known else None
 
 

@@ -128,6 +128,42 @@ def _ineffective_settings(tree: Mapping, workspace: WorkspaceSettings, disk: Dis
             yield codes.WORKSPACE_SETTING.at(value.span, problem=f"unknown severity '{value.data}'")
 
 
+class Workspaces(msgspec.Struct, frozen=True):
+    """The workspaces of documents. The settings of each are read at their first use."""
+
+    disk: Disk = msgspec.field(default_factory=Disk)
+    _read: dict[str, tuple[WorkspaceSettings, list[Diagnostic]]] = {}  # by the real path of the root
+    _by_folder: dict[str, WorkspaceSettings] = {}
+
+    def of(self, path: str) -> WorkspaceSettings:
+        """The settings of a document's workspace; without a declared workspace, its root is the document's folder."""
+        folder = os.path.dirname(path)
+        if folder not in self._by_folder:
+            root = root_above(folder, self.disk)
+            self._by_folder[folder] = WorkspaceSettings(folder) if root is None else self._settings(root)
+        return self._by_folder[folder]
+
+    def plugins_of(self, path: str) -> Plugins:
+        """The plug-ins of a document's workspace."""
+        return self.of(path).plugins
+
+    @property
+    def declared(self) -> list[WorkspaceSettings]:
+        """The workspaces with a settings file to which documents belong."""
+        return [settings for settings, _ in self._read.values()]
+
+    @property
+    def diagnostics(self) -> list[Diagnostic]:
+        """The errors in the settings of these workspaces."""
+        return [diagnostic for _, diagnostics in self._read.values() for diagnostic in diagnostics]
+
+    def _settings(self, root: str) -> WorkspaceSettings:
+        real = self.disk.real(root)
+        if real not in self._read:
+            self._read[real] = read(root, self.disk)
+        return self._read[real][0]
+
+
 class ImportSearch(msgspec.Struct, frozen=True):
     """Resolves imports: in the document's folder, the workspace's folders, then `extra` (`-I`, RCYAML_PATH)."""
 

@@ -159,7 +159,7 @@ class Session:
         return workspace.names
 
     def _collect_names(self, workspace: OpenWorkspace, analysis: Analysis) -> KnownNames:
-        known = KnownNames(Names(analysis.program), analysis.texts, analysis.linker.search)
+        known = KnownNames(Names(analysis.program), analysis.texts, analysis.search)
         workspace.names = workspace.last_names = known
         return known
 

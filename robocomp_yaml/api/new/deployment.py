@@ -15,7 +15,7 @@ from robocomp_yaml.emit.render import render
 from robocomp_yaml.link.documents import Documents
 from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.link.workspace import ImportSearch
+from robocomp_yaml.link.workspace import ImportSearch, Workspaces
 from robocomp_yaml.link.workspace_files import modeline
 from robocomp_yaml.parameters.types import Parameters
 from robocomp_yaml.pipeline import search_folders
@@ -51,7 +51,7 @@ def deployment_document(root: str, name: str) -> NewDocument:
 
 def _components(root: str) -> list[LinkedComponent]:
     """The components of a workspace that have no errors, sorted by path."""
-    program = Linker(Documents(), ImportSearch(search_folders(()))).link(of_kind(root, "cdsl"))
+    program = Linker(Documents(), ImportSearch(search_folders(())), Workspaces()).link(of_kind(root, "cdsl"))
     sound = (linked for linked in program.components.values() if not linked.broken)
     return sorted(sound, key=lambda linked: linked.component.path)
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from robocomp_yaml.addresses.table import PortTable
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.emit.layout import SOURCES
-from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import LinkedComponent, Program
+from robocomp_yaml.link.workspace import Workspaces
 
 if TYPE_CHECKING:
     from robocomp_yaml.emit.build import Build
@@ -39,18 +39,18 @@ def changed(program: Program, files: Collection[str]) -> list[str] | None:
 
 
 def check(
-    program: Program, diagnostics: Sequence[Diagnostic], linker: Linker, ports: Ports,
+    program: Program, diagnostics: Sequence[Diagnostic], workspaces: Workspaces, ports: Ports,
     folders: Collection[str] | None = None,
 ) -> Iterator[Diagnostic]:  # fmt: skip
     """The diagnostics about the user's files of components, or only of those in some folders; `diagnostics` are those
     of the documents, `ports` returns the ports of a component's workspace."""
     from robocomp_yaml.emit.specific.review import review
 
-    yield from review(plans(program, diagnostics, linker, ports, folders), program.disk).diagnostics
+    yield from review(plans(program, diagnostics, workspaces, ports, folders), program.disk).diagnostics
 
 
 def plans(
-    program: Program, diagnostics: Sequence[Diagnostic], linker: Linker, ports: Ports,
+    program: Program, diagnostics: Sequence[Diagnostic], workspaces: Workspaces, ports: Ports,
     folders: Collection[str] | None = None,
 ) -> Build:  # fmt: skip
     """What a compile would write for the requested components that have files of the user."""
@@ -59,7 +59,7 @@ def plans(
 
     languages = {program.components[real].component.language.name for real in program.requested_components()}
     options = EmitOptions(
-        None, (), frozenset({*languages, "config"}), linker.workspace_of, ports,
+        None, (), frozenset({*languages, "config"}), workspaces.of, ports,
         only=lambda linked: _is_written(linked) and (folders is None or _slashed(linked) in folders),
     )  # fmt: skip
     return build(program, diagnostics, options)

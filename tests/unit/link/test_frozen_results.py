@@ -52,10 +52,11 @@ class Part:
         return isinstance(other, Part) and other.it is self.it
 
 
-def test_programs_and_networks_are_frozen() -> None:
+def test_the_results_of_passes_are_frozen() -> None:
     analysis = analysed(DOCUMENTS)
     assert [one for one in analysis.diagnostics if one.severity == "error"] == []
-    found = reachable([Part(analysis.program), Part(analysis.networks)], lambda part: parts(part.it))
+    results = analysis.program, analysis.networks, analysis.documents, analysis.workspaces, analysis.search
+    found = reachable(map(Part, results), lambda part: parts(part.it))
     types = {type(part.it) for part in found if isinstance(part.it, msgspec.Struct)}
     names = {one.__name__ for one in types}
     assert names >= {
