@@ -23,9 +23,8 @@ import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml.addresses.workspaces import Addresses
-from robocomp_yaml.check import checks, secrets
+from robocomp_yaml.check import checks
 from robocomp_yaml.check.allowed import Allowances, AllowanceVerdict
-from robocomp_yaml.check.networks import check_networks
 from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
 from robocomp_yaml.diag.hidden import Hidden
 from robocomp_yaml.link.documents import Document, Documents
@@ -99,7 +98,11 @@ class Analysis(msgspec.Struct, frozen=True):
         """The secrets that these documents contain, by default all documents."""
         documents = self.documents.values()
         files = {document.path for document in documents} if files is None else files
-        return secrets.hidden(self.program, documents, files) if files else Hidden()
+        if not files:
+            return Hidden()
+        from robocomp_yaml.check import secrets  # most runs of interfaces alone show no document
+
+        return secrets.hidden(self.program, documents, files)
 
 
 def search_folders(include: Iterable[str]) -> tuple[str, ...]:
@@ -134,9 +137,15 @@ def analyse(
     diagnostics = [*discovered.diagnostics, *linker.documents.diagnostics, *workspaces.diagnostics, *linker.diagnostics]
     for check in checks(program, [one.plugins for one in workspaces.declared]):
         diagnostics += check(program)
-    diagnostics += check_networks(derived, program)
+    if derived.networks:
+        from robocomp_yaml.check.networks import check_networks  # most runs have no deployment
+
+        diagnostics += check_networks(derived, program)
     diagnostics += addresses.faults()
-    diagnostics += secrets.check(program, documents.values())
+    if any(document.kind != "idsl" for document in documents.values()):
+        from robocomp_yaml.check import secrets
+
+        diagnostics += secrets.check(program, documents.values())
     texts = DocumentTexts(disk.contents, {document.path: document.tree for document in documents.values()})
     allowed = Allowances.of(texts, program.plugins_of)
     analysis = Analysis(program, documents, workspaces, search, discovered, disk, derived, addresses, texts, allowed)

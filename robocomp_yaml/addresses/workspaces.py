@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING
 
-from robocomp_yaml.addresses.own import OwnAddresses, OwnText
 from robocomp_yaml.addresses.port_numbers import USUAL, default_port, usable
-from robocomp_yaml.addresses.table import PortTable, assign
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.program import LinkedComponent, Port, Program
 from robocomp_yaml.link.workspace import Workspaces, WorkspaceSettings
 from robocomp_yaml.model.port_range import PortRange
 from robocomp_yaml.source.discover import of_kind
+
+if TYPE_CHECKING:
+    from robocomp_yaml.addresses.own import OwnAddresses, OwnText
+    from robocomp_yaml.addresses.table import PortTable
 
 
 class Addresses:
@@ -30,6 +33,8 @@ class Addresses:
 
     def all(self) -> PortTable:
         """The ports of all components of this run, in the range of the workspace around the working folder."""
+        from robocomp_yaml.addresses.table import assign  # interfaces alone have no ports
+
         components, values = self._program.components.values(), self._program.values.values()
         return assign(components, self._program.disk, values, self.range_of(""))
 
@@ -47,6 +52,8 @@ class Addresses:
         return usable(self._workspaces.of(document).ports) or USUAL
 
     def _of(self, workspace: WorkspaceSettings) -> PortTable:
+        from robocomp_yaml.addresses.table import assign
+
         key = workspace.root if workspace.declared else ""
         if key not in self._tables:
             others = self._others(workspace) if workspace.declared else Program()

@@ -14,8 +14,6 @@ _FAMILY = "RC4"
 
 def check_networks(derived: DerivedNetworks, program: Program) -> Iterator[Diagnostic]:
     """The diagnostics of deriving the networks, and of the checks."""
-    if not derived.networks:
-        return iter(())
     checks = checks_of("ddsl")
     found = [fault for real in derived.judged for check in checks for fault in check(derived.networks[real])]
     for real in derived.judged:
