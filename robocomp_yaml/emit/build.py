@@ -105,6 +105,8 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: EmitOpti
 
 def _lodgers(program: Program, options: EmitOptions) -> dict[str, LinkedComponent]:
     """The components in the folder of another one, which has the folder's name, with that one."""
+    if not program.components:
+        return {}
     from robocomp_yaml.emit.component import component_root
 
     by_root: dict[str, list[str]] = {}

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Iterator, Set
 
-from robocomp_yaml.emit import runtime
 from robocomp_yaml.emit.layout import ALONE, Layout, fingerprint, runtime_folder
 from robocomp_yaml.emit.options import EmitOptions
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
@@ -30,6 +29,8 @@ class Shared:
         options, target = self._options, linked.component.language.target
         if options.output is not None or options.standalone:
             return ALONE
+        from robocomp_yaml.emit import runtime  # interfaces alone need none
+
         workspace = options.workspace_of(linked.component.path)
         if not (workspace.declared and target.runtime and runtime.has_common(linked)):
             return ALONE
@@ -59,6 +60,8 @@ class Shared:
             self._modules.update(dict.fromkeys(linked.modules(), workspace.slice_folder))
         name = component.language.name
         if not layout.has_own_runtime and options.emits(name) and (workspace.root, name) not in self._runtimes:
+            from robocomp_yaml.emit import runtime
+
             root = runtime_folder(workspace, component.language.target)
             owner = os.path.relpath(os.path.join(workspace.root, WORKSPACE_FILE), root)
             self._runtimes[workspace.root, name] = RootPlan(root, owner, runtime.files(name))

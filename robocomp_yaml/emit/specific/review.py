@@ -13,14 +13,13 @@ from robocomp_yaml.diag.codes.specific import OBSOLETE
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.layout import SOURCES
-from robocomp_yaml.emit.specific import config_merge, reading
-from robocomp_yaml.emit.specific.user_file import UserFile
 from robocomp_yaml.transactions.manifest import BASE
 from robocomp_yaml.transactions.output_root import Root
 from robocomp_yaml.transactions.plan import ONCE, Merge, Merges, RootPlan
 
 if TYPE_CHECKING:
     from robocomp_yaml.emit.build import Build
+    from robocomp_yaml.emit.specific.user_file import UserFile
     from robocomp_yaml.link.program import LinkedComponent
     from robocomp_yaml.source.disk import Disk
 
@@ -50,6 +49,10 @@ def review(built: Build, disk: Disk, *, merge: bool = False) -> Review:
     """Reviews the user's files of all plans. Only components with a file that is not up to date are parsed. `disk`
     records what is read to see how they use the worker."""
     result = Review()
+    if not built.components:
+        return result
+    from robocomp_yaml.emit.specific import reading
+
     for plan in built.plans:
         root = Root(plan.root)
         files = list(_user_files(plan, root, merge, result))
@@ -84,6 +87,8 @@ def review(built: Build, disk: Disk, *, merge: bool = False) -> Review:
 
 def _not_merged(files: Iterable[UserFile], root: Root) -> Iterator[Diagnostic]:
     """Warnings about files in languages without merging."""
+    from robocomp_yaml.emit.specific import reading
+
     for file in files:
         language = reading.unmerged(file.path)
         if language and not file.is_up_to_date and file.base != file.new:
@@ -97,6 +102,9 @@ def _not_merged(files: Iterable[UserFile], root: Root) -> Iterator[Diagnostic]:
 
 def _user_files(plan: RootPlan, root: Root, every: bool, seen: Review) -> Iterator[UserFile]:
     """The user's files with skeletons; unless `every`, only code and `etc/config`."""
+    from robocomp_yaml.emit.specific import config_merge
+    from robocomp_yaml.emit.specific.user_file import UserFile
+
     for file in plan.files:
         is_read = file.path.startswith(f"{SOURCES}/") or config_merge.is_config(file.path)
         if file.policy != ONCE or not (is_read or every):
