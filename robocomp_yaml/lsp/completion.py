@@ -11,11 +11,11 @@ from lsprotocol import types
 
 from robocomp_yaml.diag.fix import IMPORT, Edit
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.lsp import names
 from robocomp_yaml.lsp.messages import real_path
-from robocomp_yaml.lsp.names import DefinedName, Names
 from robocomp_yaml.lsp.places import TypedPlace, typed_at
 from robocomp_yaml.lsp.server import Server
+from robocomp_yaml.naming import names
+from robocomp_yaml.naming.names import DefinedName, Names
 from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.spelled import DocumentText

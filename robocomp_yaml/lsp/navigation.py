@@ -7,10 +7,10 @@ from typing import TypeVar
 
 from lsprotocol import types
 
-from robocomp_yaml.lsp import names
 from robocomp_yaml.lsp.messages import Messages, real_path
-from robocomp_yaml.lsp.names import DefinedName, Key, Names
 from robocomp_yaml.lsp.server import Server
+from robocomp_yaml.naming import names
+from robocomp_yaml.naming.names import DefinedName, Key, Names
 
 _Answer = TypeVar("_Answer")
 _SYMBOLS = {

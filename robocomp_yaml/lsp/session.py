@@ -17,7 +17,8 @@ import msgspec
 from robocomp_yaml.api.living import LivingWorkspace
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.workspace import ImportSearch, above, root_above
-from robocomp_yaml.lsp.names import Names
+from robocomp_yaml.naming.analysis import names_of
+from robocomp_yaml.naming.names import Names
 from robocomp_yaml.pipeline import Analysis
 from robocomp_yaml.source.discover import WORKSPACE_FILE, kind_of
 from robocomp_yaml.source.disk import Disk
@@ -159,7 +160,7 @@ class Session:
         return workspace.names
 
     def _collect_names(self, workspace: OpenWorkspace, analysis: Analysis) -> KnownNames:
-        known = KnownNames(Names(analysis.program), analysis.texts, analysis.linker.search)
+        known = KnownNames(names_of(analysis), analysis.texts, analysis.linker.search)
         workspace.names = workspace.last_names = known
         return known
 

@@ -8,8 +8,8 @@ pytest.importorskip("pygls")
 
 from in_memory import ROOT, analysed
 from robocomp_yaml.lsp.completion import proposals
-from robocomp_yaml.lsp.names import Names
 from robocomp_yaml.lsp.places import typed_at
+from robocomp_yaml.naming.analysis import names_of
 
 WORKSPACE = {
     "rcyaml.yaml": "interfaces: [interfaces]\n",
@@ -23,7 +23,7 @@ WORKSPACE = {
     "eye/eye.cdsl.yaml": "component: EyeComp\nlanguage: python\nimports: [Eye]\nimplements: [Eye]\n",
 }  # fmt: skip
 IMPORTABLE = ["Arm", "Eye", "Pose"]
-NAMES = Names(analysed(WORKSPACE).program)
+NAMES = names_of(analysed(WORKSPACE))
 
 IDSL = "module: RoboCompLeg\nimports: [Pose]\ntypes: {Own: {enum: [a]}}\n"
 CDSL = "component: C\nlanguage: python\nimports: [Arm]\n"
