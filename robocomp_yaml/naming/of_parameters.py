@@ -23,6 +23,7 @@ from robocomp_yaml.parameters.specification.expression import (
     parts,
 )
 from robocomp_yaml.semantics import connections
+from robocomp_yaml.source.properties import VALUES_HEAD
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 _STEP = re.compile(r"[^.\[\]]+")
@@ -210,10 +211,9 @@ def _values(names: Names, linked: LinkedValues) -> None:
 
 
 def _component(names: Names, linked: LinkedComponent, text: str, span: Span) -> None:
-    """What a document is about: the component's name, or the path of its document."""
+    """What a document is about: the path of a component's document."""
     if text:
-        is_path = text != linked.component.name
-        names.use((kinds.COMPONENT, linked.component.path), span.inside(text, 0, len(text)), is_path=is_path)
+        names.use((kinds.COMPONENT, linked.component.path), span.inside(text, 0, len(text)), is_path=True)
 
 
 def _adapter(names: Names, component: LinkedComponent, section: str, text: str, span: Span) -> None:
@@ -239,9 +239,9 @@ def _entries(node: Node | None) -> Iterator[tuple[Scalar, Node]]:
 
 
 def _flat(names: Names, linked: LinkedComponent, program: Program) -> None:
-    """The keys of a component's flat `etc/config`, if the user changed it: the next compile writes any other again."""
+    """The keys of a component's flat `etc/config`, unless the next compile writes it again from a values document."""
     flat = flat_config(os.path.dirname(linked.component.path), program.disk)
-    if flat is None or (flat.is_written and flat.is_unchanged):
+    if flat is None or (flat.is_unchanged and VALUES_HEAD in flat.text.partition("\n")[0]):
         return
     keys: dict[str, tuple[kinds.Key, str]] = {}
     for port in linked.ports:
