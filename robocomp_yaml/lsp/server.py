@@ -141,7 +141,7 @@ class Server(LanguageServer):
         shown = [messages.diagnostic(one) for one in diagnostics]
         if not shown and path not in self._shown and path not in self.session.open:
             return
-        uri = self._shown.get(path) or self._uri_of(path)
+        uri = self._shown.get(path) or self.uri_of(path)
         if shown:
             self._shown[path] = uri
         else:
@@ -157,17 +157,17 @@ class Server(LanguageServer):
                 known[path] = self.lines(document.text if document is not None else "")
             return known[path]
 
-        return Messages(lines_of, self._uri_of, self._version_of)
+        return Messages(lines_of, self.uri_of, self.version_of)
 
     def lines(self, text: str) -> TextLines:
         encoding = self.workspace.position_encoding
         return TextLines(text, str(getattr(encoding, "value", encoding)) if encoding else UTF16)
 
-    def _uri_of(self, path: str) -> str:
+    def uri_of(self, path: str) -> str:
         document = self.session.open.get(path)
         return document.uri if document is not None else uri_of_path(path)
 
-    def _version_of(self, path: str) -> int | None:
+    def version_of(self, path: str) -> int | None:
         document = self.session.open.get(path)
         return document.version if document is not None else None
 

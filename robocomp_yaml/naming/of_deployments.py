@@ -123,8 +123,8 @@ class _Uses:
             elif exposed.name == port.name and component is not None and "." not in exposed.member.text:
                 self.names.use(port_key(component, port), exposed.span.inside(exposed.name, 0, len(exposed.name)))
             for allowed in exposed.allow or ():
-                key = method_key(key_of(port.scope, port.interface), allowed.text)
-                self.names.use(key, allowed.span.inside(allowed.text, 0, len(allowed.text)))
+                method = method_key(key_of(port.scope, port.interface), allowed.text)
+                self.names.use(method, allowed.span.inside(allowed.text, 0, len(allowed.text)))
 
     def _name(self, text: str, span: Span) -> None:
         """A text such as `speech`, `arm.elbow.Motor`: a name, perhaps in included groups, perhaps with an interface."""

@@ -141,9 +141,14 @@ def _script(names: Names, program: Program, tree: MappingNode) -> None:
                 of = key_of(*found[0])
                 listed = node.get("messages")
                 messages = listed.items if isinstance(listed, SequenceNode) else ()
-                for name, _ in (*_entries(node.get("methods")), *(pair for one in messages for pair in _entries(one))):
-                    if any(one.name == name.lexeme for one in found[0][1].methods):
-                        names.use(method_key(of, name.lexeme), name.span.inside(name.lexeme, 0, len(name.lexeme)))
+                for called, _ in (
+                    *_entries(node.get("methods")),
+                    *(pair for one in messages for pair in _entries(one)),
+                ):
+                    if any(one.name == called.lexeme for one in found[0][1].methods):
+                        names.use(
+                            method_key(of, called.lexeme), called.span.inside(called.lexeme, 0, len(called.lexeme))
+                        )
 
 
 def _entries(node: Node | None) -> Iterator[tuple[Scalar, Node]]:

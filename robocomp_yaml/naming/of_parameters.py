@@ -185,13 +185,13 @@ def _expression(
         case Each(source=source, variable=variable):
             found = _expression(tree, source, node, variables)
             element = (found[0].element, found[1]) if found is not None and found[0].element is not None else None
-            inner: _Known = {**variables, variable: element}  # type: ignore[dict-item]
+            inner: _Known = {**variables, variable: element}
             for one in (part.element, *([part.condition] if part.condition is not None else [])):
                 _expression(tree, one, node, inner)
             return None
     last = None
-    for one in parts(part):
-        made = _expression(tree, one, node, variables)
+    for inside in parts(part):
+        made = _expression(tree, inside, node, variables)
         last = last or made
     is_index = type(part).__name__ == "Index" and last is not None and last[0].element is not None
     return (last[0].element, last[1]) if is_index and last is not None and last[0].element is not None else None

@@ -6,6 +6,7 @@ from __future__ import annotations
 import os
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import partial
 
 import msgspec
 
@@ -16,7 +17,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.deployment import INDEX
 from robocomp_yaml.naming import names as kinds
 from robocomp_yaml.naming.analysis import names_of
-from robocomp_yaml.naming.in_code import CodeOfComponent, code_of
+from robocomp_yaml.naming.in_code import CodeEdit, CodeOfComponent, code_of
 from robocomp_yaml.naming.names import DefinedName, Key, Names
 from robocomp_yaml.pipeline import Analysis
 from robocomp_yaml.source.spelled import DocumentText
@@ -77,7 +78,7 @@ def renamed(
         linked = then.program.components.get(real)
         if linked is None:
             continue
-        made = list(code.edits(linked, lambda path, code=code: _moved(code, defined, name, path)))
+        made = list(code.edits(linked, partial(_moved, code, defined, name)))
         texts = _texts_after(code, made)
         _refuse_new(code.faults(code.linked, code.texts), code.faults(linked, texts))
         in_code += [NameEdit(replaced(one.span, code), one.text, True) for one in made]
@@ -132,9 +133,9 @@ def _applied(raw: bytes, path: str, edits: Iterable[NameEdit]) -> bytes:
     return mark + _with(lines, [(one.span, one.text) for one in edits if one.span.file == path]).encode()
 
 
-def _texts_after(code: CodeOfComponent, edits: Iterable[NameEdit] | Iterable[object]) -> dict[str, str]:
+def _texts_after(code: CodeOfComponent, edits: Iterable[CodeEdit]) -> dict[str, str]:
     made = dict(code.texts)
-    every = [(one.span, one.text) for one in edits]  # type: ignore[union-attr]
+    every = [(one.span, one.text) for one in edits]
     for path in {span.file for span, _ in every}:
         made[path] = _with(DocumentText(path, made[path]), [one for one in every if one[0].file == path])
     return made

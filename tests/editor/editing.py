@@ -50,7 +50,10 @@ class Editor:
         capabilities = types.ClientCapabilities(
             general=types.GeneralClientCapabilities(position_encodings=[types.PositionEncodingKind(e) for e in encodings]),
             workspace=types.WorkspaceClientCapabilities(
-                did_change_watched_files=types.DidChangeWatchedFilesClientCapabilities(dynamic_registration=True)
+                did_change_watched_files=types.DidChangeWatchedFilesClientCapabilities(dynamic_registration=True),
+                workspace_edit=types.WorkspaceEditClientCapabilities(
+                    document_changes=True, change_annotation_support=types.ChangeAnnotationsSupportOptions()
+                ),
             ),
         )  # fmt: skip
         opened = [types.WorkspaceFolder(folder.as_uri(), folder.name) for folder in folders]
