@@ -19,6 +19,7 @@ def make(include: Iterable[str] = ()) -> Server:
     @server.feature(types.INITIALIZE)
     def begin(params: types.InitializeParams) -> None:
         server.begin(folders_of(params), include)
+        server.configure(params.initialization_options)
 
     @server.feature(types.INITIALIZED)
     async def watch(params: types.InitializedParams) -> None:
@@ -52,6 +53,11 @@ def make(include: Iterable[str] = ()) -> Server:
 
     @server.feature(types.WORKSPACE_DID_CHANGE_WATCHED_FILES)
     async def files_changed(params: types.DidChangeWatchedFilesParams) -> None:
+        await server.saved()
+
+    @server.feature(types.WORKSPACE_DID_CHANGE_CONFIGURATION)
+    async def configured(params: types.DidChangeConfigurationParams) -> None:
+        server.configure(params.settings)
         await server.saved()
 
     @server.feature(types.WORKSPACE_DID_CHANGE_WORKSPACE_FOLDERS)

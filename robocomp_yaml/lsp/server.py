@@ -18,14 +18,20 @@ from lsprotocol import types
 from pygls.lsp.server import LanguageServer
 
 from robocomp_yaml import __version__
+from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.lsp.messages import SOURCE, Messages, path_of, uri_of_path
 from robocomp_yaml.lsp.positions import UTF16, TextLines
 from robocomp_yaml.lsp.session import Cancelled, EditedText, Session
 from robocomp_yaml.source.spelled import DocumentTexts
 
+AUTO, YES, NO = "auto", "yes", "no"
 AT_ONCE, AT_REST = 0.02, 0.25  # seconds after the last key
 _WATCHED = "**/*"
+SHAPE = frozenset(
+    code.id for code in (codes.UNKNOWN_KEY, codes.MISSING_KEY, codes.WRONG_SHAPE, codes.NOT_A_MAPPING, codes.WRONG_NAME)
+)
+"""What a server of schemas tells, too."""
 _Made = TypeVar("_Made")
 Versions = dict[str, int | None]
 
@@ -41,6 +47,7 @@ class Server(LanguageServer):
         self._at_once: dict[str, asyncio.TimerHandle] = {}
         self._at_rest: dict[str, asyncio.TimerHandle] = {}
         self._shown: dict[str, str] = {}  # the URIs with diagnostics, by path
+        self.schema_server = AUTO
 
     async def run(self, job: Callable[[], _Made]) -> _Made:
         """The result of a job in the thread of analyses. The analysis of a workspace that runs there is given up."""
@@ -51,6 +58,24 @@ class Server(LanguageServer):
 
     def begin(self, folders: Iterable[str], include: Iterable[str]) -> None:
         self.session = Session(folders, include)
+
+    def configure(self, options: object) -> None:
+        """Options of the editor: `schemaServer` says whether a server of JSON Schemas reads the same documents."""
+        if isinstance(options, dict):
+            inner = options.get("rcyaml")
+            options = inner if isinstance(inner, dict) else options
+            value = options.get("schemaServer", options.get("schema_server"))
+        else:
+            value = getattr(options, "schemaServer", None)
+        if value in (AUTO, YES, NO):
+            self.schema_server = value
+
+    def has_schema_server(self, path: str) -> bool:
+        """Whether another server tells what the schema says of a document. AUTO: if the document or the workspace is
+        made for one."""
+        if self.schema_server != AUTO:
+            return self.schema_server == YES
+        return self.session.is_for_schema_server(path)
 
     async def edited(self, document: EditedText) -> None:
         await self.run(lambda: self.session.edit(document))
@@ -138,7 +163,8 @@ class Server(LanguageServer):
     ) -> None:  # fmt: skip
         """Shows the diagnostics of a document, or that it has none."""
         messages = self.messages(texts)
-        shown = [messages.diagnostic(one) for one in diagnostics]
+        is_told = self.has_schema_server(path)
+        shown = [messages.diagnostic(one) for one in diagnostics if not (is_told and one.code in SHAPE)]
         if not shown and path not in self._shown and path not in self.session.open:
             return
         uri = self._shown.get(path) or self.uri_of(path)

@@ -44,7 +44,11 @@ class Editor:
             self.watched.set()
 
     async def start(
-        self, *folders: Path, command: Sequence[str] = (), encodings: Sequence[str] = ("utf-16",)
+        self,
+        *folders: Path,
+        command: Sequence[str] = (),
+        encodings: Sequence[str] = ("utf-16",),
+        schema_server: str = "yes",
     ) -> types.InitializeResult:
         await self.client.start_io(*(command or [*COMMAND, "lsp"]), env=environment())
         capabilities = types.ClientCapabilities(
@@ -58,7 +62,9 @@ class Editor:
         )  # fmt: skip
         opened = [types.WorkspaceFolder(folder.as_uri(), folder.name) for folder in folders]
         result = await self.client.initialize_async(
-            types.InitializeParams(capabilities, workspace_folders=opened or None)
+            types.InitializeParams(
+                capabilities, workspace_folders=opened or None, initialization_options={"schemaServer": schema_server}
+            )
         )
         self.client.initialized(types.InitializedParams())
         return result
