@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from lsprotocol import types
 
-from robocomp_yaml.lsp import completion, navigation, rename
+from robocomp_yaml.lsp import completion, navigation, notes, rename
 from robocomp_yaml.lsp.messages import real_path
 from robocomp_yaml.lsp.server import Server, folders_of, watchers
 from robocomp_yaml.lsp.session import EditedText
@@ -102,4 +102,5 @@ def make(include: Iterable[str] = ()) -> Server:
     navigation.add(server)
     completion.add(server)
     rename.add(server)
+    notes.add(server)
     return server

@@ -9,8 +9,10 @@ from lsprotocol import types
 
 from robocomp_yaml.lsp.messages import Messages, real_path
 from robocomp_yaml.lsp.server import Server
+from robocomp_yaml.lsp.session import KnownNames
+from robocomp_yaml.lsp.users import described
 from robocomp_yaml.naming import names
-from robocomp_yaml.naming.names import DefinedName, Key, Names
+from robocomp_yaml.naming.names import DefinedName, Key
 
 _Answer = TypeVar("_Answer")
 _SYMBOLS = {
@@ -29,7 +31,7 @@ _MANY = 500  # symbols of a workspace
 def add(server: Server) -> None:
     async def asked(
         params: types.DefinitionParams | types.ReferenceParams | types.HoverParams,
-        answer: Callable[[DefinedName, types.Range, Names, Messages], _Answer],
+        answer: Callable[[DefinedName, types.Range, KnownNames, Messages], _Answer],
     ) -> _Answer | None:
         """The answer about the name at a position; None if there is none."""
         path = real_path(params.text_document.uri)
@@ -43,7 +45,7 @@ def add(server: Server) -> None:
             found = known.names.at(document.path, *lines.place(params.position))
             if found is None:
                 return None
-            return answer(found[1], lines.range(found[0]), known.names, server.messages(known.texts))
+            return answer(found[1], lines.range(found[0]), known, server.messages(known.texts))
 
         return await server.run(job)
 
@@ -53,19 +55,19 @@ def add(server: Server) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_REFERENCES)
     async def references(params: types.ReferenceParams) -> list[types.Location] | None:
-        def answer(one: DefinedName, _: types.Range, known: Names, messages: Messages) -> list[types.Location]:
+        def answer(one: DefinedName, _: types.Range, known: KnownNames, messages: Messages) -> list[types.Location]:
             own = [one.span] if params.context.include_declaration else []
-            spans = sorted({*own, *known.uses.get(one.key, ())})
+            spans = sorted({*own, *known.names.uses.get(one.key, ())})
             return [messages.location(span) for span in spans]
 
         return await asked(params, answer)
 
     @server.feature(types.TEXT_DOCUMENT_HOVER)
     async def hover(params: types.HoverParams) -> types.Hover | None:
-        def answer(one: DefinedName, where: types.Range, known: Names, messages: Messages) -> types.Hover:
-            count = len(set(known.uses.get(one.key, ())))
+        def answer(one: DefinedName, where: types.Range, known: KnownNames, messages: Messages) -> types.Hover:
+            count = len(set(known.names.uses.get(one.key, ())))
             uses = "not used" if not count else "used once" if count == 1 else f"used {count} times"
-            parts = [f"```\n{one.says}\n```", one.doc, uses]
+            parts = [f"```\n{one.says}\n```", one.doc, *described(known.analysis, one), uses]
             text = "\n\n".join(part for part in parts if part)
             return types.Hover(types.MarkupContent(types.MarkupKind.Markdown, text), where)
 
