@@ -109,7 +109,8 @@ class Workspace:
 
     def with_texts(self, changed: Mapping[str, bytes]) -> Workspace:
         """The same documents, some with other texts."""
-        return Workspace(self._paths, self._include, {**self._overlay, **changed}, memory=self._memory)
+        memory = self._memory.fork() if self._memory is not None else None
+        return Workspace(self._paths, self._include, {**self._overlay, **changed}, memory=memory)
 
     @property
     def networks(self) -> dict[str, Network]:

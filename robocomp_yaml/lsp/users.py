@@ -99,7 +99,8 @@ def _values_in_documents(program: Program, one: DefinedName) -> Iterator[str]:
         for row in shown(found, reveal=False) if found is not None else ():
             if row.path == path:
                 where = os.path.relpath(linked.document.path, os.path.dirname(one.key[1]))
-                yield f"`{row.text}` in {where}{' (default)' if row.node is None else ''}"
+                text = f"{row.text} {row.unit}".strip()
+                yield f"`{text}` in {where}{' (default)' if row.node is None else ''}"
 
 
 def _values_in_networks(analysis: Analysis, component: LinkedComponent | None, one: DefinedName) -> Iterator[str]:

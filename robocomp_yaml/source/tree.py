@@ -8,9 +8,9 @@ schema of YAML 1.2 (https://yaml.org/spec/1.2.2/#103-core-schema): `on`, `yes`, 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import lru_cache
-from typing import Any, cast
+from typing import Any, TypeVar, cast
 
 import msgspec
 from ruamel.yaml.nodes import MappingNode, ScalarNode, SequenceNode
@@ -26,6 +26,7 @@ from robocomp_yaml.patterns import pattern
 from robocomp_yaml.source import syntax
 from robocomp_yaml.source.text import MAX_SCALAR, position, size_in_words
 
+_Result = TypeVar("_Result")
 MAX_ALIASED = 100_000  # nodes that all aliases together may add
 
 _INT = re.compile(r"[-+]?[0-9]+\Z")
@@ -40,27 +41,49 @@ _PLAIN_TAGS = ("!!str", "!!int", "!!float", "!!bool", "!!null", "!!map", "!!seq"
 _CORE_START = frozenset("0123456789+-.~nNtTfF")  # the first characters of scalars that are not text
 
 
+class Base:
+    """Where the text of a part begins that was parsed by itself: the number of lines before it, and of characters."""
+
+    __slots__ = ("index", "line")
+
+    def __init__(self, line: int = 0, index: int = 0) -> None:
+        self.line, self.index = line, index
+
+
+_TOP = Base()
+
+
 class Node:
-    """A value with its location. `data` is the same value as plain Python data, recursively."""
+    """A value with its location. `data` is the same value as plain Python data, recursively. `base` is where its part
+    of the document begins; `made` is what was built from it."""
 
-    __slots__ = ("_end", "_start", "data", "file")
+    __slots__ = ("_end", "_start", "base", "data", "file", "made")
 
-    def __init__(self, file: str, node: YamlNode | _Made, data: object) -> None:
-        self.file, self._start, self._end, self.data = file, node.start_mark, node.end_mark, data
+    def __init__(self, file: str, node: YamlNode | _Made, data: object, base: Base = _TOP) -> None:
+        self.file, self._start, self._end, self.data, self.base = file, node.start_mark, node.end_mark, data, base
+        self.made: Any = None
 
     @property
     def start(self) -> int:
         """The index of its first character in the text; `end` is the index after its last one."""
-        return int(self._start.index)
+        return int(self._start.index) + self.base.index
 
     @property
     def end(self) -> int:
-        return int(self._end.index)
+        return int(self._end.index) + self.base.index
 
     @property
     def span(self) -> Span:
-        start, end = self._start, self._end
-        return Span(self.file, start.line + 1, start.column + 1, end.line + 1, end.column + 1)
+        start, end, line = self._start, self._end, self.base.line + 1
+        return Span(self.file, start.line + line, start.column + 1, end.line + line, end.column + 1)
+
+    @property
+    def start_mark(self) -> _Mark:
+        return _Mark(self._start.line + self.base.line, self._start.column, self.start)
+
+    @property
+    def end_mark(self) -> _Mark:
+        return _Mark(self._end.line + self.base.line, self._end.column, self.end)
 
     def get(self, key: str) -> Node | None:
         """The value of a mapping's key; None if it is missing or null, or if the node is not a mapping."""
@@ -76,8 +99,9 @@ class Scalar(Node):
 
     __slots__ = ("lexeme", "quoted")
 
-    def __init__(self, file: str, node: ScalarNode | _Made, value: object) -> None:
-        super().__init__(file, node, value)
+    def __init__(self, file: str, node: ScalarNode | _Made, value: object, base: Base = _TOP) -> None:
+        self.file, self._start, self._end, self.data, self.base = file, node.start_mark, node.end_mark, value, base
+        self.made: Any = None
         self.lexeme: str = node.value
         self.quoted: bool = node.style is not None and node.style != ""
 
@@ -87,8 +111,10 @@ class Mapping(Node):
 
     __slots__ = ("entries", "is_flow")
 
-    def __init__(self, file: str, node: MappingNode | _Made, entries: dict[str, tuple[Scalar, Node]]) -> None:
-        super().__init__(file, node, {key: value.data for key, (_, value) in entries.items()})
+    def __init__(
+        self, file: str, node: MappingNode | _Made, entries: dict[str, tuple[Scalar, Node]], base: Base = _TOP
+    ) -> None:
+        super().__init__(file, node, {key: value.data for key, (_, value) in entries.items()}, base)
         self.entries = entries
         self.is_flow = bool(node.flow_style)
 
@@ -106,13 +132,23 @@ class Mapping(Node):
 class Sequence(Node):
     __slots__ = ("is_flow", "items")
 
-    def __init__(self, file: str, node: SequenceNode | _Made, items: list[Node]) -> None:
-        super().__init__(file, node, [item.data for item in items])
+    def __init__(self, file: str, node: SequenceNode | _Made, items: list[Node], base: Base = _TOP) -> None:
+        super().__init__(file, node, [item.data for item in items], base)
         self.items = items
         self.is_flow = bool(node.flow_style)
 
     def children(self) -> Iterable[Node]:
         return self.items
+
+
+def once(make: Callable[..., _Result], key: Scalar, node: Node, *more: Any) -> _Result:
+    """The result of `make` for an entry of a document, kept with its node: if the entry is the same after an edit, it
+    is not made again. It depends on nothing else than the arguments."""
+    known = node.made
+    if known is None or known[0] is not make or known[1] is not key or known[2] != more:
+        node.made = known = make, key, more, make(key, node, *more)
+    result: _Result = known[3]
+    return result
 
 
 def below(root: Node) -> Iterable[Node]:
@@ -219,11 +255,30 @@ def parse(path: str, text: str) -> tuple[Node | None, list[Diagnostic]]:
     return (None if builder.diagnostics else tree), builder.diagnostics
 
 
+def part(path: str, text: str, base: Base) -> Mapping | None:
+    """The tree of a text that is a part of a document, and begins at `base`; None if it is no mapping without any
+    error."""
+    try:
+        root = syntax.compose(path, text)
+    except syntax.SyntaxFault:
+        return None
+    builder = _TreeBuilder(path, text, base)
+    tree = builder.build(root) if root is not None else None
+    return tree if isinstance(tree, Mapping) and not builder.diagnostics else None
+
+
+def whole(path: str, entries: dict[str, tuple[Scalar, Node]], end: Node) -> Mapping:
+    """A mapping in a block of a document, of parts. It ends where the node `end` begins, or at the end of it, if that
+    is the last value."""
+    first = next(iter(entries.values()))[0]
+    return Mapping(path, _Made(first.start_mark, end.end_mark, flow_style=False), entries)
+
+
 class _TreeBuilder:
     """Converts composed nodes to Nodes, and collects the errors."""
 
-    def __init__(self, path: str, text: str) -> None:
-        self.path, self.text = path, text
+    def __init__(self, path: str, text: str, base: Base = _TOP) -> None:
+        self.path, self.text, self.base = path, text, base
         self.has_anchors = "&" in text
         self.last = None if text.endswith("\n") else _last_mark(text)  # libyaml ends blocks in the line after it
         self.diagnostics: list[Diagnostic] = []
@@ -251,7 +306,9 @@ class _TreeBuilder:
             built = (
                 self._mapping(node)
                 if isinstance(node, MappingNode)
-                else Sequence(self.path, cast("SequenceNode", node), [self.build(item) for item in node.value])
+                else Sequence(
+                    self.path, cast("SequenceNode", node), [self.build(item) for item in node.value], self.base
+                )
             )
             self.open.discard(node)
         if self.last is not None and built._end.line > self.last.line:
@@ -286,15 +343,15 @@ class _TreeBuilder:
         if node.style is not None and node.style != "":
             return self._quoted(node)
         if lexeme and lexeme[0] not in _CORE_START:
-            return Scalar(self.path, node, lexeme)
-        return Scalar(self.path, node, self._core(node, lexeme))
+            return Scalar(self.path, node, lexeme, self.base)
+        return Scalar(self.path, node, self._core(node, lexeme), self.base)
 
     def _quoted(self, node: ScalarNode) -> Scalar:
         """A text in quotes. An escape sequence in it may be a surrogate, which is not a character."""
         surrogate = None if node.value.isascii() else _SURROGATE.search(node.value)
         if surrogate:
             self._say(codes.BINARY, node, byte=f"U+{ord(surrogate[0]):04X}", hint="write the character itself")
-        return Scalar(self.path, node, node.value)
+        return Scalar(self.path, node, node.value, self.base)
 
     def _core(self, node: ScalarNode, lexeme: str) -> object:
         """The value of a plain scalar. Reports leading zeros, which YAML 1.1 reads as octal."""
@@ -331,7 +388,7 @@ class _TreeBuilder:
                 )
                 continue
             entries[key.lexeme] = (key, value)
-        return Mapping(self.path, node, entries)
+        return Mapping(self.path, node, entries, self.base)
 
     def _key(self, mapping: MappingNode, node: ScalarNode, value: Node) -> Scalar:
         """A key is the text as written: `2d`, `on` and `1` are keys like any other."""

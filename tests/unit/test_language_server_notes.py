@@ -65,7 +65,7 @@ def test_lenses(known: KnownNames, kind: str, name: str, lens: list[str]) -> Non
         ("topic", "Moved", "published by ArmComp|subscribed to by HandComp"),
         ("component", "HandComp", "processes: hand0 (robot.ddsl.yaml), hand1 (robot.ddsl.yaml)"),
         ("host", "left", "processes: arm, hand0, hand1"),
-        ("parameter", "speed", "A number from 0 to 2 (m/s); default: 1.|effective values:\n- `1.5` in etc/config.yaml\n- `0.5 m/s` for arm (robot.ddsl.yaml)"),
+        ("parameter", "speed", "A number from 0 to 2 (m/s); default: 1.|effective values:\n- `1.5 m/s` in etc/config.yaml\n- `0.5 m/s` for arm (robot.ddsl.yaml)"),
         ("entry", "hand{i}", "hand0:\n- serves CommonBehavior: `tcp -h 10.0.0.2 -p PORT`\n- Arm → arm\n- subscribes to Moved"),
     ],
 )  # fmt: skip
