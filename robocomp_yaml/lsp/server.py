@@ -27,6 +27,7 @@ from robocomp_yaml.source.spelled import DocumentTexts
 
 AUTO, YES, NO = "auto", "yes", "no"
 AT_ONCE, AT_REST = 0.02, 0.25  # seconds after the last key
+MANY_JOBS = 300  # after so many, garbage is collected
 _WATCHED = "**/*"
 SHAPE = frozenset(
     code.id for code in (codes.UNKNOWN_KEY, codes.MISSING_KEY, codes.WRONG_SHAPE, codes.NOT_A_MAPPING, codes.WRONG_NAME)
@@ -43,7 +44,8 @@ class Server(LanguageServer):
         super().__init__(SOURCE, __version__, types.TextDocumentSyncKind.Full)
         self.session = Session()
         self._worker = ThreadPoolExecutor(1, "analysis")
-        self._jobs = 0
+        self._jobs = self._collected = 0
+        gc.disable()  # `_collect` does it
         self._at_once: dict[str, asyncio.TimerHandle] = {}
         self._at_rest: dict[str, asyncio.TimerHandle] = {}
         self._shown: dict[str, str] = {}  # the URIs with diagnostics, by path
@@ -52,7 +54,14 @@ class Server(LanguageServer):
     async def run(self, job: Callable[[], _Made]) -> _Made:
         """The result of a job in the thread of analyses. The analysis of a workspace that runs there is given up."""
         self._jobs += 1
+        if self._jobs - self._collected > MANY_JOBS:  # typing never rests
+            await asyncio.get_running_loop().run_in_executor(self._worker, self._collect)
         return await asyncio.get_running_loop().run_in_executor(self._worker, job)
+
+    def _collect(self) -> None:
+        """Collects garbage, which otherwise would be done in the middle of an analysis: all that it makes is young."""
+        gc.collect()
+        self._collected = self._jobs
 
     # Documents
 
@@ -140,7 +149,7 @@ class Server(LanguageServer):
             workspace = self.session.workspace_of_root(root)
             is_first = not workspace.is_known
             found = self.session.of_workspace(root, lambda: self._jobs != jobs)
-            gc.collect()
+            self._collect()
             if is_first:
                 gc.freeze()  # the collector need not visit the kept documents
             return found, workspace.texts, self.session.versions()

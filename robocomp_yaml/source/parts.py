@@ -15,7 +15,7 @@ import msgspec
 from robocomp_yaml.source.tree import Base, Mapping, Node, Scalar, part, whole
 
 LONG = 4_000  # characters: shorter documents are parsed as a whole
-_FEW = 8  # entries of a block that is not cut
+FEW = 8  # entries of a block that is not cut
 _UNCERTAIN = re.compile(r"[&*\t\x85\u2028\u2029\ufeff]|\r(?!\n)|^(?:---|\.\.\.|%|\?)", re.MULTILINE)
 _TOP = re.compile(r"^[^\s#\-?:,\[\]{}&*!|>%@`]", re.MULTILINE)
 _HEAD = re.compile(r"[^\s#:'\"\[\]{}]+:[ ]*(?:#[^\n]*)?\r?\n")
@@ -60,6 +60,7 @@ class _Parts:
             return None
         entries: dict[str, Entry] = {}
         line = self.text.count("\n", 0, starts[0])
+        found: Part | None = None
         for start, end in zip(starts, [*starts[1:], len(self.text)], strict=True):
             follows = 0 if end < len(self.text) else -1
             found = self._section(start, end, line, follows) or self._entry(start, end, line, 0, follows)
@@ -67,7 +68,7 @@ class _Parts:
                 return None
             entries[found.key.lexeme] = found.key, found.value
             line += self.text.count("\n", start, end)
-        return whole(self.path, entries, found.block)
+        return whole(self.path, entries, found.block) if found is not None else None
 
     def _section(self, start: int, end: int, line: int, follows: int) -> Part | None:
         """A top-level entry whose value is a long block of entries, each in lines of its own."""
@@ -77,7 +78,7 @@ class _Parts:
             return None
         indent = len(first["indent"])
         starts = list(self._starts(first.start("indent"), end, indent))
-        if len(starts) < _FEW:
+        if len(starts) < FEW:
             return None
         # The key, with the first entry, so that it ends where it ends in the whole.
         opened = self._entry(start, starts[1], line, 0, indent)

@@ -144,10 +144,26 @@ class Sequence(Node):
 def once(make: Callable[..., _Result], key: Scalar, node: Node, *more: Any) -> _Result:
     """The result of `make` for an entry of a document, kept with its node: if the entry is the same after an edit, it
     is not made again. It depends on nothing else than the arguments."""
-    known = node.made
-    if known is None or known[0] is not make or known[1] is not key or known[2] != more:
-        node.made = known = make, key, more, make(key, node, *more)
-    result: _Result = known[3]
+    if node.made is None:
+        node.made = {}
+    known = node.made.get(make)
+    if known is None or known[0] is not key or known[1] != more:
+        node.made[make] = known = key, more, make(key, node, *more)
+    result: _Result = known[2]
+    return result
+
+
+def found_in(find: Callable[..., Iterable[_Result]], outer: Node, node: Node, *more: Any) -> Iterable[_Result]:
+    """What a search finds in a node of `outer`; kept with the node if it is an entry that was parsed by itself. It
+    depends on nothing else than the node and `more`."""
+    if node.base is _TOP or outer.base is not _TOP:
+        return find(node, *more)
+    if node.made is None:
+        node.made = {}
+    known = node.made.get(find)
+    if known is None or known[0] != more:
+        node.made[find] = known = more, tuple(find(node, *more))
+    result: tuple[_Result, ...] = known[1]
     return result
 
 

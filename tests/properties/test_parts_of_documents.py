@@ -79,7 +79,7 @@ def edited(text: str, random: Random) -> str:
 @pytest.mark.parametrize("seed", range(20))
 def test_parts_are_the_whole(monkeypatch: pytest.MonkeyPatch, seed: int) -> None:
     monkeypatch.setattr(parts, "LONG", 0)
-    monkeypatch.setattr(parts, "_FEW", 2)
+    monkeypatch.setattr(parts, "FEW", 2)
     random = Random(seed)
     for document in DOCUMENTS:
         text, known, in_parts = document, parts.Parts(), 0
