@@ -6,8 +6,9 @@ from collections.abc import Iterable
 
 from lsprotocol import types
 
-from robocomp_yaml.lsp import completion, navigation, notes, rename
+from robocomp_yaml.lsp import commands, completion, navigation, notes, rename
 from robocomp_yaml.lsp.messages import real_path
+from robocomp_yaml.lsp.more_fixes import MORE, with_more
 from robocomp_yaml.lsp.server import Server, folders_of, watchers
 from robocomp_yaml.lsp.session import EditedText
 
@@ -72,16 +73,25 @@ def make(include: Iterable[str] = ()) -> Server:
         await server.saved()
 
     @server.feature(
-        types.TEXT_DOCUMENT_CODE_ACTION, types.CodeActionOptions(code_action_kinds=[types.CodeActionKind.QuickFix])
+        types.TEXT_DOCUMENT_CODE_ACTION,
+        types.CodeActionOptions(code_action_kinds=[types.CodeActionKind.QuickFix, commands.SOURCE]),
     )
     async def actions(params: types.CodeActionParams) -> list[types.CodeAction]:
         path, only = real_path(params.text_document.uri) or "", params.context.only
 
         def job() -> list[types.CodeAction]:
-            if path not in server.session.open or not (only is None or any("quickfix".startswith(one) for one in only)):
+            if path not in server.session.open:
                 return []
-            found, texts = server.session.of_document(path)
-            return server.messages(texts).actions(found, params.range)
+            made: list[types.CodeAction] = []
+            if only is None or any("quickfix".startswith(one) for one in only):
+                found, texts = server.session.of_document(path)
+                if any(one.code in MORE for one in found):
+                    known = server.session.names_around(path)
+                    found, texts = with_more(found, known), known.texts
+                made += server.messages(texts).actions(found, params.range)
+            if only is not None and any(commands.SOURCE.value.startswith(one) for one in only):
+                made += commands.actions(params.text_document.uri) if server.session.is_document(path) else []
+            return made
 
         return await server.run(job)
 
@@ -102,5 +112,6 @@ def make(include: Iterable[str] = ()) -> Server:
     navigation.add(server)
     completion.add(server)
     rename.add(server)
+    commands.add(server)
     notes.add(server)
     return server

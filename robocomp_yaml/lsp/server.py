@@ -189,7 +189,7 @@ class Server(LanguageServer):
         def lines_of(path: str) -> TextLines:
             if path not in known:
                 document = texts.get(path)
-                known[path] = self.lines(document.text if document is not None else "")
+                known[path] = self.lines(document.text if document is not None else self.session.text_of(path))
             return known[path]
 
         return Messages(lines_of, self.uri_of, self.version_of)

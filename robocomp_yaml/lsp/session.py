@@ -182,6 +182,12 @@ class Session:
         workspace.names = workspace.last_names = known
         return known
 
+    def text_of(self, path: str) -> str:
+        """The text of a file that is no document; '' if it cannot be read."""
+        document = self.open.get(path)
+        raw = document.raw if document is not None else Disk().read(path)[0]
+        return raw.decode("utf-8-sig", "replace") if raw is not None else ""
+
     def is_for_schema_server(self, path: str) -> bool:
         """Whether a document names its schema, or its workspace has settings for an editor with a server of schemas."""
         document = self.open.get(path)
