@@ -56,6 +56,10 @@ def make(include: Iterable[str] = ()) -> Server:
     async def files_changed(params: types.DidChangeWatchedFilesParams) -> None:
         await server.saved()
 
+    @server.feature(types.WORKSPACE_DID_RENAME_FILES)
+    async def files_renamed(params: types.RenameFilesParams) -> None:
+        await server.saved()
+
     @server.feature(types.WORKSPACE_DID_CHANGE_CONFIGURATION)
     async def configured(params: types.DidChangeConfigurationParams) -> None:
         server.configure(params.settings)
