@@ -93,7 +93,7 @@ def _values_in_documents(program: Program, one: DefinedName) -> Iterator[str]:
     path = ".".join(one.key[2:])
     for linked in program.values.values():
         own = linked.parameters
-        if own is None or own.document is None or own.document.path != one.key[1] or linked.is_extended:
+        if own is None or own.document is None or own.document.path != one.key[1]:
             continue
         found = program.effective(linked)[0]
         for row in shown(found, reveal=False) if found is not None else ():
