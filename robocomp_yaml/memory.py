@@ -18,6 +18,7 @@ class Memory:
 
     def __init__(self) -> None:
         self._results: dict[Hashable, tuple[tuple[Any, ...], Any]] = {}
+        self._parts: dict[Hashable, dict[Any, Any]] | None = {}
         self._used: set[Hashable] = set()
         self._used_before: set[Hashable] = set()
 
@@ -37,8 +38,25 @@ class Memory:
         self._results[part] = causes, result
         return result
 
+    def parts(self, name: Hashable) -> dict[Any, Any]:
+        """The parts of which a pass made its last result, for it to use them again. They may have changed since: an
+        earlier result may not be used any more."""
+        if self._parts is None:
+            return {}
+        self._used.add(("parts", name))
+        return self._parts.setdefault(name, {})
+
+    def fork(self) -> Memory:
+        """A memory with the same results, for an analysis beside this one: it changes no parts."""
+        forked = Memory()
+        forked._results, forked._parts = dict(self._results), None
+        return forked
+
     def forget_unused(self) -> None:
         """Drops what no analysis has used since the call before the last one."""
+        used = self._used | self._used_before
+        for name in [name for name in self._parts or () if ("parts", name) not in used]:
+            del (self._parts or {})[name]
         for part in self._results.keys() - self._used - self._used_before:
             del self._results[part]
         self._used, self._used_before = set(), self._used

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from robocomp_yaml.api.compiling import Compilation
     from robocomp_yaml.api.deploying import Deployment
     from robocomp_yaml.api.fixing import Fixing
+    from robocomp_yaml.api.renaming import Renaming
     from robocomp_yaml.api.values import Values
     from robocomp_yaml.building.job import BuildEvent
     from robocomp_yaml.emit.graphs.picture import Picture
@@ -90,10 +91,26 @@ class Workspace:
         Nothing is written before its `apply`."""
         from robocomp_yaml.api.fixing import Fixing
 
-        def load(changed: Mapping[str, bytes]) -> Workspace:
-            return Workspace(self._paths, self._include, {**self._overlay, **changed}, memory=self._memory)
+        return Fixing(self, self.with_texts, self._paths, unsafe=unsafe, environment=environment, code=code)
 
-        return Fixing(self, load, self._paths, unsafe=unsafe, environment=environment, code=code)
+    def rename(self, what: str, name: str) -> Renaming:
+        """Renames a name everywhere: in documents, configurations and the user's code. `what` is its location
+        (`FILE:LINE:COLUMN`) or the name itself: `Speech`, `Speech.say`, `host:left`. Nothing is written before the
+        `apply` of the result. Raises Refused if the name is unknown, the new one is taken, or something would not mean
+        the same any more; Faulty if documents have errors that hide what they mean."""
+        from robocomp_yaml.api.renaming import Renaming, name_at, name_called
+        from robocomp_yaml.naming.analysis import names_of
+
+        names = names_of(self.analysis)
+        path, *place = what.rsplit(":", 2)
+        is_place = len(place) == 2 and all(one.isdigit() for one in place)
+        defined = name_at(names, path, int(place[0]), int(place[1])) if is_place else name_called(names, what)
+        return Renaming(self, self.with_texts, self._paths, defined, name, names)
+
+    def with_texts(self, changed: Mapping[str, bytes]) -> Workspace:
+        """The same documents, some with other texts."""
+        memory = self._memory.fork() if self._memory is not None else None
+        return Workspace(self._paths, self._include, {**self._overlay, **changed}, memory=memory)
 
     @property
     def networks(self) -> dict[str, Network]:

@@ -25,7 +25,7 @@ from robocomp_yaml.parameters.hidden import named_nodes, nodes, plain_below, sec
 from robocomp_yaml.parameters.types import RecordType
 from robocomp_yaml.source import properties
 from robocomp_yaml.source.disk import Disk
-from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, pairs_below
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, found_in, pairs_below
 
 _PROPERTIES = ("properties", "ice", "endpoints", "proxies", "topics")
 
@@ -137,7 +137,11 @@ class _SecretFinder:
         )  # the types of its values are unknown
         return is_alone or secrets.may_hold(text) or any(name in text for name in self.names)
 
-    def secrets(self, document: Document) -> Iterator[Secret]:
+    def secrets(self, document: Document) -> tuple[Secret, ...]:
+        """The secrets in a document, which are searched once in a run."""
+        return self.program.disk.once(("secrets", document.real), lambda: tuple(self._secrets(document)))
+
+    def _secrets(self, document: Document) -> Iterator[Secret]:
         tree = document.tree
         if not isinstance(tree, Mapping):
             return
@@ -197,10 +201,7 @@ class _SecretFinder:
                 owners[str(instance.entry.settings.span)] = instance.component.parameters
         components = tree.get("components")
         for entry in components.children() if components is not None else ():
-            if (env := entry.get("env")) is not None:
-                yield from map(Secret, named_nodes(env))
-            for key in ("args", "ready"):
-                yield from _words(entry.get(key), self.names)
+            yield from found_in(_of_entry, components, entry, self.names) if components is not None else ()
             settings = entry.get("set")
             owner = owners.get(str(settings.span)) if settings is not None else None
             if settings is not None and owner is not None:
@@ -208,6 +209,14 @@ class _SecretFinder:
             elif settings is not None:
                 yield from map(Secret, named_nodes(settings, self.names))
                 yield from _doubtful(settings) if isinstance(entry, Mapping) and "component" in entry.entries else ()
+
+
+def _of_entry(entry: Node, names: Collection[str]) -> Iterator[Secret]:
+    """The secrets in an entry of a deployment, except those in its settings."""
+    if (env := entry.get("env")) is not None:
+        yield from map(Secret, named_nodes(env))
+    for key in ("args", "ready"):
+        yield from _words(entry.get(key), names)
 
 
 def _anywhere(node: Node, names: Collection[str]) -> Iterator[Secret]:
@@ -269,7 +278,7 @@ def _in_extensions(node: Node | None) -> Iterator[Scalar]:
                 yield from plain_below(value) if secrets.is_secret(key.lexeme) else ()
                 yield from (one for one in plain_below(value) if secrets.masked(one.lexeme) != one.lexeme)
             else:
-                yield from _in_extensions(value)
+                yield from found_in(_in_extensions, node, value)
     for item in node.items if isinstance(node, Sequence) else ():
         yield from _in_extensions(item)
 
@@ -280,7 +289,7 @@ def _texts(node: Node) -> Iterator[Scalar]:
         yield from (node,) if secrets.may_hold(node.lexeme) else ()
     children = (value for key, value in node.items() if key.lexeme != "doc") if isinstance(node, Mapping) else None
     for child in children or node.children():
-        yield from _texts(child)
+        yield from found_in(_texts, node, child)
 
 
 def _between(text: str, masked: str) -> str:

@@ -19,6 +19,7 @@ from robocomp_yaml.source import schema
 from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.heading import COMPONENT, text_at_top
+from robocomp_yaml.source.parts import Parts, parse_in_parts
 from robocomp_yaml.source.schema_text import MARKED
 from robocomp_yaml.source.text import decode
 from robocomp_yaml.source.tree import Mapping, Node, parse
@@ -54,9 +55,12 @@ def read_tree(path: str, disk: Disk) -> tuple[Node | None, list[Diagnostic]]:
     return _tree_of(path, raw) if raw is not None else (None, diagnostics)
 
 
-def _tree_of(path: str, raw: bytes) -> tuple[Node | None, list[Diagnostic]]:
+def _tree_of(path: str, raw: bytes, parts: Parts | None = None) -> tuple[Node | None, list[Diagnostic]]:
     text, diagnostics = decode(path, raw)
-    return parse(path, text) if text is not None else (None, diagnostics)
+    if text is None:
+        return None, diagnostics
+    tree = parse_in_parts(path, text, parts) if parts is not None else None
+    return (tree, []) if tree is not None else parse(path, text)
 
 
 class Document(msgspec.Struct, frozen=True, eq=False):
@@ -115,14 +119,16 @@ class Documents(msgspec.Struct):
         plugins = self.plugins_of(path) if kind in MARKED else NONE
         causes = raw, plugins.languages, plugins.whole
         return self.memory.result(
-            ("document", path, real, kind), causes, lambda: _made(Document(path, real, kind), raw, plugins)
+            ("document", path, real, kind),
+            causes,
+            lambda: _made(Document(path, real, kind), raw, plugins, self.memory.parts(path)),
         )
 
 
-def _made(document: Document, raw: bytes, plugins: Plugins) -> tuple[Document, list[Diagnostic]]:
+def _made(document: Document, raw: bytes, plugins: Plugins, parts: Parts) -> tuple[Document, list[Diagnostic]]:
     """Decodes, parses, validates and builds, until a pass reports an error."""
     path, kind = document.path, document.kind
-    tree, diagnostics = _tree_of(path, raw)
+    tree, diagnostics = _tree_of(path, raw, parts)
     if tree is None:
         return document, diagnostics
     misfits = _misfits(kind, tree, plugins)

@@ -6,8 +6,9 @@ from collections.abc import Iterable
 
 from lsprotocol import types
 
-from robocomp_yaml.lsp import completion, navigation
+from robocomp_yaml.lsp import commands, completion, navigation, notes, rename
 from robocomp_yaml.lsp.messages import real_path
+from robocomp_yaml.lsp.more_fixes import MORE, with_more
 from robocomp_yaml.lsp.server import Server, folders_of, watchers
 from robocomp_yaml.lsp.session import EditedText
 
@@ -19,6 +20,7 @@ def make(include: Iterable[str] = ()) -> Server:
     @server.feature(types.INITIALIZE)
     def begin(params: types.InitializeParams) -> None:
         server.begin(folders_of(params), include)
+        server.configure(params.initialization_options)
 
     @server.feature(types.INITIALIZED)
     async def watch(params: types.InitializedParams) -> None:
@@ -54,6 +56,15 @@ def make(include: Iterable[str] = ()) -> Server:
     async def files_changed(params: types.DidChangeWatchedFilesParams) -> None:
         await server.saved()
 
+    @server.feature(types.WORKSPACE_DID_RENAME_FILES)
+    async def files_renamed(params: types.RenameFilesParams) -> None:
+        await server.saved()
+
+    @server.feature(types.WORKSPACE_DID_CHANGE_CONFIGURATION)
+    async def configured(params: types.DidChangeConfigurationParams) -> None:
+        server.configure(params.settings)
+        await server.saved()
+
     @server.feature(types.WORKSPACE_DID_CHANGE_WORKSPACE_FOLDERS)
     async def folders_changed(params: types.DidChangeWorkspaceFoldersParams) -> None:
         added = [path for one in params.event.added if (path := real_path(one.uri))]
@@ -66,16 +77,25 @@ def make(include: Iterable[str] = ()) -> Server:
         await server.saved()
 
     @server.feature(
-        types.TEXT_DOCUMENT_CODE_ACTION, types.CodeActionOptions(code_action_kinds=[types.CodeActionKind.QuickFix])
+        types.TEXT_DOCUMENT_CODE_ACTION,
+        types.CodeActionOptions(code_action_kinds=[types.CodeActionKind.QuickFix, commands.SOURCE]),
     )
     async def actions(params: types.CodeActionParams) -> list[types.CodeAction]:
         path, only = real_path(params.text_document.uri) or "", params.context.only
 
         def job() -> list[types.CodeAction]:
-            if path not in server.session.open or not (only is None or any("quickfix".startswith(one) for one in only)):
+            if path not in server.session.open:
                 return []
-            found, texts = server.session.of_document(path)
-            return server.messages(texts).actions(found, params.range)
+            made: list[types.CodeAction] = []
+            if only is None or any("quickfix".startswith(one) for one in only):
+                found, texts = server.session.of_document(path)
+                if any(one.code in MORE for one in found):
+                    known = server.session.names_around(path)
+                    found, texts = with_more(found, known), known.texts
+                made += server.messages(texts).actions(found, params.range)
+            if only is not None and any(commands.SOURCE.value.startswith(one) for one in only):
+                made += commands.actions(params.text_document.uri) if server.session.is_document(path) else []
+            return made
 
         return await server.run(job)
 
@@ -95,4 +115,7 @@ def make(include: Iterable[str] = ()) -> Server:
 
     navigation.add(server)
     completion.add(server)
+    rename.add(server)
+    commands.add(server)
+    notes.add(server)
     return server

@@ -7,10 +7,14 @@ from typing import TypeVar
 
 from lsprotocol import types
 
-from robocomp_yaml.lsp import names
+from robocomp_yaml.diag.span import Span
 from robocomp_yaml.lsp.messages import Messages, real_path
-from robocomp_yaml.lsp.names import DefinedName, Key, Names
 from robocomp_yaml.lsp.server import Server
+from robocomp_yaml.lsp.session import KnownNames
+from robocomp_yaml.lsp.users import described
+from robocomp_yaml.naming import names
+from robocomp_yaml.naming.names import DefinedName, Key
+from robocomp_yaml.naming.places_in_code import places_in_code
 
 _Answer = TypeVar("_Answer")
 _SYMBOLS = {
@@ -28,8 +32,8 @@ _MANY = 500  # symbols of a workspace
 
 def add(server: Server) -> None:
     async def asked(
-        params: types.DefinitionParams | types.ReferenceParams | types.HoverParams,
-        answer: Callable[[DefinedName, types.Range, Names, Messages], _Answer],
+        params: types.DefinitionParams | types.ReferenceParams | types.HoverParams | types.ImplementationParams,
+        answer: Callable[[DefinedName, types.Range, KnownNames, Messages], _Answer],
     ) -> _Answer | None:
         """The answer about the name at a position; None if there is none."""
         path = real_path(params.text_document.uri)
@@ -43,7 +47,7 @@ def add(server: Server) -> None:
             found = known.names.at(document.path, *lines.place(params.position))
             if found is None:
                 return None
-            return answer(found[1], lines.range(found[0]), known.names, server.messages(known.texts))
+            return answer(found[1], lines.range(found[0]), known, server.messages(known.texts))
 
         return await server.run(job)
 
@@ -53,19 +57,34 @@ def add(server: Server) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_REFERENCES)
     async def references(params: types.ReferenceParams) -> list[types.Location] | None:
-        def answer(one: DefinedName, _: types.Range, known: Names, messages: Messages) -> list[types.Location]:
+        def answer(one: DefinedName, _: types.Range, known: KnownNames, messages: Messages) -> list[types.Location]:
             own = [one.span] if params.context.include_declaration else []
-            spans = sorted({*own, *known.uses.get(one.key, ())})
-            return [messages.location(span) for span in spans]
+            spans = sorted({*own, *known.names.uses.get(one.key, ())})
+            in_code = sorted(span for span, _ in _in_code(one, known))
+            return [messages.location(span) for span in (*spans, *in_code)]
 
         return await asked(params, answer)
 
+    @server.feature(types.TEXT_DOCUMENT_IMPLEMENTATION)
+    async def implementation(params: types.ImplementationParams) -> list[types.Location] | None:
+        """The methods in the user's code that implement a method, or handle an event or a state."""
+
+        def answer(one: DefinedName, _: types.Range, known: KnownNames, messages: Messages) -> list[types.Location]:
+            return [messages.location(span) for span, is_method in sorted(_in_code(one, known)) if is_method]
+
+        return await asked(params, answer)
+
+    def _in_code(one: DefinedName, known: KnownNames) -> list[tuple[Span, bool]]:
+        workspace = server.session.workspace_of(one.span.file)
+        look = workspace.living.look(workspace.root)
+        return places_in_code(look.analysis, known.names, one, lambda texts: look.with_texts(texts).analysis)
+
     @server.feature(types.TEXT_DOCUMENT_HOVER)
     async def hover(params: types.HoverParams) -> types.Hover | None:
-        def answer(one: DefinedName, where: types.Range, known: Names, messages: Messages) -> types.Hover:
-            count = len(set(known.uses.get(one.key, ())))
+        def answer(one: DefinedName, where: types.Range, known: KnownNames, messages: Messages) -> types.Hover:
+            count = len(set(known.names.uses.get(one.key, ())))
             uses = "not used" if not count else "used once" if count == 1 else f"used {count} times"
-            parts = [f"```\n{one.says}\n```", one.doc, uses]
+            parts = [f"```\n{one.says}\n```", one.doc, *described(known.analysis, one), uses]
             text = "\n\n".join(part for part in parts if part)
             return types.Hover(types.MarkupContent(types.MarkupKind.Markdown, text), where)
 

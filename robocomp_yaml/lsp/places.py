@@ -9,7 +9,7 @@ import msgspec
 from robocomp_yaml.source.text import decode
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
 
-_MARK = "rcyaml0cursor"
+MARK = "rcyaml0cursor"
 _BEFORE, _BEHIND = re.compile(r"[\w./-]*\Z"), re.compile(r"[\w./-]*")
 _LINE_END = re.compile("\r\n|\r|\n")
 _OPENED = {"[": "]", "{": "}"}
@@ -45,8 +45,11 @@ def typed_at(text: str, line: int, column: int) -> TypedPlace | None:
         return None
     rest_of_line = _LINE_END.search(behind)
     below = behind[rest_of_line.start() :] if rest_of_line is not None else ""
-    closed = f"{before}{_MARK}{_closing(own)}"
-    for attempt in (f"{before}{_MARK}{behind}", f"{closed}{below}", f"{closed}\n"):
+    closed = f"{before}{MARK}{_closing(own)}"
+    attempts = [f"{before}{MARK}{behind}", f"{closed}{below}", f"{closed}\n"]
+    if not own.strip() and not behind.strip(" \t")[:1].strip():  # a key is begun in a line of its own
+        attempts.append(f"{before}{MARK}:{below}")
+    for attempt in attempts:
         root, _ = parse("", attempt)
         keys = _keys_around(root) if isinstance(root, Mapping) else None
         if keys is not None and isinstance(root, Mapping):
@@ -70,10 +73,10 @@ def _closing(line: str) -> str:
 
 def _keys_around(node: Node, outer: tuple[str, ...] = ()) -> tuple[tuple[str, ...], bool] | None:
     if isinstance(node, Scalar):
-        return (outer, False) if node.lexeme == _MARK else None
+        return (outer, False) if node.lexeme == MARK else None
     if isinstance(node, Mapping):
         for key, value in node.items():
-            if key.lexeme == _MARK:
+            if key.lexeme == MARK:
                 return outer, True
             if found := _keys_around(value, (*outer, key.lexeme)):
                 return found

@@ -39,6 +39,10 @@ class TextLines:
             units += self._units(character)
         return position.line + 1, len(text) + 1
 
+    def line(self, number: int) -> str:
+        """The text of a line, which counts from 1."""
+        return self._lines[number - 1] if number <= len(self._lines) else ""
+
     def end(self) -> types.Position:
         return self.position(len(self._lines) + 1, 1)
 

@@ -18,14 +18,21 @@ from lsprotocol import types
 from pygls.lsp.server import LanguageServer
 
 from robocomp_yaml import __version__
+from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.lsp.messages import SOURCE, Messages, path_of, uri_of_path
 from robocomp_yaml.lsp.positions import UTF16, TextLines
 from robocomp_yaml.lsp.session import Cancelled, EditedText, Session
 from robocomp_yaml.source.spelled import DocumentTexts
 
+AUTO, YES, NO = "auto", "yes", "no"
 AT_ONCE, AT_REST = 0.02, 0.25  # seconds after the last key
+MANY_JOBS = 300  # after so many, garbage is collected
 _WATCHED = "**/*"
+SHAPE = frozenset(
+    code.id for code in (codes.UNKNOWN_KEY, codes.MISSING_KEY, codes.WRONG_SHAPE, codes.NOT_A_MAPPING, codes.WRONG_NAME)
+)
+"""What a server of schemas tells, too."""
 _Made = TypeVar("_Made")
 Versions = dict[str, int | None]
 
@@ -37,20 +44,47 @@ class Server(LanguageServer):
         super().__init__(SOURCE, __version__, types.TextDocumentSyncKind.Full)
         self.session = Session()
         self._worker = ThreadPoolExecutor(1, "analysis")
-        self._jobs = 0
+        self._jobs = self._collected = 0
+        gc.disable()  # `_collect` does it
         self._at_once: dict[str, asyncio.TimerHandle] = {}
         self._at_rest: dict[str, asyncio.TimerHandle] = {}
         self._shown: dict[str, str] = {}  # the URIs with diagnostics, by path
+        self.schema_server = AUTO
 
     async def run(self, job: Callable[[], _Made]) -> _Made:
         """The result of a job in the thread of analyses. The analysis of a workspace that runs there is given up."""
         self._jobs += 1
+        if self._jobs - self._collected > MANY_JOBS:  # typing never rests
+            await asyncio.get_running_loop().run_in_executor(self._worker, self._collect)
         return await asyncio.get_running_loop().run_in_executor(self._worker, job)
+
+    def _collect(self) -> None:
+        """Collects garbage, which otherwise would be done in the middle of an analysis: all that it makes is young."""
+        gc.collect()
+        self._collected = self._jobs
 
     # Documents
 
     def begin(self, folders: Iterable[str], include: Iterable[str]) -> None:
         self.session = Session(folders, include)
+
+    def configure(self, options: object) -> None:
+        """Options of the editor: `schemaServer` says whether a server of JSON Schemas reads the same documents."""
+        if isinstance(options, dict):
+            inner = options.get("rcyaml")
+            options = inner if isinstance(inner, dict) else options
+            value = options.get("schemaServer", options.get("schema_server"))
+        else:
+            value = getattr(options, "schemaServer", None)
+        if value in (AUTO, YES, NO):
+            self.schema_server = value
+
+    def has_schema_server(self, path: str) -> bool:
+        """Whether another server tells what the schema says of a document. AUTO: if the document or the workspace is
+        made for one."""
+        if self.schema_server != AUTO:
+            return self.schema_server == YES
+        return self.session.is_for_schema_server(path)
 
     async def edited(self, document: EditedText) -> None:
         await self.run(lambda: self.session.edit(document))
@@ -115,7 +149,7 @@ class Server(LanguageServer):
             workspace = self.session.workspace_of_root(root)
             is_first = not workspace.is_known
             found = self.session.of_workspace(root, lambda: self._jobs != jobs)
-            gc.collect()
+            self._collect()
             if is_first:
                 gc.freeze()  # the collector need not visit the kept documents
             return found, workspace.texts, self.session.versions()
@@ -138,10 +172,11 @@ class Server(LanguageServer):
     ) -> None:  # fmt: skip
         """Shows the diagnostics of a document, or that it has none."""
         messages = self.messages(texts)
-        shown = [messages.diagnostic(one) for one in diagnostics]
+        is_told = self.has_schema_server(path)
+        shown = [messages.diagnostic(one) for one in diagnostics if not (is_told and one.code in SHAPE)]
         if not shown and path not in self._shown and path not in self.session.open:
             return
-        uri = self._shown.get(path) or self._uri_of(path)
+        uri = self._shown.get(path) or self.uri_of(path)
         if shown:
             self._shown[path] = uri
         else:
@@ -154,20 +189,20 @@ class Server(LanguageServer):
         def lines_of(path: str) -> TextLines:
             if path not in known:
                 document = texts.get(path)
-                known[path] = self.lines(document.text if document is not None else "")
+                known[path] = self.lines(document.text if document is not None else self.session.text_of(path))
             return known[path]
 
-        return Messages(lines_of, self._uri_of, self._version_of)
+        return Messages(lines_of, self.uri_of, self.version_of)
 
     def lines(self, text: str) -> TextLines:
         encoding = self.workspace.position_encoding
         return TextLines(text, str(getattr(encoding, "value", encoding)) if encoding else UTF16)
 
-    def _uri_of(self, path: str) -> str:
+    def uri_of(self, path: str) -> str:
         document = self.session.open.get(path)
         return document.uri if document is not None else uri_of_path(path)
 
-    def _version_of(self, path: str) -> int | None:
+    def version_of(self, path: str) -> int | None:
         document = self.session.open.get(path)
         return document.version if document is not None else None
 

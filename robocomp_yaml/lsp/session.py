@@ -9,6 +9,7 @@ contradict it, only the diagnostics of the workspace say.
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 
@@ -16,13 +17,18 @@ import msgspec
 
 from robocomp_yaml.api.living import LivingWorkspace
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.link.program import Program
 from robocomp_yaml.link.workspace import ImportSearch, above, root_above
-from robocomp_yaml.lsp.names import Names
+from robocomp_yaml.naming.analysis import names_of
+from robocomp_yaml.naming.names import Names
 from robocomp_yaml.pipeline import Analysis
 from robocomp_yaml.source.discover import WORKSPACE_FILE, kind_of
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.spelled import DocumentTexts
 
+_MODELINE = re.compile(r"^#\s*yaml-language-server\s*:.*\$schema", re.MULTILINE)
+_HEAD = 10_000  # characters that editors search
+_SETTINGS = (".vscode/settings.json", ".yamlls.json", ".helix/languages.toml")
 Found = dict[str, list[Diagnostic]]
 """Diagnostics by the paths of their documents."""
 
@@ -48,8 +54,19 @@ class KnownNames(msgspec.Struct, frozen=True):
     """The names of a program, with the texts in which they are."""
 
     names: Names
-    texts: DocumentTexts
-    search: ImportSearch
+    analysis: Analysis
+
+    @property
+    def texts(self) -> DocumentTexts:
+        return self.analysis.texts
+
+    @property
+    def search(self) -> ImportSearch:
+        return self.analysis.linker.search
+
+    @property
+    def program(self) -> Program:
+        return self.analysis.program
 
 
 class OpenWorkspace:
@@ -75,6 +92,7 @@ class Session:
         self.include = tuple(include)
         self.open: dict[str, EditedText] = {}
         self.workspaces: dict[str, OpenWorkspace] = {}
+        self._has_settings: dict[str, bool] = {}
 
     def edit(self, document: EditedText) -> None:
         """A document was opened or changed."""
@@ -98,6 +116,7 @@ class Session:
 
     def refresh(self) -> None:
         """Files may have changed on the disk."""
+        self._has_settings = {}
         self._forget_names()
         for workspace in self.workspaces.values():
             workspace.living.refresh()
@@ -159,9 +178,25 @@ class Session:
         return workspace.names
 
     def _collect_names(self, workspace: OpenWorkspace, analysis: Analysis) -> KnownNames:
-        known = KnownNames(Names(analysis.program), analysis.texts, analysis.search)
+        known = KnownNames(names_of(analysis), analysis)
         workspace.names = workspace.last_names = known
         return known
+
+    def text_of(self, path: str) -> str:
+        """The text of a file that is no document; '' if it cannot be read."""
+        document = self.open.get(path)
+        raw = document.raw if document is not None else Disk().read(path)[0]
+        return raw.decode("utf-8-sig", "replace") if raw is not None else ""
+
+    def is_for_schema_server(self, path: str) -> bool:
+        """Whether a document names its schema, or its workspace has settings for an editor with a server of schemas."""
+        document = self.open.get(path)
+        if document is not None and _MODELINE.search(document.text[:_HEAD]):
+            return True
+        root = self.root_of(path)
+        if root not in self._has_settings:
+            self._has_settings[root] = any(_names_schemas(os.path.join(root, name)) for name in _SETTINGS)
+        return self._has_settings[root]
 
     def importable(self, path: str) -> list[str]:
         """The names of the documents that a document can import."""
@@ -202,6 +237,13 @@ class Session:
         with suppress(KeyError):
             own = set(workspace.living.look(path).analysis.diagnostics)
         return [(one, line_of(one)) for one in workspace.found[path] if one not in own]
+
+
+def _names_schemas(path: str) -> bool:
+    """Whether a file of settings names our schemas."""
+    with suppress(OSError, UnicodeDecodeError), open(path, encoding="utf-8") as file:
+        return ".rcyaml/schemas" in file.read(1 << 20)
+    return False
 
 
 def _lines(texts: DocumentTexts, path: str) -> Callable[[Diagnostic], str]:

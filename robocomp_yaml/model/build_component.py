@@ -97,14 +97,15 @@ def _uses(root: Mapping, key: str) -> Iterator[model.Use]:
 
 def _named_use(name: Scalar, node: Node) -> model.Use:
     if isinstance(node, Scalar):
-        return model.Use(name.lexeme, node.lexeme, span=node.span)
+        return model.Use(name.lexeme, node.lexeme, span=node.span, name_span=name.span)
     return model.Use(
         name.lexeme,
         text(node, "interface", name.lexeme),
         absent=text(node, "absent", model.WAIT),
         timeout=seconds(node.get("timeout")),
         doc=doc(node),
-        span=span_of(node, "interface"),
+        span=span_of(node, "interface") if node.get("interface") else name.span,
+        name_span=name.span,
     )
 
 

@@ -12,7 +12,7 @@ from robocomp_yaml.model.build_component import seconds
 from robocomp_yaml.model.build_interface import as_text, doc, entries, required, span_of, text, texts
 from robocomp_yaml.model.located import Text
 from robocomp_yaml.model.port_range import port_range
-from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, once
 
 
 def build(root: Mapping, path: str) -> model.Deployment:
@@ -22,7 +22,7 @@ def build(root: Mapping, path: str) -> model.Deployment:
         path=path,
         hosts=tuple(_host(key, node) for key, node in entries(root, "hosts")),
         services=tuple(_storm(key, node) for key, node in entries(root, "services")),
-        entries=tuple(_entry(key, node) for key, node in entries(root, "components")),
+        entries=tuple(once(_entry, key, node) for key, node in entries(root, "components")),
         groups=(
             *(_group(key, node) for key, node in entries(root, "groups")),
             *(model.Group(key.lexeme, include=as_text(node), span=key.span) for key, node in entries(root, "include")),

@@ -8,7 +8,7 @@ from typing import TypeVar
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model import interface as model
 from robocomp_yaml.model.located import Text
-from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, once
 
 _Value = TypeVar("_Value")
 
@@ -20,13 +20,13 @@ def build(root: Mapping, path: str) -> model.Module:
         path=path,
         imports=imports(root),
         constants=tuple(_constant(key, value) for key, value in entries(root, "constants")),
-        types=tuple(_type(key, value) for key, value in entries(root, "types")),
+        types=tuple(once(_type, key, value) for key, value in entries(root, "types")),
         exceptions=tuple(
             model.ExceptionType(key.lexeme, _members(value, "struct"), doc(value), span=key.span)
             for key, value in entries(root, "exceptions")
         ),
-        interfaces=tuple(_interface(key, value, False) for key, value in entries(root, "interfaces")),
-        topics=tuple(_interface(key, value, True) for key, value in entries(root, "topics")),
+        interfaces=tuple(once(_interface, key, value, False) for key, value in entries(root, "interfaces")),
+        topics=tuple(once(_interface, key, value, True) for key, value in entries(root, "topics")),
         doc=doc(root),
         span=span_of(root, "module"),
     )

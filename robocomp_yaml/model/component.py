@@ -23,7 +23,7 @@ class Use(Spanned, frozen=True):
     `interface` is as written: `Camera`, or `RoboCompCamera.Camera` / `Camera.Camera`. `name` is the interface's name,
     or the entry's own (`{Camera1: Camera}`). `absent` says what a required proxy does while its server is not running.
     `timeout` is in seconds: the longest wait for the server (None: no limit), and the longest call (None: Ice's
-    default).
+    default). `name_span` is the location of the entry's own name, if it has one.
     """
 
     name: str
@@ -31,6 +31,7 @@ class Use(Spanned, frozen=True):
     absent: str = WAIT
     timeout: float | None = None
     doc: str = ""
+    name_span: Span = Span("")
 
 
 class Language(Spanned, frozen=True):

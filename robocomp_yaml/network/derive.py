@@ -58,13 +58,16 @@ def derive(linked: LinkedDeployment, program: Program, addresses: Addresses) -> 
     for storm in drafts.storms.values():
         made[storm.name] = processes.of_storm(storm, folder, enabled=storm.name in needed)
     known: dict[str, tuple[str, ...]] = {}
+    outside: dict[str, set[str]] = {}
+    for one in connections.connections:
+        if not one.target:
+            outside.setdefault(one.source, set()).add(one.port)
     for draft in drafts.drafts.values():
         if gates.is_gate(draft):
             text: str | None = gates.program(draft)
             hidden: tuple[str, ...] = ()
         else:
-            outside = {one.port for one in connections.connections if one.source == draft.name and not one.target}
-            configuration = Configuration(draft, program, addresses, outside)
+            configuration = Configuration(draft, program, addresses, outside.get(draft.name, set()))
             configuration.make_once((linked.real, draft.name))
             settings[draft.name] = configuration.settings
             diagnostics += configuration.diagnostics

@@ -8,11 +8,9 @@ schema of YAML 1.2 (https://yaml.org/spec/1.2.2/#103-core-schema): `on`, `yes`, 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
-from functools import lru_cache
+from collections.abc import Iterable
 from typing import Any, cast
 
-import msgspec
 from ruamel.yaml.nodes import MappingNode, ScalarNode, SequenceNode
 from ruamel.yaml.nodes import Node as YamlNode
 
@@ -21,189 +19,47 @@ from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.fix import UNTAG, Edit, Fix, quoting, removal
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.digraph import reachable
 from robocomp_yaml.patterns import pattern
 from robocomp_yaml.source import syntax
+from robocomp_yaml.source.nodes import (
+    TOP,
+    Base,
+    Mapping,
+    Mark,
+    Node,
+    Scalar,
+    Sequence,
+    below,
+    core,
+    end_of,
+    found_in,
+    last_end,
+    mapping_at,
+    once,
+    pairs_below,
+    scalar_at,
+    sequence_at,
+    text_at,
+    whole,
+)
 from robocomp_yaml.source.text import MAX_SCALAR, position, size_in_words
 
+__all__ = [
+    "MAX_ALIASED", "Base", "Mapping", "Node", "Scalar", "Sequence", "below", "core", "end_of", "found_in", "last_end",
+    "mapping_at", "once", "pairs_below", "parse", "part", "scalar_at", "sequence_at", "text_at", "whole",
+]  # fmt: skip
 MAX_ALIASED = 100_000  # nodes that all aliases together may add
 
-_INT = re.compile(r"[-+]?[0-9]+\Z")
 _ZEROS = pattern(r"[-+]?0[0-9]+\Z")
-_FLOAT = pattern(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?\Z")
-_NAMED: dict[str, bool | float | None] = {"": None, "~": None, "null": None, "Null": None, "NULL": None}
-_NAMED |= {word: word[0] in "tT" for word in ("true", "True", "TRUE", "false", "False", "FALSE")}
-_NAMED |= {sign + dot: float(sign + "inf") for sign in ("", "+", "-") for dot in (".inf", ".Inf", ".INF")}
-_NAMED |= {word: float("nan") for word in (".nan", ".NaN", ".NAN")}
 _SURROGATE = re.compile("[\ud800-\udfff]")
 _PLAIN_TAGS = ("!!str", "!!int", "!!float", "!!bool", "!!null", "!!map", "!!seq")  # the tags that plain YAML implies
 _CORE_START = frozenset("0123456789+-.~nNtTfF")  # the first characters of scalars that are not text
 
 
-class Node:
-    """A value with its location. `data` is the same value as plain Python data, recursively."""
-
-    __slots__ = ("_end", "_start", "data", "file")
-
-    def __init__(self, file: str, node: YamlNode | _Made, data: object) -> None:
-        self.file, self._start, self._end, self.data = file, node.start_mark, node.end_mark, data
-
-    @property
-    def start(self) -> int:
-        """The index of its first character in the text; `end` is the index after its last one."""
-        return int(self._start.index)
-
-    @property
-    def end(self) -> int:
-        return int(self._end.index)
-
-    @property
-    def span(self) -> Span:
-        start, end = self._start, self._end
-        return Span(self.file, start.line + 1, start.column + 1, end.line + 1, end.column + 1)
-
-    def get(self, key: str) -> Node | None:
-        """The value of a mapping's key; None if it is missing or null, or if the node is not a mapping."""
-        return None
-
-    def children(self) -> Iterable[Node]:
-        """The values of a mapping, or the items of a sequence."""
-        return ()
-
-
-class Scalar(Node):
-    """`lexeme` is the text as written, without quotes; `quoted` is true for every style except plain."""
-
-    __slots__ = ("lexeme", "quoted")
-
-    def __init__(self, file: str, node: ScalarNode | _Made, value: object) -> None:
-        super().__init__(file, node, value)
-        self.lexeme: str = node.value
-        self.quoted: bool = node.style is not None and node.style != ""
-
-
-class Mapping(Node):
-    """`entries` maps each key to (key, value), in the document's order."""
-
-    __slots__ = ("entries", "is_flow")
-
-    def __init__(self, file: str, node: MappingNode | _Made, entries: dict[str, tuple[Scalar, Node]]) -> None:
-        super().__init__(file, node, {key: value.data for key, (_, value) in entries.items()})
-        self.entries = entries
-        self.is_flow = bool(node.flow_style)
-
-    def get(self, key: str) -> Node | None:
-        entry = self.entries.get(key)
-        return entry[1] if entry and entry[1].data is not None else None
-
-    def items(self) -> Iterator[tuple[Scalar, Node]]:
-        return iter(self.entries.values())
-
-    def children(self) -> Iterable[Node]:
-        return [value for _, value in self.entries.values()]
-
-
-class Sequence(Node):
-    __slots__ = ("is_flow", "items")
-
-    def __init__(self, file: str, node: SequenceNode | _Made, items: list[Node]) -> None:
-        super().__init__(file, node, [item.data for item in items])
-        self.items = items
-        self.is_flow = bool(node.flow_style)
-
-    def children(self) -> Iterable[Node]:
-        return self.items
-
-
-def below(root: Node) -> Iterable[Node]:
-    """A node and all nodes in it, each once."""
-    return reachable([root], lambda node: node.children())
-
-
-def pairs_below(root: Node) -> Iterator[tuple[Scalar, Node]]:
-    """The keys and values of all mappings in a node."""
-    return (pair for node in below(root) if isinstance(node, Mapping) for pair in node.items())
-
-
-def last_end(node: Mapping) -> int | None:
-    """The index after the last entry of a mapping; None if the mapping is empty."""
-    end = None
-    for key, value in node.entries.values():
-        end = max(key.end, end_of(value))
-        if isinstance(value, Scalar) and value.start == value.end:
-            end = max(end, key.end + 1)  # the colon
-    return end
-
-
-def end_of(node: Node) -> int:
-    """The index after a node's own text: libyaml ends block collections at the start of the next node."""
-    if isinstance(node, Mapping) and node.entries and not node.is_flow:
-        return last_end(node) or node.end
-    if isinstance(node, Sequence) and node.items and not node.is_flow:
-        return end_of(node.items[-1])
-    return node.end
-
-
-class _Mark(msgspec.Struct, frozen=True):
-    line: int
-    column: int
-    index: int = -1
-
-
-class _Made(msgspec.Struct, frozen=True):
-    """Replaces the composed node in nodes that are not in a document."""
-
-    start_mark: _Mark
-    end_mark: _Mark
-    value: str = ""
-    style: str | None = None
-    flow_style: bool | None = None
-
-
-@lru_cache(16)  # many nodes are made for the same location
-def _marks(span: Span) -> tuple[_Mark, _Mark]:
-    return _Mark(span.line - 1, span.column - 1), _Mark(span.end_line - 1, span.end_column - 1)
-
-
-def _last_mark(text: str) -> _Mark:
+def _last_mark(text: str) -> Mark:
     """The end of a text whose last line has no end."""
     lines = re.split("\r\n|\r|\n", text)
-    return _Mark(len(lines) - 1, len(lines[-1]), len(text))
-
-
-def text_at(span: Span, text: str) -> Scalar:
-    """A text node that is not in a document, at the location of what it is derived from."""
-    return Scalar(span.file, _Made(*_marks(span), text), text)
-
-
-def mapping_at(span: Span, entries: dict[str, tuple[Scalar, Node]]) -> Mapping:
-    return Mapping(span.file, _Made(*_marks(span)), entries)
-
-
-def sequence_at(span: Span, items: list[Node]) -> Sequence:
-    return Sequence(span.file, _Made(*_marks(span)), items)
-
-
-def scalar_at(span: Span, lexeme: str) -> Scalar:
-    """A plain scalar that is not in a document, with its value by the core schema."""
-    return Scalar(span.file, _Made(*_marks(span), lexeme), core(lexeme))
-
-
-def core(lexeme: str) -> object:
-    """The value of a plain scalar by YAML 1.2's core schema."""
-    if lexeme in _NAMED:
-        return _NAMED[lexeme]
-    if _INT.match(lexeme):
-        return int(lexeme) if len(lexeme.lstrip("+-")) <= 4000 else float(lexeme)
-    if _FLOAT.match(lexeme):
-        return float(lexeme)
-    for prefix, base in (("0x", 16), ("0o", 8)):
-        if lexeme.startswith(prefix):
-            try:
-                return int(lexeme[2:], base) if "_" not in lexeme and lexeme[2:].isalnum() else lexeme
-            except ValueError:
-                return lexeme
-    return lexeme
+    return Mark(len(lines) - 1, len(lines[-1]), len(text))
 
 
 def parse(path: str, text: str) -> tuple[Node | None, list[Diagnostic]]:
@@ -219,11 +75,23 @@ def parse(path: str, text: str) -> tuple[Node | None, list[Diagnostic]]:
     return (None if builder.diagnostics else tree), builder.diagnostics
 
 
+def part(path: str, text: str, base: Base) -> Mapping | None:
+    """The tree of a text that is a part of a document, and begins at `base`; None if it is no mapping without any
+    error."""
+    try:
+        root = syntax.compose(path, text)
+    except syntax.SyntaxFault:
+        return None
+    builder = _TreeBuilder(path, text, base)
+    tree = builder.build(root) if root is not None else None
+    return tree if isinstance(tree, Mapping) and not builder.diagnostics else None
+
+
 class _TreeBuilder:
     """Converts composed nodes to Nodes, and collects the errors."""
 
-    def __init__(self, path: str, text: str) -> None:
-        self.path, self.text = path, text
+    def __init__(self, path: str, text: str, base: Base = TOP) -> None:
+        self.path, self.text, self.base = path, text, base
         self.has_anchors = "&" in text
         self.last = None if text.endswith("\n") else _last_mark(text)  # libyaml ends blocks in the line after it
         self.diagnostics: list[Diagnostic] = []
@@ -251,7 +119,9 @@ class _TreeBuilder:
             built = (
                 self._mapping(node)
                 if isinstance(node, MappingNode)
-                else Sequence(self.path, cast("SequenceNode", node), [self.build(item) for item in node.value])
+                else Sequence(
+                    self.path, cast("SequenceNode", node), [self.build(item) for item in node.value], self.base
+                )
             )
             self.open.discard(node)
         if self.last is not None and built._end.line > self.last.line:
@@ -286,15 +156,15 @@ class _TreeBuilder:
         if node.style is not None and node.style != "":
             return self._quoted(node)
         if lexeme and lexeme[0] not in _CORE_START:
-            return Scalar(self.path, node, lexeme)
-        return Scalar(self.path, node, self._core(node, lexeme))
+            return Scalar(self.path, node, lexeme, self.base)
+        return Scalar(self.path, node, self._core(node, lexeme), self.base)
 
     def _quoted(self, node: ScalarNode) -> Scalar:
         """A text in quotes. An escape sequence in it may be a surrogate, which is not a character."""
         surrogate = None if node.value.isascii() else _SURROGATE.search(node.value)
         if surrogate:
             self._say(codes.BINARY, node, byte=f"U+{ord(surrogate[0]):04X}", hint="write the character itself")
-        return Scalar(self.path, node, node.value)
+        return Scalar(self.path, node, node.value, self.base)
 
     def _core(self, node: ScalarNode, lexeme: str) -> object:
         """The value of a plain scalar. Reports leading zeros, which YAML 1.1 reads as octal."""
@@ -331,7 +201,7 @@ class _TreeBuilder:
                 )
                 continue
             entries[key.lexeme] = (key, value)
-        return Mapping(self.path, node, entries)
+        return Mapping(self.path, node, entries, self.base)
 
     def _key(self, mapping: MappingNode, node: ScalarNode, value: Node) -> Scalar:
         """A key is the text as written: `2d`, `on` and `1` are keys like any other."""

@@ -44,18 +44,27 @@ class Editor:
             self.watched.set()
 
     async def start(
-        self, *folders: Path, command: Sequence[str] = (), encodings: Sequence[str] = ("utf-16",)
+        self,
+        *folders: Path,
+        command: Sequence[str] = (),
+        encodings: Sequence[str] = ("utf-16",),
+        schema_server: str = "yes",
     ) -> types.InitializeResult:
         await self.client.start_io(*(command or [*COMMAND, "lsp"]), env=environment())
         capabilities = types.ClientCapabilities(
             general=types.GeneralClientCapabilities(position_encodings=[types.PositionEncodingKind(e) for e in encodings]),
             workspace=types.WorkspaceClientCapabilities(
-                did_change_watched_files=types.DidChangeWatchedFilesClientCapabilities(dynamic_registration=True)
+                did_change_watched_files=types.DidChangeWatchedFilesClientCapabilities(dynamic_registration=True),
+                workspace_edit=types.WorkspaceEditClientCapabilities(
+                    document_changes=True, change_annotation_support=types.ChangeAnnotationsSupportOptions()
+                ),
             ),
         )  # fmt: skip
         opened = [types.WorkspaceFolder(folder.as_uri(), folder.name) for folder in folders]
         result = await self.client.initialize_async(
-            types.InitializeParams(capabilities, workspace_folders=opened or None)
+            types.InitializeParams(
+                capabilities, workspace_folders=opened or None, initialization_options={"schemaServer": schema_server}
+            )
         )
         self.client.initialized(types.InitializedParams())
         return result

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from random import Random
 
@@ -16,6 +16,7 @@ from msgspec.structs import replace
 from conftest import write_tree
 from robocomp_yaml import api
 from robocomp_yaml.link.program import LinkedValues
+from robocomp_yaml.source import parts
 from verdicts import CASES
 
 WORKSPACE = {
@@ -62,6 +63,15 @@ WORDS = (
     "python", "moveTo", "0.5", "off", "etc/config", "[", "{", ": ", "RoboComp",
 )  # fmt: skip
 NEW = ("Leg", "spede", "string", "bool", "-3", "1e400", "ARM", "", "]", "'", "{}", "elbow", "warning", "# x\n", "\t")
+
+
+@pytest.fixture(autouse=True, scope="module")
+def short_documents_in_parts() -> Iterator[None]:
+    """As if they were long."""
+    before = parts.LONG, parts.FEW
+    parts.LONG, parts.FEW = 0, 2
+    yield
+    parts.LONG, parts.FEW = before
 
 
 class Edited:

@@ -7,9 +7,9 @@ import pytest
 pytest.importorskip("pygls")
 
 from in_memory import ROOT, analysed
-from robocomp_yaml.lsp.completion import proposals
-from robocomp_yaml.lsp.names import Names
+from robocomp_yaml.lsp.completion import codes_at, proposals
 from robocomp_yaml.lsp.places import typed_at
+from robocomp_yaml.naming.analysis import names_of
 
 WORKSPACE = {
     "rcyaml.yaml": "interfaces: [interfaces]\n",
@@ -23,7 +23,7 @@ WORKSPACE = {
     "eye/eye.cdsl.yaml": "component: EyeComp\nlanguage: python\nimports: [Eye]\nimplements: [Eye]\n",
 }  # fmt: skip
 IMPORTABLE = ["Arm", "Eye", "Pose"]
-NAMES = Names(analysed(WORKSPACE).program)
+NAMES = names_of(analysed(WORKSPACE))
 
 IDSL = "module: RoboCompLeg\nimports: [Pose]\ntypes: {Own: {enum: [a]}}\n"
 CDSL = "component: C\nlanguage: python\nimports: [Arm]\n"
@@ -86,3 +86,78 @@ def test_odd_texts_have_no_place_or_one(text: str) -> None:
     for column in range(1, 12):
         for line in (1, 2, 9):
             typed_at(text, line, column)
+
+
+WITH_VALUES = {
+    **WORKSPACE,
+    "arm/arm.cdsl.yaml": (
+        "component: ArmComp\nlanguage: python\nimports: [Arm]\nimplements: [Arm]\nrequires: [{Left: Arm}]\npublishes: [Moved]\n"
+    ),
+    "arm/arm.pdsl.yaml": (
+        "component: arm.cdsl.yaml\ntypes:\n  Mode: {enum: {slow: {doc: by night}, fast: }}\n  Wheel: {struct: {size: {type: int, values: [3, 5]}}}\n"
+        "parameters:\n  mode: {type: Mode, default: slow}\n  is_on: bool\n  speed: {type: float, range: [0, 2], unit: m/s}\n"
+        "  wheels: {list: Wheel}\n  token: {type: string, secret: true}\n  camera: {group: {width: {type: int, default: 640}}}\n"
+    ),
+    "arm/etc/config.yaml": "component: ../arm.cdsl.yaml\nparameters: {}\n",
+    "robot.ddsl.yaml": f"{DDSL}",
+}  # fmt: skip
+PROGRAM = analysed(WITH_VALUES).program
+MACHINE = "component: C\nlanguage: python\nstatemachine:\n  initial: idle\n  events: [go]\n  states: {busy: }\n"
+OF_VALUES = [
+    ("robot.ddsl.yaml", f"{DDSL}  two: {{component: arm, set: {{mode: |}}}}\n", ["slow", "fast"]),
+    ("robot.ddsl.yaml", f"{DDSL}  two: {{component: arm, set: {{is_on: |}}}}\n", ["true", "false"]),
+    ("robot.ddsl.yaml", f"{DDSL}  two: {{component: arm, set: {{speed: |}}}}\n", ["0", "2"]),
+    ("robot.ddsl.yaml", f"{DDSL}  two: {{component: arm, set: {{camera: {{width: |}}}}}}\n", ["640"]),
+    ("robot.ddsl.yaml", f"{DDSL}  two: {{component: arm, set: {{camera.width: |}}}}\n", ["640"]),
+    ("robot.ddsl.yaml", f"{DDSL}  two: {{component: arm, set: {{'wheels[0].size': |}}}}\n", ["3", "5"]),
+    ("robot.ddsl.yaml", f"{DDSL}  two: {{component: arm, set: {{token: |}}}}\n", []),
+    ("robot.ddsl.yaml", f"{DDSL}  two: {{component: arm, connect: {{|}}}}\n", ["Left"]),
+    ("robot.ddsl.yaml", f"{DDSL}  two: {{component: arm, ports: {{|}}}}\n", ["Arm"]),
+    ("robot.ddsl.yaml", f"{DDSL}  two: {{component: arm, topics: {{Moved: |}}}}\n", ["Moved"]),
+    ("robot.ddsl.yaml", f"{DDSL}groups: {{g: {{components: [one], expose: {{Arm: |}}}}}}\n", ["one"]),
+    ("robot.ddsl.yaml", f"{DDSL}groups: {{g: {{expose: {{Arm: {{member: one, allow: [|]}}}}}}}}\n", ["stop"]),
+    ("arm/etc/config.yaml", "component: ../arm.cdsl.yaml\nparameters: {mode: |}\n", []),  # its schema has them
+    ("arm/etc/config.yaml", "component: |\n", ["../../eye/eye.cdsl.yaml", "../arm.cdsl.yaml"]),
+    ("leg/leg.cdsl.yaml", f"{MACHINE}  transitions: {{idle: |}}\n", ["busy", "idle"]),
+    ("leg/leg.cdsl.yaml", f"{MACHINE}  transitions: {{idle: [{{to: |}}]}}\n", ["busy", "idle"]),
+    ("leg/leg.cdsl.yaml", f"{MACHINE}  transitions:\n    |\n", ["busy", "idle"]),
+    ("leg/leg.cdsl.yaml", f"{MACHINE}  transitions: {{idle: {{to: busy, event: |}}}}\n", ["go"]),
+    ("leg/leg.cdsl.yaml", f"{MACHINE}  final: |\n", ["busy", "idle"]),
+]  # fmt: skip
+
+
+def offered(file: str, marked: str, *, with_schema: bool = False) -> list[str]:
+    before, _, behind = marked.partition("|")
+    line, column = before.count("\n") + 1, len(before) - before.rfind("\n")
+    place = typed_at(before + behind, line, column)
+    assert place is not None
+    found = proposals(f"{ROOT}/{file}", place, NAMES, IMPORTABLE, PROGRAM, with_schema=with_schema)
+    return [one.text for one in found]
+
+
+@pytest.mark.parametrize(("file", "marked", "expected"), OF_VALUES)
+def test_values_states_and_ports_are_offered(file: str, marked: str, expected: list[str]) -> None:
+    assert offered(file, marked) == expected
+
+
+def test_without_a_server_of_schemas_keys_and_values_of_the_schema_are_offered_too() -> None:
+    values = "component: ../arm.cdsl.yaml\nparameters: {|}\n"
+    assert set(offered("arm/etc/config.yaml", values, with_schema=True)) >= {"mode", "is_on", "speed", "camera"}
+    assert offered("arm/etc/config.yaml", values) == []
+    mode = "component: ../arm.cdsl.yaml\nparameters: {mode: |}\n"
+    assert offered("arm/etc/config.yaml", mode, with_schema=True)[:2] == ["slow", "fast"]
+    keys = offered("robot.ddsl.yaml", f"{DDSL}  two: {{component: arm, |}}\n", with_schema=True)
+    assert {"host: ", "connect: ", "set: "} <= set(keys) and "component: " not in keys
+    assert {"python", "cpp"} <= set(offered("leg/leg.cdsl.yaml", "component: C\nlanguage: |\n", with_schema=True))
+    top = offered("leg/leg.cdsl.yaml", "component: C\n|\n", with_schema=True)
+    assert {"implements: ", "imports: "} <= set(top)
+
+
+def test_codes_are_offered_behind_allow() -> None:
+    found = analysed({"a.idsl.yaml": "module: M\nimports: [Nothing]\n"}, "a.idsl.yaml").diagnostics
+    line = "imports: [Nothing]  # rcyaml: allow RC"
+    column, codes = codes_at(line, len(line) + 1, found, 2) or (0, [])
+    assert line[column - 1 :] == "RC" and codes[0].text == found[0].code and codes[0].doc == "reported here"
+    assert len(codes) > 200 and len({one.text for one in codes}) == len(codes)
+    assert codes_at("# rcyaml: allow RC1010, ", 25, (), 1) is not None
+    assert codes_at("# allow RC", 11, (), 1) is None and codes_at("a: # rcyaml: guessed", 21, (), 1) is None

@@ -65,8 +65,8 @@ class WorkerOffer(msgspec.Struct, frozen=True):
 
     roots: Mapping[str, Offer]
     served: tuple[ServedInterface, ...] = ()
-    handlers: frozenset[str] = frozenset()
-    states: frozenset[str] = frozenset()
+    handlers: tuple[str, ...] = ()
+    states: tuple[str, ...] = ()
 
 
 NOTHING = Offer(OTHER, is_complete=False)
@@ -143,14 +143,14 @@ def events(machine: StateMachine, in_code: Callable[[str], str]) -> Offer:
     return Offer(EVENTS, "the state machine", fired)
 
 
-def handlers(machine: StateMachine) -> frozenset[str]:
+def handlers(machine: StateMachine) -> tuple[str, ...]:
     """The methods that a state machine calls when it enters or leaves states, and in every period."""
     made = (machine_names.entry_handler, machine_names.exit_handler, machine_names.period_handler)
-    return frozenset(make(state.id) for state in machine_names.states_with_handlers(machine) for make in made)
+    return tuple(make(state.id) for state in machine_names.states_with_handlers(machine) for make in made)
 
 
-def states(machine: StateMachine) -> frozenset[str]:
-    return frozenset(state.id for state in machine.states if state.id)
+def states(machine: StateMachine) -> tuple[str, ...]:
+    return tuple(state.id for state in machine.states if state.id)
 
 
 def modules(

@@ -40,7 +40,7 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
             is_in = {"isIn": OfferedMember(least=1, most=1, is_state=True)}
             members["statemachine"] = OfferedMember(Offer(offers.OTHER, "", is_in, is_complete=False))
     served = offers.served(ports)
-    handled = offers.handlers(machine) if machine else frozenset()
+    handled = offers.handlers(machine) if machine else ()
     modules = offers.modules(linked, ice_name, ice_name, lambda name: True)
     if linked.component.compatibility:
         modules = structs.replace(
@@ -48,7 +48,7 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
         )
     return WorkerOffer(
         {WORKER: Offer(offers.WORKER, linked.component.name, members, is_complete=False), MODULES: modules},
-        served, handled, offers.states(machine) if machine else frozenset(),
+        served, handled, offers.states(machine) if machine else (),
     )  # fmt: skip
 
 

@@ -67,8 +67,8 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
     return WorkerOffer(
         {WORKER: Offer(offers.WORKER, linked.component.name, members, is_complete=is_own), MODULES: modules},
         served,
-        offers.handlers(machine) if machine else frozenset(),
-        offers.states(machine) if machine else frozenset(),
+        offers.handlers(machine) if machine else (),
+        offers.states(machine) if machine else (),
     )
 
 

@@ -16,7 +16,7 @@ from robocomp_yaml.parameters.specification.document import (
     TypeSpec,
     ValuesDocument,
 )
-from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, once
 
 
 def build(root: Mapping, path: str) -> ParameterDocument:
@@ -25,7 +25,7 @@ def build(root: Mapping, path: str) -> ParameterDocument:
         path=path,
         component=text(root, "component"),
         types=tuple((key.lexeme, _spec(value, key)) for key, value in _named(root, "types")),
-        parameters=tuple(_entry(key, value) for key, value in _named(root, "parameters")),
+        parameters=tuple(once(_entry, key, value) for key, value in _named(root, "parameters")),
         rules=tuple(_rule(item) for item in items(root, "constraints")),
         legacy=tuple(_spelling(key, value) for key, value in _named(root, "legacy")),
         doc=doc(root),
