@@ -11,6 +11,7 @@ from robocomp_yaml.api.refusals import meant
 from robocomp_yaml.diag.errors import Refused
 from robocomp_yaml.link.workspace import root_above
 from robocomp_yaml.link.workspace_files import GLOBS, modeline, schema_of, schema_path
+from robocomp_yaml.link.workspace_names import names_below
 from robocomp_yaml.plugins import Plugins
 from robocomp_yaml.source.discover import WORKSPACE_FILE, kind_of
 from robocomp_yaml.source.regular import regular, whole
@@ -35,8 +36,10 @@ class Schema(msgspec.Struct, frozen=True):
         return bool(self.path) and not os.path.isfile(self.path)
 
     def is_outdated(self, plugins: Plugins) -> bool:
-        """Whether the file differs from the schema of this version, with the plug-ins of the workspace."""
-        return bool(self.path) and whole(self.path)[0] != schema_of(self.kind, plugins).encode("utf-8")
+        """Whether the file differs from the schema of this version, with the plug-ins and names of the workspace."""
+        if not self.path:
+            return False
+        return whole(self.path)[0] != schema_of(self.kind, plugins, names_below(self.root)).encode("utf-8")
 
 
 def installed(root: str) -> dict[str, str]:
