@@ -35,7 +35,7 @@ def neovim(tmp_path: Path) -> Any:
         script = tmp_path / "session.lua"
         command = more.get("command", json.dumps([sys.executable, "-m", "robocomp_yaml", "lsp"]))
         script.write_text(
-            f"vim.g.rcyaml_command = vim.fn.json_decode([[{command}]])\n"
+            f"vim.g.rcyaml_command = vim.fn.json_decode([==[{command}]==])\n"
             f"local nvim = dofile([[{SESSION}]])\n"
             "local ok, result = pcall(function()\n"
             f"dofile([[{CONFIGURATION}]])\nvim.cmd([[edit {document}]])\nvim.bo.filetype = 'yaml'\n"
@@ -124,6 +124,7 @@ def test_one_server_serves_a_workspace(neovim: Any) -> None:
         """
         vim.cmd('edit interfaces/Gripper.idsl.yaml')
         vim.bo.filetype = 'yaml'
+        nvim.wait('the server', function() return #vim.lsp.get_active_clients() > 0 end)
         return vim.tbl_map(function(one) return vim.fn.fnamemodify(one.config.root_dir, ':t') end, vim.lsp.get_active_clients())
         """,
     )
