@@ -73,7 +73,8 @@ def _filled(schema: Any, known: Map[str, object], used: set[str], around: str = 
         more.append({"$ref": f"#/definitions/{MARK}-{kind.replace(' ', '-')}"})
     if isinstance(examples, list) and "enum" not in schema and any(isinstance(example, str) for example in examples):
         del filled["examples"]
-        more.append({"if": {}, "then": {"examples": examples, "allOf": [{}]}})  # for hover; this is not completed
+        only_hovered = {"if": {}, "then": {"examples": examples, "allOf": [{}]}}
+        more.append({"title": schema["title"], **only_hovered} if "title" in schema else only_hovered)
         if (kind or around) not in known:
             filled["defaultSnippets"] = [*_as_examples(examples), *filled.get("defaultSnippets", ())]
     if more:
@@ -91,10 +92,11 @@ def _as_examples(examples: list[Any]) -> Iterator[dict[str, str]]:
 
 def _definition(kind: str, names: tuple[OfferedName, ...]) -> dict[str, Any]:
     made: dict[str, Any] = {
+        "title": "Name",
         "defaultSnippets": [
             {"label": one.text, "description": one.says, "body": _escaped(text_of(one.text, in_flow=True))}
             for one in names
-        ]
+        ],
     }
     if kind in _CHECKED:
         made |= _checked([one.text for one in names])

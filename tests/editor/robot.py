@@ -25,7 +25,11 @@ interfaces:
   Gripper:
     doc: Opens and closes.
     methods:
-      grasp: {in: {where: Shapes.Pose}, returns: bool, throws: [Shapes.Blocked]}
+      grasp:
+        in:
+          where: Shapes.Pose
+        returns: bool
+        throws: [Shapes.Blocked]
 topics:
   GripperEvents: {methods: {closed: {in: {force: float}}}}
 """,
@@ -48,9 +52,28 @@ component: hand.cdsl.yaml
 types:
   Finger: {struct: {length: float}}
 parameters:
-  force: {type: float, range: [0, 40], default: 10, unit: N, doc: The force of the fingers.}
-  fingers: {list: Finger, default: [{length: 0.1}]}
-  mode: {type: string, values: [soft, firm], default: soft}
+  force:
+    type: float
+    range: [0, 40]
+    default: 10
+    unit: N
+    doc: The force of the fingers.
+  fingers:
+    list: Finger
+    default: [{length: 0.1}]
+  mode:
+    type: string
+    values: [soft, firm]
+    default: soft
+""",
+    "components/hand/etc/config.yaml": """
+# yaml-language-server: $schema=../generated/config.schema.json
+component: ../hand.cdsl.yaml
+parameters:
+  force: 12
+  mode: firm
+  fingers:
+    - length: 0.2
 """,
     "components/wheels/wheels.cdsl.yaml": """
 component: WheelsComp
@@ -66,10 +89,19 @@ hosts:
 services:
   storm: {icestorm: {host: torso}}
 components:
-  hand: {component: ../components/hand, set: {force: 12}}
-  wheels: {component: ../components/wheels, host: torso, connect: {Gripper: hand}, after: [storm]}
+  hand:
+    component: ../components/hand
+    set:
+      force: 12
+  wheels:
+    component: ../components/wheels
+    host: torso
+    connect:
+      Gripper: hand
+    after: [storm]
 groups:
-  body: {components: [hand, wheels]}
+  body:
+    components: [hand, wheels]
 """,
 }
 

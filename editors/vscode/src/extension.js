@@ -2,7 +2,7 @@
 // The part of the extension that talks to VS Code: the language server, schemas for redhat.vscode-yaml, tasks.
 
 const vscode = require("vscode");
-const { LanguageClient, TransportKind } = require("vscode-languageclient/node");
+const { LanguageClient } = require("vscode-languageclient/node");
 
 const { GLOB, schemaOf } = require("./documents");
 const { problemOf, programOf } = require("./program");
@@ -28,7 +28,7 @@ async function start() {
     return;
   }
   const include = (settings().get("include") || []).flatMap((folder) => ["-I", folder]);
-  const server = { command, args: ["lsp", ...include], options: { cwd: folders()[0] }, transport: TransportKind.stdio };
+  const server = { command, args: ["lsp", ...include], options: { cwd: folders()[0] } };
   const wanted = settings().get("schemaServer");
   const hasSchemas = vscode.extensions.getExtension(YAML) !== undefined;
   client = new LanguageClient("rcyaml", "rcyaml", server, {
