@@ -53,6 +53,12 @@ def schema_with(names: OfferedNames, kind: str, more: tuple[TargetLanguage, ...]
     return msgspec.json.format(text.encode(), indent=1).decode() + "\n"
 
 
+def with_examples(schema: dict[str, Any]) -> dict[str, Any]:
+    """The JSON Schema of a kind of document, without names; its examples are offered as examples."""
+    filled: dict[str, Any] = _filled(schema, {}, set())
+    return filled
+
+
 def _filled(schema: Any, known: Map[str, object], used: set[str], around: str = "") -> Any:
     """A subschema as it is written. `around` is the kind of names of the subschema that contains it in `allOf`."""
     if isinstance(schema, list):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 import subprocess
 import sys
@@ -142,3 +143,28 @@ def test_an_absent_program_is_told_once(neovim: Any) -> None:
     assert [line for line in told if "rcyaml" in line and "not found" in line] == [
         "/nowhere/rcyaml is not found: pip install 'rcyaml[lsp]'"
     ]
+
+
+def test_the_screen_of_the_docs_is_that_of_neovim(neovim: Any, request: pytest.FixtureRequest) -> None:
+    lines = neovim(
+        "components/wheels/wheels.cdsl.yaml",
+        """
+        vim.api.nvim_buf_set_lines(0, 3, 4, false, { 'requires: [Girpper]' })
+        vim.opt.number = true
+        vim.opt.laststatus = 0
+        vim.opt.ruler = false
+        nvim.wait('diagnostics', function() return #vim.diagnostic.get(0) > 0 end)
+        return nvim.screen()
+        """,
+        size=(110, 8),
+    )
+    screen = "\n".join(re.sub(r"\(/.*/", "(…/", line).rstrip() for line in lines).rstrip()
+    page = ROOT / "docs/editor.md"
+    text = page.read_text(encoding="utf-8")
+    begin, end = "<!-- Neovim's screen -->\n```text\n", "\n```\n"
+    before, _, rest = text.partition(begin)
+    shown, _, after = rest.partition(end)
+    if request.config.getoption("--update-golden"):
+        page.write_text(before + begin + screen + end + after, encoding="utf-8")
+        shown = screen
+    assert shown == screen
