@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+from functools import lru_cache
 
 import msgspec
 
@@ -15,6 +16,7 @@ from robocomp_yaml.link.workspace_names import names_below
 from robocomp_yaml.plugins import Plugins
 from robocomp_yaml.source.discover import WORKSPACE_FILE, kind_of
 from robocomp_yaml.source.regular import regular, whole
+from robocomp_yaml.source.schema_names import offered_in
 
 _MODELINE = re.compile(r"^#\s*yaml-language-server\s*:.*?\$schema\s*=\s*(\S+)", re.MULTILINE)
 _HEAD = 10_000  # characters that editors search
@@ -56,6 +58,28 @@ def schema_for(document: str) -> Schema:
     named = _named(document)
     path = os.path.normpath(os.path.join(folder, named)) if "://" not in named else ""
     return Schema(kind, root, named, path if named else installed(root)[kind], modeline(kind, document, root))
+
+
+def names_offered(document: str) -> frozenset[str]:
+    """The names that the schema of a document's workspace offers to editors, so that no other server has to; none if
+    the schema is missing or older. The document need not exist."""
+    kind, root = kind_of(document), root_above(os.path.dirname(document) or ".")
+    if kind is None or root is None:
+        return frozenset()
+    path = os.path.join(root, schema_path(kind))
+    try:
+        status = os.stat(path)
+    except OSError:
+        return frozenset()
+    return _offered(path, status.st_mtime_ns, status.st_size)
+
+
+@lru_cache(maxsize=16)
+def _offered(path: str, time: int, size: int) -> frozenset[str]:
+    try:
+        return offered_in(msgspec.json.decode(whole(path)[0]))
+    except (OSError, msgspec.DecodeError):
+        return frozenset()
 
 
 def _kind_of(document: str) -> str:

@@ -53,6 +53,13 @@ def schema_with(names: OfferedNames, kind: str, more: tuple[TargetLanguage, ...]
     return msgspec.json.format(text.encode(), indent=1).decode() + "\n"
 
 
+def offered_in(schema: Any) -> frozenset[str]:
+    """The names that a schema of a workspace offers."""
+    definitions = schema.get("definitions", {}) if isinstance(schema, dict) else {}
+    lists = [one["defaultSnippets"] for name, one in definitions.items() if name.startswith(f"{MARK}-")]
+    return frozenset(snippet["label"] for snippets in lists for snippet in snippets)
+
+
 def with_examples(schema: dict[str, Any]) -> dict[str, Any]:
     """The JSON Schema of a kind of document, without names; its examples are offered as examples."""
     filled: dict[str, Any] = _filled(schema, {}, set())

@@ -10,6 +10,7 @@ import pytest
 
 from editor.robot import DOCUMENTS, run, write_robot
 from editor.workbench import Workbench
+from robocomp_yaml.api.schemas import names_offered
 from robocomp_yaml.link import workspace_files
 
 SCHEMAS = ".rcyaml/schemas"
@@ -159,3 +160,16 @@ def test_a_broken_document_keeps_its_names_and_a_workspace_below_has_its_own(tmp
         "Broken": True, "x-own": False, "Below": False, "RoboCompTwice.Same": True, "Same": False,
     }.items():  # fmt: skip
         assert (f'"label": "{name}"' in text) == is_known, name
+
+
+def test_another_server_can_ask_what_the_schemas_offer(compiled: Workbench, tmp_path: Path) -> None:
+    component = str(compiled.folder / "components/new.cdsl.yaml")
+    assert names_offered(component) == {"Gripper", "GripperEvents", "Odometry", "Shapes"}
+    assert "torso" in names_offered(str(compiled.folder / "new.ddsl.yaml"))
+    assert names_offered(str(compiled.folder / "compose.yaml")) == frozenset()
+    assert names_offered(str(tmp_path / "alone.cdsl.yaml")) == frozenset()
+    (tmp_path / "rcyaml.yaml").write_text("")
+    (tmp_path / SCHEMAS).mkdir(parents=True)
+    for text in ("[", "[]", "{}"):
+        (tmp_path / SCHEMAS / "cdsl.schema.json").write_text(text)
+        assert names_offered(str(tmp_path / "alone.cdsl.yaml")) == frozenset()
