@@ -5,7 +5,9 @@ const fs = require("node:fs");
 const path = require("node:path");
 
 const KINDS = ["idsl", "cdsl", "pdsl", "ddsl", "config"];
-const GLOB = "**/{rcyaml.yaml,*.mock.yaml,*.{idsl,cdsl,pdsl,ddsl,config}.yaml,{idsl,cdsl,pdsl,ddsl}.yaml,etc/config.yaml}";
+// Braces in braces are not understood by the search of VS Code.
+const NAMES = [...KINDS.map((kind) => `*.${kind}.yaml`), ...["idsl", "cdsl", "pdsl", "ddsl"].map((kind) => `${kind}.yaml`)];
+const GLOB = `**/{rcyaml.yaml,*.mock.yaml,${NAMES.join(",")}}`;
 
 /** The kind of a document by its path; undefined if rcyaml has no schema for it. */
 function kindOf(file) {

@@ -35,6 +35,7 @@ async function start() {
     documentSelector: [{ scheme: "file", language: "yaml" }],
     initializationOptions: { schemaServer: wanted === "auto" ? (hasSchemas ? "yes" : "no") : wanted },
     outputChannel: output,
+    diagnosticCollectionName: "rcyaml", // the owner of the problems of tasks: each replaces those of the other
   });
   await client.start();
 }

@@ -4,7 +4,7 @@ const { execFile } = require("node:child_process");
 const os = require("node:os");
 const test = require("node:test");
 
-const { kindOf, rootOf, schemaOf } = require("../src/documents");
+const { GLOB, kindOf, rootOf, schemaOf } = require("../src/documents");
 const { problemOf, programOf } = require("../src/program");
 const { tasksOf } = require("../src/tasks");
 
@@ -52,4 +52,8 @@ test("each component can be run, and each deployment started", () => {
   const names = tasksOf(["robot.ddsl.yaml", "c/arm.cdsl.yaml", "i/Arm.idsl.yaml"]).map((one) => one.args.join(" "));
   assert.deepEqual(names, ["check", "compile", "build", "compile --watch", "run c/arm.cdsl.yaml", "deploy plan robot.ddsl.yaml",
     "deploy up robot.ddsl.yaml", "deploy status robot.ddsl.yaml", "deploy down robot.ddsl.yaml"]);
+});
+
+test("the search for documents has no braces in braces", () => {
+  assert.match(GLOB, /^[^{}]*\{[^{}]*\}$/);
 });
