@@ -20,10 +20,14 @@ from robocomp_yaml.emit.layout import is_settings
 from robocomp_yaml.emit.options import EmitOptions
 from robocomp_yaml.emit.specific.review import Review, review
 from robocomp_yaml.link import workspace_files
+from robocomp_yaml.link.documents import read_tree
+from robocomp_yaml.link.workspace_names import names_below
 from robocomp_yaml.pipeline import Analysis
 from robocomp_yaml.source.discover import documents_below
 from robocomp_yaml.source.disk import NOTHING
 from robocomp_yaml.source.regular import whole
+from robocomp_yaml.source.schema_names import OfferedNames
+from robocomp_yaml.source.tree import Node
 from robocomp_yaml.transactions import stamp, writer
 from robocomp_yaml.transactions.changes import Changes
 
@@ -124,7 +128,7 @@ class Compilation:
             if not fences.contain(workspace.root):
                 continue
             try:
-                workspace_files.install(workspace.root, workspace.plugins)
+                workspace_files.install(workspace.root, workspace.plugins, self._names_below(workspace.root))
             except OSError:
                 continue
             for kind in workspace_files.GLOBS:
@@ -132,6 +136,16 @@ class Compilation:
                 if os.path.lexists(path):  # it may be missing, with a plug-in
                     schemas[path] = whole(path)[0]
         return schemas
+
+    def _names_below(self, root: str) -> OfferedNames:
+        """The names of a workspace, also those of documents that are no part of this run."""
+        documents, disk = self._analysis.linker.documents, self._analysis.disk
+
+        def tree_of(path: str) -> Node | None:
+            document = documents.read.get(disk.real(path))
+            return document.tree if document is not None else read_tree(path, disk)[0]
+
+        return names_below(root, disk, tree_of)
 
     def _stamp(
         self, own: Review, changes: Changes, schemas: dict[str, bytes], again: Outcome

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+from functools import lru_cache
 
 import msgspec
 
@@ -11,9 +12,11 @@ from robocomp_yaml.api.refusals import meant
 from robocomp_yaml.diag.errors import Refused
 from robocomp_yaml.link.workspace import root_above
 from robocomp_yaml.link.workspace_files import GLOBS, modeline, schema_of, schema_path
+from robocomp_yaml.link.workspace_names import names_below
 from robocomp_yaml.plugins import Plugins
 from robocomp_yaml.source.discover import WORKSPACE_FILE, kind_of
 from robocomp_yaml.source.regular import regular, whole
+from robocomp_yaml.source.schema_names import offered_in
 
 _MODELINE = re.compile(r"^#\s*yaml-language-server\s*:.*?\$schema\s*=\s*(\S+)", re.MULTILINE)
 _HEAD = 10_000  # characters that editors search
@@ -35,8 +38,10 @@ class Schema(msgspec.Struct, frozen=True):
         return bool(self.path) and not os.path.isfile(self.path)
 
     def is_outdated(self, plugins: Plugins) -> bool:
-        """Whether the file differs from the schema of this version, with the plug-ins of the workspace."""
-        return bool(self.path) and whole(self.path)[0] != schema_of(self.kind, plugins).encode("utf-8")
+        """Whether the file differs from the schema of this version, with the plug-ins and names of the workspace."""
+        if not self.path:
+            return False
+        return whole(self.path)[0] != schema_of(self.kind, plugins, names_below(self.root)).encode("utf-8")
 
 
 def installed(root: str) -> dict[str, str]:
@@ -53,6 +58,28 @@ def schema_for(document: str) -> Schema:
     named = _named(document)
     path = os.path.normpath(os.path.join(folder, named)) if "://" not in named else ""
     return Schema(kind, root, named, path if named else installed(root)[kind], modeline(kind, document, root))
+
+
+def names_offered(document: str) -> frozenset[str]:
+    """The names that the schema of a document's workspace offers to editors, so that no other server has to; none if
+    the schema is missing or older. The document need not exist."""
+    kind, root = kind_of(document), root_above(os.path.dirname(document) or ".")
+    if kind is None or root is None:
+        return frozenset()
+    path = os.path.join(root, schema_path(kind))
+    try:
+        status = os.stat(path)
+    except OSError:
+        return frozenset()
+    return _offered(path, status.st_mtime_ns, status.st_size)
+
+
+@lru_cache(maxsize=16)
+def _offered(path: str, time: int, size: int) -> frozenset[str]:
+    try:
+        return offered_in(msgspec.json.decode(whole(path)[0]))
+    except (OSError, msgspec.DecodeError):
+        return frozenset()
 
 
 def _kind_of(document: str) -> str:

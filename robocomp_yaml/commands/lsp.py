@@ -9,9 +9,10 @@ from robocomp_yaml.commands._command import LibraryCommand
 
 
 @click.command(cls=LibraryCommand, short_help="Serve editors: diagnostics as you type, fixes, formatting.")
+@click.option("--stdio", is_flag=True, help="What many editors pass: use standard input and output, as always.")
 @_options.include
 @click.pass_context
-def command(ctx: click.Context, include: tuple[str, ...]) -> None:
+def command(ctx: click.Context, stdio: bool, include: tuple[str, ...]) -> None:
     """Serve an editor by the language server protocol, on standard input and output.
 
     Editors start it by themselves: docs/editor.md shows how to configure them. It needs pygls: pip install

@@ -27,12 +27,14 @@ def _kinds(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[
 def command(ctx: click.Context, kind: str | None) -> None:
     """Print the JSON Schema of a KIND of document, or which schema applies to FILE; without an argument, list the
     kinds."""
-    from robocomp_yaml.link.workspace_files import GLOBS, schema_of
+    from robocomp_yaml.link.workspace_files import GLOBS
+    from robocomp_yaml.source.schema_text import MARKED, schema_text
 
     if kind is None:
         _print_kinds()
     elif kind in GLOBS:
-        terminal.data(schema_of(kind, _plugin_choices.plugins_at()), json=True)
+        languages = _plugin_choices.plugins_at().languages if kind in MARKED else ()
+        terminal.data(schema_text(kind, languages), json=True)
     else:
         _print_schema_of(os.path.normpath(kind))
 

@@ -6,11 +6,13 @@ import errno
 import os
 
 from robocomp_yaml.link.workspace import above
+from robocomp_yaml.link.workspace_names import names_below
 from robocomp_yaml.plugins import Plugins
 from robocomp_yaml.source.inside import stays_inside
 from robocomp_yaml.source.json_comments import Unreadable, with_members
 from robocomp_yaml.source.regular import regular
-from robocomp_yaml.source.schema_text import MARKED, schema_text
+from robocomp_yaml.source.schema_names import OfferedNames, schema_with
+from robocomp_yaml.source.schema_text import MARKED
 from robocomp_yaml.transactions import whole_file
 
 FOLDER = ".rcyaml/schemas"
@@ -32,9 +34,9 @@ def schema_path(kind: str) -> str:
     return f"{FOLDER}/{kind}.schema.json"
 
 
-def schema_of(kind: str, plugins: Plugins) -> str:
-    """The text of the schema of a kind, with the languages of these plug-ins."""
-    return schema_text(kind, plugins.languages if kind in MARKED else ())
+def schema_of(kind: str, plugins: Plugins, names: OfferedNames = ()) -> str:
+    """The text of the schema of a kind, as the editors of a workspace with these names use it."""
+    return schema_with(names, kind, plugins.languages if kind in MARKED else ())
 
 
 def modeline(kind: str, document: str, workspace: str) -> str:
@@ -43,10 +45,10 @@ def modeline(kind: str, document: str, workspace: str) -> str:
     return f"# yaml-language-server: $schema={path}"
 
 
-def install(folder: str, plugins: Plugins | None = None) -> list[str]:
-    """Brings the editor's files of a workspace up to date, and returns the paths of those that changed. `plugins` are
-    the workspace's, if they are loaded already. If one of them cannot be loaded, schemas that depend on plug-ins are
-    not changed.
+def install(folder: str, plugins: Plugins | None = None, names: OfferedNames | None = None) -> list[str]:
+    """Brings the editor's files of a workspace up to date, and returns the paths of those that changed. `plugins` and
+    `names` are the workspace's, if they are known already. If a plug-in cannot be loaded, schemas that depend on
+    plug-ins are not changed.
 
     The user's own VS Code settings and comments are not changed; `settings_problem` returns why the schemas could not
     be added. Raises OSError if the folder cannot be written, or a link leads out of the workspace.
@@ -56,10 +58,11 @@ def install(folder: str, plugins: Plugins | None = None) -> list[str]:
         if not stays_inside(folder, schema_path(kind)):
             raise OSError(errno.ELOOP, "a link leads out of the workspace", path)
     plugins = above(folder)[0].plugins if plugins is None else plugins
+    names = names_below(folder) if names is None else names
     changed = [
         path
         for kind, path in schemas.items()
-        if (plugins.whole or kind not in MARKED) and _write(path, schema_of(kind, plugins))
+        if (plugins.whole or kind not in MARKED) and _write(path, schema_of(kind, plugins, names))
     ]
     try:
         text = _settings_text(folder)

@@ -33,6 +33,7 @@ from robocomp_yaml.parameters.types import (
 from robocomp_yaml.parameters.words import elements_in_words, for_editors, in_words, label, prose
 from robocomp_yaml.semantics.limits import LIMITS
 from robocomp_yaml.source.schema import new_schema
+from robocomp_yaml.source.schema_names import with_examples
 from robocomp_yaml.source.yaml_text import flow
 
 Schema = dict[str, Any]
@@ -112,7 +113,7 @@ def document_schema(parameters: Parameters, name: str, ports: Mapping[str, Itera
     """The self-contained schema of a values document of the component `name`. `ports` has the names that are known
     under `endpoints` and `proxies`."""
     builder = _SchemaBuilder(mode)
-    made = new_schema("config")
+    made = with_examples(new_schema("config"))
     made["$id"] = f"https://rcyaml.invalid/schemas/values/{name}.{mode}.schema.json"
     made["title"] = f"Values of {name}"
     made["description"] = f"The values of {name}'s parameters, its endpoints and its proxies."

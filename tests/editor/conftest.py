@@ -14,6 +14,7 @@ from pathlib import Path
 
 import pytest
 
+from editor.robot import write_robot
 from editor.workbench import Workbench
 from editor.yaml_language_server import LanguageServer
 
@@ -48,13 +49,31 @@ def _install(folder: Path) -> None:
 
 
 @pytest.fixture(scope="session")
-def editor(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Workbench]:
+def schema_server() -> list[str]:
+    """The command of yaml-language-server."""
     for program in ("node", "npm"):
         if shutil.which(program) is None:
             pytest.skip(f"the editor tests need {program} (Debian: apt install nodejs npm)")
-    folder = tmp_path_factory.mktemp("workspace")
-    server = LanguageServer(["node", str(_server()), "--stdio"])
+    return ["node", str(_server()), "--stdio"]
+
+
+def _opened(command: list[str], folder: Path) -> Iterator[Workbench]:
+    server = LanguageServer(command)
     try:
         yield Workbench(server, folder)
     finally:
         server.stop()
+
+
+@pytest.fixture(scope="session")
+def editor(schema_server: list[str], tmp_path_factory: pytest.TempPathFactory) -> Iterator[Workbench]:
+    """An editor in an empty workspace."""
+    yield from _opened(schema_server, tmp_path_factory.mktemp("workspace"))
+
+
+@pytest.fixture(scope="session")
+def compiled(schema_server: list[str], tmp_path_factory: pytest.TempPathFactory) -> Iterator[Workbench]:
+    """An editor in a workspace with documents that are compiled."""
+    folder = tmp_path_factory.mktemp("robot")
+    write_robot(folder)
+    yield from _opened(schema_server, folder)

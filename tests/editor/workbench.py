@@ -38,7 +38,7 @@ class Workbench:
     def __init__(self, server: LanguageServer, folder: Path) -> None:
         workspace_files.install(str(folder))
         self.folder = folder
-        self._server = server
+        self.server = self._server = server
         self._number = itertools.count()
         settings = json.loads((folder / workspace_files.SETTINGS).read_text(encoding="utf-8"))
         server.start(folder, settings["yaml.schemas"])

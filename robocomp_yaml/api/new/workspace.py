@@ -34,6 +34,7 @@ def init(folder: str, report: Report, *, bare: bool = False) -> None:
         _write(interface_document(folder, EXAMPLE), report)
         example = {"implements": [EXAMPLE]}
         _write(component_document(folder, f"{EXAMPLE}Comp", languages.DEFAULT, example), report)
+        workspace_files.install(folder)
 
 
 def create(make: Callable[[str], Sequence[NewDocument]], report: Report) -> list[str]:
