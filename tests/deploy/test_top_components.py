@@ -63,6 +63,10 @@ class SpecificWorker(GenericWorker):
 
 #include <thread>
 
+void SpecificWorker::initialize()
+{
+}
+
 void SpecificWorker::compute()
 {
     force_pubproxy->felt(1.5f);
@@ -87,17 +91,18 @@ void SpecificWorker::Force_felt(float)
 """},
     "java": {"src/SpecificWorker.java": """\
 import generated.GenericWorker;
+import slice.RoboCompGripper.Stuck;
 
 public class SpecificWorker extends GenericWorker {
     @Override
     public void compute() {
-        force_proxy.felt(1.5f);
+        force_pubproxy.felt(1.5f);
     }
 
     @Override
-    public void Gripper_close(float seconds) throws RoboCompGripper.Stuck {
+    public void Gripper_close(float seconds) throws Stuck {
         if (seconds < 0) {
-            throw new RoboCompGripper.Stuck();
+            throw new Stuck();
         }
         try {
             Thread.sleep((long) (1000 * seconds));
