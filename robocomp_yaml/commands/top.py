@@ -8,20 +8,27 @@ from typing import TYPE_CHECKING
 
 import click
 
-from robocomp_yaml.commands import _options, _signals
+from robocomp_yaml.commands import _options, _signals, _talking
 from robocomp_yaml.commands._command import LibraryCommand
 from robocomp_yaml.commands._ddsl import DocumentAnd, default_document, running_document
 from robocomp_yaml.commands._duration import Duration
 
 if TYPE_CHECKING:
+    from robocomp_yaml.api.addresses import Addresses
     from robocomp_yaml.commands._top_view import TopView
     from robocomp_yaml.deploy.sampling import NetworkSample
 
 SORTS = ("document", "name", "state", "cpu", "memory", "missed", "calls", "slowest", "topics")
 
 
+def _processes(addresses: Addresses, incomplete: str) -> list[str]:
+    """For completion."""
+    return [one.name for one in addresses.network.enabled()] if addresses.network else []
+
+
 @click.command(cls=LibraryCommand, short_help="Show what the processes of a deployment do, live.")
-@click.argument("names", cls=DocumentAnd, metavar="[NAME]...", running=True)
+@click.argument("names", cls=DocumentAnd, metavar="[NAME]...", running=True,
+                shell_complete=_talking.completing(_processes))  # fmt: skip
 @click.option("--deployment", metavar="DDSL", help="The deployment: its document, or its name in `deploy ls`.")
 @click.option("--sort", type=click.Choice(SORTS), default="document", show_default=True, help="What comes first.")
 @click.option("--reverse", is_flag=True, help="The other way round.")
@@ -70,7 +77,6 @@ async def _printed(
     samples: AsyncGenerator[NetworkSample, None], view: TopView, count: int | None, json: tuple[str, str] | None
 ) -> None:
     """Prints samples one after the other. The first one has no rates, and is not shown."""
-    from robocomp_yaml.commands import _talking
     from robocomp_yaml.commands._top_view import as_data
     from robocomp_yaml.diag import terminal
 
