@@ -58,10 +58,11 @@ ice: $(VENV)/rcyaml
 test: system-test $(VENV)/tests
 	@$(VENV)/bin/python -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder -q
 
-# All builds, also the long ones that seldom fail, and more cases in random tests.
+# All builds, also the long ones that seldom fail, more cases in random tests, and all faults of a large network.
 test-long: export RCYAML_ALL_BUILDS := 1
 test-long: export RCYAML_CASES := 4000
 test-long: export RCYAML_CPP_DOCUMENTS := 60
+test-long: export RCYAML_FAULT_COMPONENTS := 30
 test-long: test
 
 # Adds the names that this machine's compiler and headers reserve in C++.

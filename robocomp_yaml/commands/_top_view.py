@@ -103,7 +103,7 @@ class TopView:
         running = sum(one.pid is not None for one in sample.processes)
         order = self._sort + (", reversed" if self._reversed else "")
         parts = [
-            self._title, time.strftime("%H:%M:%S", time.localtime(sample.time)),
+            self._title, time.strftime("%H:%M:%S"),
             f"{running} of {len(sample.processes)} processes running",
             *([f"{faults} not as desired"] if faults else []),
             f"sorted by {order}",
@@ -242,7 +242,7 @@ def _tint(one: ProcessSample) -> str:
 def as_data(name: str, engine: str, sample: NetworkSample) -> dict[str, Any]:
     """A sample as JSON has it. What is unknown is null."""
     return {
-        "time": sample.time, "deployment": name, "engine": engine, "problem": sample.problem,
+        "time": time.time(), "deployment": name, "engine": engine, "problem": sample.problem,
         "processes": [_process_data(one) for one in sample.processes],
     }  # fmt: skip
 

@@ -101,9 +101,8 @@ class ProcessSample(msgspec.Struct, frozen=True):
 
 
 class NetworkSample(msgspec.Struct, frozen=True):
-    """All processes at a time, in seconds since the epoch. `problem` is why their states are unknown, else ''."""
+    """All processes. `problem` is why their states are unknown, else ''."""
 
-    time: float
     problem: str
     processes: tuple[ProcessSample, ...]
 
@@ -154,7 +153,7 @@ async def samples(
                 _sample(processes[name], name, now[name], before.get(name), asked.has_facet(proxies.get(name)), problem)
                 for name in chosen
             )
-            yield NetworkSample(time.time(), problem, tuple(found))
+            yield NetworkSample(problem, tuple(found))
             before = now
             await asyncio.sleep(max(0.0, began + pause - time.monotonic()))
             pause = every

@@ -173,16 +173,24 @@ class Polled:
     failed: dict[str, int] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        threading.Thread(target=self._read, daemon=True).start()
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
 
     def _read(self) -> None:
         assert self.process.stdout is not None
-        for line in self.process.stdout:
-            begin, name, answer = json.loads(line)
-            if isinstance(answer, str):
-                self.failed[name] = self.failed.get(name, 0) + 1
-            else:
-                self.turns.setdefault(name, []).append(Turn(begin, *answer, self.failed.pop(name, 0)))
+        with self.process.stdout as lines:
+            for line in lines:
+                if line.endswith("\n"):  # it is cut off when the client is killed
+                    begin, name, answer = json.loads(line)
+                    if isinstance(answer, str):
+                        self.failed[name] = self.failed.get(name, 0) + 1
+                    else:
+                        self.turns.setdefault(name, []).append(Turn(begin, *answer, self.failed.pop(name, 0)))
+
+    def end(self) -> None:
+        self.process.kill()
+        self.process.wait()
+        self._reader.join()
 
     def runs(self) -> dict[str, str]:
         return {name: turns[-1].run for name, turns in self.turns.items()}
@@ -316,7 +324,6 @@ def fault_network(root: Path, number: int) -> Iterator[FaultNetwork]:
         network = FaultNetwork(talk, None, where, entries)  # type: ignore[arg-type]  # the client comes later
         write_tree(root, DOCUMENTS)
         network.write()
-        client: subprocess.Popen[str] | None = None
         try:
             talk.rcyaml("compile")
             write_tree(root, {"base/src/specificworker.py": BASE, "user/src/specificworker.py": USER})
@@ -324,13 +331,13 @@ def fault_network(root: Path, number: int) -> Iterator[FaultNetwork]:
             for host in NAMES[1:]:
                 talk.start_node(host)
             talk.deploy("up")
-            client = hosts.begin("onboard", [sys.executable, "-c", CLIENT, f"{root}/slice/Count.ice", _addresses(talk)])
-            network.polled = Polled(client)
-            yield network
+            client = [sys.executable, "-c", CLIENT, f"{root}/slice/Count.ice", _addresses(talk)]
+            network.polled = Polled(hosts.begin("onboard", client))
+            try:
+                yield network
+            finally:
+                network.polled.end()
         finally:
-            if client is not None:
-                client.kill()
-                client.wait()
             talk.clean_up()
 
 

@@ -22,7 +22,7 @@ DEAD = ProcessSample("dead", "onboard", "given up: exit code 3", True, None, Non
 
 
 def sample(*processes: ProcessSample, problem: str = "") -> NetworkSample:
-    return NetworkSample(1_700_000_000.0, problem, processes)
+    return NetworkSample(problem, processes)
 
 
 def rows(*processes: ProcessSample, sort: str = DOCUMENT) -> dict[str, str]:
