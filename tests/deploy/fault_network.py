@@ -195,15 +195,15 @@ class Polled:
     def runs(self) -> dict[str, str]:
         return {name: turns[-1].run for name, turns in self.turns.items()}
 
-    def check(self) -> None:
-        """No run of a component answers after another one did, and each call counted once."""
-        for name, turns in self.turns.items():
-            order = [turn.run for turn in turns]
-            changes = [run for at, run in enumerate(order) if not at or order[at - 1] != run]
-            assert len(changes) == len(set(changes)), f"two runs of {name} answered in turn: {changes}"
-            for before, after in itertools.pairwise(turns):
-                if before.run == after.run:
-                    assert 1 <= after.number - before.number <= 1 + after.failed, f"{name}: {before}, then {after}"
+
+def check(name: str, turns: list[Turn]) -> None:
+    """No run of a component answers after another one did, and each call counted once."""
+    order = [turn.run for turn in turns]
+    changes = [run for at, run in enumerate(order) if not at or order[at - 1] != run]
+    assert len(changes) == len(set(changes)), f"two runs of {name} answered in turn: {changes}"
+    for before, after in itertools.pairwise(turns):
+        if before.run == after.run:
+            assert 1 <= after.number - before.number <= 1 + after.failed, f"{name}: {before}, then {after}"
 
 
 @dataclass
@@ -283,7 +283,8 @@ class FaultNetwork:
             now = self.polled.runs()
             assert {name for name, run in now.items() if run != self.runs[name]} == again
         self.ready()
-        self.polled.check()
+        for name, turns in self.polled.turns.items():
+            check(name, turns)
         copies = {name: self.talk.copies(name) for name in (*self.entries, "storm")}
         assert set(copies.values()) == {1}, copies
 

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from fault_network import Fault, FaultNetwork, fault_network
+from fault_network import Fault, FaultNetwork, Turn, check, fault_network
 from processes import until
 from robocomp_yaml.deploy.local import procfs
 from three_hosts import NAMES
@@ -77,6 +77,16 @@ def dies_again_and_again(run: FaultNetwork) -> None:
     run.control("base0", "broken").unlink()
     run.talk.deploy("up")
     run.settled(["base0"])
+
+
+def peer_absent_at_start(run: FaultNetwork) -> None:
+    run.tell("base1", "broken")
+    run.kill("base1", "user1")
+    until(lambda: "waiting for Peer at" in run.talk.deploy("status", code=None), lambda: run.talk.logs("user1"))
+    until(lambda: run.talk.status()["base1"]["state"] == "given up", lambda: run.talk.logs("base1"), 150)
+    run.control("base1", "broken").unlink()
+    run.talk.deploy("up")
+    run.settled(["base1", "user1"])
 
 
 def runner_killed(run: FaultNetwork) -> None:
@@ -207,12 +217,37 @@ def document_removed(run: FaultNetwork) -> None:
     run.settled([])
 
 
+def folder_removed(run: FaultNetwork) -> None:
+    """With the document, too: by its name, the deployment is found, and taken down."""
+    (run.root / "talk.ddsl.yaml").unlink()
+    shutil.rmtree(run.root / ".rcyaml")
+    assert "Talk" in run.talk.rcyaml("deploy", "ls")
+    run.settled([])
+    run.talk.rcyaml("deploy", "down", "Talk")
+
+
 FAULTS: tuple[Fault, ...] = (
-    process_killed, process_halted, worker_deadlocked, exits_with_0, dies_again_and_again, runner_killed,
+    process_killed, process_halted, worker_deadlocked, exits_with_0, dies_again_and_again, peer_absent_at_start, runner_killed,
     icestorm_killed, node_killed, registry_killed, keeper_killed, link_cut, host_gone, operator_gone, port_taken,
-    up_interrupted, disk_full, document_removed,
+    up_interrupted, disk_full, document_removed, folder_removed,
 )  # fmt: skip
 SHORT = (process_killed, exits_with_0, icestorm_killed, node_killed, registry_killed, link_cut, document_removed)
+
+
+@pytest.mark.parametrize(
+    ("turns", "why"),
+    [
+        ([("a", 1, 0), ("b", 1, 0), ("a", 2, 0)], "two runs"), ([("a", 1, 0), ("a", 3, 0)], "then"),
+        ([("a", 1, 0), ("a", 1, 0)], "then"), ([("a", 1, 0), ("a", 4, 2), ("b", 7, 0)], ""),
+    ],
+)  # fmt: skip
+def test_what_the_client_would_notice(turns: list[tuple[str, int, int]], why: str) -> None:
+    seen = [Turn(0.0, run, number, 0, "", failed) for run, number, failed in turns]
+    if not why:
+        check("base0", seen)
+        return
+    with pytest.raises(AssertionError, match=why):
+        check("base0", seen)
 
 
 @pytest.fixture
@@ -234,7 +269,8 @@ def test_the_faults_of_the_page(run_root: Path) -> None:
                 print(f"{fault.__name__}: {time.monotonic() - began:.0f} s", flush=True)
             assert len(run.polled.turns) == NUMBER
             assert sorted(set(run.hosts.values())) == sorted(NAMES)
-            run.talk.deploy("down")
+            if not IS_LONG:
+                run.talk.deploy("down")
             until(lambda: not any(run.talk.copies(name) for name in run.entries), "nothing is left")
     finally:
         if os.path.ismount(run_root):
