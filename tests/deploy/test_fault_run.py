@@ -81,9 +81,10 @@ def dies_again_and_again(run: FaultNetwork) -> None:
 
 def peer_absent_at_start(run: FaultNetwork) -> None:
     run.tell("base1", "broken")
-    run.kill("base1", "user1")
-    until(lambda: "waiting for Peer at" in run.talk.deploy("status", code=None), lambda: run.talk.logs("user1"))
+    run.kill("base1")
     until(lambda: run.talk.status()["base1"]["state"] == "given up", lambda: run.talk.logs("base1"), 150)
+    run.kill("user1")
+    until(lambda: "waiting for Peer at" in run.talk.deploy("status", code=None), lambda: run.talk.logs("user1"))
     run.control("base1", "broken").unlink()
     run.talk.deploy("up")
     run.settled(["base1", "user1"])
