@@ -1,4 +1,4 @@
-"""A network of components on three hosts, and a client of its own that calls each of them all the time.
+"""A network of components on three hosts, or on this machine alone, and a client of its own that calls each of them all the time.
 
 The client uses Ice alone. It sees which run of each component answers: so what is lost, started again or runs twice
 does not depend on what rcyaml says.
@@ -15,7 +15,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -25,7 +25,7 @@ import pytest
 from conftest import write_tree
 from processes import until
 from robocomp_yaml.deploy.local import procfs
-from three_hosts import NAMES, Deployment, three_hosts
+from three_hosts import NAMES, Deployment, Hosts, three_hosts
 
 DOCUMENTS = {
     "rcyaml.yaml": "interfaces: [.]\n",
@@ -111,6 +111,12 @@ HEAD = """\
 deployment: Talk
 hosts: {{onboard: {{address: {onboard}}}, head: {{address: {head}}}, arm: {{address: {arm}}}}}
 services: {{storm: {{icestorm: {{host: onboard}}}}}}
+alive: {{every: 2 s, within: 3 s, misses: 2, worker: 8 s}}
+components:
+"""
+HERE = """\
+deployment: Talk
+services: {{storm: {{icestorm: }}}}
 alive: {{every: 2 s, within: 3 s, misses: 2, worker: 8 s}}
 components:
 """
@@ -214,6 +220,7 @@ class FaultNetwork:
     polled: Polled
     hosts: dict[str, str]
     entries: dict[str, str]
+    head: str = HEAD
     runs: dict[str, str] = field(default_factory=dict)
 
     @property
@@ -223,11 +230,15 @@ class FaultNetwork:
     def on(self, host: str) -> list[str]:
         return [name for name, own in self.hosts.items() if own == host]
 
+    @property
+    def is_local(self) -> bool:
+        return self.head == HERE
+
     def one_of_each_host(self) -> list[str]:
         return [self.on(host)[-1] for host in NAMES]
 
     def pid(self, name: str) -> int:
-        return int(self.told(name)[2])
+        return self.talk.pids()[name] if self.is_local else int(self.told(name)[2])
 
     def told(self, name: str) -> list[str]:
         """What the process's own host says."""
@@ -251,14 +262,14 @@ class FaultNetwork:
     def write(self, **more: str) -> None:
         """Writes the document, with more keys for some entries."""
         lines = [f"  {name}: {{{text}{more.get(name, '')}}}\n" for name, text in self.entries.items()]
-        document = HEAD.format(**self.talk.hosts.addresses) + "".join(lines)
+        document = self.head.format(**self.talk.hosts.addresses) + "".join(lines)
         (self.root / "talk.ddsl.yaml").write_text(document)
 
     def begin(self) -> None:
         self.settled()
         self.runs = self.polled.runs()
 
-    def settled(self, changed: Iterable[str] | None = None) -> None:
+    def settled(self, changed: Iterable[str] | None = None, *, has_document: bool = True) -> None:
         """Waits until each component answers, calls its peer and hears its topic. Of the network as it was when the
         fault began, exactly these have been started again, and each process runs once."""
         again = set(changed or ())
@@ -282,7 +293,8 @@ class FaultNetwork:
         if changed is not None:
             now = self.polled.runs()
             assert {name for name, run in now.items() if run != self.runs[name]} == again
-        self.ready()
+        if has_document:
+            self.ready()
         for name, turns in self.polled.turns.items():
             check(name, turns)
         copies = {name: self.talk.copies(name) for name in (*self.entries, "storm")}
@@ -305,32 +317,36 @@ def _net_of(pid: int) -> str:
 
 
 @contextmanager
-def fault_network(root: Path, number: int) -> Iterator[FaultNetwork]:
-    """The network with so many components, all ready. Skips the test without three hosts."""
-    pytest.importorskip("IceGrid", reason="Ice for Python is not installed (Debian: python3-zeroc-ice)")
-    with three_hosts() as hosts:
-        hosts.need_a_network("so no three hosts")
+def fault_network(root: Path, number: int, *, is_local: bool = False) -> Iterator[FaultNetwork]:
+    """The network with so many components, all ready. Skips the test without three hosts, unless it `is_local`."""
+    pytest.importorskip("Ice", reason="Ice for Python is not installed (Debian: python3-zeroc-ice)")
+    with nullcontext(Hosts(dict.fromkeys(NAMES, "127.0.0.1"))) if is_local else three_hosts() as hosts:
+        if not is_local:
+            pytest.importorskip("IceGrid", reason="Ice for Python is not installed (Debian: python3-zeroc-ice)")
+            hosts.need_a_network("so no three hosts")
         talk = Deployment(hosts, root, {"XDG_STATE_HOME": f"{root}/own"})
         (root / "control").mkdir()
         entries, where = {}, dict[str, str]()
         for place in range(number):
             kind, pair = ("base", "user")[place % 2], place // 2
             name, host = f"{kind}{pair}", NAMES[(pair + place % 2) % 3]
-            peer = f", connect: {{Peer: base{pair}}}" if kind == "user" else ""
+            more = "" if is_local else f", host: {host}"
+            more += f", connect: {{Peer: base{pair}}}" if kind == "user" else ""
             entries[name] = (
-                f"component: {kind}, host: {host}, ready: 100 s, topics: {{Tick: tick{pair}}}{peer}, "
+                f"component: {kind}, ready: 100 s, topics: {{Tick: tick{pair}}}{more}, "
                 f"env: {{CONTROL: {root}/control/{name}}}"
             )
             where[name] = host
-        network = FaultNetwork(talk, None, where, entries)  # type: ignore[arg-type]  # the client comes later
+        network = FaultNetwork(talk, None, where, entries, HERE if is_local else HEAD)  # type: ignore[arg-type]  # later
         write_tree(root, DOCUMENTS)
         network.write()
         try:
             talk.rcyaml("compile")
             write_tree(root, {"base/src/specificworker.py": BASE, "user/src/specificworker.py": USER})
-            talk.deploy("up", code=1)
-            for host in NAMES[1:]:
-                talk.start_node(host)
+            if not is_local:
+                talk.deploy("up", code=1)
+                for host in NAMES[1:]:
+                    talk.start_node(host)
             talk.deploy("up")
             client = [sys.executable, "-c", CLIENT, f"{root}/slice/Count.ice", _addresses(talk)]
             network.polled = Polled(hosts.begin("onboard", client))

@@ -43,9 +43,10 @@ def test_a_row_has_tests(row: str) -> None:
 def test_each_fault_of_the_run_has_a_row() -> None:
     path: Path = _TESTS / "deploy" / "test_fault_run.py"
     tree = ast.parse(path.read_text(encoding="utf-8"))
-    (faults,) = (
-        one.value for one in tree.body if isinstance(one, ast.AnnAssign) and ast.unparse(one.target) == "FAULTS"
-    )
-    assert isinstance(faults, ast.Tuple)
-    in_run = {ast.unparse(fault) for fault in faults.elts}
+    runs = [
+        one.value for one in tree.body
+        if isinstance(one, ast.AnnAssign) and ast.unparse(one.target) in ("FAULTS", "LOCAL")
+    ]  # fmt: skip
+    assert len(runs) == 2
+    in_run = {ast.unparse(fault) for faults in runs if isinstance(faults, ast.Tuple) for fault in faults.elts}
     assert in_run == {name for row in ROWS for module, name in named(row) if module == "fault_run"}
