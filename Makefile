@@ -26,7 +26,7 @@ MORE ?=
 help:
 	@echo "make demo   install into $(VENV), and run the example: migrate, check, compile, deploy, call"
 	@echo "make test   install the requirements of the tests, and run all tests"
-	@echo "make test-long  the same with all C++ builds and more random cases: more than half an hour"
+	@echo "make test-long  the same with all C++ builds, more random cases and all faults: more than half an hour"
 	@echo "make unit   the unit tests: some 20 seconds"
 	@echo "make fast   the tests without C++ builds, editor and Ice"
 	@echo "make fuzz   search for new failing examples, for FUZZ_MINUTES=10 minutes"

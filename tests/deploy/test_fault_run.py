@@ -255,9 +255,9 @@ def _keeper_and_supervisor(run: FaultNetwork) -> tuple[int, int]:
 
 
 FAULTS: tuple[Fault, ...] = (
-    process_killed, process_halted, worker_deadlocked, exits_with_0, dies_again_and_again, peer_absent_at_start, runner_killed,
-    icestorm_killed, node_killed, registry_killed, keeper_killed, link_cut, host_gone, operator_gone, port_taken,
-    up_interrupted, disk_full, document_removed, folder_removed,
+    process_killed, process_halted, worker_deadlocked, exits_with_0, dies_again_and_again, peer_absent_at_start,
+    runner_killed, icestorm_killed, node_killed, registry_killed, keeper_killed, link_cut, host_gone, operator_gone,
+    port_taken, up_interrupted, disk_full, document_removed, folder_removed,
 )  # fmt: skip
 LOCAL: tuple[Fault, ...] = (
     process_killed, process_halted, exits_with_0, icestorm_killed, supervisor_killed, port_taken, up_interrupted,
