@@ -26,7 +26,7 @@ MORE ?=
 help:
 	@echo "make demo   install into $(VENV), and run the example: migrate, check, compile, deploy, call"
 	@echo "make test   install the requirements of the tests, and run all tests"
-	@echo "make test-long  the same with all C++ builds and more random cases: more than half an hour"
+	@echo "make test-long  the same with all C++ builds, more random cases and all faults: more than half an hour"
 	@echo "make unit   the unit tests: some 20 seconds"
 	@echo "make fast   the tests without C++ builds, editor and Ice"
 	@echo "make fuzz   search for new failing examples, for FUZZ_MINUTES=10 minutes"
@@ -58,10 +58,11 @@ ice: $(VENV)/rcyaml
 test: system-test $(VENV)/tests
 	@$(VENV)/bin/python -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder -q
 
-# All builds, also the long ones that seldom fail, and more cases in random tests.
+# All builds, also the long ones that seldom fail, more cases in random tests, and all faults of a large network.
 test-long: export RCYAML_ALL_BUILDS := 1
 test-long: export RCYAML_CASES := 4000
 test-long: export RCYAML_CPP_DOCUMENTS := 60
+test-long: export RCYAML_FAULT_COMPONENTS := 30
 test-long: test
 
 # Adds the names that this machine's compiler and headers reserve in C++.

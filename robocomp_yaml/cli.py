@@ -34,6 +34,7 @@ COMMANDS = {
     "call": "Call a method of a running component.",
     "param": "Parameters of a running component: list, get, set, watch.",
     "topic": "The topics of a running network: list, echo, hz, pub.",
+    "top": "Show what the processes of a deployment do, live.",
     "record": "Record topics to MCAP files, and play them.",
     "mock": "Serve interfaces and publish topics in place of components.",
     "migrate": "Convert legacy files to YAML documents, without loss.",

@@ -22,6 +22,7 @@ ALL, STDIN = "arguments", "standard input"
 """What locations name instead of a file; a single argument is `argument 1`."""
 
 _ASSIGNED = pattern(r"(\w+(?:\.\w+)*)=(.*)\Z", 0x10)  # DOTALL
+_MAPPING = pattern(r"\s*(\{|\w+:(\s|\Z))")
 
 
 class Arguments(msgspec.Struct, frozen=True):
@@ -124,7 +125,7 @@ def read(scope: LinkedModule, method: Method, words: Sequence[str], stdin: str |
         if not _is_utf8(text):
             raise Refused(f"{file} is not UTF-8")
         assigned = _ASSIGNED.match(word)
-        if word == "-" or word.lstrip().startswith("{"):
+        if word == "-" or _MAPPING.match(word):
             if text.strip() or method.inputs:
                 reader.whole(file, text)
         elif assigned:

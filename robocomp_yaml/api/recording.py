@@ -40,7 +40,7 @@ def _require() -> None:
 
 class Recorder:
     """Writes the messages of topics to a new file, which will have at most `max_size` bytes. Raises Refused if the file
-    exists, or cannot be written."""
+    exists, or cannot be created; later, methods raise OSError if it cannot be written."""
 
     def __init__(
         self, path: str, topics: Sequence[KnownTopic], deployment: str = "", max_size: int | None = None
@@ -111,20 +111,17 @@ class Recorder:
             self.checkpoint()
 
     def checkpoint(self) -> None:
-        """Completes the file on the disk. Raises Refused if it cannot be written."""
+        """Completes the file on the disk. Raises OSError if it cannot be written; what it contained before stays."""
         self._writer.flush()
         end = self._stream.end
         self._writer.finish()
-        try:
-            self._index = self._stream.end - end
-            self._pending = 0
-            self._stream.write_out(end)
-        except OSError as error:
-            raise cannot_write(self.path, error) from None
+        self._index = self._stream.end - end
+        self._pending = 0
+        self._stream.write_out(end)
         self._written = time.monotonic()
 
     def close(self, dropped: Mapping[str, int]) -> None:
-        """Completes the file, with the numbers of dropped messages by topic."""
+        """Completes the file, with the numbers of dropped messages by topic. Raises OSError."""
         try:
             self._writer.add_metadata(DROPPED, {name: str(number) for name, number in sorted(dropped.items())})
             self.checkpoint()
@@ -137,6 +134,7 @@ class _Stream:
 
     def __init__(self, file: int) -> None:
         self._file, self._start, self._buffer = file, 0, bytearray()
+        self._index = b""  # the end of the file, from `_start` on
 
     def write(self, data: bytes) -> int:
         self._buffer += data
@@ -157,13 +155,23 @@ class _Stream:
         return len(self._buffer)
 
     def write_out(self, end: int) -> None:
-        """Writes everything. What is after `end`, the index, will be replaced by what is written next."""
-        data, at = memoryview(bytes(self._buffer)), self._start
-        while data:
-            number = os.pwrite(self._file, data, at)
-            data, at = data[number:], at + number
+        """Writes everything. What is after `end`, the index, will be replaced by what is written next. Raises OSError
+        if that is not possible; the file is as before then."""
+        data, at = bytes(self._buffer), self._start
+        index = data[end - at :]
+        try:
+            self._put(data, at)
+        except OSError:
+            self._put(self._index, at)  # its space is there
+            raise
+        self._start, self._buffer, self._index = end, bytearray(), index
+
+    def _put(self, data: bytes, at: int) -> None:
+        rest = memoryview(data)
+        while rest:
+            number = os.pwrite(self._file, rest, at)
+            rest, at = rest[number:], at + number
         os.ftruncate(self._file, at)
-        self._start, self._buffer = end, bytearray()
 
 
 class RecordedTopic(msgspec.Struct, frozen=True):

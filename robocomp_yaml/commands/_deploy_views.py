@@ -100,7 +100,7 @@ def status_lines(
                 _state(status),
                 str(alive.pid) if alive else "-",
                 status.host,
-                _duration(alive.uptime) if alive else "-",
+                duration(alive.uptime) if alive else "-",
                 str(running.restarts) if running else "-",
                 _memory(alive.memory) if alive else "-",
                 _cpu(alive.cpu) if alive else "-",
@@ -127,7 +127,7 @@ def _memory(size: int | None) -> str:
 
 
 def _cpu(seconds: float | None) -> str:
-    return "unknown" if seconds is None else f"{seconds:.1f} s" if seconds < 100 else _duration(seconds)
+    return "unknown" if seconds is None else f"{seconds:.1f} s" if seconds < 100 else duration(seconds)
 
 
 def _state(one: Status) -> str:
@@ -227,7 +227,7 @@ def _endpoints(network: Network, name: str) -> str:
     return ", ".join(f"{one.interface}:{one.port}" for one in process.endpoints) if process else ""
 
 
-def _duration(seconds: float) -> str:
+def duration(seconds: float) -> str:
     """A duration in words: '45 s', '12 min', '3 h 20 min', '5 d 2 h'."""
     if seconds < 120:
         return f"{seconds:.0f} s"

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import re
 from collections.abc import Callable
 from functools import wraps
 from typing import TYPE_CHECKING, Any
@@ -12,86 +10,14 @@ import click
 
 from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._command import CommandGroup
+from robocomp_yaml.commands._ddsl import DocumentAnd
 from robocomp_yaml.commands._duration import Duration
 from robocomp_yaml.commands._plugin_choices import PluginChoice
 from robocomp_yaml.deploy.engines import ENGINES
-from robocomp_yaml.source.discover import of_kind
 
 if TYPE_CHECKING:
     from robocomp_yaml.commands._deploying import DeploySession
     from robocomp_yaml.plugins import Plugins
-
-
-class _DocumentAnd(click.Argument):
-    """The argument `[DDSL]` and the words after it, as the parameters `ddsl` and this one. If the first word is neither
-    a document nor a folder with one, it is the first of the words, and the document is the only one below this
-    folder."""
-
-    def __init__(self, declarations: list[str], limit: int | None = None, metavar: str = "", **more: Any) -> None:
-        self._limit = limit
-        super().__init__(declarations, nargs=-1, type=click.Path(), metavar=f"[DDSL] {metavar}".rstrip(), **more)
-
-    def process_value(self, ctx: click.Context, value: object) -> tuple[str, ...]:
-        words: tuple[str, ...] = super().process_value(ctx, value) or ()
-        ctx.params["ddsl"], rest = self._split(ctx, words)
-        if self._limit is not None and len(rest) > self._limit:
-            extra = rest[self._limit :]
-            raise click.UsageError(f"Got unexpected extra argument{'s' * (len(extra) > 1)} ({' '.join(extra)})", ctx)
-        return rest
-
-    def _split(self, ctx: click.Context, words: tuple[str, ...]) -> tuple[str, tuple[str, ...]]:
-        if not words:
-            return ".", ()
-        first = words[0]
-        if os.path.isdir(first):
-            is_document = bool(of_kind(first, "ddsl")) or not of_kind(".", "ddsl")
-        else:
-            is_document = os.path.exists(first)
-        if is_document:
-            return first, words[1:]
-        is_path = "/" in first or first.endswith((".yaml", ".yml"))
-        if running := _running(first, is_path=is_path):
-            return running, words[1:]
-        if self._limit == 0 or is_path or not of_kind(".", "ddsl"):
-            raise click.BadParameter(f"Path '{first}' does not exist.", ctx, self, "'[DDSL]'")
-        return ".", words
-
-
-def _running(word: str, *, is_path: bool) -> str:
-    """The document of the running deployment of this name, or at this path, which may be gone; '' if none runs. In a
-    folder with a document, the name of one of its processes or groups goes first. Raises Refused if several run."""
-    from robocomp_yaml.deploy import registered
-    from robocomp_yaml.diag.errors import Refused
-
-    if is_path:
-        return word if registered.of_document(word) else ""
-    found = registered.named(word)
-    if not found or any(_may_name(document, word) for document in _documents_here()):
-        return ""
-    if len(found) > 1:
-        documents = ", ".join(one.document for one in found)
-        raise Refused(f"several deployments '{word}' run: name one of the documents {documents}")
-    return os.path.relpath(found[0].document)
-
-
-def _documents_here() -> list[str]:
-    """The deployments' documents of this folder, and of its workspace."""
-    from robocomp_yaml.link.workspace import root_above
-    from robocomp_yaml.source.discover import kind_of
-
-    root = root_above("")
-    return of_kind(root, "ddsl") if root else [name for name in os.listdir(".") if kind_of(name) == "ddsl"]
-
-
-def _may_name(document: str, word: str) -> bool:
-    """Whether an entry, service or group of a document has this name."""
-    from robocomp_yaml.source.heading import root_of
-    from robocomp_yaml.source.tree import Mapping
-
-    root = root_of(document)
-    sections = [root.get(key) for key in ("components", "services", "groups", "include")] if root else []
-    keys = [key.lexeme for one in sections if isinstance(one, Mapping) for key, _ in one.items()]
-    return any(re.fullmatch(re.escape(key).replace(r"\{i\}", "([0-9]+|{i})"), word) for key in keys)
 
 
 class _Since(click.ParamType):  # type: ignore[type-arg]  # older ones are not generic
@@ -118,7 +44,7 @@ class _Since(click.ParamType):  # type: ignore[type-arg]  # older ones are not g
         return f"{when.astimezone(UTC):%Y-%m-%dT%H:%M:%S}.{when.microsecond // 1000:03}Z"
 
 
-_names = click.argument("names", cls=_DocumentAnd, metavar="[NAME]...")
+_names = click.argument("names", cls=DocumentAnd, metavar="[NAME]...")
 _engine = click.option("--engine", type=click.Choice([*ENGINES]),
                        help="The engine: local for one machine, icegrid for several.")  # fmt: skip
 _timeout = click.option("--timeout", type=Duration(), metavar="TIME",
@@ -235,7 +161,7 @@ def restart(session: DeploySession, names: tuple[str, ...], on_failure: str, tim
 
 
 @_subcommand("Go back to the last up that was all ready.", _engine, lenient=True)
-@click.argument("nothing", cls=_DocumentAnd, limit=0, expose_value=False)
+@click.argument("nothing", cls=DocumentAnd, limit=0, expose_value=False)
 @_on_failure("What happens to the restarted processes if one fails.")
 @_timeout
 def rollback(session: DeploySession, on_failure: str, timeout: float | None) -> None:
@@ -253,7 +179,7 @@ def down(session: DeploySession, names: tuple[str, ...]) -> None:
 
 @_subcommand(
     "Show which programs of the network a host has.",
-    click.argument("host", cls=_DocumentAnd, limit=1, metavar="[HOST]"),
+    click.argument("host", cls=DocumentAnd, limit=1, metavar="[HOST]"),
     lenient=True,
 )
 def probe(session: DeploySession, host: tuple[str, ...]) -> None:
@@ -264,7 +190,7 @@ def probe(session: DeploySession, host: tuple[str, ...]) -> None:
 
 @_subcommand(
     "Write the network in the format of another tool.",
-    click.argument("nothing", cls=_DocumentAnd, limit=0, expose_value=False),
+    click.argument("nothing", cls=DocumentAnd, limit=0, expose_value=False),
 )
 @click.option("--as", "form", required=True, type=PluginChoice(_exports), help="The tool.")
 @click.option("-o", "--output", metavar="DIR", type=click.Path(file_okay=False), help="Write the files below DIR.")

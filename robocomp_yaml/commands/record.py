@@ -12,7 +12,7 @@ from robocomp_yaml.commands import _options, _talking
 from robocomp_yaml.commands._arriving import arriving_messages
 from robocomp_yaml.commands._command import CommandGroup, LibraryCommand
 from robocomp_yaml.commands._duration import Duration
-from robocomp_yaml.commands.topic import topic_names, with_topics
+from robocomp_yaml.commands.topic import topic_names, type_option, with_topics
 from robocomp_yaml.diag import terminal
 
 if TYPE_CHECKING:
@@ -63,23 +63,24 @@ def command() -> None:
 @click.option("--max-size", type=_Size(), metavar="SIZE", help="End before the file is larger: 500MB, 2GB.")
 @click.option("--count", type=click.IntRange(1), metavar="N", help="End after N messages.")
 @click.option("--for", "duration", type=Duration(), metavar="TIME", help="End after this time.")
+@type_option
 @with_topics
 @click.pass_context
 def start(
     ctx: click.Context, topics: Topics, names: tuple[str, ...], output: str, max_size: int | None, count: int | None,
-    duration: float | None, format_: str,
+    duration: float | None, type_: str, format_: str,
 ) -> None:  # fmt: skip
     """Record the messages of TOPICs, by default of all topics of the deployment, until Ctrl-C. TOPIC.MESSAGE means only
     this one."""
     from robocomp_yaml.api import recording
     from robocomp_yaml.diag.errors import Refused
 
-    chosen = [topics.find(name) for name in names] or [(one, "") for one in topics.documented]
+    chosen = [topics.find(name, type_) for name in names] or [(one, "") for one in topics.documented]
     if not chosen:
         raise Refused("these documents have no topics; name those to record")
     deployment = network.name if (network := topics.addresses.network) else ""
     path = output or recording.default_path(deployment)
-    with arriving_messages(topics, chosen, duration) as arriving:
+    with _options.writing(path), arriving_messages(topics, chosen, duration) as arriving:
         distinct = list(dict.fromkeys(topic for topic, _ in chosen))
         recorder = recording.Recorder(path, distinct, deployment, max_size)
         try:

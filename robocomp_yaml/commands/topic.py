@@ -33,8 +33,10 @@ def _message_names(addresses: Addresses, incomplete: str) -> list[str]:
 
 _storm = click.option("--storm", default="", metavar="PROXY", help="IceStorm's topic manager; by default, that of "
                       "the deployment, else at port 9999.")  # fmt: skip
-_type = click.option("--type", "type_", default="", metavar="NAME", help="The topic of the documents that it carries, "
-                     "if its name does not say it.")  # fmt: skip
+type_option = click.option(
+    "--type", "type_", default="", metavar="NAME",
+    help="The topic of the documents that it carries, if its name does not say it.",
+)  # fmt: skip
 _text_or_json = click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text",
                              help="How to print it.")  # fmt: skip
 _for = click.option("--for", "duration", type=Duration(), metavar="TIME", help="End after this time.")
@@ -113,7 +115,7 @@ def _as_data(topic: KnownTopic) -> dict[str, Any]:
                 shell_complete=_talking.completing(topic_names))  # fmt: skip
 @_count
 @_for
-@_type
+@type_option
 @with_topics
 def echo(
     topics: Topics, names: tuple[str, ...], count: int | None, duration: float | None, type_: str, format_: str
@@ -136,7 +138,7 @@ def echo(
 @click.option("--every", type=Duration(), default="1s", show_default=True, metavar="TIME", help="Time between lines.")
 @_count
 @_for
-@_type
+@type_option
 @with_topics
 def hz(
     topics: Topics, name: str, every: float, count: int | None, duration: float | None, type_: str, format_: str
@@ -178,7 +180,7 @@ def _rate(report: Any) -> str:
 @click.option(
     "--count", type=click.IntRange(1), metavar="N", help="N messages; by default 1, with --rate until Ctrl-C."
 )
-@_type
+@type_option
 @with_topics
 @click.pass_context
 def pub(

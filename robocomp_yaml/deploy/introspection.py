@@ -11,7 +11,7 @@ from robocomp_yaml.deploy.ice_call import IceCall
 from robocomp_yaml.source.ice_proxy import proxy_at
 from robocomp_yaml.wire import introspection as wire
 from robocomp_yaml.wire.introspection import FAILED, RUNNING, STARTING, STATE, STOPPING, WAITING, Heartbeat, Sections
-from robocomp_yaml.wire.protocol import NO_FACET, NO_OBJECT, NO_OPERATION, OK
+from robocomp_yaml.wire.protocol import NO_FACET, NO_OBJECT, NO_OPERATION, OK, Reply
 
 
 class NoFacet(Exception):
@@ -59,7 +59,13 @@ def _place(proxy: str) -> str:
 async def report(proxy: str, sections: Iterable[str], within: float) -> Sections | None:
     """What a component says in these sections, in all without `sections`; None if it does not answer within so many
     seconds. Raises NoFacet."""
-    result = await _result(proxy, IceCall(wire.REPORT, wire.FACET, wire.names(sections)), within)
+    call = IceCall(wire.REPORT, wire.FACET, wire.names(sections))
+    return sections_in(await ice_call.answer(proxy, call, within))
+
+
+def sections_in(reply: Reply | None) -> Sections | None:
+    """The sections in an answer to `report`; None without an answer. Raises NoFacet."""
+    result = _result(reply)
     try:
         return None if result is None else wire.sections_of(result)
     except ValueError as error:
@@ -71,8 +77,15 @@ async def state(proxy: str, within: float) -> OwnState | None:
     sections = await report(proxy, [STATE], within)
     if sections is None:
         return None
-    if not sections.get(STATE):
+    if (found := state_in(sections)) is None:
         raise NoFacet
+    return found
+
+
+def state_in(sections: Sections) -> OwnState | None:
+    """The state in what a component says; None if it is not in these sections."""
+    if not sections.get(STATE):
+        return None
     facts = sections[STATE][0]
     return OwnState(
         facts.texts.get("state", ""),
@@ -86,15 +99,14 @@ async def state(proxy: str, within: float) -> OwnState | None:
 
 async def heartbeat(proxy: str, within: float) -> Heartbeat | None:
     """The heartbeat of a component's worker; None if it does not answer. Raises NoFacet."""
-    result = await _result(proxy, IceCall(wire.HEARTBEAT, wire.FACET), within)
+    result = _result(await ice_call.answer(proxy, IceCall(wire.HEARTBEAT, wire.FACET), within))
     try:
         return None if result is None else wire.heartbeat_of(result)
     except ValueError as error:
         raise NoFacet from error
 
 
-async def _result(proxy: str, call: IceCall, within: float) -> bytes | None:
-    reply = await ice_call.answer(proxy, call, within)
+def _result(reply: Reply | None) -> bytes | None:
     if reply is not None and reply.status in (NO_OBJECT, NO_FACET, NO_OPERATION):
         raise NoFacet
     return reply.result if reply is not None and reply.status == OK else None

@@ -118,6 +118,23 @@ def erase(lines: int) -> None:
     sys.stdout.flush()
 
 
+def enter_screen() -> None:
+    """Switches the terminal to a screen of our own, without a cursor; what it showed before comes back with `leave`."""
+    sys.stdout.write("\x1b[?1049h\x1b[?25l\x1b[2J")
+    sys.stdout.flush()
+
+
+def leave_screen() -> None:
+    sys.stdout.write("\x1b[?25h\x1b[?1049l")
+    sys.stdout.flush()
+
+
+def draw_screen(lines: Iterable[str]) -> None:
+    """Draws the whole screen: lines that fit it. Each is erased before it is written, so that nothing flickers."""
+    sys.stdout.write("\x1b[H" + "\r\n".join(f"\x1b[K{shown(one)}" for one in lines) + "\x1b[J")
+    sys.stdout.flush()
+
+
 def diff(texts: Iterable[str], color: bool) -> None:
     """Prints unified diffs: as data, for `patch`, or, with colours, as lines for people."""
     for text in texts:

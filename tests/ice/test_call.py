@@ -119,6 +119,7 @@ def test_exceptions_are_values(server: Server, rcyaml: Rcyaml) -> None:
         (["path=[]", "fast=true", "slow=1"], ["argument 3:1:1", "'slow' is unknown"]),
         (["path=[]", "fast=true", "fast=false"], ["argument 3:1:1", "'fast' is set twice"]),
         (["path=[", "fast=true"], ["argument 1:1:"]),
+        (["path: []", "fast: maybe"], ["argument 2:1:7", "'fast' must be true or false, but is maybe"]),
         (["path=[]\n- x", "fast=true"], ["argument 1:"]),
         (["path=", "fast=true"], ["argument 1:1:6", "'path' must be a list, but is missing"]),
         (["-"], ["standard input:2:1", "'fats' is unknown", "did you mean 'fast'?"]),

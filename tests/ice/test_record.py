@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import signal
+import subprocess
 import sys
 import time
 from collections.abc import Callable
@@ -17,11 +18,16 @@ from hypothesis import HealthCheck, given, settings
 
 from components import Built
 from conftest import write_tree
-from in_memory import program
-from processes import Start, Storm, until
+from cpp_programs import Programs as CppPrograms
+from cpp_programs import needs_cpp
+from in_memory import program as in_memory
+from java_programs import needs_java
+from processes import Ports, Start, Storm, until
 from robocomp_yaml.source.yaml_text import flow
 from scenario import INTERFACES
-from test_topic_commands import Talk, talk  # noqa: F401 (the fixture)
+from test_call import tls  # noqa: F401 (the fixture)
+from test_java import Program, built, program  # noqa: F401 (fixtures)
+from test_topic_commands import PUBLISHER, Talk, listed, secure_storm, talk  # noqa: F401 (fixtures)
 from test_wire import DOCUMENTS, everything, names, node, right
 
 pytest.importorskip("mcap", reason="MCAP for Python is not installed (pip install mcap mcap-protobuf-support)")
@@ -50,7 +56,7 @@ def message_type(ice: Any) -> Any:
 
     topic = "topics:\n  Wires:\n    methods:\n      all: {in: {value: All, grid: Grid, text: string}}\n      none:\n"
     documents = {**DOCUMENTS, "Wire.idsl.yaml": DOCUMENTS["Wire.idsl.yaml"] + topic}
-    scopes = {scope.module.name: scope for scope in program(documents).modules.values()}
+    scopes = {scope.module.name: scope for scope in in_memory(documents).modules.values()}
     interface = WireInterface(scopes["WireModule"], scopes["WireModule"].module.topics[0], Types())
     return {name: MessageType(interface, operation) for name, operation in interface.operations.items()}
 
@@ -177,6 +183,97 @@ def test_another_version_is_not_played(talk: Talk, start: Start, rcyaml: Rcyaml,
         done.exit_code == 2
         and "was recorded with another version of RoboCompArm.ArmEvents: 'count' differs" in done.output
     )
+
+
+def of_a_radio(
+    rcyaml: Rcyaml, name: str, tmp_path: Path, start: Start, manager: str, command: list[str | Path]
+) -> None:
+    """A component in another language publishes some events when it starts, which are recorded by their type."""
+    write_tree(tmp_path, {**INTERFACES, "rcyaml.yaml": "interfaces: [.]\n"})
+    options = ["--storm", manager, "--type", "ArmEvents", "--count", "4", "-o", "r.mcap"]
+    recorder = start([RCYAML, "record", name, *options], cwd=tmp_path).wait_for("recording")
+    until(lambda: " 1 subscriber" in listed(rcyaml, name, manager), lambda: recorder.output)
+    start(command)
+    assert recorder.exit_code() == 0, recorder.output
+    (channel, moved), *counts = decoded(tmp_path / "r.mcap")
+    assert (channel, moved.pose.x, moved.pose.y, moved.pose.side) == (f"{name}/moved", 4.0, 2.5, 1)
+    assert [(channel, values.n) for channel, values in counts] == [(f"{name}/count", n) for n in range(3)]
+
+
+@needs_cpp
+@pytest.mark.slow
+def test_a_publisher_in_cpp(
+    programs: CppPrograms, start: Start, icestorm: Storm, rcyaml: Rcyaml, tmp_path: Path
+) -> None:
+    name = f"Cpp{time.monotonic_ns()}"
+    properties = {"TopicManager.Proxy": icestorm.manager, "ArmEvents": name}
+    of_a_radio(rcyaml, name, tmp_path, start, icestorm.manager, programs("Radio").command(tmp_path, properties))
+
+
+@needs_java
+@pytest.mark.slow
+def test_a_publisher_in_java(
+    program: Program,  # noqa: F811
+    start: Start,
+    icestorm: Storm,
+    free_port: Ports,
+    rcyaml: Rcyaml,
+    tmp_path: Path,
+) -> None:
+    port, name = free_port(), f"Java{time.monotonic_ns()}"
+    write_tree(tmp_path, {**INTERFACES, "rcyaml.yaml": "interfaces: [.]\n"})
+    hand = start([RCYAML, "mock", "Hand", "--endpoint", f"Hand=tcp -h 127.0.0.1 -p {port}"], cwd=tmp_path)
+    hand.wait_for("serving")
+    properties = {
+        "TopicManager.Proxy": icestorm.manager, "ArmEvents": name, "Arm.Endpoints": f"tcp -p {free_port()}",
+        "HandProxy": f"hand:tcp -h 127.0.0.1 -p {port}",
+    }  # fmt: skip
+    of_a_radio(rcyaml, name, tmp_path, start, icestorm.manager, program("Radio", properties))
+
+
+def test_tls_and_another_icestorm(
+    talk: Talk,  # noqa: F811
+    tls: dict[str, str],  # noqa: F811
+    secure_storm: str,  # noqa: F811
+    start: Start,
+    rcyaml: Rcyaml,
+    tmp_path: Path,
+) -> None:
+    """Recorded in a network without TLS, played into one with it, and recorded there again: the same values."""
+    publisher = start(talk.publisher.command).wait_for("Publisher is running")
+    assert rcyaml("record", talk.name, "--count", "12", "-o", "plain.mcap").exit_code == 0
+    publisher.stop()
+    secured = ["--storm", secure_storm, "--ice-config", "tls.cfg"]
+    again = start(
+        [RCYAML, "record", talk.name, "--type", "ArmEvents", "--count", "12", "-o", "tls.mcap", *secured], cwd=tmp_path
+    ).wait_for("recording")
+    done = rcyaml("record", "play", "plain.mcap", "--rate", "0", *secured, "--format", "json")
+    assert json.loads(done.stdout)["sent"] == 12, done.output
+    assert again.exit_code() == 0, again.output
+
+    def values(name: str) -> list[str]:
+        return [f"{channel} {message}" for channel, message in decoded(tmp_path / name)]
+
+    assert values("tls.mcap") == values("plain.mcap")
+    done = rcyaml("record", "play", "plain.mcap", "--storm", secure_storm)
+    assert done.exit_code == 2 and "--ice-config FILE" in done.output
+
+
+def test_a_full_disk(talk: Talk, start: Start, tmp_path: Path) -> None:  # noqa: F811
+    """What was written before can be read."""
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=16k", "tmpfs", str(disk)], capture_output=True).returncode:
+        pytest.skip("only root may mount a small disk")
+    try:
+        start(talk.publisher.command).wait_for("Publisher is running")
+        recorder = start([RCYAML, "record", "-o", "disk/f.mcap", "--for", "30s"], cwd=tmp_path)
+        assert recorder.exit_code() == 1
+        assert "cannot write disk/f.mcap: no space left on device" in recorder.output, recorder.output
+        assert "Traceback" not in recorder.output
+        assert len(decoded(disk / "f.mcap")) > 10
+    finally:
+        subprocess.run(["umount", "-l", str(disk)], check=True)
 
 
 @pytest.mark.parametrize(

@@ -116,6 +116,8 @@ class IceGridEngine:
     async def observe(self) -> dict[str, Running]:
         from robocomp_yaml.deploy.icegrid.status import observe
 
+        if not self._has_changed:  # another command may have changed them since they were read
+            self._specs = self._files.specs() or self._specs
         if not self._specs:
             return {}
         hosts = {name: process.host for name, process in self._network.processes.items()}
@@ -123,7 +125,6 @@ class IceGridEngine:
 
     async def obstacles(self, specs: Sequence[ProcessSpec], leaving: Collection[str]) -> list[Diagnostic]:
         """The obstacles: on this machine all, on other hosts a missing node and ports that are used."""
-
         running = await self.observe() if self._grid else {}
         roots = {one.pid for name, one in running.items() if name in leaving and one.pid}
         own = procfs.descendants(roots, procfs.table()) if roots else set()

@@ -169,8 +169,8 @@ def command(pid: int) -> list[str]:
 
 
 def command_line(pid: int) -> str:
-    """A process's command, quoted for a shell, without secrets; '' if it has ended."""
-    return secrets.command(command(pid))
+    """A process's command in one line, without secrets; '' if it has ended."""
+    return secrets.command(command(pid)).replace("\n", r"\n")
 
 
 def _open_files(pid: int) -> Iterator[str]:

@@ -1,0 +1,29 @@
+"""The processes of a running deployment, sampled again and again."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncGenerator, Callable, Coroutine
+from contextlib import aclosing
+from typing import Any
+
+from robocomp_yaml.api.deploying import Deployment
+from robocomp_yaml.deploy.engines import make_engine
+from robocomp_yaml.deploy.sampling import NetworkSample, samples
+
+Show = Callable[[AsyncGenerator[NetworkSample, None]], Coroutine[Any, Any, None]]
+
+
+def sample(deployment: Deployment, *names: str, every: float, show: Show) -> None:
+    """Runs `show` with the samples of a deployment's processes, one each so many seconds, until it returns. The first
+    one has no rates yet. The NAMEs are processes, their aliases or groups: Refused is raised if one is unknown."""
+    chosen = deployment.chosen(names)
+
+    async def work() -> None:
+        def engine() -> Any:
+            return make_engine(deployment.engine, deployment.network)
+
+        async with aclosing(samples(engine, deployment.network, chosen, every)) as found:
+            await show(found)
+
+    asyncio.run(work())
