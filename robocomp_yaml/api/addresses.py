@@ -20,10 +20,11 @@ from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, Linked
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.link.workspace import root_above
 from robocomp_yaml.model.interface import Interface, Method
-from robocomp_yaml.network.network import LOOPBACK, Endpoint, Network, Process
+from robocomp_yaml.network.network import LOOPBACK, Endpoint, Network, Process, is_loopback
 from robocomp_yaml.patterns import pattern
 from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.source.ice_endpoint import IceEndpoint, parse_endpoint
+from robocomp_yaml.source.ice_proxy import proxy_at
 from robocomp_yaml.wire.behavior import MODULE, common_behavior
 
 _HOST = pattern(r"(?:(tcp|ssl|ws|wss):)?(\[[0-9A-Fa-f:.%\w]+\]|[\w.-]+):(\d{1,5})(?:[./](.*))?\Z")
@@ -246,6 +247,18 @@ class Addresses:
         )
         return Peer(name, rest, tuple(doors))
 
+    def network_at(self, proxy: str) -> Network | None:
+        """The network that serves something at the address of a proxy; None if there is none in the documents."""
+        found = proxy_at(proxy)
+        at = {(_machine(one.host), one.port) for one in (found.endpoints if found else ())}
+        networks = [self.network, *self.analysis.networks.values()]
+        for network in (one for one in networks if one is not None):
+            for process in network.processes.values():
+                served = (parse_endpoint(one.text) for one in process.endpoints if one.port)
+                if any((_machine(one.host or network.address(process)), one.port) in at for one in served if one):
+                    return network
+        return None
+
     def every_door(self) -> list[Door]:
         """All interfaces of the documents, and CommonBehavior, without an address."""
         scopes = [*self.program.modules.values(), common_behavior()]
@@ -326,6 +339,10 @@ def _prefixes(text: str) -> Iterator[str]:
     while text:
         yield text
         text = text.rpartition(".")[0]
+
+
+def _machine(address: str) -> str:
+    return LOOPBACK if is_loopback(address or LOOPBACK) else address
 
 
 def _proxy(endpoint: Endpoint, address: str) -> str:

@@ -13,7 +13,7 @@ from msgspec.structs import replace
 
 from robocomp_yaml.api.refusals import cannot_write, meant, require
 from robocomp_yaml.building.job import RELEASE
-from robocomp_yaml.deploy import folder, history, operations, registered
+from robocomp_yaml.deploy import folder, history, operations, protection, registered
 from robocomp_yaml.deploy.attached import Attached, attached
 from robocomp_yaml.deploy.carry_out import Report
 from robocomp_yaml.deploy.differences import shown_path
@@ -67,6 +67,7 @@ class Deployment:
         if network is None or (has_errors(analysis.diagnostics) and not lenient):
             raise Faulty(analysis.diagnostics, analysis.program.documents)
         self.network: Network = network
+        self._network = network  # without what protects it
         self._engine, self._lock = make_engine(engine, network), ExitStack()
         self._diagnostics: list[Diagnostic] = []
         if not lenient:
@@ -149,6 +150,7 @@ class Deployment:
         self._report_stale(names)
 
         async def work() -> Plan:
+            self.network = protection.protected(self._network, create=False)
             is_running = await self._engine.open(self.network, create=False)
             running = await self._engine.observe() if is_running else {}
             alive = {name for name, one in running.items() if one.is_alive}
@@ -186,6 +188,7 @@ class Deployment:
         async def work() -> Result:
             await self._engine.open(self.network, create=True)
             try:
+                self.network = protection.protected(self._network, create=True)
                 return await changed()
             except BaseException:
                 with suppress(Exception):  # no supervisor stays without a process

@@ -63,6 +63,20 @@ def _folder(folder: str) -> str:
     return os.path.join(root(), digest(os.fsencode(os.path.realpath(folder)))[:20])
 
 
+def private(folder: str) -> str:
+    """The user's own folder about the deployment in this folder."""
+    return _folder(folder)
+
+
+def made_private(folder: str) -> str:
+    """The same, created with mode 0700. Raises OSError."""
+    own = _folder(folder)
+    for path in (os.path.dirname(own), own):
+        os.makedirs(path, mode=0o700, exist_ok=True)
+        os.chmod(path, 0o700)
+    return own
+
+
 def copies(folder: str) -> str:
     """The folder with the copies of the files of the deployment in this folder."""
     return f"{_folder(folder)}/{_COPIES}"
@@ -70,10 +84,7 @@ def copies(folder: str) -> str:
 
 def keep(one: RegisteredDeployment) -> None:
     """Adds or replaces an entry. Raises OSError."""
-    folder = _folder(one.folder)
-    for path in (os.path.dirname(folder), folder):
-        os.makedirs(path, mode=0o700, exist_ok=True)
-        os.chmod(path, 0o700)
+    folder = made_private(one.folder)
     whole_file.put(f"{folder}/{_ENTRY}", msgspec.json.encode(one), 0o600)
 
 

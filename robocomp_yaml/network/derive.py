@@ -15,7 +15,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedStorm
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.model.deployment import PROGRAM
+from robocomp_yaml.model.deployment import PLAIN, PROGRAM, TOKEN
 from robocomp_yaml.model.located import Text
 from robocomp_yaml.network import liveness, processes
 from robocomp_yaml.network.assigned_ports import assign_ports
@@ -79,6 +79,8 @@ def derive(linked: LinkedDeployment, program: Program, addresses: Addresses) -> 
         made,
         (*connections.connections, *gates.connections, *topics.connections),
         tuple(order),
+        deployment.control or TOKEN,
+        deployment.security or PLAIN,
         deployment.extra,
         settings,
     )

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.model.deployment import CONFIG
+from robocomp_yaml.model.deployment import CONFIG, PLAIN, TOKEN
 from robocomp_yaml.model.located import Located
 
 if TYPE_CHECKING:
@@ -35,11 +35,12 @@ def is_loopback(address: str) -> bool:
 
 class NetworkHost(Located, frozen=True):
     """A machine. `address` is a name or an IP address, LOOPBACK if the document has no hosts. `user` is the user for
-    ssh, '' for the operator's own name."""
+    ssh, '' for the operator's own name. `listen` says where its processes listen, () for its own address."""
 
     name: str
     address: str = LOOPBACK
     user: str = ""
+    listen: tuple[str, ...] = ()
     span: Span = Span("")
 
 
@@ -216,7 +217,7 @@ class Connection(Located, frozen=True):
 class Network(msgspec.Struct, frozen=True):
     """A deployment's processes by name, in the document's order. `path` is its document. `folder` is the deployment's
     own folder, with its configurations, logs and state. `order` are the enabled processes in waves: each process is in
-    the first wave after the waves of all that it is `after`."""
+    the first wave after the waves of all that it is `after`. `control` is TOKEN or OPEN, `security` TLS or PLAIN."""
 
     name: str
     path: str
@@ -225,6 +226,8 @@ class Network(msgspec.Struct, frozen=True):
     processes: Mapping[str, Process] = {}
     connections: tuple[Connection, ...] = ()
     order: tuple[tuple[str, ...], ...] = ()
+    control: str = TOKEN
+    security: str = PLAIN
     extra: tuple[tuple[str, object], ...] = ()
     """What only exports need of the document: the entries of its `x-rcmanager`."""
     settings: Mapping[str, Callable[[], list[ShownSetting]]] = {}

@@ -182,5 +182,8 @@ def _code(folder: str, component: LinkedComponent | None, known: dict[str, tuple
 def of_storm(storm: StormDraft, folder: str, *, enabled: bool) -> Process:
     """The process of an IceStorm. It is not `enabled` if no enabled process needs it."""
     host = storm.host.name
-    made = icestorm.process(storm.name, host, storm.endpoints(), storm.proxy, folder, storm.span, enabled=enabled)
+    made = icestorm.process(
+        storm.name, host, storm.endpoints(), storm.proxy, folder, storm.span, enabled=enabled,
+        published=storm.published(),
+    )  # fmt: skip
     return replace(made, unless=(storm.proxy,) if storm.linked.storm.shared else ())

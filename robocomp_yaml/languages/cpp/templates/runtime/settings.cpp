@@ -147,7 +147,7 @@ std::map<std::string, std::string> Settings::parameters() const
     std::map<std::string, std::string> result;
     for (const auto& [key, value] : properties_->getPropertiesForPrefix(""))
     {
-        if (key.compare(0, 4, "Ice.") != 0)
+        if (key.compare(0, 4, "Ice.") != 0 && key.compare(0, 7, "RcYaml.") != 0)
         {
             result.emplace(key, value);
         }

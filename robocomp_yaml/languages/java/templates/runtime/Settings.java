@@ -171,10 +171,10 @@ final class Settings {
         return prefix.isEmpty() ? plain : prefix + "/" + plain;
     }
 
-    /** All properties except Ice's own. */
+    /** All properties except Ice's own, and those about who may control the component. */
     Map<String, String> parameters() {
         Map<String, String> found = new TreeMap<>(properties.getPropertiesForPrefix(""));
-        found.keySet().removeIf(key -> key.startsWith("Ice."));
+        found.keySet().removeIf(key -> key.startsWith("Ice.") || key.startsWith("RcYaml."));
         return found;
     }
 }
