@@ -13,7 +13,7 @@ from msgspec.structs import replace
 
 from robocomp_yaml.api.refusals import cannot_write, meant, require
 from robocomp_yaml.building.job import RELEASE
-from robocomp_yaml.deploy import folder, history, operations, protection, registered
+from robocomp_yaml.deploy import folder, history, operations, registered
 from robocomp_yaml.deploy.attached import Attached, attached
 from robocomp_yaml.deploy.carry_out import Report
 from robocomp_yaml.deploy.differences import shown_path
@@ -25,6 +25,7 @@ from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, STOP_THEM, Ch
 from robocomp_yaml.deploy.patterns import PatternTooSlow
 from robocomp_yaml.deploy.plan import RESTART, START, STOP, Plan, unstable, with_dependences
 from robocomp_yaml.deploy.plan import plan as make_plan
+from robocomp_yaml.deploy.preparing import prepared
 from robocomp_yaml.deploy.probe import ProbedProgram
 from robocomp_yaml.deploy.time_limit import TimeLimit
 from robocomp_yaml.diag.codes import deploying
@@ -150,7 +151,7 @@ class Deployment:
         self._report_stale(names)
 
         async def work() -> Plan:
-            self.network = protection.protected(self._network, create=False)
+            self.network = prepared(self._network, create=False)
             is_running = await self._engine.open(self.network, create=False)
             running = await self._engine.observe() if is_running else {}
             alive = {name for name, one in running.items() if one.is_alive}
@@ -188,7 +189,7 @@ class Deployment:
         async def work() -> Result:
             await self._engine.open(self.network, create=True)
             try:
-                self.network = protection.protected(self._network, create=True)
+                self.network = prepared(self._network, create=True)
                 return await changed()
             except BaseException:
                 with suppress(Exception):  # no supervisor stays without a process

@@ -56,19 +56,19 @@ def _place(proxy: str) -> str:
     return f"[{host}]:{first.port}" if ":" in host else f"{host}:{first.port}"
 
 
-async def report(proxy: str, sections: Iterable[str], within: float) -> Sections | None:
+async def report(proxy: str, sections: Iterable[str], within: float, pem: str = "") -> Sections | None:
     """What a component says in these sections, in all without `sections`; None if it does not answer within so many
-    seconds. Raises NoFacet."""
-    result = await _result(proxy, IceCall(wire.REPORT, wire.FACET, wire.names(sections)), within)
+    seconds. `pem` are a key and the certificates for a component over TLS. Raises NoFacet."""
+    result = await _result(proxy, IceCall(wire.REPORT, wire.FACET, wire.names(sections)), within, pem)
     try:
         return None if result is None else wire.sections_of(result)
     except ValueError as error:
         raise NoFacet from error
 
 
-async def state(proxy: str, within: float) -> OwnState | None:
+async def state(proxy: str, within: float, pem: str = "") -> OwnState | None:
     """The state of a component; None if it does not answer. Raises NoFacet."""
-    sections = await report(proxy, [STATE], within)
+    sections = await report(proxy, [STATE], within, pem)
     if sections is None:
         return None
     if not sections.get(STATE):
@@ -84,17 +84,17 @@ async def state(proxy: str, within: float) -> OwnState | None:
     )
 
 
-async def heartbeat(proxy: str, within: float) -> Heartbeat | None:
+async def heartbeat(proxy: str, within: float, pem: str = "") -> Heartbeat | None:
     """The heartbeat of a component's worker; None if it does not answer. Raises NoFacet."""
-    result = await _result(proxy, IceCall(wire.HEARTBEAT, wire.FACET), within)
+    result = await _result(proxy, IceCall(wire.HEARTBEAT, wire.FACET), within, pem)
     try:
         return None if result is None else wire.heartbeat_of(result)
     except ValueError as error:
         raise NoFacet from error
 
 
-async def _result(proxy: str, call: IceCall, within: float) -> bytes | None:
-    reply = await ice_call.answer(proxy, call, within)
+async def _result(proxy: str, call: IceCall, within: float, pem: str) -> bytes | None:
+    reply = await ice_call.answer(proxy, call, within, pem)
     if reply is not None and reply.status in (NO_OBJECT, NO_FACET, NO_OPERATION):
         raise NoFacet
     return reply.result if reply is not None and reply.status == OK else None

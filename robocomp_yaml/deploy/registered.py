@@ -71,10 +71,20 @@ def private(folder: str) -> str:
 def made_private(folder: str) -> str:
     """The same, created with mode 0700. Raises OSError."""
     own = _folder(folder)
-    for path in (os.path.dirname(own), own):
-        os.makedirs(path, mode=0o700, exist_ok=True)
-        os.chmod(path, 0o700)
+    make_folder(own)
     return own
+
+
+def make_folder(path: str) -> None:
+    """Creates a folder of the user's state, with mode 0700. Raises OSError."""
+    for one in (os.path.dirname(path), path):
+        os.makedirs(one, mode=0o700, exist_ok=True)
+        os.chmod(one, 0o700)
+
+
+def authority(folder: str) -> str:
+    """The folder with the certificates of the deployment in this folder. `down` does not remove it."""
+    return os.path.join(os.path.dirname(root()), "authorities", os.path.basename(_folder(folder)))
 
 
 def copies(folder: str) -> str:

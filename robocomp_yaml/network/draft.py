@@ -19,7 +19,7 @@ from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, Linked
 from robocomp_yaml.link.program import Port
 from robocomp_yaml.model import deployment as model
 from robocomp_yaml.network.configuration_base import ConfigurationBase, base_of
-from robocomp_yaml.network.listening import TCP, Listening, listening
+from robocomp_yaml.network.listening import SSL, TCP, Listening, listening
 from robocomp_yaml.network.network import LOOPBACK, Endpoint, NetworkHost
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.ice_endpoint import IceEndpoint, parse_endpoint, spelled_host
@@ -199,6 +199,11 @@ class Drafts(msgspec.Struct):
     storms: dict[LinkedStorm, StormDraft] = {}
     complete: bool = True
 
+    @property
+    def protocol(self) -> str:
+        """That of what rcyaml's own programs serve."""
+        return SSL if self.linked.deployment.security == model.TLS else TCP
+
     def of(self, instance: LinkedInstance) -> Draft | None:
         """The draft of an instance's process, also for a second name. None if it has no draft."""
         return self.drafts.get(instance.process or instance)
@@ -211,7 +216,7 @@ def drafts_of(linked: LinkedDeployment, disk: Disk) -> Drafts:
     for storm in linked.storms.values():
         if linked.storm_instead(storm) is not storm:
             continue
-        result.storms[storm] = StormDraft(storm, _placed(result.hosts, storm.host))
+        result.storms[storm] = StormDraft(storm, _placed(result.hosts, storm.host), protocol=result.protocol)
         result.complete &= not storm.broken
     for instance in linked.instances.values():
         is_known = instance.component is not None or instance.entry.kind != model.COMPONENT
@@ -220,6 +225,8 @@ def drafts_of(linked: LinkedDeployment, disk: Disk) -> Drafts:
             base = base_of(instance, disk)
             own = base.addresses(instance.component) if instance.component is not None else OwnAddresses()
             draft = result.drafts[instance] = Draft(instance, _placed(result.hosts, instance.host), base=base, own=own)
+            if instance.component is not None and instance.component.component.language.target.has_tls:
+                draft.protocol = result.protocol
             draft.offers, draft.subscribers = list(_offers(draft)), list(_subscribers(draft))
             result.complete &= instance.component is None or not instance.component.broken
     for instance in linked.instances.values():

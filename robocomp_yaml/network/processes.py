@@ -14,6 +14,7 @@ from robocomp_yaml.model import deployment as model
 from robocomp_yaml.model.deployment import CONFIG
 from robocomp_yaml.network import icestorm, liveness
 from robocomp_yaml.network.draft import Draft, StormDraft
+from robocomp_yaml.network.listening import SSL
 from robocomp_yaml.network.network import (
     COMPONENT,
     PROGRAM,
@@ -62,6 +63,7 @@ def of_draft(
         enabled=entry.enabled,
         is_ice=component is not None or bool(draft.offers or entry.config_as or entry.connect),
         role=entry.role,
+        is_secured=draft.protocol == SSL,
         settled=_settled(entry.ready, ready),
         secrets=tuple(sorted(set(secret_names(component.parameters.parameters.root)))) if component is not None else (),
         component=component.component.name if component is not None else "",
@@ -186,4 +188,4 @@ def of_storm(storm: StormDraft, folder: str, *, enabled: bool) -> Process:
         storm.name, host, storm.endpoints(), storm.proxy, folder, storm.span, enabled=enabled,
         published=storm.published(),
     )  # fmt: skip
-    return replace(made, unless=(storm.proxy,) if storm.linked.storm.shared else ())
+    return replace(made, is_secured=storm.protocol == SSL, unless=(storm.proxy,) if storm.linked.storm.shared else ())
