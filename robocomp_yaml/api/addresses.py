@@ -114,6 +114,8 @@ class Addresses:
         Refused if nobody is, or more than one."""
         if at_port := _HOST.match(text):
             endpoint = IceEndpoint(int(at_port[3]), at_port[1] or "tcp").reached_at(at_port[2].strip("[]"))
+            if not at_port[1] and (network := self.network_at(f"any:{endpoint}")) and network.is_tls:
+                endpoint = f"ssl{endpoint.removeprefix('tcp')}"
             return self._at_port(text[: at_port.end(3)], endpoint, at_port[4] or "")
         peer = self._of_entry(text)
         if peer is None:
@@ -258,6 +260,16 @@ class Addresses:
                 if any((_machine(one.host or network.address(process)), one.port) in at for one in served if one):
                     return network
         return None
+
+    def secured(self, proxy: str) -> dict[str, str]:
+        """The Ice properties with which a proxy of a deployment with TLS is called; none for others."""
+        found = proxy_at(proxy)
+        if not found or not any(one.protocol in ("ssl", "wss") for one in found.endpoints):
+            return {}
+        from robocomp_yaml.deploy.authority import of_commands
+
+        network = self.network_at(proxy)
+        return of_commands(network.folder) if network is not None and network.is_tls else {}
 
     def every_door(self) -> list[Door]:
         """All interfaces of the documents, and CommonBehavior, without an address."""

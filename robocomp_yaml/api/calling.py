@@ -95,7 +95,7 @@ class RemoteMethod:
         seconds that a call may take."""
         from robocomp_yaml.wire.client import client
 
-        with client(config, timeout) as made:
+        with client(config, timeout, self.addresses.secured(self.proxy)) as made:
             yield MethodCalls(self, made, timeout)
 
     def call(self, words: Sequence[str] = (), config: str = "", timeout: float = TIMEOUT) -> Reply:

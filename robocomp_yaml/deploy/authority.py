@@ -208,3 +208,9 @@ def _openssl(folder: str, *words: str) -> None:
         os.umask(mask)
     if done.returncode:
         raise OSError(0, f"openssl cannot create a certificate: {done.stderr.strip()[-300:]}")
+
+
+def of_commands(folder: str) -> dict[str, str]:
+    """The Ice properties of the user's commands towards the deployment in a folder, empty without certificates."""
+    path = Authority(folder).path(OPERATOR)
+    return properties(path) if os.path.exists(path) else {}

@@ -30,7 +30,7 @@ TOKEN, CONTROL, OPEN = "RcYaml.Token", "RcYaml.Control", "open"
 TOKEN_CONTEXT = "rcyaml.token"
 """The key of the token in the context of a call."""
 
-OWN = ("Ice.", "RcYaml.")
+OWN = ("Ice.", "IceSSL.", "RcYaml.")
 """The beginnings of properties that are no parameters."""
 
 NO_TOKEN = (

@@ -109,13 +109,16 @@ def proxy_of(communicator: Any, text: str) -> Any:
 
 
 @contextmanager
-def client(config: str = "", limit: float = 10.0) -> Iterator[IceClient]:
+def client(
+    config: str = "", limit: float = 10.0, properties: Mapping[str, str] | None = None
+) -> Iterator[IceClient]:  # fmt: skip
     """A client while the context lasts. `config` is a file of Ice properties, such as those of TLS; `limit` are the
-    seconds that connecting may take. Raises Refused if Ice cannot be initialized with it."""
+    seconds that connecting may take; `properties` are further ones, which the file overrides. Raises Refused if
+    Ice cannot be initialized with it."""
     data = Ice.InitializationData()
     try:
         data.properties = Ice.createProperties([f"--Ice.Config={config}"] if config else [])
-        for name, value in _PROPERTIES.items():
+        for name, value in {**_PROPERTIES, **(properties or {})}.items():
             if not data.properties.getProperty(name):
                 data.properties.setProperty(name, value)
         data.properties.setProperty("Ice.Override.ConnectTimeout", str(max(1, round(limit * 1000))))

@@ -152,11 +152,12 @@ def restart_rule(process: Process, number: int) -> str:
 
 def alive_rule(process: Process) -> str:
     """How `run` asks a process whether it is alive, '' if it does not: times in milliseconds (the last one is the limit
-    for the first answer), host and port, and the message for `printf`."""
+    for the first answer), host (after `tls:` if it is asked over TLS) and port, and the message for `printf`."""
     alive, asked = process.alive, liveness.question(process.alive, is_secured=process.is_secured)
     if alive is None or asked is None:
         return ""
     host, port, question = asked
+    host = f"tls:{host}" if process.is_secured else host
     late = max(liveness.START, liveness.READY * process.ready.within)
     times = [alive.every, alive.within, alive.worker, late]
     every, within, worker, late_ms = (f"{1000 * time:.0f}" for time in times)

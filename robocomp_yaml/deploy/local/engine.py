@@ -95,18 +95,18 @@ class LocalEngine:
         return found
 
     async def stage(self, specs: Sequence[ProcessSpec]) -> None:
-        configs = [spec.process.config for spec in specs if spec.process.config]
         self._has_staged = True
         with self._writing():
-            own_folder.stage(self._network.folder, {path: text for one in configs for path, text in one.files.items()})
+            own_folder.stage(
+                self._network.folder, {path: text for spec in specs for path, text in spec.config_files.items()}
+            )
             for path in (path for spec in specs for path in spec.process.folders):
                 os.makedirs(path, mode=0o700, exist_ok=True)
 
     async def prepare(self, specs: Sequence[ProcessSpec]) -> None:
         with self._writing():
-            for config in (spec.process.config for spec in specs):
-                for file, text in config.files.items() if config else ():
-                    own_folder.put(self._network.folder, file, text)
+            for file, text in ((file, text) for spec in specs for file, text in spec.config_files.items()):
+                own_folder.put(self._network.folder, file, text)
             for path in (path for spec in specs for path in spec.process.folders):
                 os.makedirs(path, mode=0o700, exist_ok=True)
         self._specs.update({spec.name: spec for spec in specs})
@@ -134,7 +134,7 @@ class LocalEngine:
         running = await self.observe()
         await self._ask("", "forget", names=gone)
         for spec in (running[name].spec for name in gone if name in running):
-            for file in spec.process.config.files if spec and spec.process.config else ():
+            for file in spec.config_files if spec else ():
                 own_folder.remove(self._network.folder, file)
 
     async def lines(self, names: Sequence[str], last: int, follow: bool) -> AsyncGenerator[Line, None]:
