@@ -269,7 +269,7 @@ class Addresses:
         from robocomp_yaml.deploy.authority import of_commands
 
         network = self.network_at(proxy)
-        return of_commands(network.folder) if network is not None and network.is_tls else {}
+        return of_commands(network) if network is not None and network.is_tls else {}
 
     def every_door(self) -> list[Door]:
         """All interfaces of the documents, and CommonBehavior, without an address."""

@@ -22,11 +22,12 @@ from collections.abc import Iterable, Mapping
 import msgspec
 
 from robocomp_yaml.deploy import registered
+from robocomp_yaml.deploy.own_address import towards_address
 from robocomp_yaml.network.network import LOOPBACK, Network
 from robocomp_yaml.transactions import whole_file
 
 OPERATOR = "commands"
-"""The certificate of the user's commands. No host has an empty address, so that no server can have it."""
+"""The certificate of the user's commands, for the addresses of this machine: IceStorm sends them topics."""
 
 YEARS = 10
 RENEWED = 365 * 86400.0  # seconds
@@ -89,9 +90,8 @@ class Authority:
         by the names and addresses at which they are called. Raises OSError."""
         registered.make_folder(self._folder)
         every = {name: tuple(sorted({*names, *_HERE})) for name, names in hosts.items()}
-        every[OPERATOR] = ()
         known = self._index()
-        if not (os.path.exists(f"{self._folder}/authority.key") and os.path.exists(f"{self._folder}/authority.crt")):
+        if not self.exists:
             known = {}
             self._make_authority()
         missing = {
@@ -102,8 +102,12 @@ class Authority:
         for name, names in missing.items():
             known[name] = self._make(name, names)
         if missing:
-            data = msgspec.json.encode({name: one for name, one in known.items() if name in every})
+            data = msgspec.json.encode(known)
             whole_file.put(f"{self._folder}/index.json", data, 0o600)
+
+    @property
+    def exists(self) -> bool:
+        return all(os.path.exists(f"{self._folder}/authority.{end}") for end in ("key", "crt"))
 
     def ending(self) -> list[str]:
         """The names of certificates that end soon."""
@@ -210,7 +214,12 @@ def _openssl(folder: str, *words: str) -> None:
         raise OSError(0, f"openssl cannot create a certificate: {done.stderr.strip()[-300:]}")
 
 
-def of_commands(folder: str) -> dict[str, str]:
-    """The Ice properties of the user's commands towards the deployment in a folder, empty without certificates."""
-    path = Authority(folder).path(OPERATOR)
+def of_commands(network: Network) -> dict[str, str]:
+    """The Ice properties of the user's commands towards a deployment, empty without certificates."""
+    made = Authority(network.folder)
+    if not made.exists:
+        return {}
+    with contextlib.suppress(OSError):  # an earlier certificate may do
+        made.make({OPERATOR: {towards_address(host.address) for host in network.hosts.values()}})
+    path = made.path(OPERATOR)
     return properties(path) if os.path.exists(path) else {}
