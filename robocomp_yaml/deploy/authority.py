@@ -86,32 +86,33 @@ class Authority:
         return f"{self._folder}/{name}.pem"
 
     def make(self, hosts: Mapping[str, Iterable[str]]) -> None:
-        """Makes what is missing, ends soon, or is for other names: the authority, and the certificates of these hosts,
-        by the names and addresses at which they are called. Raises OSError."""
+        """Makes what is `due`, and the authority. Raises OSError."""
+        due = self.due(hosts)
+        if not due:
+            return
         registered.make_folder(self._folder)
-        every = {name: tuple(sorted({*names, *_HERE})) for name, names in hosts.items()}
         known = self._index()
         if not self.exists:
             known = {}
             self._make_authority()
-        missing = {
+        for name, names in due.items():
+            known[name] = self._make(name, names)
+        whole_file.put(f"{self._folder}/index.json", msgspec.json.encode(known), 0o600)
+
+    def due(self, hosts: Mapping[str, Iterable[str]]) -> dict[str, tuple[str, ...]]:
+        """The certificates of these hosts, by the names and addresses at which they are called, that are missing, end
+        soon, or are for other names."""
+        every = {name: tuple(sorted({*names, *_HERE})) for name, names in hosts.items()}
+        known = self._index() if self.exists else {}
+        return {
             name: names for name, names in every.items()
             if (one := known.get(name)) is None or one.names != names or one.end < time.time() + RENEWED
             or not os.path.exists(self.path(name))
         }  # fmt: skip
-        for name, names in missing.items():
-            known[name] = self._make(name, names)
-        if missing:
-            data = msgspec.json.encode(known)
-            whole_file.put(f"{self._folder}/index.json", data, 0o600)
 
     @property
     def exists(self) -> bool:
         return all(os.path.exists(f"{self._folder}/authority.{end}") for end in ("key", "crt"))
-
-    def ending(self) -> list[str]:
-        """The names of certificates that end soon."""
-        return [name for name, one in self._index().items() if one.end < time.time() + RENEWED]
 
     def _index(self) -> dict[str, Certificate]:
         with contextlib.suppress(OSError, ValueError), open(f"{self._folder}/index.json", "rb") as file:

@@ -21,10 +21,18 @@ _NEW = "new"  # what a plan shows, before the certificates exist
 def prepared(network: Network, *, create: bool) -> Network:
     """The network with all that its configurations need. With `create`, what is missing is made: a token, certificates.
     Raises OSError."""
+    return protection.protected(_reachable(network, network.folder, create=create), create=create)
+
+
+def prepared_for_run(network: Network, folder: str) -> Network:
+    """The network for a run in the foreground, whose configurations are in another folder: without a token. Raises
+    OSError."""
+    return _reachable(network, folder, create=True)
+
+
+def _reachable(network: Network, folder: str, *, create: bool) -> Network:
     found = _bound(network)
-    if network.is_tls:
-        found = _secured(found, create=create)
-    return protection.protected(found, create=create)
+    return _secured(found, folder, create=create) if network.is_tls else found
 
 
 def _bound(network: Network) -> Network:
@@ -60,27 +68,27 @@ def _listening(line: str, old: str, new: str) -> str:
     return f"{key}{equals}{value.replace(old, new)}" if is_it and old in f"{value} " else line
 
 
-def _secured(network: Network, *, create: bool) -> Network:
-    """With the properties for TLS, and with the key and the certificates of its host beside each configuration."""
+def _secured(network: Network, folder: str, *, create: bool) -> Network:
+    """With the properties for TLS, and with the key and the certificates of its host beside each configuration, below
+    `folder`."""
     authority = Authority(network.folder)
-    hosts = {one.host for one in network.processes.values() if one.is_secured}
+    every, used = network.hosts.values(), sorted({one.host for one in network.processes.values() if one.is_secured})
+    hosts = {name: names_at(network, name, own_address(network.hosts[name], every)) for name in used}
     if create:
-        every = network.hosts.values()
-        authority.make({
-            name: names_at(network, name, own_address(network.hosts[name], every)) for name in sorted(hosts)
-        })  # fmt: skip
-    pems = {name: authority.pem(name) or _NEW for name in hosts}
+        authority.make(hosts)
+    due = authority.due(hosts)
+    pems = {name: _NEW if name in due else authority.pem(name) for name in hosts}
     processes = {
-        name: _with(one, network, pems[one.host]) if one.is_secured and one.config else one
+        name: _with(one, folder, pems[one.host]) if one.is_secured and one.config else one
         for name, one in network.processes.items()
     }
     return replace(network, processes=processes)
 
 
-def _with(process: Process, network: Network, pem: str) -> Process:
+def _with(process: Process, folder: str, pem: str) -> Process:
     config = process.config
     assert config is not None
-    made = properties(f"{network.folder}/{ConfigFile(config.path, '').pem_path}")
+    made = properties(f"{folder}/{ConfigFile(config.path, '').pem_path}")
     if process.kind in (COMPONENT, ICESTORM):
         lines = "".join(f"{entry_line(key, value)}\n" for key, value in made.items())
         text = f"{config.text.rstrip(os.linesep)}\n{lines}"

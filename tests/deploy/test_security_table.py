@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -260,3 +261,12 @@ def test_no_output_has_the_token(name: str, request: pytest.FixtureRequest) -> N
     ) + talk.rcyaml("config", "show", "speech", code=None)  # fmt: skip
     assert table.token not in said
     assert "PRIVATE KEY" not in said
+
+
+def test_tls_a_component_that_hangs_on_another_host_is_started_again(tls: Table) -> None:
+    """It is asked over TLS, by what supervises it there."""
+    before = tls.talk.pids()["hearer"]
+    os.kill(before, signal.SIGSTOP)
+    until(lambda: tls.talk.status()["hearer"]["pid"] != before, lambda: tls.talk.logs("hearer"), 40)
+    assert "not alive: it does not answer" in tls.talk.logs("hearer")
+    assert all("not alive" not in tls.talk.logs(name) for name in ("teller", "mouth", "speech"))
