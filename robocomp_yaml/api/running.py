@@ -253,7 +253,7 @@ async def _answers(process: Process) -> bool:
     """Whether what a process serves for others is served already, by the process or by a stand-in."""
     pings = [one for one in process.ready.pings if not one.startswith(f"{COMMON_BEHAVIOR.lower()}:")]
     if pings or process.ready.pings:
-        return all([await ice_ping.answers(one, _WITHIN) for one in pings or process.ready.pings])
+        return all([await ice_ping.answers(one, _WITHIN, process.pem) for one in pings or process.ready.pings])
     return process.ready.port is not None and await listens(LOOPBACK, process.ready.port, _WITHIN)
 
 
