@@ -46,11 +46,10 @@ def made_token(folder: str) -> str:
 def protected(network: Network, *, create: bool) -> Network:
     """The network with the token in the configurations of its components. With `create`, a missing token is made.
     Raises OSError."""
-    if network.control == OPEN:
-        line = entry_line(CONTROL, OPEN)
-    else:
+    line = entry_line(CONTROL, network.control)
+    if network.control != OPEN:
         token = made_token(network.folder) if create else token_of(network.folder) or _NEW
-        line = entry_line(TOKEN, token)
+        line = f"{line}\n{entry_line(TOKEN, token)}"
     return replace(network, processes={name: _with(one, line) for name, one in network.processes.items()})
 
 

@@ -16,6 +16,7 @@ from conftest import ROOT
 from cpp_programs import FAST, cmake, locked, needs_cpp
 from java_programs import java_build, needs_java
 from processes import Ports, Start
+from robocomp_yaml.deploy.authority import Authority, properties
 from three_hosts import Hosts, three_hosts
 
 LANGUAGES = [
@@ -103,6 +104,38 @@ def test_outside_of_a_deployment(
     assert running.exit_code() == 0
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("language", LANGUAGES[:2])
+def test_over_tls(
+    language: str, root: Root, hosts: Hosts, tmp_path: Path, free_port: Ports, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """From another host: nothing without a certificate; with one, the token decides."""
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
+    address, port = hosts.addresses["onboard"], free_port()
+    authority = Authority(str(tmp_path))
+    authority.make({"onboard": [address], "client": []})
+    secured = {**properties(authority.path("onboard")), "RcYaml.Token": TOKEN}
+    tame = Tame(root(language), tmp_path, port, address, secured)
+    tame.config.write_text(tame.config.read_text().replace("tcp -h", "ssl -h"))
+    tame.proxy = tame.proxy.replace(":tcp", ":ssl")
+    certificate = [f"{key}={value}" for key, value in properties(authority.path("client")).items()]
+    without = ["Ice.Plugin.IceSSL=IceSSL:createIceSSL", "IceSSL.VerifyPeer=0"]
+    process = hosts.begin("onboard", [str(word) for word in tame.command], stderr=subprocess.DEVNULL)
+    try:
+        for _ in range(100):
+            if tame.call("getState", "", *certificate, hosts=hosts, host="head").startswith("ok"):
+                break
+        for operation in CONTROLS:
+            assert tame.call(operation, TOKEN, *without, hosts=hosts, host="head").startswith("failed")
+            answer = tame.call(operation, "", *certificate, hosts=hosts, host="head")
+            assert answer.startswith("rejected") and "token of its deployment" in answer
+            assert tame.call(operation, TOKEN, *certificate, hosts=hosts, host="head") == "ok NoneType"
+        assert process.wait(10) == 0
+    finally:
+        process.kill()
+        process.communicate()
+
+
 @pytest.fixture
 def hosts() -> Iterator[Hosts]:
     with three_hosts() as found:
@@ -119,14 +152,14 @@ def test_from_another_host(
     """With and without a token: the right one does not help over plain TCP. From the own host, over its own address, it
     does."""
     address, port = hosts.addresses["onboard"], free_port()
-    for properties, says in (
+    for own, says in (
         ({"RcYaml.Token": TOKEN}, "needs TLS"),
         ({}, "outside of a deployment"),
         ({"RcYaml.Control": "open", "RcYaml.Token": TOKEN}, ""),
     ):
         if listening == "all addresses":
-            properties = {**properties, "CommonBehavior.Endpoints": f"tcp -p {port}"}
-        tame = Tame(root(language), tmp_path, port, address, properties)
+            own = {**own, "CommonBehavior.Endpoints": f"tcp -p {port}"}
+        tame = Tame(root(language), tmp_path, port, address, own)
         process = hosts.begin("onboard", [str(word) for word in tame.command], stderr=subprocess.DEVNULL)
         try:
             for _ in range(100):

@@ -81,8 +81,8 @@ def test_a_plan_never_shows_the_token_and_finds_nothing_to_do(state: Path) -> No
     given = replace(network(deployed("components: {a: {component: mouth}}\n")), folder=f"{state}/Robot")
     old = spec_of(given, given.processes["a"], {})
     new = prepared(given, create=True)
-    (found,) = differences(old, spec_of(new, new.processes["a"], {}))
-    assert str(found) == "config RcYaml.Token: *** (new)"
+    found = differences(old, spec_of(new, new.processes["a"], {}))
+    assert [str(one) for one in found] == ["config RcYaml.Control: token (new)", "config RcYaml.Token: *** (new)"]
     here = Running("a", old, "localhost", RUNNING)
     made = plan(new, {"a": here})
     assert made.steps["a"].action == RESTART, "an earlier version started it"
@@ -129,8 +129,8 @@ def test_a_full_config_ends_with_the_token(state: Path) -> None:
     given = network({**files, "mouth/etc/config": "RcYaml.Token=mine\nRcYaml.Control=none\n"})
     found = prepared(replace(given, folder=f"{state}/Robot"), create=True).processes["a"]
     assert found.config is not None
-    lines = [line for line in found.config.text.splitlines() if line.startswith("RcYaml.Token")]
-    assert len(properties.read("\n".join(lines)).values["RcYaml.Token"]) == 64
+    values = properties.read(found.config.text).values
+    assert len(values["RcYaml.Token"]) == 64 and values["RcYaml.Control"] == "token"
 
 
 def test_hosts_by_addresses_are_not_resolved(monkeypatch: pytest.MonkeyPatch) -> None:
