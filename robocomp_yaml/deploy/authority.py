@@ -32,6 +32,7 @@ OPERATOR = "commands"
 YEARS = 10
 RENEWED = 365 * 86400.0  # seconds
 _DAY = 86400.0
+_NOT_BEFORE = 1767225600.0  # 2026: an earlier time is that of a clock that was not set
 _FAR = "99991231235959Z"
 _HERE = ("localhost", "127.0.0.1", "::1")
 _SETTINGS = """\
@@ -128,7 +129,7 @@ class Authority:
             self._keep(work, "certificate", "authority.crt")
 
     def _make(self, name: str, names: tuple[str, ...]) -> Certificate:
-        end = time.time() + YEARS * 365 * _DAY
+        end = max(time.time(), _NOT_BEFORE) + YEARS * 365 * _DAY
         text = datetime.datetime.fromtimestamp(end, datetime.UTC).strftime("%Y%m%d%H%M%SZ")
         with self._working("member", text, names) as work:
             _openssl(work, "req", "-new", *_KEY, "-subj", f"/CN={name[:60]}", "-keyout", "key", "-out", "request")
