@@ -20,10 +20,11 @@ from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, Linked
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.link.workspace import root_above
 from robocomp_yaml.model.interface import Interface, Method
-from robocomp_yaml.network.network import LOOPBACK, Endpoint, Network, Process
+from robocomp_yaml.network.network import LOOPBACK, Endpoint, Network, Process, is_loopback
 from robocomp_yaml.patterns import pattern
 from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.source.ice_endpoint import IceEndpoint, parse_endpoint
+from robocomp_yaml.source.ice_proxy import proxy_at
 from robocomp_yaml.wire.behavior import MODULE, common_behavior
 
 _HOST = pattern(r"(?:(tcp|ssl|ws|wss):)?(\[[0-9A-Fa-f:.%\w]+\]|[\w.-]+):(\d{1,5})(?:[./](.*))?\Z")
@@ -113,6 +114,8 @@ class Addresses:
         Refused if nobody is, or more than one."""
         if at_port := _HOST.match(text):
             endpoint = IceEndpoint(int(at_port[3]), at_port[1] or "tcp").reached_at(at_port[2].strip("[]"))
+            if not at_port[1] and (network := self.network_at(f"any:{endpoint}")) and network.is_tls:
+                endpoint = f"ssl{endpoint.removeprefix('tcp')}"
             return self._at_port(text[: at_port.end(3)], endpoint, at_port[4] or "")
         peer = self._of_entry(text)
         if peer is None:
@@ -246,6 +249,28 @@ class Addresses:
         )
         return Peer(name, rest, tuple(doors))
 
+    def network_at(self, proxy: str) -> Network | None:
+        """The network that serves something at the address of a proxy; None if there is none in the documents."""
+        found = proxy_at(proxy)
+        at = {(_machine(one.host), one.port) for one in (found.endpoints if found else ())}
+        networks = [self.network, *self.analysis.networks.values()]
+        for network in (one for one in networks if one is not None):
+            for process in network.processes.values():
+                served = (parse_endpoint(one.text) for one in process.endpoints if one.port)
+                if any((_machine(one.host or network.address(process)), one.port) in at for one in served if one):
+                    return network
+        return None
+
+    def secured(self, proxy: str) -> dict[str, str]:
+        """The Ice properties with which a proxy of a deployment with TLS is called; none for others."""
+        found = proxy_at(proxy)
+        if not found or not any(one.protocol in ("ssl", "wss") for one in found.endpoints):
+            return {}
+        from robocomp_yaml.deploy.authority import of_commands
+
+        network = self.network_at(proxy)
+        return of_commands(network) if network is not None and network.is_tls else {}
+
     def every_door(self) -> list[Door]:
         """All interfaces of the documents, and CommonBehavior, without an address."""
         scopes = [*self.program.modules.values(), common_behavior()]
@@ -326,6 +351,10 @@ def _prefixes(text: str) -> Iterator[str]:
     while text:
         yield text
         text = text.rpartition(".")[0]
+
+
+def _machine(address: str) -> str:
+    return LOOPBACK if is_loopback(address or LOOPBACK) else address
 
 
 def _proxy(endpoint: Endpoint, address: str) -> str:

@@ -14,6 +14,7 @@ from robocomp_yaml.api.refusals import without_ice
 from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
 from robocomp_yaml.diag.errors import Faulty
 from robocomp_yaml.model.interface import Method
+from robocomp_yaml.wire.behavior import CONTROLS, common_behavior
 
 if TYPE_CHECKING:
     from robocomp_yaml.wire.client import IceClient
@@ -79,13 +80,22 @@ class RemoteMethod:
             raise Faulty(in_order(faults), None, read.texts)
         return made
 
+    def context(self) -> dict[str, str]:
+        """What goes with a call: the token of the deployment, if the method controls one of its components."""
+        if self.door.scope is not common_behavior() or self.method.name not in CONTROLS:
+            return {}
+        from robocomp_yaml.deploy.protection import context
+
+        network = self.addresses.network_at(self.proxy)
+        return context(network, self.proxy) if network is not None else {}
+
     @contextmanager
     def connected(self, config: str = "", timeout: float = TIMEOUT) -> Iterator[MethodCalls]:
         """A connection for calls; `config` is a file with properties of Ice, such as those of TLS, `timeout` the
         seconds that a call may take."""
         from robocomp_yaml.wire.client import client
 
-        with client(config, timeout) as made:
+        with client(config, timeout, self.addresses.secured(self.proxy)) as made:
             yield MethodCalls(self, made, timeout)
 
     def call(self, words: Sequence[str] = (), config: str = "", timeout: float = TIMEOUT) -> Reply:
@@ -113,7 +123,7 @@ class MethodCalls(msgspec.Struct, frozen=True):
         one, operation = self.method, self.method.operation
         proxy = self.client.proxy(one.proxy)
         try:
-            result = self.client.call(proxy, operation, arguments, self.timeout)
+            result = self.client.call(proxy, operation, arguments, self.timeout, one.context())
         except (Ice.Exception, NotConnected, OutOfTime) as error:
             thrown = failures.raised(error, operation)
             if thrown is not None:

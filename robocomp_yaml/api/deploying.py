@@ -25,6 +25,7 @@ from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, STOP_THEM, Ch
 from robocomp_yaml.deploy.patterns import PatternTooSlow
 from robocomp_yaml.deploy.plan import RESTART, START, STOP, Plan, unstable, with_dependences
 from robocomp_yaml.deploy.plan import plan as make_plan
+from robocomp_yaml.deploy.preparing import prepared
 from robocomp_yaml.deploy.probe import ProbedProgram
 from robocomp_yaml.deploy.time_limit import TimeLimit
 from robocomp_yaml.diag.codes import deploying
@@ -67,6 +68,7 @@ class Deployment:
         if network is None or (has_errors(analysis.diagnostics) and not lenient):
             raise Faulty(analysis.diagnostics, analysis.program.documents)
         self.network: Network = network
+        self._network = network  # without what protects it
         self._engine, self._lock = make_engine(engine, network), ExitStack()
         self._diagnostics: list[Diagnostic] = []
         if not lenient:
@@ -149,6 +151,7 @@ class Deployment:
         self._report_stale(names)
 
         async def work() -> Plan:
+            self.network = prepared(self._network, create=False)
             is_running = await self._engine.open(self.network, create=False)
             running = await self._engine.observe() if is_running else {}
             alive = {name for name, one in running.items() if one.is_alive}
@@ -186,6 +189,7 @@ class Deployment:
         async def work() -> Result:
             await self._engine.open(self.network, create=True)
             try:
+                self.network = prepared(self._network, create=True)
                 return await changed()
             except BaseException:
                 with suppress(Exception):  # no supervisor stays without a process

@@ -22,6 +22,7 @@ from robocomp_yaml.deploy.engine import DeployFailed, Running
 from robocomp_yaml.deploy.engines import make_engine
 from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.local.obstacles import elsewhere
+from robocomp_yaml.deploy.preparing import prepared_for_run
 from robocomp_yaml.deploy.readiness import listens
 from robocomp_yaml.deploy.single import SingleResult, SingleRun, moved
 from robocomp_yaml.diag.codes import deploying
@@ -138,6 +139,9 @@ class Run:
         return result
 
     async def _start(self, report: Report, on_start: Callable[[int], None]) -> SingleResult:
+        if self.document:
+            self.network = prepared_for_run(self.network, self._folder)
+            self.process = self.network.processes[self.process.name]
         needed = await self._needed()
         self._check_programs(needed)
         for process in (self.process, *needed.values()):
@@ -249,7 +253,7 @@ async def _answers(process: Process) -> bool:
     """Whether what a process serves for others is served already, by the process or by a stand-in."""
     pings = [one for one in process.ready.pings if not one.startswith(f"{COMMON_BEHAVIOR.lower()}:")]
     if pings or process.ready.pings:
-        return all([await ice_ping.answers(one, _WITHIN) for one in pings or process.ready.pings])
+        return all([await ice_ping.answers(one, _WITHIN, process.pem) for one in pings or process.ready.pings])
     return process.ready.port is not None and await listens(LOOPBACK, process.ready.port, _WITHIN)
 
 

@@ -36,6 +36,7 @@ from robocomp_yaml.source.yaml_text import flow
 VALUE = "value"
 """What locations name instead of a file."""
 
+_LOGGED = "(see the log of the component) "
 _ROUNDING = 1e-6  # relative: what a `float` changes in a number
 
 
@@ -199,7 +200,8 @@ def in_line(data: Any) -> str:
 
 def _returned(name: str, reply: Reply) -> Any:
     if reply.throws:
-        raise NoAnswer(f"CommonBehavior of {name} raised {reply.throws}")
+        why = str(reply.members.get("unknown", "")).removeprefix(_LOGGED)
+        raise NoAnswer(f"{name}: {why}" if why else f"CommonBehavior of {name} raised {reply.throws}")
     return reply.returns
 
 

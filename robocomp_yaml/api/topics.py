@@ -116,7 +116,7 @@ class Topics:
         from robocomp_yaml.wire.client import client
 
         found, failures = list(self.documented), list[NoAnswer]()
-        with client(self._config, self._timeout) as made:
+        with client(self._config, self._timeout, self._secured) as made:
             for storm in self.storms:
                 try:
                     manager = ice_storm.topic_manager(made.communicator, storm, self._patience)
@@ -129,6 +129,11 @@ class Topics:
                 ]
                 found += [self._foreign(name, storm, count) for name, count in live.items()]
         return found, failures
+
+    @property
+    def _secured(self) -> dict[str, str]:
+        """The Ice properties for IceStorms of a deployment with TLS."""
+        return next(filter(None, map(self.addresses.secured, self.storms)), {})
 
     @property
     def _patience(self) -> int:
@@ -206,7 +211,7 @@ class Topics:
         from robocomp_yaml.wire.client import client
 
         with ExitStack() as stack:
-            made = stack.enter_context(client(self._config, self._timeout))
+            made = stack.enter_context(client(self._config, self._timeout, self._secured))
             managers: dict[str, Any] = {}
             adapters: dict[str, Any] = {}
             for topic in topics:
@@ -225,7 +230,7 @@ class Topics:
         from robocomp_yaml.wire import storm as ice_storm
         from robocomp_yaml.wire.client import client
 
-        with client(self._config, self._timeout) as made:
+        with client(self._config, self._timeout, self._secured) as made:
             manager = ice_storm.topic_manager(made.communicator, topic.storm, self._patience)
             proxy = ice_storm.topic(manager, topic.name).getPublisher()
             yield Publisher(topic, proxy.ice_twoway().ice_invocationTimeout(self._patience))

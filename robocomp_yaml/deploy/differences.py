@@ -80,6 +80,8 @@ def _variables(variables: tuple[EnvironmentVariable, ...]) -> dict[str, str]:
 
 def _config(old: ConfigFile | None, new: ConfigFile | None, names: set[str]) -> Iterator[Difference]:
     """By property. If no property differs, the text as a whole has changed."""
+    if old and new and old.pem != new.pem:
+        yield Difference("certificates")
     before, after = old.text if old else "", new.text if new else ""
     if before != after:
         hidden = {*names, *(old.secrets if old else ()), *(new.secrets if new else ())}

@@ -23,6 +23,7 @@ from robocomp_yaml.source.properties import without_secret
 from robocomp_yaml.source.regular import regular
 
 RECORD = ".rcyaml/exports.json"
+_NO_CERTIFICATES = "only `rcyaml deploy up` makes the certificates that `security: tls` needs"
 
 
 def files(
@@ -30,6 +31,9 @@ def files(
 ) -> tuple[dict[str, str], list[Diagnostic]]:  # fmt: skip
     """The texts of an export by path, and warnings for what the form can express only in part. If the form cannot
     express the network, there are no files but an error. Unless `reveal`, secrets are hidden."""
+    if network.is_tls:
+        refused = exports.Unwritable(_NO_CERTIFICATES, network.name, Span(network.path))
+        return {}, [_diagnostic(refused, form).as_severity(ERROR)]
     try:
         with exports.noted() as notes:
             made = exports.export(network if reveal else hidden(network), form, plugins)

@@ -12,8 +12,10 @@ import functools
 import msgspec
 
 from robocomp_yaml.source.ice_proxy import proxy_at
-from robocomp_yaml.wire import protocol
+from robocomp_yaml.wire import protocol, tls
 from robocomp_yaml.wire.protocol import NO_FACET, NO_OBJECT, NO_OPERATION, OK, Reply
+
+PLAIN, SECURE = ("tcp", "default"), ("ssl",)
 
 
 class IceCall(msgspec.Struct, frozen=True):
@@ -25,23 +27,29 @@ class IceCall(msgspec.Struct, frozen=True):
 
 
 @functools.cache
-def address_of(proxy: str) -> tuple[str, str, int] | None:
-    """The identity, host and port of a proxy's first endpoint; None if the endpoint is not plain TCP."""
+def address_of(proxy: str, protocols: tuple[str, ...] = PLAIN) -> tuple[str, str, int] | None:
+    """The identity, host and port of a proxy's first endpoint; None if the endpoint has another protocol than these."""
     found = proxy_at(proxy)
     first = found.endpoints[0] if found and found.endpoints else None
-    if not found or not found.is_plain or not first or first.protocol not in ("tcp", "default") or not first.port:
+    if not found or not found.is_plain or not first or first.protocol not in protocols or not first.port:
         return None
     if "/" in found.category + found.name:  # an escaped one
         return None
     return f"{found.category}/{found.name}" if found.category else found.name, first.host or "127.0.0.1", first.port
 
 
-async def answer(proxy: str, call: IceCall, within: float) -> Reply | None:
-    """The answer of a proxy's object within so many seconds; None if there is none, whatever is at the other end."""
-    address = address_of(proxy)
+async def answer(proxy: str, call: IceCall, within: float, pem: str = "") -> Reply | None:
+    """The answer of a proxy's object within so many seconds; None if there is none, whatever is at the other end. `pem`
+    are a key and the certificates for an object over TLS."""
+    address = address_of(proxy, SECURE if pem else PLAIN)
     if address is not None:
         identity, host, port = address
-        return await protocol.ask(host, port, protocol.request(identity, *msgspec.structs.astuple(call)), within)
+        message = protocol.request(identity, *msgspec.structs.astuple(call))
+        try:
+            context = tls.of_text(pem) if pem else None
+        except (OSError, ValueError):  # not yet made
+            return None
+        return await protocol.ask(host, port, message, within, context)
     try:
         async with asyncio.timeout(within):
             return await asyncio.to_thread(_answer_by_ice, proxy, call, within)

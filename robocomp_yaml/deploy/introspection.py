@@ -56,11 +56,11 @@ def _place(proxy: str) -> str:
     return f"[{host}]:{first.port}" if ":" in host else f"{host}:{first.port}"
 
 
-async def report(proxy: str, sections: Iterable[str], within: float) -> Sections | None:
+async def report(proxy: str, sections: Iterable[str], within: float, pem: str = "") -> Sections | None:
     """What a component says in these sections, in all without `sections`; None if it does not answer within so many
-    seconds. Raises NoFacet."""
+    seconds. `pem` are a key and the certificates for a component over TLS. Raises NoFacet."""
     call = IceCall(wire.REPORT, wire.FACET, wire.names(sections))
-    return sections_in(await ice_call.answer(proxy, call, within))
+    return sections_in(await ice_call.answer(proxy, call, within, pem))
 
 
 def sections_in(reply: Reply | None) -> Sections | None:
@@ -72,9 +72,9 @@ def sections_in(reply: Reply | None) -> Sections | None:
         raise NoFacet from error
 
 
-async def state(proxy: str, within: float) -> OwnState | None:
+async def state(proxy: str, within: float, pem: str = "") -> OwnState | None:
     """The state of a component; None if it does not answer. Raises NoFacet."""
-    sections = await report(proxy, [STATE], within)
+    sections = await report(proxy, [STATE], within, pem)
     if sections is None:
         return None
     if (found := state_in(sections)) is None:
@@ -97,9 +97,9 @@ def state_in(sections: Sections) -> OwnState | None:
     )
 
 
-async def heartbeat(proxy: str, within: float) -> Heartbeat | None:
+async def heartbeat(proxy: str, within: float, pem: str = "") -> Heartbeat | None:
     """The heartbeat of a component's worker; None if it does not answer. Raises NoFacet."""
-    result = _result(await ice_call.answer(proxy, IceCall(wire.HEARTBEAT, wire.FACET), within))
+    result = _result(await ice_call.answer(proxy, IceCall(wire.HEARTBEAT, wire.FACET), within, pem))
     try:
         return None if result is None else wire.heartbeat_of(result)
     except ValueError as error:

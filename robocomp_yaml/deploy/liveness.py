@@ -15,10 +15,11 @@ START, READY = 60.0, 3
 longer."""
 
 
-def question(alive: Liveness | None) -> tuple[str, int, str] | None:
+def question(alive: Liveness | None, *, is_secured: bool = False) -> tuple[str, int, str] | None:
     """The host, port and message, in hexadecimal digits. None if nothing is asked, also because the process serves
-    nothing over plain TCP."""
-    address = ice_call.address_of(alive.proxy) if alive else None
+    nothing over TCP. One that `is_secured` is asked over TLS."""
+    protocols = ice_call.SECURE if is_secured else ice_call.PLAIN
+    address = ice_call.address_of(alive.proxy, protocols) if alive else None
     if address is None:
         return None
     identity, host, port = address

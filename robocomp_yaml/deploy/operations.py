@@ -82,7 +82,7 @@ async def without_present(network: Network, running: Collection[str]) -> Network
 
 
 async def _is_present(process: Process) -> bool:
-    return all([await ice_ping.answers(proxy, _PRESENT_WITHIN) for proxy in process.unless])
+    return all([await ice_ping.answers(proxy, _PRESENT_WITHIN, process.pem) for proxy in process.unless])
 
 
 async def up(

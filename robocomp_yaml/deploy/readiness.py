@@ -146,12 +146,12 @@ async def _serves(spec: ProcessSpec, within: float) -> bool:
     pings, own = spec.process.ready.pings, spec.process.introspection
     if own:
         with suppress(introspection.NoFacet):
-            state = await introspection.state(own, within)
+            state = await introspection.state(own, within, spec.process.pem)
             if state is None or not state.is_running:
                 return False
             pings = tuple(proxy for proxy in pings if proxy != own)
     for proxy in pings:
-        if not await ice_ping.answers(proxy, within):
+        if not await ice_ping.answers(proxy, within, spec.process.pem):
             return False
     return True
 
@@ -160,7 +160,7 @@ async def own_state(spec: ProcessSpec, within: float = _ONE_TRY) -> OwnState | N
     """What a component says of itself; None if it does not answer, or does not describe itself."""
     proxy = spec.process.introspection
     with suppress(introspection.NoFacet):
-        return await introspection.state(proxy, within) if proxy else None
+        return await introspection.state(proxy, within, spec.process.pem) if proxy else None
     return None
 
 

@@ -63,6 +63,30 @@ def _folder(folder: str) -> str:
     return os.path.join(root(), digest(os.fsencode(os.path.realpath(folder)))[:20])
 
 
+def private(folder: str) -> str:
+    """The user's own folder about the deployment in this folder."""
+    return _folder(folder)
+
+
+def made_private(folder: str) -> str:
+    """The same, created with mode 0700. Raises OSError."""
+    own = _folder(folder)
+    make_folder(own)
+    return own
+
+
+def make_folder(path: str) -> None:
+    """Creates a folder of the user's state, with mode 0700. Raises OSError."""
+    for one in (os.path.dirname(path), path):
+        os.makedirs(one, mode=0o700, exist_ok=True)
+        os.chmod(one, 0o700)
+
+
+def authority(folder: str) -> str:
+    """The folder with the certificates of the deployment in this folder. `down` does not remove it."""
+    return os.path.join(os.path.dirname(root()), "authorities", os.path.basename(_folder(folder)))
+
+
 def copies(folder: str) -> str:
     """The folder with the copies of the files of the deployment in this folder."""
     return f"{_folder(folder)}/{_COPIES}"
@@ -70,10 +94,7 @@ def copies(folder: str) -> str:
 
 def keep(one: RegisteredDeployment) -> None:
     """Adds or replaces an entry. Raises OSError."""
-    folder = _folder(one.folder)
-    for path in (os.path.dirname(folder), folder):
-        os.makedirs(path, mode=0o700, exist_ok=True)
-        os.chmod(path, 0o700)
+    folder = made_private(one.folder)
     whole_file.put(f"{folder}/{_ENTRY}", msgspec.json.encode(one), 0o600)
 
 

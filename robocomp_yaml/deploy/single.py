@@ -90,8 +90,8 @@ class SingleRun(msgspec.Struct):
                 if engine is not None:
                     result.diagnostics += engine.notes
                     await _end(engine, report, interruptions)
-                if self.process.config:
-                    own_folder.remove(self.folder, self.process.config.path)
+                for file in self.process.config.files if self.process.config else ():
+                    own_folder.remove(self.folder, file)
             result.interrupted_by = next(iter(interruptions.numbers), 0)
         return result
 
@@ -124,8 +124,8 @@ class SingleRun(msgspec.Struct):
             result.diagnostics += found
             return
         own_folder.make(self.folder)
-        if spec.process.config:
-            own_folder.write(self.folder, spec.process.config.path, spec.process.config.text)
+        for file, text in spec.process.config.files.items() if spec.process.config else ():
+            own_folder.write(self.folder, file, text)
         try:
             environment = whole_environment_of(spec.process)
             mark = f"{self.folder}:{spec.name}"

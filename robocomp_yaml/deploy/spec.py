@@ -31,6 +31,11 @@ class ProcessSpec(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     def name(self) -> str:
         return self.process.name
 
+    @property
+    def config_files(self) -> dict[str, str]:
+        """The texts of its configuration's files, by their paths in the deployment's folder."""
+        return self.process.config.files if self.process.config else {}
+
     def as_data(self) -> dict[str, Any]:
         """The spec in types of JSON, which `of_data` reads."""
         data: dict[str, Any] = msgspec.to_builtins(self)

@@ -32,7 +32,7 @@ class TargetLanguage(msgspec.Struct, frozen=True, kw_only=True, eq=False):
     `has_checker`, for `check --code`; `building` if it `has_building`, for builds that are more than the commands of
     `build`; `checks` if it `has_checks`, for names that are illegal in the language. The checks run if a component
     is in the language; if it `warns_others`, they always run, and `checks.has_taken(module)` is called for migrated
-    documents.
+    documents. If it `has_tls`, its run time needs only Ice's properties to talk over TLS.
 
     `has` are the capabilities. `ignored` are keys that documents may have without effect, because nothing is built.
     `datamodels` are the data models of state machines, the default first.
@@ -79,6 +79,7 @@ class TargetLanguage(msgspec.Struct, frozen=True, kw_only=True, eq=False):
     has_building: bool = False
     has_checks: bool = False
     warns_others: bool = False
+    has_tls: bool = False
 
     def part(self, name: str) -> ModuleType:
         """The part of the language in the module `name`."""

@@ -62,7 +62,7 @@ class KnownNames(msgspec.Struct, frozen=True):
 
     @property
     def search(self) -> ImportSearch:
-        return self.analysis.linker.search
+        return self.analysis.search
 
     @property
     def program(self) -> Program:

@@ -32,6 +32,10 @@ def build(root: Mapping, path: str) -> model.Deployment:
         alive=_alive(root.get("alive")),
         doc=doc(root),
         ports=port_range(root),
+        control=text(root, "control"),
+        security=text(root, "security"),
+        control_span=span_of(root, "control"),
+        security_span=span_of(root, "security"),
         span=span_of(root, "deployment"),
     )
 
@@ -48,7 +52,15 @@ def _integer(parent: Node | None, key: str) -> int | None:
 
 def _host(key: Scalar, node: Node) -> model.Host:
     address = required(as_text(node) or _text(node, "address"))
-    return model.Host(key.lexeme, address, text(node, "user"), doc(node), span=key.span)
+    return model.Host(key.lexeme, address, text(node, "user"), _listen(node), doc(node), span=key.span)
+
+
+def _listen(node: Node) -> tuple[Text, ...]:
+    given = node.get("listen")
+    if isinstance(given, Sequence):
+        return tuple(texts(node, "listen"))
+    one = as_text(given)
+    return (one,) if one is not None else ()
 
 
 def _storm(key: Scalar, node: Node) -> model.Storm:
@@ -93,6 +105,7 @@ def _entry(key: Scalar, node: Node) -> model.Entry:
         ready=_ready(node.get("ready")),
         role=text(node, "role"),
         alive=_alive(node.get("alive")),
+        listen=_listen(node),
         endpoints=tuple(_pairs(node, "endpoints")),
         after=tuple(texts(node, "after")),
         enabled=node.data.get("enabled") is not False,  # type: ignore[attr-defined]

@@ -13,6 +13,9 @@ from robocomp_yaml.source.tree import Mapping
 COMPONENT, PROGRAM, PROCESS = "component", "program", "process"
 NEVER, ON_FAILURE, ALWAYS = "no", "on-failure", "always"
 SERVER, TASK = "server", "task"
+ADDRESS, ANY = "address", "any"
+TOKEN, OPEN = "token", "open"
+TLS, PLAIN = "tls", "none"
 ARGUMENT = "argument"
 INDEX = "{i}"
 CONFIG = "{config}"
@@ -20,11 +23,13 @@ CONFIG = "{config}"
 
 
 class Host(Spanned, frozen=True):
-    """An entry of `hosts:`. `user` is for ssh; '' is the operator's own."""
+    """An entry of `hosts:`. `user` is for ssh; '' is the operator's own. `listen` says where its processes listen:
+    ADDRESS, ANY, or names and IP addresses of the machine; () if it is not set."""
 
     name: str
     address: Text
     user: str = ""
+    listen: tuple[Text, ...] = ()
     doc: str = ""
 
 
@@ -103,9 +108,9 @@ class Entry(Spanned, frozen=True):
     """An entry of `components:`. `kind` is the key that defines the entry: COMPONENT, PROGRAM, or PROCESS (a second
     name of another entry's process); `target` is that key's value. `executable` replaces the program of a component.
 
-    `role` is SERVER or TASK, '' if it is not set. `settings` is the tree of `set:`. `config_as` is ARGUMENT or an
-    option such as `--Ice.Config`. `instances` is None if the key is missing. `extra` is the data of
-    `x-rcmanager:`, every scalar as spelled.
+    `role` is SERVER or TASK, '' if it is not set. `listen` is as that of a host, () if it is not set. `settings` is the
+    tree of `set:`. `config_as` is ARGUMENT or an option such as `--Ice.Config`. `instances` is None if the key is
+    missing. `extra` is the data of `x-rcmanager:`, every scalar as spelled.
     """
 
     name: str
@@ -127,6 +132,7 @@ class Entry(Spanned, frozen=True):
     ready: Ready | None = None
     role: str = ""
     alive: Alive | None = None
+    listen: tuple[Text, ...] = ()
     endpoints: tuple[Pair, ...] = ()
     after: tuple[Text, ...] = ()
     enabled: bool = True
@@ -167,7 +173,8 @@ class Group(Spanned, frozen=True):
 
 class Deployment(Spanned, frozen=True):
     """One DDSL document. `includes` are the paths without a name: the entries of those documents count as entries of
-    this one. `extra` is the plain data of `x-rcmanager:`. `ports` is the range of default TCP ports."""
+    this one. `extra` is the plain data of `x-rcmanager:`. `ports` is the range of default TCP ports.
+    `control` is TOKEN or OPEN, `security` TLS or PLAIN; both '' if they are not set."""
 
     name: str
     path: str
@@ -180,6 +187,10 @@ class Deployment(Spanned, frozen=True):
     extra: tuple[tuple[str, object], ...] = ()
     doc: str = ""
     ports: PortRange | None = None
+    control: str = ""
+    security: str = ""
+    control_span: Span = Span("")
+    security_span: Span = Span("")
 
     @property
     def all_includes(self) -> tuple[Text, ...]:

@@ -9,7 +9,7 @@ from robocomp_yaml.source.tree import Node, parse
 
 
 def names_of(analysis: Analysis) -> Names:
-    trees: dict[str, Node | None] = dict(analysis.linker.documents.trees())
+    trees: dict[str, Node | None] = {one.path: one.tree for one in analysis.documents.values()}
     for path in analysis.discovered.scripts:
         raw, _ = analysis.disk.read(path)
         text = decode(path, raw)[0] if raw is not None else None

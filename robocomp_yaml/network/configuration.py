@@ -21,7 +21,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.flat_configs import FlatConfig
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues, Program
 from robocomp_yaml.network.configuration_base import ConfigurationBase
-from robocomp_yaml.network.draft import Draft, LocatedText, listening
+from robocomp_yaml.network.draft import Draft, LocatedText
 from robocomp_yaml.network.settings import ProcessSettings
 from robocomp_yaml.parameters.editing.settings import ShownSetting, run_time_defaults
 from robocomp_yaml.parameters.json_schema import EFFECTIVE, fits
@@ -251,7 +251,7 @@ class Configuration(msgspec.Struct):
         component, given = draft.instance.component, {adapter.adapter for adapter in draft.subscribers}
         for port in component.subscribes if component else ():
             if f"{port.name}Topic" not in given:
-                yield f"{port.name}Topic", LocatedText(listening(draft.host, 0), draft.span)
+                yield f"{port.name}Topic", LocatedText(draft.listening.endpoints(0), draft.span)
 
     def _proxy(self, name: str, given: LocatedText) -> tuple[Scalar, Node]:
         """A proxy, under the property that the base has for it."""
@@ -285,6 +285,10 @@ class Configuration(msgspec.Struct):
         if draft.manager is not None:
             made.append((*connections.MANAGER, draft.manager))
         made += [(name, name, given) for name, given in draft.topics.items()]
+        published = {
+            f"{one.adapter}.PublishedEndpoints": LocatedText(one.published, one.span) for one in draft.adapters
+        }
+        made += [(key, key, given) for key, given in published.items() if given.text]
         lines = {classic: Property(classic, given.text, given.span) for classic, _, given in made}
         if dialect != CLASSIC:
             lines |= {other: Property(other, _quoted(given.text), given.span) for _, other, given in made}

@@ -15,9 +15,9 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedStorm
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.model.deployment import PROGRAM
+from robocomp_yaml.model.deployment import PLAIN, PROGRAM, TOKEN
 from robocomp_yaml.model.located import Text
-from robocomp_yaml.network import liveness, processes
+from robocomp_yaml.network import liveness, processes, security
 from robocomp_yaml.network.assigned_ports import assign_ports
 from robocomp_yaml.network.configuration import Configuration
 from robocomp_yaml.network.connections import Connections
@@ -50,6 +50,7 @@ def derive(linked: LinkedDeployment, program: Program, addresses: Addresses) -> 
     topics.resolve()
     diagnostics = [*port_faults, *endpoint_faults(drafts), *liveness.faults(drafts), *connections.diagnostics]
     diagnostics += topics.diagnostics
+    diagnostics += security.faults(drafts, [*connections.connections, *topics.connections])
     needs = [*_explicit(drafts, gates), *connections.needs, *gates.needs, *topics.needs]
     enabled = {draft.name for draft in drafts.drafts.values() if draft.instance.entry.enabled}
     needed = {need.target for need in needs if need.source in enabled}
@@ -82,6 +83,8 @@ def derive(linked: LinkedDeployment, program: Program, addresses: Addresses) -> 
         made,
         (*connections.connections, *gates.connections, *topics.connections),
         tuple(order),
+        deployment.control or TOKEN,
+        deployment.security or PLAIN,
         deployment.extra,
         settings,
     )

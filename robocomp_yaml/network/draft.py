@@ -19,7 +19,8 @@ from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, Linked
 from robocomp_yaml.link.program import Port
 from robocomp_yaml.model import deployment as model
 from robocomp_yaml.network.configuration_base import ConfigurationBase, base_of
-from robocomp_yaml.network.network import LOOPBACK, Endpoint, NetworkHost, is_loopback
+from robocomp_yaml.network.listening import SSL, TCP, Listening, listening
+from robocomp_yaml.network.network import LOOPBACK, Endpoint, NetworkHost
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.ice_endpoint import IceEndpoint, parse_endpoint, spelled_host
 from robocomp_yaml.source.ice_options import BLANKS, InvalidIceText
@@ -28,15 +29,6 @@ MANAGER, PUBLISH = "TopicManager", "Publish"
 STORM_INSTANCE = "IceStorm"
 
 _ANY_TEXT = "for any other text to a program that does not use Ice, use `args:` or `env:`"
-
-
-def listening(host: NetworkHost, number: int) -> str:
-    """The endpoint of an adapter: on a host that others reach, on all network interfaces. An endpoint never contains
-    `localhost`, which can mean ::1: a machine without IPv6 cannot listen on that."""
-    if not is_loopback(host.address):
-        return f"tcp -p {number}"
-    address = "127.0.0.1" if host.address == LOOPBACK else host.address
-    return f"tcp -h {spelled_host(address)} -p {number}"
 
 
 class Offer(msgspec.Struct, eq=False):
@@ -62,12 +54,28 @@ class Offer(msgspec.Struct, eq=False):
     @property
     def endpoint(self) -> IceEndpoint | None:
         """None if the endpoint in the document is not valid."""
-        return parse_endpoint(self.explicit) if self.explicit else IceEndpoint(self.number)
+        listens = self.owner.listening
+        found = IceEndpoint(self.number, self.owner.protocol)
+        if self.explicit:
+            written, read = parse_endpoint(self.explicit), parse_endpoint(self.text)
+            if written is None or read is None:
+                return None
+            found = replace(written, protocol=read.protocol)
+        elsewhere = "" if listens.reached_at == listens.own else listens.reached_at
+        return replace(found, host=found.host or elsewhere)
 
     @property
     def text(self) -> str:
         """The value of the adapter's property."""
-        return self.explicit.strip(BLANKS) or listening(self.owner.host, self.number)
+        if not self.explicit:
+            return self.owner.listening.endpoints(self.number)
+        is_ours = self.owner.instance.component is not None
+        return self.owner.listening.completed(self.explicit) if is_ours else self.explicit.strip(BLANKS)
+
+    @property
+    def published(self) -> str:
+        """The value of the property with the endpoints that others get, '' if those are the endpoints themselves."""
+        return "" if self.explicit else self.owner.listening.published(self.number)
 
     @property
     def proxy(self) -> str:
@@ -103,7 +111,8 @@ class Draft(msgspec.Struct, eq=False):
     """An instance that becomes a process. `aliases` are the entries that are second names of it. `subscribers` are the
     adapters that receive events of topics, if the document sets their ports; no other process needs these. For its
     configuration it has `proxies` (by the proxy's name), `topics` (full names by the port's name), and `manager` (the
-    proxy of its IceStorm). `base` is the base of that configuration, and `own` what the base says about addresses."""
+    proxy of its IceStorm). `base` is the base of that configuration, and `own` what the base says about addresses.
+    `protocol` is that of its endpoints."""
 
     instance: LinkedInstance
     host: NetworkHost
@@ -115,6 +124,11 @@ class Draft(msgspec.Struct, eq=False):
     manager: LocatedText | None = None
     base: ConfigurationBase = msgspec.field(default_factory=ConfigurationBase)
     own: OwnAddresses = msgspec.field(default_factory=OwnAddresses)
+    protocol: str = TCP
+
+    @property
+    def listening(self) -> Listening:
+        return listening(self.host, tuple(one.text for one in self.instance.entry.listen), self.protocol)
 
     @property
     def name(self) -> str:
@@ -136,6 +150,11 @@ class StormDraft(msgspec.Struct, eq=False):
     host: NetworkHost
     manager: int = 0
     publish: int = 0
+    protocol: str = TCP
+
+    @property
+    def listening(self) -> Listening:
+        return listening(self.host, protocol=self.protocol)
 
     @property
     def name(self) -> str:
@@ -147,7 +166,8 @@ class StormDraft(msgspec.Struct, eq=False):
 
     @property
     def proxy(self) -> str:
-        return f"{STORM_INSTANCE}/{MANAGER}:tcp -h {spelled_host(self.host.address)} -p {self.manager}"
+        address = self.listening.reached_at if self.host.listen else self.host.address
+        return f"{STORM_INSTANCE}/{MANAGER}:{self.protocol} -h {spelled_host(address)} -p {self.manager}"
 
     def endpoints(self) -> tuple[Endpoint, Endpoint]:
         storm = self.linked.storm
@@ -155,12 +175,18 @@ class StormDraft(msgspec.Struct, eq=False):
             MANAGER,
             f"{STORM_INSTANCE}/{MANAGER}",
             self.manager,
-            listening(self.host, self.manager),
+            self.listening.endpoints(self.manager),
+            self.protocol,
             module="IceStorm",
             span=storm.port_span if storm.port else storm.span,
         )
         span = storm.publish_span if storm.publish else storm.span
-        return manager, Endpoint(PUBLISH, "", self.publish, listening(self.host, self.publish), span=span)
+        publish = self.listening.endpoints(self.publish)
+        return manager, Endpoint(PUBLISH, "", self.publish, publish, self.protocol, span=span)
+
+    def published(self) -> tuple[str, str]:
+        """The endpoints that others get, if those are not the endpoints."""
+        return self.listening.published(self.manager), self.listening.published(self.publish)
 
 
 class Drafts(msgspec.Struct):
@@ -172,6 +198,11 @@ class Drafts(msgspec.Struct):
     drafts: dict[LinkedInstance, Draft] = {}
     storms: dict[LinkedStorm, StormDraft] = {}
     complete: bool = True
+
+    @property
+    def protocol(self) -> str:
+        """That of what rcyaml's own programs serve."""
+        return SSL if self.linked.deployment.security == model.TLS else TCP
 
     def of(self, instance: LinkedInstance) -> Draft | None:
         """The draft of an instance's process, also for a second name. None if it has no draft."""
@@ -185,7 +216,7 @@ def drafts_of(linked: LinkedDeployment, disk: Disk) -> Drafts:
     for storm in linked.storms.values():
         if linked.storm_instead(storm) is not storm:
             continue
-        result.storms[storm] = StormDraft(storm, _placed(result.hosts, storm.host))
+        result.storms[storm] = StormDraft(storm, _placed(result.hosts, storm.host), protocol=result.protocol)
         result.complete &= not storm.broken
     for instance in linked.instances.values():
         is_known = instance.component is not None or instance.entry.kind != model.COMPONENT
@@ -194,6 +225,8 @@ def drafts_of(linked: LinkedDeployment, disk: Disk) -> Drafts:
             base = base_of(instance, disk)
             own = base.addresses(instance.component) if instance.component is not None else OwnAddresses()
             draft = result.drafts[instance] = Draft(instance, _placed(result.hosts, instance.host), base=base, own=own)
+            if instance.component is not None and instance.component.component.language.target.has_tls:
+                draft.protocol = result.protocol
             draft.offers, draft.subscribers = list(_offers(draft)), list(_subscribers(draft))
             result.complete &= instance.component is None or not instance.component.broken
     for instance in linked.instances.values():
@@ -210,7 +243,9 @@ def is_broken(group: LinkedGroup) -> bool:
 
 
 def _host(host: model.Host) -> NetworkHost:
-    return NetworkHost(host.name, host.address.text, host.user, host.address.span)
+    return NetworkHost(
+        host.name, host.address.text, host.user, tuple(one.text for one in host.listen), host.address.span
+    )
 
 
 def _placed(hosts: dict[str, NetworkHost], host: model.Host | None) -> NetworkHost:

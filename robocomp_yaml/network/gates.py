@@ -46,7 +46,9 @@ class Gates(msgspec.Struct):
             entry = model.Entry(name, model.PROGRAM, python, config_as=how, enabled=enabled, span=span)
             folder = first.instance.folder
             instance = LinkedInstance(name, entry, group.document, group.scope, folder=folder, groups=(group,))
-            draft = self._of[group] = self.drafts.drafts[instance] = Draft(instance, first.host)
+            draft = self._of[group] = self.drafts.drafts[instance] = Draft(
+                instance, first.host, protocol=self.drafts.protocol
+            )
             for served, owner in ruled:
                 interface = next((o.interface for o in owner.offers if o.adapter == served.adapter), served.name)
                 draft.offers.append(Offer(draft, served.name, interface, _span(served), served.port))

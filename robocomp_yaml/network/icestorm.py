@@ -12,10 +12,11 @@ from robocomp_yaml.source.properties import entry_line
 
 def process(
     name: str, host: str, endpoints: tuple[Endpoint, Endpoint], proxy: str, folder: str, span: Span,
-    *, enabled: bool = True,
+    *, enabled: bool = True, published: tuple[str, str] = ("", ""),
 ) -> Process:  # fmt: skip
-    """The process of an IceStorm, in icebox. `endpoints` are those of the topic manager and of publishers, `proxy` is
-    that of the topic manager. Its database is below `folder`, the deployment's own folder."""
+    """The process of an IceStorm, in icebox. `endpoints` are those of the topic manager and of publishers, `published`
+    what others get instead of them, if that is not ''; `proxy` is that of the topic
+    manager. Its database is below `folder`, the deployment's own folder."""
     database = f"{folder}/state/{name}"
     manager, publish = endpoints
     return Process(
@@ -24,7 +25,7 @@ def process(
         ("icebox", f"--Ice.Config={CONFIG}"),
         "/",  # its paths are absolute
         ICESTORM,
-        config=ConfigFile(f"config/{name}", _settings(manager.text, publish.text, database)),
+        config=ConfigFile(f"config/{name}", _settings(manager.text, publish.text, database, published)),
         endpoints=endpoints,
         ready=Readiness(pings=(proxy,)),
         folders=(database,),
@@ -41,7 +42,7 @@ def on_this_machine(name: str, port: int, folder: str, span: Span) -> Process:
     return process(name, LOOPBACK, (manager, publish), f"{STORM_INSTANCE}/{MANAGER}:{endpoint}", folder, span)
 
 
-def _settings(manager: str, publish: str, database: str) -> str:
+def _settings(manager: str, publish: str, database: str, published: tuple[str, str]) -> str:
     """The configuration of an IceStorm with these endpoints, and its database in this folder."""
     made = {
         f"IceBox.Service.{STORM_INSTANCE}": "IceStormService,37:createIceStorm",
@@ -53,4 +54,6 @@ def _settings(manager: str, publish: str, database: str) -> str:
         f"{STORM_INSTANCE}.LMDB.MapSize": "10",
         "Ice.MessageSizeMax": ICE_DEFAULTS["Ice.MessageSizeMax"],  # what a component can send, it can pass on
     }
+    for adapter, text in zip((MANAGER, PUBLISH), published, strict=True):
+        made |= {f"{STORM_INSTANCE}.{adapter}.PublishedEndpoints": text} if text else {}
     return "".join(f"{entry_line(key, value)}\n" for key, value in made.items())

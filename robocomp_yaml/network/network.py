@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.model.deployment import CONFIG
+from robocomp_yaml.model.deployment import CONFIG, PLAIN, TLS, TOKEN
 from robocomp_yaml.model.located import Located
 
 if TYPE_CHECKING:
@@ -35,11 +35,12 @@ def is_loopback(address: str) -> bool:
 
 class NetworkHost(Located, frozen=True):
     """A machine. `address` is a name or an IP address, LOOPBACK if the document has no hosts. `user` is the user for
-    ssh, '' for the operator's own name."""
+    ssh, '' for the operator's own name. `listen` says where its processes listen, () for its own address."""
 
     name: str
     address: str = LOOPBACK
     user: str = ""
+    listen: tuple[str, ...] = ()
     span: Span = Span("")
 
 
@@ -123,13 +124,28 @@ class Liveness(msgspec.Struct, frozen=True):
 AUTO, FOREVER = -1.0, 0.0
 
 
+PEM = "@tls"
+"""The end of the name of the file with a process's key and certificates. No process has such a name."""
+
+
 class ConfigFile(msgspec.Struct, frozen=True):
     """The configuration of one process. `path` is relative to the deployment's own folder, and below `config/`. The
-    file may contain secrets: its mode is 0600. `secrets` are the names of its secret properties."""
+    file may contain secrets: its mode is 0600. `secrets` are the names of its secret properties. `pem` are the key and
+    the certificates of a process that talks over TLS, in a file beside it."""
 
     path: str
     text: str
     secrets: tuple[str, ...] = ()
+    pem: str = ""
+
+    @property
+    def files(self) -> dict[str, str]:
+        """The texts of all files, by their paths."""
+        return {self.path: self.text, **({self.pem_path: self.pem} if self.pem else {})}
+
+    @property
+    def pem_path(self) -> str:
+        return f"{self.path}{PEM}"
 
 
 class Process(Located, frozen=True, forbid_unknown_fields=True):
@@ -140,8 +156,8 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
     must be ready before this one starts; if one of them fails that is also in `optional`, this one starts anyway.
     `aliases` are further names of the process. When one of the `watched` files changes (executable, code), the process
     is restarted. `is_ice` is False for a program that does not use Ice. `folders` must exist before it starts. `role`
-    is SERVER or TASK, '' if the document does not set it. `settled` are the least seconds that a process without a
-    condition must run before it is ready. It does not start if the proxies of `unless`
+    is SERVER or TASK, '' if the document does not set it; it talks over TLS if it `is_secured`. `settled` are the least
+    seconds that a process without a condition must run before it is ready. It does not start if the proxies of `unless`
     answer before: then another one is present.
     """
 
@@ -165,6 +181,7 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
     enabled: bool = True
     is_ice: bool = True
     role: str = ""
+    is_secured: bool = False
     settled: float | None = None
     unless: tuple[str, ...] = ()
     secrets: tuple[str, ...] = ()
@@ -178,6 +195,11 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
     extra: tuple[tuple[str, object], ...] = ()
     """What only exports need: the entries of `x-rcmanager`; those of its aliases are below `aliases`."""
     span: Span = Span("")
+
+    @property
+    def pem(self) -> str:
+        """What a client needs to call it over TLS: a key and certificates; '' if it is plain, or not prepared."""
+        return self.config.pem if self.config else ""
 
     @property
     def is_server(self) -> bool:
@@ -216,7 +238,7 @@ class Connection(Located, frozen=True):
 class Network(msgspec.Struct, frozen=True):
     """A deployment's processes by name, in the document's order. `path` is its document. `folder` is the deployment's
     own folder, with its configurations, logs and state. `order` are the enabled processes in waves: each process is in
-    the first wave after the waves of all that it is `after`."""
+    the first wave after the waves of all that it is `after`. `control` is TOKEN or OPEN, `security` TLS or PLAIN."""
 
     name: str
     path: str
@@ -225,6 +247,8 @@ class Network(msgspec.Struct, frozen=True):
     processes: Mapping[str, Process] = {}
     connections: tuple[Connection, ...] = ()
     order: tuple[tuple[str, ...], ...] = ()
+    control: str = TOKEN
+    security: str = PLAIN
     extra: tuple[tuple[str, object], ...] = ()
     """What only exports need of the document: the entries of its `x-rcmanager`."""
     settings: Mapping[str, Callable[[], list[ShownSetting]]] = {}
@@ -249,6 +273,10 @@ class Network(msgspec.Struct, frozen=True):
         """The location of the process of that name; the document if it has none."""
         process = self.processes.get(name)
         return process.span if process and process.span.file else Span(self.path)
+
+    @property
+    def is_tls(self) -> bool:
+        return self.security == TLS
 
     def address(self, process: Process) -> str:
         return self.hosts[process.host].address

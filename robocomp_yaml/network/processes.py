@@ -14,6 +14,7 @@ from robocomp_yaml.model import deployment as model
 from robocomp_yaml.model.deployment import CONFIG
 from robocomp_yaml.network import icestorm, liveness
 from robocomp_yaml.network.draft import Draft, StormDraft
+from robocomp_yaml.network.listening import SSL
 from robocomp_yaml.network.network import (
     COMPONENT,
     PROGRAM,
@@ -62,6 +63,7 @@ def of_draft(
         enabled=entry.enabled,
         is_ice=component is not None or bool(draft.offers or entry.config_as or entry.connect),
         role=entry.role,
+        is_secured=draft.protocol == SSL,
         settled=_settled(entry.ready, ready),
         secrets=tuple(sorted(set(secret_names(component.parameters.parameters.root)))) if component is not None else (),
         component=component.component.name if component is not None else "",
@@ -182,5 +184,8 @@ def _code(folder: str, component: LinkedComponent | None, known: dict[str, tuple
 def of_storm(storm: StormDraft, folder: str, *, enabled: bool) -> Process:
     """The process of an IceStorm. It is not `enabled` if no enabled process needs it."""
     host = storm.host.name
-    made = icestorm.process(storm.name, host, storm.endpoints(), storm.proxy, folder, storm.span, enabled=enabled)
-    return replace(made, unless=(storm.proxy,) if storm.linked.storm.shared else ())
+    made = icestorm.process(
+        storm.name, host, storm.endpoints(), storm.proxy, folder, storm.span, enabled=enabled,
+        published=storm.published(),
+    )  # fmt: skip
+    return replace(made, is_secured=storm.protocol == SSL, unless=(storm.proxy,) if storm.linked.storm.shared else ())

@@ -24,6 +24,30 @@ MANAGER = ("TopicManager.Proxy", "Proxies.TopicManager")
 """The proxy to IceStorm's topic manager."""
 
 
+TOKEN, CONTROL, OPEN = "RcYaml.Token", "RcYaml.Control", "open"
+"""The token that allows to control a component, and the property that opens that to everybody, with its value."""
+
+TOKEN_CONTEXT = "rcyaml.token"
+"""The key of the token in the context of a call."""
+
+OWN = ("Ice.", "IceSSL.", "RcYaml.")
+"""The beginnings of properties that are no parameters."""
+
+NO_TOKEN = (
+    "this component is controlled with the token of its deployment, which `rcyaml param`, `rcyaml call` and "
+    "`rcyaml deploy` send for the user who started it; `control: open` in the deployment's document allows everybody"
+)
+PLAIN = (
+    "it comes from another host ({caller}), which needs TLS to control this component: call it on its own host, or "
+    "write `security: tls` in the deployment's document; `control: open` there allows everybody"
+)
+ELSEWHERE = (
+    "it comes from another host ({caller}), and this component runs outside of a deployment, so that only its own "
+    "machine controls it; `--RcYaml.Control=open` on its command line allows everybody"
+)
+"""Why a call is rejected. The run times of other languages have the same texts."""
+
+
 def endpoints(adapter: str) -> tuple[str, str]:
     return f"{adapter}.Endpoints", f"Endpoints.{adapter}"
 

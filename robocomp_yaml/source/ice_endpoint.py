@@ -16,6 +16,7 @@ from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source.ice_options import BLANKS, PROTOCOLS, InvalidIceText, after_blanks, words_of
 
 _EVERYWHERE = ("*", "0.0.0.0", "::")
+_SECURED = {"tcp": "ssl", "default": "ssl", "ws": "wss"}
 _USUAL = ("tcp", "ssl", "udp", "ws", "wss", "default")  # suggested for an unknown protocol
 
 
@@ -53,6 +54,27 @@ def parse_endpoints(text: str) -> tuple[IceEndpoint, ...]:
         endpoints.append(read_endpoint(text, start, end, for_adapter=True))
         end += 1
     return tuple(endpoints)
+
+
+def completed(text: str, addresses: tuple[str, ...], protocol: str) -> str:
+    """Endpoints of an adapter, in which each that names no host gets these `addresses`; with none of them it listens on
+    all. With the `protocol` ssl, those over TCP become secure. Unchanged if the text is not valid."""
+    try:
+        parse_endpoints(text)
+    except InvalidIceText:
+        return text.strip(BLANKS)
+    made: list[str] = []
+    end = 0
+    while end < len(text) and after_blanks(text, end) < len(text):
+        start = after_blanks(text, end)
+        end = _next_colon(text, start)
+        kind, *options = words_of(text, start, end)
+        name = _SECURED.get(kind.text, kind.text) if protocol == "ssl" else kind.text
+        rest = text[kind.end : end].strip(BLANKS)
+        hosts = [""] if any(one.text == "-h" for one in options) or not addresses else addresses
+        made += [" ".join(filter(None, (name, f"-h {spelled_host(one)}" if one else "", rest))) for one in hosts]
+        end += 1
+    return ":".join(made)
 
 
 def fixed_endpoint(text: str) -> IceEndpoint:

@@ -11,6 +11,9 @@ from robocomp_yaml.source.tree import Mapping, parse
 
 MODULE = "RoboCompCommonBehavior"
 IDENTITY = "commonbehavior"
+CONTROLS = frozenset(("setPeriod", "killYourSelf", "setParameterList", "reloadConfig"))
+"""The operations that change something, which components accept only from who may control them."""
+
 _PATH = "CommonBehavior.idsl.yaml"
 _TEXT = f"""\
 module: {MODULE}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from typing import Any
 
@@ -59,11 +59,15 @@ class IceClient(msgspec.Struct):
         except Ice.Exception as error:
             raise NotConnected(error) from None
 
-    def call(self, proxy: Any, operation: Operation, arguments: tuple[Any, ...], limit: float) -> Any:
-        """What the operation returns within so many seconds. Raises NotConnected, OutOfTime, and exceptions of Ice."""
+    def call(
+        self, proxy: Any, operation: Operation, arguments: tuple[Any, ...], limit: float,
+        context: Mapping[str, str] | None = None,
+    ) -> Any:  # fmt: skip
+        """What the operation returns within so many seconds; `context` is Ice's, which goes with the call. Raises
+        NotConnected, OutOfTime, and exceptions of Ice."""
         end = time.monotonic() + limit
         self.connect(proxy, limit)
-        return self.result(operation.ice.invokeAsync(proxy, (arguments, None)), end)
+        return self.result(operation.ice.invokeAsync(proxy, (arguments, dict(context) if context else None)), end)
 
     def result(self, future: Any, end: float) -> Any:
         """What a future returns until `end`, by the monotonic clock. Unlike Ice's own calls, waiting for it can be
@@ -105,13 +109,16 @@ def proxy_of(communicator: Any, text: str) -> Any:
 
 
 @contextmanager
-def client(config: str = "", limit: float = 10.0) -> Iterator[IceClient]:
+def client(
+    config: str = "", limit: float = 10.0, properties: Mapping[str, str] | None = None
+) -> Iterator[IceClient]:  # fmt: skip
     """A client while the context lasts. `config` is a file of Ice properties, such as those of TLS; `limit` are the
-    seconds that connecting may take. Raises Refused if Ice cannot be initialized with it."""
+    seconds that connecting may take; `properties` are further ones, which the file overrides. Raises Refused if
+    Ice cannot be initialized with it."""
     data = Ice.InitializationData()
     try:
         data.properties = Ice.createProperties([f"--Ice.Config={config}"] if config else [])
-        for name, value in _PROPERTIES.items():
+        for name, value in {**_PROPERTIES, **(properties or {})}.items():
             if not data.properties.getProperty(name):
                 data.properties.setProperty(name, value)
         data.properties.setProperty("Ice.Override.ConnectTimeout", str(max(1, round(limit * 1000))))

@@ -7,7 +7,10 @@ from __future__ import annotations
 
 import asyncio
 import struct
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from ssl import SSLContext
 
 _MAGIC = b"IceP\x01\x00\x01\x00"  # protocol 1.0, encoding 1.0
 _REQUEST, _REPLY, _VALIDATE, _CLOSE = 0, 2, 3, 4
@@ -64,10 +67,11 @@ class Connection:
         self._reader, self._writer = reader, writer
 
     @classmethod
-    async def open(cls, host: str, port: int) -> Connection:
-        """Raises ConnectionError, or another OSError, if no Ice server listens there."""
+    async def open(cls, host: str, port: int, tls: SSLContext | None = None) -> Connection:
+        """Raises ConnectionError, or another OSError, if no Ice server listens there, or not one with a certificate
+        that is valid for `tls`."""
         # To resolve a name takes a thread, which costs more than a call.
-        connection = cls(*await asyncio.open_connection("127.0.0.1" if host == "localhost" else host, port))
+        connection = cls(*await asyncio.open_connection("127.0.0.1" if host == "localhost" else host, port, ssl=tls))
         try:
             if await connection._read() != (_VALIDATE, b""):
                 raise ConnectionError("the other end is not Ice")
@@ -103,12 +107,12 @@ class Connection:
             raise ConnectionError("the other end closed the connection") from error
 
 
-async def ask(host: str, port: int, message: bytes, within: float) -> Reply | None:
+async def ask(host: str, port: int, message: bytes, within: float, tls: SSLContext | None = None) -> Reply | None:
     """The answer to the message of a call within so many seconds; None if there is none, whatever is at the other
     end."""
     try:
         async with asyncio.timeout(within):
-            connection = await Connection.open(host, port)
+            connection = await Connection.open(host, port, tls)
             try:
                 return await connection.answer(message)
             finally:

@@ -14,6 +14,9 @@ import Ice
 # name, identity, endpoint, proxy of the member, calls a second (or None), methods that may be called (or None)
 SERVED = ()
 
+# of Ice, for TLS
+PROPERTIES = {}
+
 ALWAYS = ("ice_ping", "ice_isA", "ice_id", "ice_ids")
 MOST_WAITING = 1000
 
@@ -89,6 +92,8 @@ def main():
     data = Ice.InitializationData()
     data.properties = Ice.createProperties(sys.argv)
     data.properties.setProperty("Ice.MessageSizeMax", "0")
+    for key, value in PROPERTIES.items():
+        data.properties.setProperty(key, value)
     communicator = Ice.initialize(data)
     for name in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
         signal.signal(name, lambda *_: communicator.shutdown())

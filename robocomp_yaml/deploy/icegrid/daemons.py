@@ -14,7 +14,7 @@ import shlex
 import signal
 import socket
 import subprocess
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 import msgspec
 
@@ -23,6 +23,7 @@ from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy.icegrid import settings
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry
 from robocomp_yaml.deploy.local.procfs import MARK
+from robocomp_yaml.deploy.own_address import own_address
 from robocomp_yaml.network.network import LOOPBACK, NetworkHost
 from robocomp_yaml.source.properties import entry_line
 
@@ -79,9 +80,9 @@ def last_words(folder: str) -> str:
         return ""
 
 
-def write_script(files: GridFiles, host: NetworkHost, registry: Registry) -> str:
-    """The path of the script that starts the host's node."""
-    address = "127.0.0.1" if host.address == LOOPBACK else host.address
+def write_script(files: GridFiles, host: NetworkHost, hosts: Collection[NetworkHost], registry: Registry) -> str:
+    """The path of the script that starts the node of a host, one of the `hosts`."""
+    address = "127.0.0.1" if host.address == LOOPBACK else own_address(host, hosts) or host.address
     who = f"{getpass.getuser()}@{socket.gethostname()}"
     facts = {
         "folder": files.folder,

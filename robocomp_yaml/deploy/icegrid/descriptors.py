@@ -73,6 +73,9 @@ def server(files: GridFiles, spec: ProcessSpec, user: str, number: int, *, is_lo
     elif process.config and not is_local:
         words.append(f"c{spec.config_path}")
         environment.append(f"RCYAML_CONFIG={encoded(process.config.text)}")
+    if process.config and process.config.pem and not is_local:
+        words.append(f"c{files.folder}/{process.config.pem_path}")
+        environment.append(f"RCYAML_PEM={encoded(process.config.pem)}")
     words += [f"={part}" for part in command]
     facts = _facts(
         process.name, "setpriv", ["--pdeathsig", "KILL", "--", "${node.data}/../run", *map(_literal, words)],
@@ -149,11 +152,12 @@ def restart_rule(process: Process, number: int) -> str:
 
 def alive_rule(process: Process) -> str:
     """How `run` asks a process whether it is alive, '' if it does not: times in milliseconds (the last one is the limit
-    for the first answer), host and port, and the message for `printf`."""
-    alive, asked = process.alive, liveness.question(process.alive)
+    for the first answer), host (after `tls:` if it is asked over TLS) and port, and the message for `printf`."""
+    alive, asked = process.alive, liveness.question(process.alive, is_secured=process.is_secured)
     if alive is None or asked is None:
         return ""
     host, port, question = asked
+    host = f"tls:{host}" if process.is_secured else host
     late = max(liveness.START, liveness.READY * process.ready.within)
     times = [alive.every, alive.within, alive.worker, late]
     every, within, worker, late_ms = (f"{1000 * time:.0f}" for time in times)

@@ -168,7 +168,7 @@ class IceGridEngine:
         hosts: there, `run` writes the configurations at the start."""
         self._has_staged = True
         near = [spec for spec in specs if is_local(spec.address)]
-        files = {spec.process.config.path: spec.process.config.text for spec in near if spec.process.config}
+        files = {path: text for spec in near for path, text in spec.config_files.items()}
         own_folder.stage(self._files.folder, files | {_RESERVE: " " * _RESERVED})
         sizes: dict[str, int] = {}
         asked: dict[str, ProcessSpec] = {}
@@ -207,8 +207,8 @@ class IceGridEngine:
                 else:
                     leftovers.note(self._files, old.process.host, spec.name)
         for spec in specs:
-            if spec.process.config and is_local(spec.address):
-                own_folder.put(self._files.folder, spec.process.config.path, spec.process.config.text)
+            for file, text in spec.config_files.items() if is_local(spec.address) else ():
+                own_folder.put(self._files.folder, file, text)
         with self._lock:
             self._specs.update({spec.name: spec for spec in specs})
             self._files.keep_specs(self._specs)
@@ -301,8 +301,8 @@ class IceGridEngine:
             leftovers.clean(self._reached(), host, own)
         for name, spec in gone.items():
             own_folder.remove(self._files.folder, f"state/icegrid/status/{name}")
-            if spec and spec.process.config:
-                own_folder.remove(self._files.folder, spec.process.config.path)
+            for file in spec.config_files if spec else ():
+                own_folder.remove(self._files.folder, file)
 
     async def lines(self, names: Sequence[str], last: int, follow: bool) -> AsyncGenerator[Line, None]:
         from robocomp_yaml.deploy.icegrid.grid import GridReader

@@ -18,6 +18,7 @@ import msgspec
 
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy.local.obstacles import is_local
+from robocomp_yaml.deploy.own_address import own_address, towards_address
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.network.network import NetworkHost, is_loopback
 
@@ -139,25 +140,15 @@ class GridFiles(msgspec.Struct, frozen=True):
 def registry_address(hosts: Iterable[NetworkHost]) -> str:
     """The address of this machine for all these hosts: a loopback address if all are this machine, else the address of
     its own entry, else the address from which it reaches the first of the others."""
-    others = [host.address for host in hosts if not is_local(host.address)]
+    every = list(hosts)
+    others = [host.address for host in every if not is_local(host.address)]
     if not others:
         return "127.0.0.1"
-    own = [host.address for host in hosts if host.address not in others and not is_loopback(host.address)]
-    return own[0] if own else _towards(others[0])
+    own = [host for host in every if host.address not in others and not is_loopback(host.address)]
+    return (own_address(own[0], every) if own else "") or towards_address(others[0])
 
 
 def free_port(address: str) -> int:
     with socket.create_server((address, 0)) as probe:
         port: int = probe.getsockname()[1]
         return port
-
-
-def _towards(address: str) -> str:
-    """The local address of the route to another address. Nothing is sent."""
-    try:
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-            probe.connect((address, 9))
-            found: str = probe.getsockname()[0]
-            return found
-    except OSError:
-        return "127.0.0.1"

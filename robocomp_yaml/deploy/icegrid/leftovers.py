@@ -15,6 +15,7 @@ from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy.icegrid import descriptors
 from robocomp_yaml.deploy.icegrid.grid import GridSession
 from robocomp_yaml.deploy.icegrid.grid_files import KEEPER, GridFiles
+from robocomp_yaml.network.network import PEM
 
 _FOLDER = "state/icegrid/left"
 _APPLICATION = f"{KEEPER}.left"
@@ -68,7 +69,7 @@ def clean(
     from robocomp_yaml.deploy.icegrid.grid import GridFailed
 
     own = f"{grid.files.root}/nodes/{host}"
-    paths = [f"{grid.files.folder}/config/{name}" for name in names]
+    paths = [f"{grid.files.folder}/config/{name}{end}" for name in names for end in ("", PEM)]
     paths += [f"{grid.files.folder}/config"] if everything else []
     paths += [f"{own}/key.pem", f"{own}/certificate.pem", f"{own}/settings"] if with_key else []
     if not paths:

@@ -104,7 +104,7 @@ def ensure_nodes(
     known = files.nodes()
     hosts = list(hosts)
     missing = [host for host in hosts if not grid.has_node(host.name)]
-    scripts = {host.name: daemons.write_script(files, host, registry) for host in missing}
+    scripts = {host.name: daemons.write_script(files, host, network.hosts.values(), registry) for host in missing}
     begin = time.monotonic()
     tried = _started(missing, scripts)
     by_hand = [host for host in missing if tried[host.name].reason and not known.get(host.name, True)]

@@ -10,6 +10,7 @@ from typing import NamedTuple
 from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.local.child import ChildProcess
 from robocomp_yaml.deploy.states import RUNNING
+from robocomp_yaml.wire import tls
 from robocomp_yaml.wire.protocol import OK, Connection, Reply
 
 AUTO, FOREVER = -1.0, 0.0
@@ -23,11 +24,13 @@ _LATE = 1.0  # seconds: if the supervisor itself was halted for so long, the oth
 
 
 class Question(NamedTuple):
-    """The address of an object, and the message of the call that it must answer."""
+    """The address of an object, and the message of the call that it must answer; `pem` is the file with the key and
+    the certificates for TLS, or ''."""
 
     host: str
     port: int
     message: bytes
+    pem: str = ""
 
 
 class AliveWatch:
@@ -94,7 +97,7 @@ class AliveWatch:
 
     async def _reply(self, within: float) -> Reply | None:
         """The answer within so many seconds. A connection that the other end has closed is opened again."""
-        host, port, message = self._question
+        host, port, message, pem = self._question
         try:
             async with asyncio.timeout(within):
                 if self._connection is not None:
@@ -102,7 +105,7 @@ class AliveWatch:
                         return await self._connection.answer(message)
                     except OSError:
                         self._close()
-                self._connection = await Connection.open(host, port)
+                self._connection = await Connection.open(host, port, tls.of_file(pem) if pem else None)
                 return await self._connection.answer(message)
         except (OSError, struct.error):
             self._close()

@@ -30,7 +30,7 @@ from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.network.network import Network
+from robocomp_yaml.network.network import PEM, Network
 
 
 class LocalEngine:
@@ -95,23 +95,23 @@ class LocalEngine:
         return found
 
     async def stage(self, specs: Sequence[ProcessSpec]) -> None:
-        configs = [spec.process.config for spec in specs if spec.process.config]
         self._has_staged = True
         with self._writing():
-            own_folder.stage(self._network.folder, {config.path: config.text for config in configs})
+            own_folder.stage(
+                self._network.folder, {path: text for spec in specs for path, text in spec.config_files.items()}
+            )
             for path in (path for spec in specs for path in spec.process.folders):
                 os.makedirs(path, mode=0o700, exist_ok=True)
 
     async def prepare(self, specs: Sequence[ProcessSpec]) -> None:
         with self._writing():
-            for config in (spec.process.config for spec in specs):
-                if config:
-                    own_folder.put(self._network.folder, config.path, config.text)
+            for file, text in ((file, text) for spec in specs for file, text in spec.config_files.items()):
+                own_folder.put(self._network.folder, file, text)
             for path in (path for spec in specs for path in spec.process.folders):
                 os.makedirs(path, mode=0o700, exist_ok=True)
         self._specs.update({spec.name: spec for spec in specs})
         policies = {spec.name: spec.process.restart_policy for spec in specs}
-        questions = {spec.name: asked for spec in specs if (asked := liveness.question(spec.process.alive))}
+        questions = {spec.name: asked for spec in specs if (asked := _question(spec))}
         await self._ask("", "prepare", specs=[spec.as_data() for spec in specs], policies=policies, questions=questions)
 
     @contextlib.contextmanager
@@ -134,8 +134,8 @@ class LocalEngine:
         running = await self.observe()
         await self._ask("", "forget", names=gone)
         for spec in (running[name].spec for name in gone if name in running):
-            if spec and spec.process.config:
-                own_folder.remove(self._network.folder, spec.process.config.path)
+            for file in spec.config_files if spec else ():
+                own_folder.remove(self._network.folder, file)
 
     async def lines(self, names: Sequence[str], last: int, follow: bool) -> AsyncGenerator[Line, None]:
         return merged([LogReader(self._network.folder, name) for name in names], last, follow)
@@ -185,6 +185,14 @@ class LocalEngine:
 
     def _folder_failed(self, path: str, reason: str) -> DeployFailed:
         return DeployFailed(deploying.FOLDER.at(Span(self._network.path), path=shown_path(path), reason=reason.lower()))
+
+
+def _question(spec: ProcessSpec) -> tuple[str | int, ...] | None:
+    """What the supervisor asks a process: host, port and message; for TLS, also the file with the certificates, which a
+    supervisor of an earlier version does not expect."""
+    process = spec.process
+    asked = liveness.question(process.alive, is_secured=process.is_secured)
+    return (*asked, *([f"{spec.config_path}{PEM}"] if process.is_secured else [])) if asked else None
 
 
 _DONE = {"start": "started", "stop": "stopped"}

@@ -169,8 +169,8 @@ class _Service:
         if not question and name in self.children:
             self.children[name].not_alive = ""
         if question:
-            host, port, message = question
-            asked = Question(host, port, bytes.fromhex(message))
+            host, port, message, *pem = question
+            asked = Question(host, port, bytes.fromhex(message), *pem)
             self._watches[name] = asyncio.create_task(AliveWatch(self.children[name], asked).run())
 
     async def do_start(self, request: Request) -> Request:

@@ -55,4 +55,5 @@ LANGUAGE = TargetLanguage(
     has_building=True,
     has_checks=True,
     warns_others=True,
+    has_tls=True,
 )

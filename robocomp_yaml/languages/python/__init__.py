@@ -38,4 +38,5 @@ LANGUAGE = TargetLanguage(
     has_building=True,
     suffixes=("py",),
     comment="#",
+    has_tls=True,
 )

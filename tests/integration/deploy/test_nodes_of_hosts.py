@@ -62,7 +62,7 @@ def ensure(files: GridFiles, monkeypatch: pytest.MonkeyPatch) -> Ensure:
 
         monkeypatch.setattr(start_up, "_start", start)
         monkeypatch.setattr(start_up, "until", until)
-        monkeypatch.setattr(daemons, "write_script", lambda files, host, registry: f"/{host.name}.sh")
+        monkeypatch.setattr(daemons, "write_script", lambda files, host, hosts, registry: f"/{host.name}.sh")
         any_grid: Any = grid
         return waited, start_up.ensure_nodes(any_grid, files, NETWORK, HOSTS)
 

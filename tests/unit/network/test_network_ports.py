@@ -46,7 +46,7 @@ def test_ports_by_name() -> None:
 def test_an_endpoint_in_the_syntax_of_ice() -> None:
     found = network(deployed('components: {a: {component: mouth, endpoints: {Mouth: "ssl -p 10007 -t 500"}}}\n'))
     (mouth, _) = found.processes["a"].endpoints
-    assert (mouth.text, mouth.port, mouth.protocol) == ("ssl -p 10007 -t 500", 10007, "ssl")
+    assert (mouth.text, mouth.port, mouth.protocol) == ("ssl -h 127.0.0.1 -p 10007 -t 500", 10007, "ssl")
     assert found.processes["a"].ready.pings[0] == "mouth:ssl -h localhost -p 10007"
 
 
@@ -88,7 +88,10 @@ def test_each_host_has_its_own_ports() -> None:
             "  b: {component: mouth, host: onboard, port: 10001}\n"
         )
     )
-    assert texts(found)["a.Mouth"] == texts(found)["b.Mouth"] == "tcp -p 10001"
+    assert (texts(found)["a.Mouth"], texts(found)["b.Mouth"]) == (
+        "tcp -h 10.0.0.3 -p 10001",
+        "tcp -h 10.0.0.2 -p 10001",
+    )
     assert found.processes["a"].ready.pings[0] == "mouth:tcp -h 10.0.0.3 -p 10001"
     assert found.hosts["head"].user == "robocomp" and found.is_distributed
 
@@ -98,8 +101,8 @@ def test_each_host_has_its_own_ports() -> None:
     [
         ("", "tcp -h 127.0.0.1 -p 10001", "tcp -h localhost -p 10001"),
         ("hosts: {here: 127.0.0.2}\n", "tcp -h 127.0.0.2 -p 10001", "tcp -h 127.0.0.2 -p 10001"),
-        ("hosts: {here: robot.local}\n", "tcp -p 10001", "tcp -h robot.local -p 10001"),
-        ('hosts: {here: "fd00::2"}\n', "tcp -p 10001", 'tcp -h "fd00::2" -p 10001'),
+        ("hosts: {here: robot.local}\n", "tcp -h robot.local -p 10001", "tcp -h robot.local -p 10001"),
+        ('hosts: {here: "fd00::2"}\n', 'tcp -h "fd00::2" -p 10001', 'tcp -h "fd00::2" -p 10001'),
     ],
 )
 def test_where_a_component_listens_and_is_reached(hosts: str, text: str, proxy: str) -> None:

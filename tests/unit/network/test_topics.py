@@ -96,7 +96,7 @@ def test_the_storm_of_the_own_host() -> None:
     text = "hosts: {l: 10.0.0.2, r: 10.0.0.3}\nservices: {a: {icestorm: {host: l}}, b: {icestorm: {host: r}}}\n"
     found = network(deployed(text + "components: {ears: {component: ears, host: r}}\n", ears=EARS))
     assert lines(found) == {("ears", "b", "Heard", True)}
-    assert found.processes["b"].endpoints[0].text == "tcp -p 9999"
+    assert found.processes["b"].endpoints[0].text == "tcp -h 10.0.0.3 -p 9999"
 
 
 def test_a_topic_without_a_publisher() -> None:

@@ -148,7 +148,7 @@ void Application::fail(const std::string& why)
 void Application::start()
 {
     const auto behavior = std::make_shared<CommonBehavior>(
-        *worker_, worker_->store_, commandLine_, log_, shutdown_);
+        *worker_, worker_->store_, settings_, commandLine_, log_, shutdown_);
     const auto facet = std::make_shared<Facet>(log_.name(), interfaces_, *worker_, vitals_);
     services_.implementIfConfigured("CommonBehavior", "commonbehavior", behavior, facet);
     warnOfProperties(worker_->store_, settings_, log_);

@@ -32,8 +32,14 @@ Ice::PropertyDict liveProperties(const Ice::Current& current)
 }
 
 CommonBehavior::CommonBehavior(
-    Worker& worker, Store& store, const CommandLine& commandLine, const Log& log, Shutdown& shutdown)
-    : worker_(worker), store_(store), commandLine_(commandLine), log_(log), shutdown_(shutdown)
+    Worker& worker, Store& store, const Settings& settings, const CommandLine& commandLine, const Log& log,
+    Shutdown& shutdown)
+    : worker_(worker),
+      store_(store),
+      commandLine_(commandLine),
+      log_(log),
+      shutdown_(shutdown),
+      control_(settings, log)
 {
 }
 
@@ -47,8 +53,9 @@ int CommonBehavior::getPeriod(const Ice::Current&)
     return worker_.getPeriod();
 }
 
-void CommonBehavior::setPeriod(int period, const Ice::Current&)
+void CommonBehavior::setPeriod(int period, const Ice::Current& current)
 {
+    control_.require(current);
     try
     {
         worker_.setPeriod(period);
@@ -67,8 +74,9 @@ int CommonBehavior::timeAwake(const Ice::Current&)
     return static_cast<int>(std::min<milliseconds::rep>(awake, std::numeric_limits<int>::max()));
 }
 
-void CommonBehavior::killYourSelf(const Ice::Current&)
+void CommonBehavior::killYourSelf(const Ice::Current& current)
 {
+    control_.require(current);
     log_.info("stop requested through CommonBehavior");
     shutdown_.request();
 }
@@ -93,6 +101,7 @@ ParameterList CommonBehavior::getParameterList(const Ice::Current& current)
 
 void CommonBehavior::setParameterList(ParameterList parameters, const Ice::Current& current)
 {
+    control_.require(current);
     const auto live = liveProperties(current);
     const auto others = store_.others();
     const auto before = store_.entries();
@@ -134,8 +143,9 @@ void CommonBehavior::setParameterList(ParameterList parameters, const Ice::Curre
     log_.info("parameters changed by setParameterList: " + (changed.empty() ? "none" : changed));
 }
 
-void CommonBehavior::reloadConfig(const Ice::Current&)
+void CommonBehavior::reloadConfig(const Ice::Current& current)
 {
+    control_.require(current);
     try
     {
         loadParameters(store_, Settings(commandLine_));

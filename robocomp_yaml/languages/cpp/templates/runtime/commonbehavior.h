@@ -2,6 +2,7 @@
 #ifndef RCYAML_RUNTIME_COMMONBEHAVIOR_H
 #define RCYAML_RUNTIME_COMMONBEHAVIOR_H
 
+#include "control.h"
 #include "log.h"
 #include "settings.h"
 #include "shutdown.h"
@@ -19,22 +20,24 @@ class Store;
 class Worker;
 
 /// RoboComp's interface CommonBehavior, through which tools query and control any component. It is served from the
-/// start, while the component waits for others.
+/// start, while the component waits for others. Operations that change something require the right to control the
+/// component.
 class CommonBehavior : public RoboCompCommonBehavior::CommonBehavior
 {
 public:
     CommonBehavior(
-        Worker& worker, Store& store, const CommandLine& commandLine, const Log& log, Shutdown& shutdown);
+        Worker& worker, Store& store, const Settings& settings, const CommandLine& commandLine, const Log& log,
+        Shutdown& shutdown);
 
     void setRunning();
 
     int getPeriod(const Ice::Current&) override;
-    void setPeriod(int period, const Ice::Current&) override;
+    void setPeriod(int period, const Ice::Current& current) override;
 
     /// The uptime in milliseconds.
     int timeAwake(const Ice::Current&) override;
 
-    void killYourSelf(const Ice::Current&) override;
+    void killYourSelf(const Ice::Current& current) override;
 
     /// The parameters by their dotted paths, and the other properties, which are read-only.
     RoboCompCommonBehavior::ParameterList getParameterList(const Ice::Current& current) override;
@@ -43,7 +46,7 @@ public:
     void setParameterList(RoboCompCommonBehavior::ParameterList parameters, const Ice::Current& current) override;
 
     /// Reads the config again. All changes take effect, or none of them and the error is logged.
-    void reloadConfig(const Ice::Current&) override;
+    void reloadConfig(const Ice::Current& current) override;
 
     RoboCompCommonBehavior::State getState(const Ice::Current&) override;
 
@@ -53,6 +56,7 @@ private:
     const CommandLine& commandLine_;
     const Log& log_;
     Shutdown& shutdown_;
+    Control control_;
     const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
     std::atomic<bool> running_{false};
 };

@@ -144,10 +144,12 @@ std::string Settings::required(const std::string& what, Keys keys) const
 
 std::map<std::string, std::string> Settings::parameters() const
 {
+    const auto isOwn = [](const std::string& key)
+    { return key.rfind("Ice.", 0) == 0 || key.rfind("IceSSL.", 0) == 0 || key.rfind("RcYaml.", 0) == 0; };
     std::map<std::string, std::string> result;
     for (const auto& [key, value] : properties_->getPropertiesForPrefix(""))
     {
-        if (key.compare(0, 4, "Ice.") != 0)
+        if (!isOwn(key))
         {
             result.emplace(key, value);
         }

@@ -14,13 +14,15 @@ import slice.RoboCompCommonBehavior.State;
 
 /**
  * RoboComp's interface CommonBehavior, through which tools query and control any component. It is served from the
- * start, while the component waits for others.
+ * start, while the component waits for others. Operations that change something require the right to control the
+ * component.
  */
 final class Behavior implements CommonBehavior {
     private final Store store;
     private final Schedule schedule;
     private final Stopping stopping;
     private final Log log;
+    private final Control control;
     private final long begin = System.nanoTime();
     private Settings settings;
     private volatile boolean isRunning;
@@ -31,6 +33,7 @@ final class Behavior implements CommonBehavior {
         this.schedule = schedule;
         this.stopping = stopping;
         this.log = log;
+        control = new Control(settings, log);
     }
 
     void setRunning() {
@@ -44,6 +47,7 @@ final class Behavior implements CommonBehavior {
 
     @Override
     public void setPeriod(int period, Current current) {
+        control.require(current);
         try {
             store.change(Map.of("period.compute", period));
             log.info("the period is " + period + " ms now");
@@ -59,6 +63,7 @@ final class Behavior implements CommonBehavior {
 
     @Override
     public void killYourSelf(Current current) {
+        control.require(current);
         log.info("stop requested through CommonBehavior");
         stopping.request(0);
     }
@@ -76,6 +81,7 @@ final class Behavior implements CommonBehavior {
     /** Changes all of the parameters or none; an error is logged. Values equal to the listed ones are ignored. */
     @Override
     public void setParameterList(Map<String, Parameter> parameters, Current current) {
+        control.require(current);
         Map<String, Entry> before = store.entries();
         Map<String, String> known = store.others();
         before.forEach((key, entry) -> known.put(key, entry.text()));
@@ -102,6 +108,7 @@ final class Behavior implements CommonBehavior {
     /** Reads the config again. All changes take effect, or none of them and the error is logged. */
     @Override
     public synchronized void reloadConfig(Current current) {
+        control.require(current);
         try {
             Settings reloaded = settings.reloaded();
             Configuration.reload(store, reloaded);

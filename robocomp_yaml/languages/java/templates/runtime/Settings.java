@@ -23,6 +23,8 @@ import java.util.stream.Collectors;
 final class Settings {
     final Properties properties;
     final Map<String, String> overrides = new LinkedHashMap<>();
+    /** The beginnings of properties that are no parameters. */
+    private static final List<String> OWN = List.of("Ice.", "IceSSL.", "RcYaml.");
     private final List<Path> files;
     private final List<String> options;
 
@@ -171,10 +173,10 @@ final class Settings {
         return prefix.isEmpty() ? plain : prefix + "/" + plain;
     }
 
-    /** All properties except Ice's own. */
+    /** All properties except Ice's own, and those about who may control the component. */
     Map<String, String> parameters() {
         Map<String, String> found = new TreeMap<>(properties.getPropertiesForPrefix(""));
-        found.keySet().removeIf(key -> key.startsWith("Ice."));
+        found.keySet().removeIf(key -> OWN.stream().anyMatch(key::startsWith));
         return found;
     }
 }

@@ -9,6 +9,7 @@ from typing import Any
 
 import Ice
 from generated.runtime import configuration
+from generated.runtime.control import Control
 from generated.runtime.errors import StartError
 from generated.runtime.parameters import Store
 from generated.runtime.ports import Component
@@ -22,7 +23,8 @@ LONGEST = 2**31 - 1  # the largest int of Slice
 
 
 class Behavior(Ice.Object):
-    """The operations of CommonBehavior. They are served from the start, while the component waits for others."""
+    """The operations of CommonBehavior. They are served from the start, while the component waits for others. Those
+    that change something require the right to control the component."""
 
     def __init__(
         self, component: Component, settings: Settings, store: Store, schedule: Schedule, stopping: Stopping,
@@ -34,6 +36,7 @@ class Behavior(Ice.Object):
         self._schedule = schedule
         self._stopping = stopping
         self._log = log
+        self._control = Control(settings, log)
         self._begin = time.monotonic()
         self.is_running = False
 
@@ -41,6 +44,7 @@ class Behavior(Ice.Object):
         return min(self._schedule.period, LONGEST)
 
     def setPeriod(self, period: int, current: Ice.Current) -> None:
+        self._control.require(current)
         try:
             self._store.change({"period.compute": period})
         except ParameterError as error:
@@ -53,6 +57,7 @@ class Behavior(Ice.Object):
         return min(int((time.monotonic() - self._begin) * 1000), LONGEST)
 
     def killYourSelf(self, current: Ice.Current) -> None:
+        self._control.require(current)
         self._log.info("stop requested through CommonBehavior")
         self._stopping.request()
 
@@ -67,6 +72,7 @@ class Behavior(Ice.Object):
     def setParameterList(self, parameters: dict[str, Any], current: Ice.Current) -> None:
         """Changes all of the parameters or none; an error is logged. Values equal to the listed ones are ignored, also
         hidden ones."""
+        self._control.require(current)
         live = _live(current)
         before = self._store.entries()
         known = {**self._store.others(), **{key: entry.text for key, entry in before.items()}}
@@ -86,6 +92,7 @@ class Behavior(Ice.Object):
 
     def reloadConfig(self, current: Ice.Current) -> None:
         """Reads the config again. All changes take effect, or none of them and the error is logged."""
+        self._control.require(current)
         try:
             settings = self._settings.reloaded()
             configuration.reload(self._store, settings)

@@ -91,9 +91,9 @@ class Settings:
         return Settings(self._files, self._arguments)
 
     def parameters(self) -> dict[str, str]:
-        """All properties except Ice's own."""
+        """All properties except Ice's own, and those about who may control the component."""
         every = self.properties.getPropertiesForPrefix("")
-        return {key: value for key, value in sorted(every.items()) if not key.startswith("Ice.")}
+        return {key: value for key, value in sorted(every.items()) if not key.startswith(connections.OWN)}
 
 
 def on_the_command_line(options: Sequence[str]) -> str:
