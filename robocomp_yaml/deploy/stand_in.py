@@ -19,7 +19,7 @@ def stand_in(path: str) -> tuple[Network, str] | None:
     document, name = os.path.abspath(path), own_folder.deployment_in(path)
     one = registered.of_document(path)
     if one and name in ("", one.name):
-        hosts = {host.name: NetworkHost(host.name, host.address, host.user) for host in one.hosts}
+        hosts = {known.name: known.host for known in one.hosts}
         network, engine = Network(one.name, document, one.folder, hosts), one.engine
     elif name:
         network, engine = Network(name, document, os.path.join(os.path.dirname(document), FOLDER, name)), LOCAL

@@ -11,7 +11,7 @@ import shutil
 from collections.abc import Mapping, Sequence
 
 from robocomp_yaml.deploy.engine import STOPPED, Running
-from robocomp_yaml.deploy.local.obstacles import is_local
+from robocomp_yaml.deploy.here import is_near
 from robocomp_yaml.deploy.readiness import listens
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.deploy.states import OVER
@@ -30,7 +30,7 @@ def too_long(specs: Sequence[ProcessSpec]) -> list[Diagnostic]:
     return [
         deploying.CANNOT.at(spec.process.span, name=spec.name, what="started", reason=_TOO_LONG)
         for spec in specs
-        if (config := spec.process.config) and not is_local(spec.address)
+        if (config := spec.process.config) and not is_near(spec)
         and len(encoded(config.text).encode()) > LONGEST_CONFIG
     ]  # fmt: skip
 
