@@ -90,6 +90,10 @@ class Deployment:
         """The names of the processes that are enabled."""
         return {process.name for process in self.network.enabled()}
 
+    def add(self, diagnostics: Iterable[Diagnostic]) -> None:
+        """Adds diagnostics of a call to those of the deployment."""
+        self._diagnostics += diagnostics
+
     def placed(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
         """Diagnostics of an engine as users see them: with the path of the document as it was passed, which engines
         know by its absolute path, and without secrets."""

@@ -251,6 +251,17 @@ def down(session: DeploySession, names: tuple[str, ...]) -> None:
     session.down(names)
 
 
+@_subcommand("Bring the files of the network to its other hosts.", _names)
+@click.option("--dry-run", is_flag=True, help="Print what would be sent and deleted.")
+def push(session: DeploySession, names: tuple[str, ...], dry_run: bool) -> None:
+    """Bring to each other host what its processes need: programs, code, run time and Slice, with rsync over ssh. Files
+    that an earlier push brought, and that nothing needs any more, are deleted; all other files there stay. NAMEs are
+    hosts, processes or groups."""
+    from robocomp_yaml.commands import _pushing
+
+    _pushing.push(session, names, dry_run=dry_run)
+
+
 @_subcommand(
     "Show which programs of the network a host has.",
     click.argument("host", cls=_DocumentAnd, limit=1, metavar="[HOST]"),

@@ -115,7 +115,11 @@ async def ask(
 
 async def probe(host: NetworkHost, queries: dict[ProgramQuery, tuple[str, ...]]) -> list[ProbedProgram]:
     """The programs of a host. Raises ProbeFailed."""
-    questions = "".join(f"{one.python}\t{one.program}\n" for one in queries).encode(errors="surrogateescape")
+    is_far = bool(host.folders) and not is_here(host)
+    there = [host.there(one.program) if is_far and one.program.startswith("/") else one.program for one in queries]
+    questions = "".join(f"{one.python}\t{path}\n" for one, path in zip(queries, there, strict=True)).encode(
+        errors="surrogateescape"
+    )
     script = ["sh", "-c", resources.text(SCRIPT), "ask", modules()]
     code, answer, errors = await asyncio.to_thread(run_on, host, script, questions)
     lines = answer.decode(errors="surrogateescape").splitlines()
