@@ -13,7 +13,7 @@ from msgspec.structs import replace
 
 from robocomp_yaml.api.refusals import cannot_write, meant, require
 from robocomp_yaml.building.job import RELEASE
-from robocomp_yaml.deploy import folder, history, operations, registered
+from robocomp_yaml.deploy import folder, history, limits, operations, registered
 from robocomp_yaml.deploy.attached import Attached, attached
 from robocomp_yaml.deploy.carry_out import Report
 from robocomp_yaml.deploy.differences import shown_path
@@ -150,6 +150,7 @@ class Deployment:
         """The plan of `up`: what it would start, stop, restart and change, and why. The diagnostics have the
         obstacles."""
         chosen = self.chosen(names)
+        self._diagnostics += limits.ignored(self.network, chosen or self.enabled)
         self._report_stale(names)
 
         async def work() -> Plan:
@@ -180,6 +181,7 @@ class Deployment:
         if isinstance(on_failure, str):
             require("way to handle failures", on_failure, (STOP_THEM, ROLL_BACK, KEEP_GOING))
         chosen, limit = self.chosen(names), TimeLimit(timeout)
+        self._diagnostics += limits.ignored(self.network, chosen or self.enabled)
         if self._report_stale(names):
             raise Faulty(self.diagnostics)
         forced = (chosen or self.enabled) if restart else set[str]()

@@ -10,6 +10,7 @@ from robocomp_yaml.model.build_interface import as_text, doc, entries, required,
 from robocomp_yaml.source.tree import Mapping, Node, Scalar
 
 _UNITS = {"B": 1, "KB": 10**3, "MB": 10**6, "GB": 10**9, "KiB": 1 << 10, "MiB": 1 << 20, "GiB": 1 << 30}
+_CORES = {"on": math.inf, "off": 0}
 
 
 def host(key: Scalar, node: Node) -> model.Host:
@@ -73,7 +74,7 @@ def limits(node: Node | None) -> model.Limits | None:
         text(node, "cores") or None,
         _integer(node, "nice"),
         _integer(node, "realtime"),
-        {"on": math.inf, "off": 0}.get(core, _size(core)),
+        _CORES[core] if core in _CORES else _size(core),
         _integer(node, "files"),
         span=node.span,
     )

@@ -30,7 +30,7 @@ from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.network.network import NEVER, PROGRAM, Network, RestartRule
+from robocomp_yaml.network.network import NEVER, PROGRAM, Network, Process, ResourceLimits, RestartRule
 
 if TYPE_CHECKING:
     from robocomp_yaml.deploy.icegrid.grid import GridSession
@@ -43,6 +43,7 @@ _CODE = "exit code "
 _RESERVE, _RESERVED = "reserve", 1 << 18  # bytes: for specs, rules and the registry's database
 _WRITE = 'head -c "$2" /dev/zero >"$1/.space"; code=$?; rm -f "$1/.space"; exit $code'
 _WRITE_WITHIN = 10.0
+_CHECK_WITHIN = 60.0
 _CALLS = 32  # threads, which mostly wait
 
 
@@ -139,26 +140,25 @@ class IceGridEngine:
         far = [spec for spec in specs if not is_near(spec) and spec.process.host not in lost]
         found += await of_hosts.used_ports(far, running)
         if far and self._grid:
-            found += await self._beside("", "asked", self._missing_programs, far)
+            found += await self._beside("", "asked", self._lacking, far)
         return [*lost.values(), *found, *of_hosts.too_long(specs)]
 
-    def _missing_programs(self, specs: Sequence[ProcessSpec]) -> list[Diagnostic]:
-        """Diagnostics for programs and folders that other hosts lack, before anything is started. A program that is
-        looked up in a PATH of its own is not checked."""
+    def _lacking(self, specs: Sequence[ProcessSpec]) -> list[Diagnostic]:
+        """Diagnostics for all that other hosts lack, or have in another version, before anything is started."""
+        from robocomp_yaml.deploy.icegrid import preflight
+
         found: list[Diagnostic] = []
-        for host in dict.fromkeys(spec.process.host for spec in specs):
-            own = [one for one in specs if one.process.host == host and not of_hosts.has_own_path(one)]
-            while own:
-                rows = [
-                    (str(number), one.process.cwd, one.command[0]) for number, one in enumerate(own[: of_hosts.AT_ONCE])
-                ]
-                server = replace(own[0], process=replace(own[0].process, name=of_hosts.CHECK, cwd="/", env=()))
-                command = ("bash", "-c", of_hosts.MISSING, "bash", *(word for row in rows for word in row))
-                lacking = of_hosts.of_answer(
-                    own[: of_hosts.AT_ONCE], self._run(self._reached(), server, command, _WRITE_WITHIN)
-                )
-                found += [lacking[1]] if lacking else []
-                own = own[lacking[0] + 1 if lacking else of_hosts.AT_ONCE :]
+        for name in dict.fromkeys(spec.process.host for spec in specs):
+            own, host = [one for one in specs if one.process.host == name], self._network.hosts[name]
+            plain = Process(preflight.CHECK, name, own[0].command, "/")
+            for command in preflight.commands(self._network, host, own):
+                lines: list[str] = []
+                code = self._run(self._reached(), replace(own[0], process=plain), command, _CHECK_WITHIN, lines)
+                found += preflight.answers(self._network, host, own, lines)
+                if code:
+                    reason = f"what it has cannot be checked (exit code {code})"
+                    where = host.span if host.span.file else Span(self._network.path)
+                    found.append(deploying.NO_ANSWER.at(where, host=name, address=host.address, reason=reason))
         return found
 
     async def stage(self, specs: Sequence[ProcessSpec]) -> None:
@@ -325,15 +325,22 @@ class IceGridEngine:
         assert spec
         return await self._beside(name, "asked", self._run, self._reached(), spec, tuple(command), within)
 
-    def _run(self, grid: GridSession, spec: ProcessSpec, command: tuple[str, ...], within: float) -> int:
-        """The exit code of a command that runs beside a process, on its host: as a server of its own."""
+    def _run(
+        self, grid: GridSession, spec: ProcessSpec, command: tuple[str, ...], within: float,
+        lines: list[str] | None = None,
+    ) -> int:  # fmt: skip
+        """The exit code of a command that runs beside a process, on its host: as a server of its own. Its output is
+        added to `lines`."""
         from robocomp_yaml.deploy.icegrid import descriptors
         from robocomp_yaml.deploy.icegrid.grid import GridFailed
         from robocomp_yaml.deploy.icegrid.status import run_status
 
         host, is_local = spec.process.host, is_near(spec)
         name = f"{spec.name}.ready"
-        process = replace(spec.process, name=name, kind=PROGRAM, config=None, folders=(), restart=RestartRule(NEVER))
+        process = replace(
+            spec.process, name=name, kind=PROGRAM, config=None, folders=(), restart=RestartRule(NEVER), alive=None,
+            limits=ResourceLimits(),
+        )  # fmt: skip
         own = replace(spec, process=process, command=command)
         server = descriptors.server(self._files.on(host), own, grid.user_of(host), 0, is_local=is_local)
         with self._lock:
@@ -344,6 +351,8 @@ class IceGridEngine:
                 return _TIMED_OUT
             last = run_status(grid, name, host, is_local=is_local)
             code = last.last_exit.removeprefix(_CODE) if last else ""
+            if lines is not None:
+                lines += self._printed(grid, name, host)
             return int(code) if code.isdigit() else _UNKNOWN
         except GridFailed:
             return _NOT_FOUND
@@ -353,6 +362,12 @@ class IceGridEngine:
             if is_local:
                 own_folder.remove(self._files.folder, f"state/icegrid/status/{name}")
                 own_folder.remove(self._files.folder, f"logs/{name}.log")
+
+    def _printed(self, grid: GridSession, name: str, host: str) -> list[str]:
+        """What the last run of a server has printed."""
+        lines = grid.read(name, self._files.on(host).log(name))
+        starts = [number for number, line in enumerate(lines) if " rcyaml: started, pid " in line]
+        return lines[starts[-1] :] if starts else []
 
     async def close(self, *, end: bool = False) -> None:
         grid, self._grid = self._grid, None

@@ -6,6 +6,7 @@ import os
 import time
 from collections.abc import Collection, Iterable, Iterator, Sequence
 
+from robocomp_yaml.deploy import limits
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import DeployFailed
 from robocomp_yaml.deploy.folder import document_in
@@ -44,7 +45,8 @@ def obstacles(specs: Sequence[ProcessSpec], own: Collection[int]) -> list[Diagno
         for port, pids in procfs.listeners(ports).items()
         if not pids or not set(pids) <= set(own)
     }
-    return [found for spec in specs for found in (*_of_program(spec), *_of_ports(spec, taken))]
+    found = [found for spec in specs for found in (*_of_program(spec), *_of_ports(spec, taken))]
+    return [*found, *limits.denied(specs)]
 
 
 class CheckedSpecs:
