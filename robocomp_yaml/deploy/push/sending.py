@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import tempfile
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from datetime import UTC, datetime
 
 from robocomp_yaml.deploy.probe import ProbeFailed
 from robocomp_yaml.deploy.push import host_files
@@ -31,7 +32,8 @@ def carry_out(push: HostPush, report: Sent) -> None:
         folders = sorted({host.there(base) if base else "" for base in own} - {""} or {"/"})
         before = {**coming, **there.pushed}
         host_files.keep(host, there.list, before.values(), folders)
-        _send(push, push.replaced, f"{os.path.dirname(there.list)}/../replaced/{os.path.basename(there.list)}", report)
+        kept = f"{there.list.rpartition('/pushed/')[0]}/replaced/{os.path.basename(there.list)}"
+        _send(push, push.replaced, f"{kept}/{datetime.now(UTC):%Y-%m-%dT%H-%M-%S.%f}", report)
         _send(push, [path for path in push.send if path not in set(push.replaced)], "", report)
     if push.send or push.delete or push.entries != there.pushed:
         gone = [(above, path) for path in push.delete for above in [_above(host, path)]]
@@ -74,7 +76,7 @@ def _rsync(host: NetworkHost, base: str, target: str, names: Mapping[str, str], 
         "rsync", "--perms", "--times", "--copy-links", "--ignore-times", "--no-implied-dirs", "--omit-dir-times",
         "--from0", "--files-from=-", f"--partial-dir={_PARTIAL}", "-s", "--timeout=60", "--out-format=%n", "-e", shell,
     ]  # fmt: skip
-    words += ["--backup", f"--backup-dir={os.path.normpath(backup)}"] if backup else []
+    words += ["--backup", f"--backup-dir={backup}"] if backup else []
     words += ["--", f"{base.rstrip('/')}/", f"{address}:{target.rstrip('/')}/"]
     with tempfile.TemporaryFile() as said_wrong, subprocess.Popen(
         words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=said_wrong, start_new_session=True
