@@ -19,6 +19,7 @@ from robocomp_yaml.deploy.carry_out import Report
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import DeployFailed, Line
 from robocomp_yaml.deploy.engines import ENGINES, LOCAL, make_engine
+from robocomp_yaml.deploy.install import installing
 from robocomp_yaml.deploy.local.obstacles import elsewhere
 from robocomp_yaml.deploy.log_filter import LogFilter, selected
 from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, STOP_THEM, Choose, Result, Status
@@ -84,6 +85,11 @@ class Deployment:
     @property
     def diagnostics(self) -> list[Diagnostic]:
         return self.placed([*self._diagnostics, *self._engine.notes])
+
+    @property
+    def installed(self) -> list[str]:
+        """The hosts on which systemd starts the deployment at boot."""
+        return installing.hosts_of(self.network.folder)
 
     @property
     def enabled(self) -> set[str]:
@@ -184,6 +190,7 @@ class Deployment:
         self._diagnostics += limits.ignored(self.network, chosen or self.enabled)
         if self._report_stale(names):
             raise Faulty(self.diagnostics)
+        self._diagnostics += installing.notes(self.network, "systemd starts it at boot, as this `up` leaves it")
         forced = (chosen or self.enabled) if restart else set[str]()
 
         async def decided(result: Result) -> str:
@@ -303,6 +310,9 @@ class Deployment:
         """Stops the network, or the named processes with all that depend on them. Returns the names of the stopped
         processes."""
         chosen = self.chosen(names)
+        self._diagnostics += installing.notes(
+            self.network, "it starts again at the next boot, until `rcyaml deploy uninstall`"
+        )
 
         async def work() -> list[str]:
             if not await self._engine.open(self.network, create=False):

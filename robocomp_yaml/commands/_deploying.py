@@ -174,9 +174,13 @@ class DeploySession(msgspec.Struct):
         found = self.run(lambda: self.deployment.status(*names))
         code = 0 if all(one.is_as_desired for one in found) else 1
         if self.format_ == "json":
-            self.end({"processes": views.status_data(self.network, found)}, code)
+            self.end(
+                {"processes": views.status_data(self.network, found), "installed": self.deployment.installed}, code
+            )
         room = shutil.get_terminal_size().columns if sys.stdout.isatty() else None
         terminal.say(*views.status_lines(self.network, found, self._color, room))
+        if self.deployment.installed and self.prints_progress:
+            terminal.say(f"installed: systemd starts it at boot, on {', '.join(self.deployment.installed)}")
         if lost := views.lost_lines(found):
             terminal.say(*lost, err=True)
         self.end(code=code)

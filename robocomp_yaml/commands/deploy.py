@@ -61,11 +61,12 @@ def _running(word: str, *, is_path: bool) -> str:
     """The document of the running deployment of this name, or at this path, which may be gone; '' if none runs. In a
     folder with a document, the name of one of its processes or groups goes first. Raises Refused if several run."""
     from robocomp_yaml.deploy import registered
+    from robocomp_yaml.deploy.install import installing
     from robocomp_yaml.diag.errors import Refused
 
     if is_path:
         return word if registered.of_document(word) else ""
-    found = registered.named(word)
+    found = registered.named(word) or installing.named(word)
     if not found or any(_may_name(document, word) for document in _documents_here()):
         return ""
     if len(found) > 1:
@@ -260,6 +261,31 @@ def push(session: DeploySession, names: tuple[str, ...], dry_run: bool) -> None:
     from robocomp_yaml.commands import _pushing
 
     _pushing.push(session, names, dry_run=dry_run)
+
+
+_nothing = click.argument("nothing", cls=_DocumentAnd, limit=0, expose_value=False)
+
+
+@_subcommand("Let systemd start the network at boot.", _engine)
+@_nothing
+@click.option("--user", "manager", flag_value="user", help="Units of the users, whatever the hosts say.")
+@click.option("--system", "manager", flag_value="system", help="Units of the machines: root, or sudo.")
+@click.option("--print", "prints", is_flag=True, help="Only print the units.")
+@click.option("--dry-run", is_flag=True, help="Only print which units would be written.")
+def install(session: DeploySession, manager: str | None, prints: bool, dry_run: bool) -> None:
+    """Write units for systemd on all hosts, so that the network comes up when they boot. Without --user and --system,
+    `systemd:` of each host says whose units. The network is started now, if systemd can be reached."""
+    from robocomp_yaml.commands import _installing
+
+    _installing.install(session, manager or "", prints=prints, dry_run=dry_run)
+
+
+@_subcommand("Remove what install has written.", _nothing, lenient=True)
+def uninstall(session: DeploySession) -> None:
+    """Take the network down, and remove the units on all hosts."""
+    from robocomp_yaml.commands import _installing
+
+    _installing.uninstall(session)
 
 
 @_subcommand(

@@ -60,11 +60,12 @@ class RegisteredDeployment(msgspec.Struct, frozen=True):
 
 
 def entry_of(network: Network, engine: str, supervisor: int = 0, start: int = 0) -> RegisteredDeployment:
-    hosts = tuple(
-        RegisteredHost(one.name, one.address, ssh=one.ssh, folders=one.folders, systemd=one.systemd)
-        for one in network.hosts.values()
-    )
+    hosts = tuple(map(host_of, network.hosts.values()))
     return RegisteredDeployment(network.name, network.path, network.folder, engine, hosts, supervisor, start)
+
+
+def host_of(host: NetworkHost) -> RegisteredHost:
+    return RegisteredHost(host.name, host.address, ssh=host.ssh, folders=host.folders, systemd=host.systemd)
 
 
 def root() -> str:

@@ -30,7 +30,7 @@ from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.network.network import NEVER, PROGRAM, Network, Process, ResourceLimits, RestartRule
+from robocomp_yaml.network.network import NEVER, PROGRAM, Network, ResourceLimits, RestartRule
 
 if TYPE_CHECKING:
     from robocomp_yaml.deploy.icegrid.grid import GridSession
@@ -125,8 +125,7 @@ class IceGridEngine:
         return await self._beside("", "observed", observe, self._reached(), dict(self._specs), hosts)
 
     async def obstacles(self, specs: Sequence[ProcessSpec], leaving: Collection[str]) -> list[Diagnostic]:
-        """The obstacles: on this machine all, on other hosts a missing node and ports that are used."""
-
+        """The obstacles on all hosts, and missing nodes."""
         running = await self.observe() if self._grid else {}
         roots = {one.pid for name, one in running.items() if name in leaving and one.pid}
         own = procfs.descendants(roots, procfs.table()) if roots else set()
@@ -147,19 +146,10 @@ class IceGridEngine:
         """Diagnostics for all that other hosts lack, or have in another version, before anything is started."""
         from robocomp_yaml.deploy.icegrid import preflight
 
-        found: list[Diagnostic] = []
-        for name in dict.fromkeys(spec.process.host for spec in specs):
-            own, host = [one for one in specs if one.process.host == name], self._network.hosts[name]
-            plain = Process(preflight.CHECK, name, own[0].command, "/")
-            for command in preflight.commands(self._network, host, own):
-                lines: list[str] = []
-                code = self._run(self._reached(), replace(own[0], process=plain), command, _CHECK_WITHIN, lines)
-                found += preflight.answers(self._network, host, own, lines)
-                if code:
-                    reason = f"what it has cannot be checked (exit code {code})"
-                    where = host.span if host.span.file else Span(self._network.path)
-                    found.append(deploying.NO_ANSWER.at(where, host=name, address=host.address, reason=reason))
-        return found
+        def run(spec: ProcessSpec, command: tuple[str, ...], lines: list[str]) -> int:
+            return self._run(self._reached(), spec, command, _CHECK_WITHIN, lines)
+
+        return preflight.lacking(self._network, specs, run)
 
     async def stage(self, specs: Sequence[ProcessSpec]) -> None:
         await self._beside("", "prepared", self._stage, specs)
@@ -352,7 +342,7 @@ class IceGridEngine:
             last = run_status(grid, name, host, is_local=is_local)
             code = last.last_exit.removeprefix(_CODE) if last else ""
             if lines is not None:
-                lines += self._printed(grid, name, host)
+                lines += grid.printed(name, self._files.on(host).log(name))
             return int(code) if code.isdigit() else _UNKNOWN
         except GridFailed:
             return _NOT_FOUND
@@ -362,12 +352,6 @@ class IceGridEngine:
             if is_local:
                 own_folder.remove(self._files.folder, f"state/icegrid/status/{name}")
                 own_folder.remove(self._files.folder, f"logs/{name}.log")
-
-    def _printed(self, grid: GridSession, name: str, host: str) -> list[str]:
-        """What the last run of a server has printed."""
-        lines = grid.read(name, self._files.on(host).log(name))
-        starts = [number for number, line in enumerate(lines) if " rcyaml: started, pid " in line]
-        return lines[starts[-1] :] if starts else []
 
     async def close(self, *, end: bool = False) -> None:
         grid, self._grid = self._grid, None

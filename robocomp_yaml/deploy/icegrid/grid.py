@@ -140,6 +140,12 @@ class GridSession:
                     iterator.destroy()
         return lines
 
+    def printed(self, name: str, log: str) -> list[str]:
+        """What the last run of a process has printed, by its log."""
+        lines = self.read(name, log)
+        starts = [number for number, line in enumerate(lines) if " rcyaml: started, pid " in line]
+        return lines[starts[-1] :] if starts else []
+
     def shut_down_node(self, host: str) -> None:
         with contextlib.suppress(GridFailed):
             self._call(self.admin.shutdownNode, host)

@@ -5,7 +5,9 @@ from __future__ import annotations
 
 import errno
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+
+from msgspec.structs import replace
 
 from robocomp_yaml import languages, resources
 from robocomp_yaml.deploy import limits
@@ -15,9 +17,10 @@ from robocomp_yaml.deploy.push.host_files import digest_of
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.network import files
-from robocomp_yaml.network.network import PYTHON, Network, NetworkHost
+from robocomp_yaml.network.network import PYTHON, Network, NetworkHost, Process
 
 CHECK = "rcyaml.check"
 """The name of the server that runs the check. No process can have this name."""
@@ -26,6 +29,26 @@ _MARK = "rcyaml-check"
 _MOST = 60_000  # bytes of one check
 _DIGITS = 16
 _SHOWN = 3
+
+
+def lacking(
+    network: Network, specs: Sequence[ProcessSpec], run: Callable[[ProcessSpec, tuple[str, ...], list[str]], int]
+) -> list[Diagnostic]:  # fmt: skip
+    """Diagnostics for all that the hosts of these processes lack, or have in another version. `run` returns the exit
+    code of a command that runs beside a process, and adds its output to a list."""
+    found: list[Diagnostic] = []
+    for name in dict.fromkeys(spec.process.host for spec in specs):
+        own, host = [one for one in specs if one.process.host == name], network.hosts[name]
+        beside = replace(own[0], process=Process(CHECK, name, own[0].command, "/"))
+        for command in commands(network, host, own):
+            lines: list[str] = []
+            code = run(beside, command, lines)
+            found += answers(network, host, own, lines)
+            if code:
+                reason = f"what it has cannot be checked (exit code {code})"
+                where = host.span if host.span.file else Span(network.path)
+                found.append(codes.NO_ANSWER.at(where, host=name, address=host.address, reason=reason))
+    return found
 
 
 def commands(network: Network, host: NetworkHost, specs: Sequence[ProcessSpec]) -> list[tuple[str, ...]]:

@@ -205,6 +205,11 @@ def end_here(files: GridFiles) -> None:
     files.drop_configurations(with_key=not left)
 
 
+def end_daemons(files: GridFiles) -> None:
+    """Ends the registry, and the nodes of this machine that rcyaml started. All else stays, for the next start."""
+    _end_local(files)
+
+
 def _end_local(files: GridFiles) -> None:
     """Ends the registry, and the nodes of this machine that rcyaml started."""
     nodes = [f"{files.root}/nodes/{host}" for host, is_started in files.nodes().items() if is_started]
