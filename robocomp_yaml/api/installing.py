@@ -20,13 +20,13 @@ def planned(deployment: Deployment, manager: str = "") -> list[HostUnit]:
 
 
 def install(deployment: Deployment, manager: str = "") -> list[HostUnit]:
-    """Writes the units on all hosts, and starts them. Raises Faulty if nothing was installed."""
+    """Writes the units on all hosts, and starts them. Returns those that were written. Raises Faulty if nothing was installed."""
     wanted = planned(deployment, manager)
-    diagnostics = installing.install(deployment.network, deployment.engine, wanted)
+    written, diagnostics = installing.install(deployment.network, deployment.engine, wanted)
     deployment.add(diagnostics)
-    if has_errors(diagnostics) and installing.of_folder(deployment.network.folder) is None:
+    if has_errors(diagnostics) and not written:
         raise Faulty(deployment.diagnostics)
-    return wanted
+    return written
 
 
 def uninstall(deployment: Deployment) -> list[str]:

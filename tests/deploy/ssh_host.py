@@ -52,14 +52,14 @@ def ssh_host(folder: Path, address: str = "127.0.0.1", inside: Sequence[str] = (
         subprocess.run(["ssh-keygen", "-q", "-t", "ed25519", "-N", "", "-f", folder / name], check=True)
     write_tree(folder, {
         "known_hosts": f"[{address}]:{host.port} {(folder / 'host_key.pub').read_text(encoding='utf-8')}",
-        "config": (
+        "sshd_config": (
             f"HostKey {folder}/host_key\nAuthorizedKeysFile {folder}/key.pub\nStrictModes no\nUsePAM no\n"
             f"PidFile {folder}/pid\nPasswordAuthentication no\nPort {host.port}\nListenAddress {address}\n"
-            f"SetEnv XDG_STATE_HOME={host.state}\n"
+            f"SetEnv XDG_STATE_HOME={host.state} XDG_CONFIG_HOME={folder}/config XDG_RUNTIME_DIR={folder}/run\n"
         ),
     })  # fmt: skip
     os.makedirs("/run/sshd", exist_ok=True)  # where sshd, run by root, wants to be locked in
-    server = subprocess.Popen([*inside, SSHD, "-D", "-f", folder / "config", "-E", folder / "log"])
+    server = subprocess.Popen([*inside, SSHD, "-D", "-f", folder / "sshd_config", "-E", folder / "log"])
     try:
         until(lambda: (folder / "pid").exists(), "sshd runs")
         yield host

@@ -17,6 +17,7 @@ from robocomp_yaml.deploy.here import is_here
 from robocomp_yaml.deploy.icegrid import daemons, ending, settings
 from robocomp_yaml.deploy.icegrid.daemons import NodeStart, outcome
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry, free_port, registry_address
+from robocomp_yaml.deploy.install import installing
 from robocomp_yaml.deploy.local.record import clear_up
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.deploy.time_limit import until
@@ -31,6 +32,10 @@ if TYPE_CHECKING:
 _PATIENCE = 20.0  # seconds: far more than is needed, also on a busy machine
 _ENDS_WITHIN, _REGISTRY_ENDS_WITHIN = 15.0, 3.0
 _RECONNECTS_WITHIN = 15.0  # seconds in which a node reconnects to the registry
+_BY_SYSTEMD = NodeStart(
+    "systemd starts it there, and it does not reach the registry yet",
+    hint="`systemctl status 'rcyaml-*'` on that host shows why (`systemctl --user` for the units of a user)",
+)
 _PARALLEL = 8  # connections over SSH
 _RUN_WITHIN = 30.0  # seconds for the script of a node
 
@@ -96,8 +101,8 @@ def _answers(registry: Registry) -> bool:
 def ensure_nodes(
     grid: GridSession, files: GridFiles, network: Network, hosts: Iterable[NetworkHost]
 ) -> dict[str, Diagnostic]:
-    """Starts the missing nodes: on this machine directly, on other hosts over SSH. A node that was started by hand has
-    some seconds to reconnect to the registry. Returns a diagnostic for each host without a node, by its name."""
+    """Starts the missing nodes: on this machine directly, on other hosts over SSH, unless systemd starts them there. A
+    node that rcyaml did not start has some seconds to reconnect to the registry. Returns a diagnostic for each host without a node, by its name."""
     registry = files.registry()
     assert registry
     known = files.nodes()
@@ -105,7 +110,9 @@ def ensure_nodes(
     missing = [host for host in hosts if not grid.has_node(host.name)]
     scripts = {host.name: daemons.write_script(files, host, registry) for host in missing}
     begin = time.monotonic()
-    tried = _started(missing, scripts)
+    by_systemd = set(installing.hosts_of(files.folder))
+    waiting = {host.name: _BY_SYSTEMD for host in missing if host.name in by_systemd and not is_here(host)}
+    tried = {**_started([host for host in missing if host.name not in waiting], scripts), **waiting}
     by_hand = [host for host in missing if tried[host.name].reason and not known.get(host.name, True)]
     until(lambda: all(grid.has_node(host.name) for host in by_hand), _RECONNECTS_WITHIN + begin - time.monotonic())
     tried |= {host.name: daemons.NodeStart(was_running=True) for host in by_hand if grid.has_node(host.name)}

@@ -84,17 +84,20 @@ def named(name: str) -> list[RegisteredDeployment]:
     ]
 
 
-def install(network: Network, engine: str, wanted: list[HostUnit]) -> list[Diagnostic]:
-    """Writes the units on all hosts. A host that cannot be reached is reported; the others are installed."""
+def install(
+    network: Network, engine: str, wanted: list[HostUnit]
+) -> tuple[list[HostUnit], list[Diagnostic]]:  # fmt: skip
+    """Writes the units on all hosts. Returns those that were written. A host that cannot be reached is reported; the others are installed."""
     diagnostics = _unset(network)
     if diagnostics:
-        return diagnostics
+        return [], diagnostics
     if engine != LOCAL:
         wanted, fault = _with_nodes(network, wanted)
         if fault:
-            return [fault]
+            return [], [fault]
     own_folder.make(network.folder)
     before = of_folder(network.folder)
+    written: list[HostUnit] = []
     done = {(one.host.name, one.name): one for one in (before.units if before else ())}
     for unit in wanted:
         texts = ["unit", unit.text, *(text for pair in unit.files.items() for text in pair)]
@@ -111,10 +114,11 @@ def install(network: Network, engine: str, wanted: list[HostUnit]) -> list[Diagn
         done[unit.host.name, unit.name] = InstalledUnit(
             registered.host_of(unit.host), unit.name, unit.manager, tuple(unit.files), unit.is_here
         )
+        written.append(unit)
         diagnostics += _notes(unit, answer, where)
     if done:
         keep(Installed(network.name, network.path, network.folder, engine, tuple(done.values())))
-    return diagnostics
+    return written, diagnostics
 
 
 def _with_nodes(network: Network, wanted: list[HostUnit]) -> tuple[list[HostUnit], Diagnostic | None]:
