@@ -20,7 +20,7 @@ def planned(deployment: Deployment, manager: str = "") -> list[HostUnit]:
 
 
 def install(deployment: Deployment, manager: str = "") -> list[HostUnit]:
-    """Writes the units on all hosts, and starts them. Returns those that were written. Raises Faulty if nothing was installed."""
+    """Writes the units on all hosts, and starts them. Returns those that were written. Raises Faulty if none was."""
     wanted = planned(deployment, manager)
     written, diagnostics = installing.install(deployment.network, deployment.engine, wanted)
     deployment.add(diagnostics)

@@ -96,4 +96,4 @@ def test_hosts_that_boot_in_any_order(robot: Robot) -> None:
     for place in (robot.folder, robot.there):
         assert not list(place.rglob("key.pem"))
         assert not list(place.rglob("environment"))
-    assert not [path for path in (robot.arm.home / "config").rglob("rcyaml-*")]
+    assert not list((robot.arm.home / "config").rglob("rcyaml-*"))

@@ -102,7 +102,8 @@ def ensure_nodes(
     grid: GridSession, files: GridFiles, network: Network, hosts: Iterable[NetworkHost]
 ) -> dict[str, Diagnostic]:
     """Starts the missing nodes: on this machine directly, on other hosts over SSH, unless systemd starts them there. A
-    node that rcyaml did not start has some seconds to reconnect to the registry. Returns a diagnostic for each host without a node, by its name."""
+    node that rcyaml did not start has some seconds to reconnect to the registry. Returns a diagnostic for each host
+    without a node, by its name."""
     registry = files.registry()
     assert registry
     known = files.nodes()

@@ -87,7 +87,7 @@ def named(name: str) -> list[RegisteredDeployment]:
 def install(
     network: Network, engine: str, wanted: list[HostUnit]
 ) -> tuple[list[HostUnit], list[Diagnostic]]:  # fmt: skip
-    """Writes the units on all hosts. Returns those that were written. A host that cannot be reached is reported; the others are installed."""
+    """Writes the units on all hosts, and returns those that were written. A host that cannot be reached is reported."""
     diagnostics = _unset(network)
     if diagnostics:
         return [], diagnostics
