@@ -190,7 +190,6 @@ class Deployment:
         self._diagnostics += limits.ignored(self.network, chosen or self.enabled)
         if self._report_stale(names):
             raise Faulty(self.diagnostics)
-        self._diagnostics += installing.notes(self.network, "systemd starts it at boot, as this `up` leaves it")
         forced = (chosen or self.enabled) if restart else set[str]()
 
         async def decided(result: Result) -> str:
@@ -310,9 +309,6 @@ class Deployment:
         """Stops the network, or the named processes with all that depend on them. Returns the names of the stopped
         processes."""
         chosen = self.chosen(names)
-        self._diagnostics += installing.notes(
-            self.network, "it starts again at the next boot, until `rcyaml deploy uninstall`"
-        )
 
         async def work() -> list[str]:
             if not await self._engine.open(self.network, create=False):

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from robocomp_yaml.api.deploying import Deployment
+from robocomp_yaml.deploy.engines import LOCAL
 from robocomp_yaml.deploy.install import installing, units
 from robocomp_yaml.deploy.install.units import HostUnit
+from robocomp_yaml.deploy.local.obstacles import elsewhere
 from robocomp_yaml.diag.diagnostic import has_errors
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.emit.exports._unwritable import Unwritable
@@ -22,6 +24,9 @@ def planned(deployment: Deployment, manager: str = "") -> list[HostUnit]:
 def install(deployment: Deployment, manager: str = "") -> list[HostUnit]:
     """Writes the units on all hosts, and starts them. Returns those that were written. Raises Faulty if none was."""
     wanted = planned(deployment, manager)
+    if deployment.engine == LOCAL and (fault := elsewhere(deployment.network)):
+        deployment.add([fault])
+        raise Faulty(deployment.diagnostics)
     written, diagnostics = installing.install(deployment.network, deployment.engine, wanted)
     deployment.add(diagnostics)
     if has_errors(diagnostics) and not written:

@@ -144,6 +144,7 @@ class DeploySession(msgspec.Struct):
                 return work(progress, choose if asks_user else "stop" if on_failure == "ask" else on_failure)
 
         result = self.run(start, on_interrupt)
+        self._say_installed("at boot, as it is left now")
         if self.format_ == "json":
             self.end(views.result_data(result))
         if shows and self.prints_progress:
@@ -179,8 +180,7 @@ class DeploySession(msgspec.Struct):
             )
         room = shutil.get_terminal_size().columns if sys.stdout.isatty() else None
         terminal.say(*views.status_lines(self.network, found, self._color, room))
-        if self.deployment.installed and self.prints_progress:
-            terminal.say(f"installed: systemd starts it at boot, on {', '.join(self.deployment.installed)}")
+        self._say_installed("at boot")
         if lost := views.lost_lines(found):
             terminal.say(*lost, err=True)
         self.end(code=code)
@@ -208,11 +208,17 @@ class DeploySession(msgspec.Struct):
                 return self.deployment.down(*names, report=progress.report)
 
         stopped = self.run(stop_all)
+        self._say_installed("again at the next boot, until `rcyaml deploy uninstall`")
         if self.format_ == "json":
             self.end({"stopped": stopped})
         if not stopped:
             terminal.say(f"{self.network.name}: nothing was running")
         self.end()
+
+    def _say_installed(self, when: str) -> None:
+        hosts = self.deployment.installed
+        if hosts and self.prints_progress:
+            terminal.say(f"{self.network.name} is installed on {', '.join(hosts)}: systemd starts it {when}", err=True)
 
     def probe(self, name: str = "") -> None:
         """Probes a host, or all hosts. The exit code is 1 if one of them cannot run its programs."""

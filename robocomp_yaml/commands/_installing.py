@@ -22,6 +22,7 @@ def install(session: DeploySession, manager: str, *, prints: bool, dry_run: bool
     elif session.prints_progress:
         what = "would write" if dry_run else "wrote"
         terminal.say(*(f"{one.host.name}  {what} {_path(one)}" for one in found))
+        terminal.say(*(f"{one.host.name}  {note}" for one in found for note in one.notes), err=True)
     session.end()
 
 
@@ -42,4 +43,4 @@ def _path(one: HostUnit) -> str:
 
 def _data(one: HostUnit) -> dict[str, object]:
     """Without the further files, which contain secrets."""
-    return {"host": one.host.name, "manager": one.manager, "path": _path(one), "text": one.text}
+    return {"host": one.host.name, "manager": one.manager, "path": _path(one), "text": one.text, "notes": one.notes}

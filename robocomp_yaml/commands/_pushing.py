@@ -26,10 +26,9 @@ def push(session: DeploySession, names: tuple[str, ...], *, dry_run: bool) -> No
     done = session.run(work, "interrupted: the next push continues")
     if session.format_ == "json":
         session.end({"dry_run": dry_run, "hosts": [_data(one) for one in done]})
-    is_planned = dry_run or has_errors(session.deployment.diagnostics)
-    if (not is_planned and session.prints_progress) or dry_run:
+    if session.prints_progress or dry_run:
         terminal.say(*(line for one in done for line in _lines(one, dry_run, len(max(done, key=_width).host.name))))
-        if not done:
+        if not done and not has_errors(session.deployment.diagnostics):
             terminal.say(f"{session.network.name}: all processes run on this machine: nothing to push")
     session.end()
 
@@ -60,9 +59,23 @@ def _lines(one: HostPush, dry_run: bool, width: int) -> list[str]:
         ]
     elif one.delete:
         lines.append(f"{name}  {delete} {_count(len(one.delete))} that nothing needs any more")
+    if one.replaced:
+        what = "would replace" if dry_run else "replaced"
+        lines.append(
+            f"{name}  {what} what no push had brought, or was changed there (kept in {one.kept}): {_some(one.replaced)}"
+        )
+    if one.changed:
+        lines.append(
+            f"{name}  nothing needs these any more; they stay, because they were changed there: {_some(one.changed)}"
+        )
     if one.built:
         lines.append(f"{name}  kept {', '.join(sorted(one.built))}: built there")
     return lines
+
+
+def _some(paths: list[str], most: int = 5) -> str:
+    more = f" and {len(paths) - most} more" if len(paths) > most else ""
+    return ", ".join(sorted(paths)[:most]) + more
 
 
 def _count(number: int) -> str:

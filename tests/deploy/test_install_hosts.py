@@ -92,7 +92,7 @@ def test_hosts_that_boot_in_any_order(robot: Robot) -> None:
     secret = robot.there / ".rcyaml/deployments/Robot/state/boot/environment"
     assert "a secret" in secret.read_text(encoding="utf-8")
     assert secret.stat().st_mode & 0o777 == 0o600
-    assert "still has a unit" not in robot.deploy("uninstall")
+    assert "RC7081" not in robot.deploy("uninstall")
     for place in (robot.folder, robot.there):
         assert not list(place.rglob("key.pem"))
         assert not list(place.rglob("environment"))

@@ -114,9 +114,10 @@ def answers(
     for of_process, paths in stale.items():
         more = f" and {len(paths) - _SHOWN} more" if len(paths) > _SHOWN else ""
         found.append(
-            codes.STALE_THERE.at(
-                specs[of_process].process.span, host=host.name, name=specs[of_process].name,
-                paths=", ".join(paths[:_SHOWN]) + more, hint=f"`{_push(network, host)}` brings it",
+            codes.CANNOT.at(
+                specs[of_process].process.span, name=specs[of_process].name, what="started",
+                reason=f"the host '{host.name}' has another version of {', '.join(paths[:_SHOWN])}{more}",
+                hint=f"`{_push(network, host)}` brings it",
             )
         )  # fmt: skip
     return found

@@ -59,13 +59,6 @@ def hosts_of(folder: str) -> list[str]:
     return [unit.host.name for unit in record.units] if record else []
 
 
-def notes(network: Network, what: str) -> list[Diagnostic]:
-    """A note if the deployment is installed."""
-    if not hosts_of(network.folder):
-        return []
-    return [codes.INSTALLED.at(Span(network.path), name=network.name, what=what)]
-
-
 def every() -> list[Installed]:
     found = []
     with contextlib.suppress(OSError):
@@ -95,27 +88,26 @@ def install(
         wanted, fault = _with_nodes(network, wanted)
         if fault:
             return [], [fault]
+    written: list[HostUnit] = []
+    if diagnostics := _unreached(network, wanted):
+        return [], diagnostics
     own_folder.make(network.folder)
     before = of_folder(network.folder)
-    written: list[HostUnit] = []
     done = {(one.host.name, one.name): one for one in (before.units if before else ())}
     for unit in wanted:
         texts = ["unit", unit.text, *(text for pair in unit.files.items() for text in pair)]
-        where = _span(network, unit.host)
         try:
             answer = _ask(unit.host, unit.is_here, "install", unit.manager, unit.name, unit.target, network.path, texts)
+            reason, hint = answer.get("refused", ""), ""
         except ProbeFailed as error:
-            fault = codes.NOT_INSTALLED.at(where, hint=error.hint, host=unit.host.name, reason=str(error))
-            diagnostics.append(fault)
-            continue
-        if "refused" in answer:
-            diagnostics.append(codes.NOT_INSTALLED.at(where, host=unit.host.name, reason=answer["refused"]))
+            reason, hint = str(error), error.hint
+        if reason:
+            diagnostics.append(_fault(network, unit.host, "written", reason, hint))
             continue
         done[unit.host.name, unit.name] = InstalledUnit(
             registered.host_of(unit.host), unit.name, unit.manager, tuple(unit.files), unit.is_here
         )
-        written.append(unit)
-        diagnostics += _notes(unit, answer, where)
+        written.append(replace(unit, notes=_notes(unit, answer)))
     if done:
         keep(Installed(network.name, network.path, network.folder, engine, tuple(done.values())))
     return written, diagnostics
@@ -172,8 +164,7 @@ def uninstall(network: Network, record: Installed) -> list[Diagnostic]:
             reason, hint = str(error), error.hint
         if reason:
             left.append(unit)
-            where = _span(network, network.hosts.get(host.name, host))
-            diagnostics.append(codes.NOT_UNINSTALLED.at(where, hint=hint, host=host.name, reason=reason))
+            diagnostics.append(_fault(network, network.hosts.get(host.name, host), "removed", reason, hint))
     if left:
         keep(replace(record, units=tuple(left)))
     else:
@@ -224,15 +215,30 @@ def _ask(
     return dict(line.split("\t", 1) for line in output.decode(errors="replace").splitlines() if "\t" in line)
 
 
-def _notes(unit: HostUnit, answer: dict[str, str], where: Span) -> list[Diagnostic]:
+def _notes(unit: HostUnit, answer: dict[str, str]) -> tuple[str, ...]:
     if answer.get("systemd") == "no":
-        return [codes.NO_SYSTEMD.at(where, host=unit.host.name, manager=unit.manager)]
+        return (f"the {unit.manager} manager of systemd does not answer now: the unit starts at the next boot",)
     if answer.get("lingers") == "no":
         who = unit.host.ssh.user if not unit.is_here and unit.host.ssh.user else user()
-        return [
-            codes.NO_LINGER.at(where, host=unit.host.name, hint=f"`sudo loginctl enable-linger {who}` on that host")
-        ]
-    return []
+        return (
+            f"this user's units start only at login: `sudo loginctl enable-linger {who}` on that host changes that",
+        )
+    return ()
+
+
+def _unreached(network: Network, wanted: Iterable[HostUnit]) -> list[Diagnostic]:
+    """Diagnostics for hosts that cannot be reached: then no host is changed."""
+    found = []
+    for unit in wanted:
+        try:
+            _ask(unit.host, unit.is_here, "show", unit.manager, unit.name, unit.target, network.path, [])
+        except ProbeFailed as error:
+            found.append(_fault(network, unit.host, "written", str(error), error.hint))
+    return found
+
+
+def _fault(network: Network, host: NetworkHost, what: str, reason: str, hint: str) -> Diagnostic:
+    return codes.NO_UNIT.at(_span(network, host), hint=hint, host=host.name, what=what, reason=reason)
 
 
 def _unset(network: Network) -> list[Diagnostic]:

@@ -30,7 +30,8 @@ _KEPT = ("PATH", "LD_LIBRARY_PATH", "PYTHONPATH", "ROBOCOMP", "RCYAML_PATH", "RC
 
 class HostUnit(msgspec.Struct, frozen=True):
     """The unit of a host: its name, the manager that starts it (USER or SYSTEM), its text, and further files by path,
-    of which only the owner can read those that are secret."""
+    which only the owner can
+    read. `notes` are what the user should know after it was written."""
 
     host: NetworkHost
     name: str
@@ -38,6 +39,7 @@ class HostUnit(msgspec.Struct, frozen=True):
     text: str
     files: Mapping[str, str] = {}
     is_here: bool = True
+    notes: tuple[str, ...] = ()
 
     @property
     def target(self) -> str:

@@ -41,6 +41,11 @@ class HostPush(msgspec.Struct):
     there: HostFiles = msgspec.field(default_factory=HostFiles)
 
     @property
+    def kept(self) -> str:
+        """The folder on the host of files that were replaced."""
+        return f"{self.there.list.rpartition('/pushed/')[0]}/replaced"
+
+    @property
     def is_empty(self) -> bool:
         return not (self.send or self.delete)
 
@@ -98,10 +103,9 @@ def _other_kind(network: Network, host: NetworkHost, name: str, start: str, mach
     process = network.processes[name]
     where = host.there(os.path.dirname(network.path))
     how = f"; there, {process.build}" if process.build else ""
-    return codes.OTHER_KIND.at(
-        process.span, name=name, host=host.name, kind=kind_in_words(start), other=kind_in_words(machine),
-        hint=f"build it on that host (`{typed(host)}`, folder {where}){how}",
-    )  # fmt: skip
+    reason = f"its program is for {kind_in_words(start)}, and the host '{host.name}' is {kind_in_words(machine)}"
+    hint = f"build it on that host (`{typed(host)}`, folder {where}){how}"
+    return codes.CANNOT.at(process.span, name=name, what="pushed", reason=reason, hint=hint)
 
 
 def _missing(network: Network, name: str, path: str) -> Diagnostic:

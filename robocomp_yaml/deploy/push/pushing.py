@@ -40,12 +40,12 @@ def compared(
         there = host_files.ask(network, host, runs, (host.there(path) for path in own if host.there(path) not in runs))
         push, faults = planned.plan(network, host, own, there, whole=not names)
         if not there.rsync and not push.is_empty:
-            faults.append(codes.NO_RSYNC.at(_span(network, host), where=f"host '{host.name}'"))
+            faults.append(_without_rsync(network, host, "it"))
         return push, faults
 
     found, diagnostics = _on_each(network, hosts, work)
-    if sending.lacks_rsync() and any(not push.is_empty for push, _ in found):
-        diagnostics.append(codes.NO_RSYNC.at(Span(network.path), where="this machine"))
+    if sending.lacks_rsync():
+        diagnostics += [_without_rsync(network, push.host, "this machine") for push, _ in found if not push.is_empty]
     return [push for push, _ in found], diagnostics + [fault for _, faults in found for fault in faults]
 
 
@@ -54,7 +54,9 @@ def push(
 ) -> tuple[list[HostPush], list[Diagnostic]]:  # fmt: skip
     """Brings the files to these hosts. `dry_run` changes nothing."""
     pushes, diagnostics = compared(network, hosts, names)
-    if dry_run or has_errors(diagnostics):
+    if has_errors(diagnostics):
+        return [], diagnostics
+    if dry_run:
         return pushes, diagnostics
     by_host = {one.host: one for one in pushes}
 
@@ -63,13 +65,6 @@ def push(
         return by_host[host]
 
     done, failed = _on_each(network, list(by_host), work)
-    for one in done:
-        where, name = _span(network, one.host), one.host.name
-        if one.replaced:
-            folder = f"{one.there.list.rpartition('/pushed/')[0]}/replaced"
-            diagnostics.append(codes.REPLACED.at(where, host=name, paths=_listed(one.replaced), folder=folder))
-        if one.changed:
-            diagnostics.append(codes.CHANGED_THERE.at(where, host=name, paths=_listed(one.changed)))
     return done, diagnostics + failed
 
 
@@ -95,6 +90,8 @@ def _span(network: Network, host: NetworkHost) -> Span:
     return host.span if host.span.file else Span(network.path)
 
 
-def _listed(paths: Sequence[str], most: int = 5) -> str:
-    more = f" and {len(paths) - most} more" if len(paths) > most else ""
-    return ", ".join(paths[:most]) + more
+def _without_rsync(network: Network, host: NetworkHost, where: str) -> Diagnostic:
+    hint = f"install it on {'that host' if where == 'it' else where} (Debian: rsync)"
+    return codes.NO_PUSH.at(
+        _span(network, host), hint=hint, name=host.name, address=host.address, reason=f"{where} has no rsync"
+    )  # fmt: skip

@@ -32,7 +32,7 @@ def carry_out(push: HostPush, report: Sent) -> None:
         folders = sorted({host.there(base) if base else "" for base in own} - {""} or {"/"})
         before = {**coming, **there.pushed}
         host_files.keep(host, there.list, before.values(), folders)
-        kept = f"{there.list.rpartition('/pushed/')[0]}/replaced/{os.path.basename(there.list)}"
+        kept = f"{push.kept}/{os.path.basename(there.list)}"
         _send(push, push.replaced, f"{kept}/{datetime.now(UTC):%Y-%m-%dT%H-%M-%S.%f}", report)
         _send(push, [path for path in push.send if path not in set(push.replaced)], "", report)
     if push.send or push.delete or push.entries != there.pushed:
