@@ -18,7 +18,7 @@ fi
 path=$folder/$unit link=$folder/$target.wants/$unit
 if [[ $what == show ]]; then
     [[ -f $path ]] && printf 'state\t%s\n' "$("${control[@]}" is-active "$unit" 2>/dev/null)"
-    exit
+    exit 0
 fi
 mark="# Written by \`rcyaml deploy install\` for $owner"
 if [[ -f $path ]]; then

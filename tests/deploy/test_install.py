@@ -91,7 +91,7 @@ def test_what_was_killed_is_started_again_and_what_was_taken_down_is_not(robot: 
     robot.machine.run("kill", "-9", *told)
     until(lambda: (now := robot.status())["base"]["ready"] and now["base"]["pid"] != before["base"], "it is back")
     robot.until_ready()
-    assert "starts again at the next boot" in robot.deploy("down")
+    assert "starts it again at the next boot" in robot.deploy("down")
     until(lambda: robot.machine.systemctl("is-active", UNIT) == "inactive\n", "the service ends")
     assert "not running, installed" in robot.deploy("ls")
     robot.machine.cut()

@@ -101,6 +101,7 @@ def answers(
     """The diagnostics of what a check has printed, also with the times of a log."""
     found: list[Diagnostic] = []
     stale: dict[int, list[str]] = {}
+    missing: set[int] = set()
     for line in lines:
         _, mark, rest = line.partition(f"{_MARK}\t")
         number, _, fault = rest.partition("\t")
@@ -110,8 +111,11 @@ def answers(
         if kind in ("differs", "gone"):
             stale.setdefault(int(number), []).append(text)
         else:
+            missing |= {int(number)} if kind in ("folder", "file") else set()
             found.append(_of_line(network, host, specs[int(number)], kind, text))
     for of_process, paths in stale.items():
+        if of_process in missing:
+            continue  # the same push brings all
         more = f" and {len(paths) - _SHOWN} more" if len(paths) > _SHOWN else ""
         found.append(
             codes.CANNOT.at(
