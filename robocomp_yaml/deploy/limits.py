@@ -66,6 +66,6 @@ def _why_not(command: list[str]) -> str:
 
 
 def in_words(errors: str) -> str:
-    """The reason in the errors of a test, '' if there are none: `nice` goes on without the right."""
+    """The reason in the errors of a test, '' if there are none: a process whose niceness is denied goes on."""
     lines = [line.strip() for line in errors.splitlines() if line.strip()]
     return lines[-1].rpartition(": ")[2].lower() if lines else ""

@@ -60,7 +60,7 @@ class SshClient:
 
     def run(self, host: NetworkHost, command: list[str], given: bytes = b"", within: float = 60.0) -> SshResult:
         """Runs a command on a host, with `given` as its input. Raises SshFailed."""
-        words = [*self.shell(host), "--", host.address, shlex.join(command)]
+        words = [*self.shell(host), *options(host.ssh), "--", login(host), shlex.join(command)]
         try:
             done = subprocess.run(
                 words, input=given, capture_output=True, check=False, timeout=within, start_new_session=True,
@@ -83,7 +83,8 @@ class SshClient:
                 raise self._failed[host]
             if host not in self._sockets:
                 self._connect(host)
-        return ["ssh", "-T", "-S", self._sockets[host], "-o", "ControlMaster=no", "-o", "BatchMode=yes"]
+        shared = ["-S", self._sockets[host], "-o", "ControlMaster=no"] if self._sockets[host] else []
+        return ["ssh", "-T", "-o", "BatchMode=yes", *shared]
 
     def _connect(self, host: NetworkHost) -> None:
         with self._lock:
@@ -93,7 +94,7 @@ class SshClient:
         socket = f"{self._folder}/{len(self._locks)}-{len(self._sockets)}"
         words = [
             "ssh", "-M", "-S", socket, "-f", "-N", "-T", "-o", f"ControlPersist={_IDLE}", *options(host.ssh),
-            "--", host.address,
+            "--", login(host),
         ]  # fmt: skip
         # The connection stays in the background with its standard error, which therefore is no pipe.
         with tempfile.TemporaryFile() as errors:
@@ -107,30 +108,32 @@ class SshClient:
             except subprocess.TimeoutExpired:
                 raise self._keep(host, SshFailed("no answer")) from None
             errors.seek(0)
-            if done.returncode:
+            if done.returncode == _LOST:
                 raise self._keep(host, self._why(host, errors.read().decode(errors="replace")))
-        self._sockets[host] = socket
+        self._sockets[host] = (
+            "" if done.returncode else socket
+        )  # another program in place of ssh may have no shared one
 
     def _keep(self, host: NetworkHost, failure: SshFailed) -> SshFailed:
         self._failed[host] = failure
         return failure
 
     def _why(self, host: NetworkHost, errors: str) -> SshFailed:
-        login = typed(host)
+        command = typed(host)
         for pattern, reason, hint in _REASONS:
             if found := re.search(pattern, errors, re.IGNORECASE):
-                return SshFailed(reason.format(*found.groups()), hint.format(login=login, address=host.address))
+                return SshFailed(reason.format(*found.groups()), hint.format(login=command, address=host.address))
         lines = [line.strip() for line in errors.splitlines() if line.strip()]
-        return SshFailed(lines[-1] if lines else "the connection was closed", f"`{login} true` shows more")
+        return SshFailed(lines[-1] if lines else "the connection was closed", f"`{command} true` shows more")
 
     def close(self) -> None:
         """Closes all connections."""
         with self._lock:
             sockets, self._sockets, self._failed = self._sockets, {}, {}
             folder, self._folder = self._folder, ""
-        for host, socket in sockets.items():
+        for host, socket in ((host, socket) for host, socket in sockets.items() if socket):
             subprocess.run(
-                ["ssh", "-S", socket, "-O", "exit", "--", host.address], capture_output=True, check=False,
+                ["ssh", "-S", socket, "-O", "exit", "--", login(host)], capture_output=True, check=False,
                 stdin=subprocess.DEVNULL,
             )  # fmt: skip
         if folder:
@@ -148,7 +151,12 @@ def typed(host: NetworkHost) -> str:
     words += ["-i", access.identity] if access.identity else []
     words += ["-o", f"UserKnownHostsFile={access.known_hosts}"] if access.known_hosts else []
     words += ["-J", access.jump] if access.jump else []
-    return shlex.join([*words, f"{access.user}@{host.address}" if access.user else host.address])
+    return shlex.join([*words, login(host)])
+
+
+def login(host: NetworkHost) -> str:
+    """The host as ssh expects it, with its user."""
+    return f"{host.ssh.user}@{host.address}" if host.ssh.user else host.address
 
 
 def options(access: SshAccess) -> list[str]:
@@ -159,7 +167,6 @@ def options(access: SshAccess) -> list[str]:
         "-o", "ServerAliveCountMax=3", "-o", "ClearAllForwardings=yes", "-o", "RemoteCommand=none",
         "-o", "PermitLocalCommand=no", "-o", "ForwardAgent=no", "-o", "ForwardX11=no", "-o", "LogLevel=ERROR",
     ]  # fmt: skip
-    words += ["-l", access.user] if access.user else []
     words += ["-p", str(access.port)] if access.port else []
     if access.jump:
         words += ["-o", f"ProxyCommand={_through(access)}"]

@@ -7,6 +7,8 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 _UNLIMITED = -1
+# `nice` would add to the niceness of the supervisor.
+_RENICE = 'renice -n "$0" -p $$ >/dev/null; exec "$@"'
 
 
 def words(limits: Mapping[str, Any]) -> list[str]:
@@ -18,7 +20,7 @@ def by_key(limits: Mapping[str, Any]) -> Iterator[tuple[str, list[str]]]:
     """The words for each limit, which are also a test of it: with the command `true` they fail where it is denied."""
     one = {key: value for key, value in limits.items() if value is not None}
     if "nice" in one:
-        yield "nice", ["nice", "-n", str(one["nice"])]
+        yield "nice", ["sh", "-c", _RENICE, str(one["nice"])]
     if "realtime" in one:
         yield "realtime", ["chrt", "--fifo", str(one["realtime"])]
     if "cores" in one:

@@ -14,7 +14,7 @@ from robocomp_yaml.deploy.probe import ProbeFailed
 from robocomp_yaml.deploy.push import host_files
 from robocomp_yaml.deploy.push.host_files import PushedFile
 from robocomp_yaml.deploy.push.planned import HostPush
-from robocomp_yaml.deploy.ssh import CLIENT, SshFailed
+from robocomp_yaml.deploy.ssh import CLIENT, SshFailed, login
 from robocomp_yaml.network.network import NetworkHost
 
 _PARTIAL = ".rcyaml-partial"
@@ -71,7 +71,7 @@ def _rsync(host: NetworkHost, base: str, target: str, names: Mapping[str, str], 
         shell = shlex.join(CLIENT.shell(host))
     except SshFailed as error:
         raise ProbeFailed(str(error), error.hint) from error
-    address = f"[{host.address}]" if ":" in host.address else host.address
+    address = login(NetworkHost(host.name, f"[{host.address}]" if ":" in host.address else host.address, host.ssh))
     words = [
         "rsync", "--perms", "--times", "--copy-links", "--ignore-times", "--no-implied-dirs", "--omit-dir-times",
         "--from0", "--files-from=-", f"--partial-dir={_PARTIAL}", "-s", "--timeout=60", "--out-format=%n", "-e", shell,
