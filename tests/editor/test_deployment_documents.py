@@ -122,7 +122,7 @@ MESSAGES = [
         D + "hosts: {a: {address: b, path: {.: opt}}}",
         ["2:35 a folder on a host is an absolute path, such as /opt/robot"],
     ),
-    (D + "hosts: {a: {address: b, ssh: {port: 0}}}", ["2:35 a port is a whole number from 1 to 65535"]),
+    (D + "hosts: {a: {address: b, ssh: {port: 0}}}", ["2:37 a port is a whole number from 1 to 65535"]),
     (D + "limits: {memory: 512}", ["2:18 memory: is a size with a unit, such as 512 MiB"]),
     (D + "limits: {realtime: 100}", ["2:20 realtime: is a priority from 1 to 99 (first)"]),
     (D + "limits: {cores: 1-}", ["2:17 cores: are numbers of cores, such as 0-1 or 0,2"]),
