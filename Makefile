@@ -15,7 +15,7 @@ SEED ?= 1
 demo_NEEDS := python3-venv python3-zeroc-ice
 test_NEEDS := $(demo_NEEDS) \
   zeroc-ice-compilers libzeroc-ice-dev zeroc-ice-slice zeroc-icebox libzeroc-icestorm3.7 zeroc-icegrid zeroc-ice-utils \
-  qt6-base-dev cmake g++ make ninja-build nodejs npm git openssl iproute2 \
+  qt6-base-dev cmake g++ make ninja-build nodejs npm git openssl iproute2 openssh-client rsync \
   openjdk-17-jdk-headless libzeroc-ice3.7-java neovim
 # More packages for the tests, which few want on their own machine: the CI has an SSH server, and systemd.
 MORE ?=

@@ -13,12 +13,13 @@ from msgspec.structs import replace
 
 from robocomp_yaml.api.refusals import cannot_write, meant, require
 from robocomp_yaml.building.job import RELEASE
-from robocomp_yaml.deploy import folder, history, operations, registered
+from robocomp_yaml.deploy import folder, history, limits, operations, registered
 from robocomp_yaml.deploy.attached import Attached, attached
 from robocomp_yaml.deploy.carry_out import Report
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import DeployFailed, Line
 from robocomp_yaml.deploy.engines import ENGINES, LOCAL, make_engine
+from robocomp_yaml.deploy.install import installing
 from robocomp_yaml.deploy.local.obstacles import elsewhere
 from robocomp_yaml.deploy.log_filter import LogFilter, selected
 from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, STOP_THEM, Choose, Result, Status
@@ -88,9 +89,18 @@ class Deployment:
         return self.placed([*self._diagnostics, *self._engine.notes])
 
     @property
+    def installed(self) -> list[str]:
+        """The hosts on which systemd starts the deployment at boot."""
+        return installing.hosts_of(self.network.folder)
+
+    @property
     def enabled(self) -> set[str]:
         """The names of the processes that are enabled."""
         return {process.name for process in self.network.enabled()}
+
+    def add(self, diagnostics: Iterable[Diagnostic]) -> None:
+        """Adds diagnostics of a call to those of the deployment."""
+        self._diagnostics += diagnostics
 
     def placed(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
         """Diagnostics of an engine as users see them: with the path of the document as it was passed, which engines
@@ -148,6 +158,7 @@ class Deployment:
         """The plan of `up`: what it would start, stop, restart and change, and why. The diagnostics have the
         obstacles."""
         chosen = self.chosen(names)
+        self._diagnostics += limits.ignored(self.network, chosen or self.enabled)
         self._report_stale(names)
 
         async def work() -> Plan:
@@ -179,6 +190,7 @@ class Deployment:
         if isinstance(on_failure, str):
             require("way to handle failures", on_failure, (STOP_THEM, ROLL_BACK, KEEP_GOING))
         chosen, limit = self.chosen(names), TimeLimit(timeout)
+        self._diagnostics += limits.ignored(self.network, chosen or self.enabled)
         if self._report_stale(names):
             raise Faulty(self.diagnostics)
         forced = (chosen or self.enabled) if restart else set[str]()

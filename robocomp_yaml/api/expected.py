@@ -11,7 +11,7 @@ from robocomp_yaml.addresses.interface_comparison import HasInterface
 from robocomp_yaml.addresses.table import PortTable
 from robocomp_yaml.deploy.alone import own_configuration
 from robocomp_yaml.deploy.differences import shown_path
-from robocomp_yaml.deploy.local.obstacles import is_local
+from robocomp_yaml.deploy.here import is_local
 from robocomp_yaml.link.program import LinkedComponent, Port
 from robocomp_yaml.network.assigned_ports import STORM_PORT
 from robocomp_yaml.network.draft import MANAGER, STORM_INSTANCE

@@ -85,11 +85,12 @@ def _running(word: str, *, is_path: bool) -> str:
     """The document of the running deployment of this name, or at this path, which may be gone; '' if none runs. In a
     folder with a document, the name of one of its processes or groups goes first. Raises Refused if several run."""
     from robocomp_yaml.deploy import registered
+    from robocomp_yaml.deploy.install import installing
     from robocomp_yaml.diag.errors import Refused
 
     if is_path:
         return word if registered.of_document(word) else ""
-    found = registered.named(word)
+    found = registered.named(word) or installing.named(word)
     if not found or any(_may_name(document, word) for document in _documents_here()):
         return ""
     if len(found) > 1:

@@ -147,7 +147,8 @@ def deployment_lines(found: Sequence[ListedDeployment]) -> list[Shown]:
     rows = [("DEPLOYMENT", "STATE", "ENGINE", "HOSTS", "DOCUMENT")]
     for one in found:
         document = shown_path(one.document) + ("" if one.has_document else " (gone)")
-        rows.append((one.name, one.state, one.engine, ", ".join(one.hosts), document))
+        state = f"{one.state}, installed" if one.installed else one.state
+        rows.append((one.name, state, one.engine, ", ".join(one.hosts), document))
     widths = [max(columns(row[column]) for row in rows) for column in range(len(rows[0]))]
     return [Shown("  ".join(pad(*cell) for cell in zip(row, widths, strict=True)).rstrip()) for row in rows]
 

@@ -81,15 +81,15 @@ class DeploySession(msgspec.Struct):
         return _options.colored(self.ctx)
 
     @property
-    def _prints_progress(self) -> bool:
+    def prints_progress(self) -> bool:
         return self.format_ == "text" and self.ctx.obj.verbosity >= 0
 
     def plan(self, names: Names) -> None:
-        found = self._run(lambda: self.deployment.plan(*names))
+        found = self.run(lambda: self.deployment.plan(*names))
         if self.format_ == "json":
-            self._end({"plan": views.plan_data(found, self.network)})
+            self.end({"plan": views.plan_data(found, self.network)})
         terminal.say(*views.plan_lines(found, self.network, self._color, everything=self.ctx.obj.verbosity > 0))
-        self._end()
+        self.end()
 
     def build(self, names: Names) -> None:
         """Ends the command if a component cannot be built. Then nothing is started."""
@@ -143,12 +143,13 @@ class DeploySession(msgspec.Struct):
             with progress:
                 return work(progress, choose if asks_user else "stop" if on_failure == "ask" else on_failure)
 
-        result = self._run(start, on_interrupt)
+        result = self.run(start, on_interrupt)
+        self._say_installed("at boot, as it is left now")
         if self.format_ == "json":
-            self._end(views.result_data(result))
-        if shows and self._prints_progress:
+            self.end(views.result_data(result))
+        if shows and self.prints_progress:
             terminal.say(views.result_text(self.network, result))
-        self._end()
+        self.end()
 
     def _attached(self, progress: Progress) -> api.Attached:
         """The user who watches the output, and ends the deployment by Ctrl-C."""
@@ -165,21 +166,24 @@ class DeploySession(msgspec.Struct):
             progress.pause()
             for number in (signal.SIGINT, signal.SIGTERM):
                 asyncio.get_running_loop().add_signal_handler(number, stop, number)
-            if self._prints_progress:
+            if self.prints_progress:
                 terminal.say(f"{self.network.name}: Ctrl-C stops it")
 
         return api.Attached(on_up, on_line if self.format_ == "text" else None)
 
     def status(self, names: Names) -> None:
-        found = self._run(lambda: self.deployment.status(*names))
+        found = self.run(lambda: self.deployment.status(*names))
         code = 0 if all(one.is_as_desired for one in found) else 1
         if self.format_ == "json":
-            self._end({"processes": views.status_data(self.network, found)}, code)
+            self.end(
+                {"processes": views.status_data(self.network, found), "installed": self.deployment.installed}, code
+            )
         room = shutil.get_terminal_size().columns if sys.stdout.isatty() else None
         terminal.say(*views.status_lines(self.network, found, self._color, room))
+        self._say_installed("at boot")
         if lost := views.lost_lines(found):
             terminal.say(*lost, err=True)
-        self._end(code=code)
+        self.end(code=code)
 
     def logs(self, names: Names, last: int | None, *, follow: bool, times: bool, since: str, pattern: str) -> None:
         chosen = self.deployment.chosen(names) or self.deployment.enabled
@@ -191,7 +195,7 @@ class DeploySession(msgspec.Struct):
             else:
                 terminal.say(view.text(line))
 
-        self._run(
+        self.run(
             lambda: self.deployment.logs(
                 *names, last=last, follow=follow, on_line=on_line, since=since, pattern=pattern
             ),
@@ -203,51 +207,57 @@ class DeploySession(msgspec.Struct):
             with self._progress() as progress:
                 return self.deployment.down(*names, report=progress.report)
 
-        stopped = self._run(stop_all)
+        stopped = self.run(stop_all)
+        self._say_installed("again at the next boot, until `rcyaml deploy uninstall`")
         if self.format_ == "json":
-            self._end({"stopped": stopped})
+            self.end({"stopped": stopped})
         if not stopped:
             terminal.say(f"{self.network.name}: nothing was running")
-        self._end()
+        self.end()
+
+    def _say_installed(self, when: str) -> None:
+        hosts = self.deployment.installed
+        if hosts and self.prints_progress:
+            terminal.say(f"{self.network.name} is installed on {', '.join(hosts)}: systemd starts it {when}", err=True)
 
     def probe(self, name: str = "") -> None:
         """Probes a host, or all hosts. The exit code is 1 if one of them cannot run its programs."""
         answers = self.deployment.probe(name)
         code = 0 if all(can_run(self.network, host, found) for host, found in answers.items()) else 1
         if self.format_ == "json":
-            self._end({"hosts": msgspec.to_builtins(answers)}, code)
+            self.end({"hosts": msgspec.to_builtins(answers)}, code)
         for host, found in answers.items():
             terminal.say(f"{host} ({self.network.hosts[host].address}):", *views.probe_lines(found, self._color))
-        self._end(code=code)
+        self.end(code=code)
 
     def export(self, form: str, output: str | None) -> None:
         """Prints the files, or writes them below `output`. They may contain secrets, which are hidden on a terminal."""
         if output is None:
             before = len(self.deployment.diagnostics)
-            files = self._run(lambda: self.deployment.export(form, reveal=not sys.stdout.isatty()))
+            files = self.run(lambda: self.deployment.export(form, reveal=not sys.stdout.isatty()))
             if self.format_ == "json":
                 terminal.data(dumps({"files": files}), json=True)
             else:
                 _print_files(files)
             self._show(self.deployment.diagnostics[before:])
             return
-        written = self._run(lambda: self.deployment.write_export(form, output))
+        written = self.run(lambda: self.deployment.write_export(form, output))
         if self.format_ == "json":
-            self._end({"written": written})
-        if self._prints_progress:
+            self.end({"written": written})
+        if self.prints_progress:
             terminal.say(*(f"wrote {path}" for path in written))
-        self._end()
+        self.end()
 
     def _progress(self) -> Progress:
-        return Progress(self._prints_progress, self._color, self.deployment.enabled)
+        return Progress(self.prints_progress, self._color, self.deployment.enabled)
 
-    def _run(self, work: Callable[[], T], on_interrupt: str | None = None) -> T:
+    def run(self, work: Callable[[], T], on_interrupt: str | None = None) -> T:
         """The result of a call of the library. Errors end the command, and so does Ctrl-C, with a line about the
         running processes."""
         try:
             return work()
         except Faulty:
-            self._end()
+            self.end()
         except KeyboardInterrupt as error:
             if on_interrupt is None:
                 stop = terminal.typed("rcyaml", "deploy", "down", self.deployment.path)
@@ -256,7 +266,7 @@ class DeploySession(msgspec.Struct):
                 terminal.say(on_interrupt, err=True)
             self.ctx.exit(_signals.code_of(error))
 
-    def _end(self, data: dict[str, object] | None = None, code: int = 0) -> NoReturn:
+    def end(self, data: dict[str, object] | None = None, code: int = 0) -> NoReturn:
         """Prints the diagnostics, and ends the command: with 1 if one is an error, else with `code`."""
         diagnostics = self.deployment.diagnostics
         if self.format_ == "json":

@@ -177,6 +177,42 @@ def down(session: DeploySession, names: tuple[str, ...]) -> None:
     session.down(names)
 
 
+@_subcommand("Bring the files of the network to its other hosts.", _names)
+@click.option("--dry-run", is_flag=True, help="Print what would be sent and deleted.")
+def push(session: DeploySession, names: tuple[str, ...], dry_run: bool) -> None:
+    """Bring to each other host what its processes need: programs, code, run time and Slice, with rsync over ssh. Files
+    that an earlier push brought, and that nothing needs any more, are deleted; all other files there stay. NAMEs are
+    hosts, processes or groups."""
+    from robocomp_yaml.commands import _pushing
+
+    _pushing.push(session, names, dry_run=dry_run)
+
+
+_nothing = click.argument("nothing", cls=DocumentAnd, limit=0, expose_value=False)
+
+
+@_subcommand("Let systemd start the network at boot.", _engine)
+@_nothing
+@click.option("--user", "manager", flag_value="user", help="Units of the users, whatever the hosts say.")
+@click.option("--system", "manager", flag_value="system", help="Units of the machines: root, or sudo.")
+@click.option("--print", "prints", is_flag=True, help="Only print the units.")
+@click.option("--dry-run", is_flag=True, help="Only print which units would be written.")
+def install(session: DeploySession, manager: str | None, prints: bool, dry_run: bool) -> None:
+    """Write units for systemd on all hosts, so that the network comes up when they boot. Without --user and --system,
+    `systemd:` of each host says whose units. The network is started now, if systemd can be reached."""
+    from robocomp_yaml.commands import _installing
+
+    _installing.install(session, manager or "", prints=prints, dry_run=dry_run)
+
+
+@_subcommand("Remove what install has written.", _nothing, lenient=True)
+def uninstall(session: DeploySession) -> None:
+    """Take the network down, and remove the units on all hosts."""
+    from robocomp_yaml.commands import _installing
+
+    _installing.uninstall(session)
+
+
 @_subcommand(
     "Show which programs of the network a host has.",
     click.argument("host", cls=DocumentAnd, limit=1, metavar="[HOST]"),

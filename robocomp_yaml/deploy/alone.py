@@ -10,7 +10,7 @@ import msgspec
 from robocomp_yaml.addresses.own import adapters, is_own, replaces_values
 from robocomp_yaml.addresses.port_numbers import COMMON_BEHAVIOR
 from robocomp_yaml.addresses.table import PortTable
-from robocomp_yaml.deploy.local.obstacles import is_local
+from robocomp_yaml.deploy.here import is_local
 from robocomp_yaml.emit import value_files
 from robocomp_yaml.emit.layout import CONFIG
 from robocomp_yaml.link.flat_configs import flat_config

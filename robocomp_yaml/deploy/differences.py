@@ -15,6 +15,7 @@ from robocomp_yaml.network.network import (
     FOREVER,
     SERVER,
     TASK,
+    UNLIMITED,
     ConfigFile,
     EnvironmentVariable,
     Process,
@@ -46,6 +47,7 @@ def differences(old: ProcessSpec, new: ProcessSpec) -> list[Difference]:
         *([Difference("command", _command(old), _command(new))] if old.command != new.command else ()),
         *_field("cwd", before.cwd, after.cwd),
         *_entries("env", _variables(before.env), _variables(after.env), ()),
+        *_entries("limits", _limits(before), _limits(after), ()),
         *_config(before.config, after.config, {*before.secrets, *after.secrets}),
         *_files(dict(old.digests), dict(new.digests)),
         *_live(before, after),
@@ -68,6 +70,12 @@ def _entries(name: str, old: dict[str, str], new: dict[str, str], hidden: Collec
 def _shown(key: str, value: str | None, hidden: Collection[str]) -> str:
     """A value, with secrets hidden. An empty value differs from an absent one."""
     return "''" if value == "" else secrets.value(key, value or "", hidden)
+
+
+def _limits(process: Process) -> dict[str, str]:
+    limits = msgspec.to_builtins(process.limits)
+    return {key: "any size" if value == UNLIMITED and key == "core" else str(value) for key, value in limits.items()
+            if value is not None}  # fmt: skip
 
 
 def _command(spec: ProcessSpec) -> str:

@@ -60,13 +60,13 @@ def remove(folder: str) -> None:
 
 
 def network_of(name: str, path: str, folder: str, specs: Mapping[str, ProcessSpec], like: Network) -> Network:
-    """The network of these specs. The locations of its processes, and the users of its hosts, are from the current
+    """The network of these specs. The locations of its processes, and its hosts, are from the current
     network `like`."""
     hosts: dict[str, NetworkHost] = {}
     for one in specs.values():
         known = like.hosts.get(one.process.host)
-        user = known.user if known and known.address == one.address else ""
-        hosts[one.process.host] = NetworkHost(one.process.host, one.address, user)
+        is_known = known is not None and known.address == one.address
+        hosts[one.process.host] = known if known and is_known else NetworkHost(one.process.host, one.address)
     processes = {name: replace(one.process, span=like.span_of(name)) for name, one in specs.items()}
     order = tuple((one,) for one in in_order({name: one.process.after for name, one in specs.items()}))
     return Network(name, path, folder, hosts, processes, order=order)

@@ -9,6 +9,7 @@ import msgspec
 
 from robocomp_yaml.deploy import folder, registered
 from robocomp_yaml.deploy.engines import LOCAL
+from robocomp_yaml.deploy.install import installing
 from robocomp_yaml.deploy.registered import RegisteredDeployment
 
 _WITHIN = 1.0  # seconds
@@ -17,7 +18,7 @@ _WITHIN = 1.0  # seconds
 class ListedDeployment(msgspec.Struct, frozen=True):
     """`state` is `running`, `not running` (its supervisor or registry was killed, or this machine was restarted), or
     `ending` with the hosts that do not answer yet. `has_document` is False if the document is gone, or is now that of
-    another deployment."""
+    another deployment. `installed` are the hosts on which systemd starts it at boot."""
 
     name: str
     state: str
@@ -26,16 +27,27 @@ class ListedDeployment(msgspec.Struct, frozen=True):
     document: str
     folder: str
     has_document: bool
+    installed: tuple[str, ...] = ()
 
 
 def listed() -> list[ListedDeployment]:
-    return [
-        ListedDeployment(
-            one.name, _state(one), one.engine, tuple(host.name for host in one.hosts), one.document, one.folder,
-            has_document(one),
-        )
-        for one in registered.every()
-    ]  # fmt: skip
+    """The running deployments, and those that are installed."""
+    every = registered.every()
+    installed = {one.folder: tuple(unit.host.name for unit in one.units) for one in installing.every()}
+    found = [_listed(one, _state(one), installed.pop(one.folder, ())) for one in every]
+    for one in installing.every():
+        if one.folder in installed:
+            hosts = tuple(unit.host for unit in one.units)
+            entry = RegisteredDeployment(one.name, one.document, one.folder, one.engine, hosts)
+            found.append(_listed(entry, "not running", installed[one.folder]))
+    return sorted(found, key=lambda one: (one.name, one.folder))
+
+
+def _listed(one: RegisteredDeployment, state: str, installed: tuple[str, ...]) -> ListedDeployment:
+    hosts = tuple(host.name for host in one.hosts)
+    return ListedDeployment(
+        one.name, state, one.engine, hosts, one.document, one.folder, has_document(one), installed
+    )  # fmt: skip
 
 
 def has_document(one: RegisteredDeployment) -> bool:

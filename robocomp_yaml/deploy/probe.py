@@ -9,16 +9,17 @@ from __future__ import annotations
 
 import asyncio
 import os
-import shlex
+import subprocess
 from collections.abc import Sequence
 
 import msgspec
 
 from robocomp_yaml import languages, resources
-from robocomp_yaml.deploy.local.obstacles import is_local
+from robocomp_yaml.deploy.here import is_here
+from robocomp_yaml.deploy.ssh import CLIENT, SshFailed
 from robocomp_yaml.diag.codes import deploying as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.network.network import Network, NetworkHost, Process
+from robocomp_yaml.network.network import PYTHON, Network, NetworkHost, Process
 
 WITHIN = 60.0
 NODE = "the IceGrid node"
@@ -31,19 +32,19 @@ def modules() -> str:
     return languages.language("python").text("runtime/interpreter.py") + resources.text("templates/probe/modules.py")
 
 
-VARIABLE = "RCYAML_PYTHON"
-"""The variable of a process that sets its Python."""
-
-
 class ProgramQuery(msgspec.Struct, frozen=True):
-    """A program to probe. `python` is the value of the process's VARIABLE, '' if it has none."""
+    """A program to probe. `python` is the value of the process's variable PYTHON, '' if it has none."""
 
     program: str
     python: str = ""
 
 
 class ProbeFailed(Exception):
-    """The host cannot be probed; the text has the reason."""
+    """The host cannot be probed; the text has the reason. `hint` suggests what to do, or is ''."""
+
+    def __init__(self, reason: str, hint: str = "") -> None:
+        super().__init__(reason)
+        self.hint = hint
 
 
 class ProbedProgram(msgspec.Struct, frozen=True):
@@ -77,7 +78,7 @@ def programs(network: Network) -> dict[ProgramQuery, tuple[str, ...]]:
 def _python_of(process: Process, network: Network) -> str:
     """The Python that the process's own environment sets. A variable of another host's environment is unknown."""
     for variable in process.env:
-        if variable.name == VARIABLE:
+        if variable.name == PYTHON:
             is_local = variable.source and not network.is_distributed
             value = os.environ.get(variable.source, "") if is_local else variable.value
             if {"\n", "\t"} & set(value):
@@ -102,7 +103,9 @@ async def ask(
     failed: list[Diagnostic] = []
     for host, answer in zip(hosts, results, strict=True):
         if isinstance(answer, ProbeFailed):
-            failed.append(codes.NO_ANSWER.at(host.span, host=host.name, address=host.address, reason=answer))
+            failed.append(
+                codes.NO_ANSWER.at(host.span, host=host.name, address=host.address, reason=answer, hint=answer.hint)
+            )
         elif isinstance(answer, BaseException):
             raise answer
         else:
@@ -112,25 +115,17 @@ async def ask(
 
 async def probe(host: NetworkHost, queries: dict[ProgramQuery, tuple[str, ...]]) -> list[ProbedProgram]:
     """The programs of a host. Raises ProbeFailed."""
+    is_far = bool(host.folders) and not is_here(host)
+    there = [host.there(one.program) if is_far and one.program.startswith("/") else one.program for one in queries]
+    questions = "".join(f"{one.python}\t{path}\n" for one, path in zip(queries, there, strict=True)).encode(
+        errors="surrogateescape"
+    )
     script = ["sh", "-c", resources.text(SCRIPT), "ask", modules()]
-    command = script if is_local(host.address) else _over_ssh(host, script)
-    try:
-        process = await asyncio.create_subprocess_exec(
-            *command, stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE, stderr=asyncio.subprocess.PIPE
-        )
-    except OSError as error:
-        raise ProbeFailed(f"cannot run {command[0]}: {(error.strerror or str(error)).lower()}") from error
-    questions = "".join(f"{one.python}\t{one.program}\n" for one in queries).encode(errors="surrogateescape")
-    try:
-        answer, errors = await asyncio.wait_for(process.communicate(questions), WITHIN)
-    except TimeoutError as error:
-        process.kill()
-        await process.wait()
-        raise ProbeFailed(f"no answer within {WITHIN:g} s") from error
+    code, answer, errors = await asyncio.to_thread(run_on, host, script, questions)
     lines = answer.decode(errors="surrogateescape").splitlines()
-    if process.returncode or len(lines) != len(queries):
-        text = errors.decode("utf-8", "replace").strip().splitlines()
-        raise ProbeFailed(text[-1] if text else f"the answer is not valid (exit code {process.returncode})")
+    if code or len(lines) != len(queries):
+        text = errors.strip().splitlines()
+        raise ProbeFailed(text[-1] if text else f"the answer is not valid (exit code {code})")
     answers = zip(queries.items(), lines, strict=True)
     return [_found(one.program, used_by, line.split("\t")) for (one, used_by), line in answers]
 
@@ -140,8 +135,18 @@ def _found(program: str, used_by: tuple[str, ...], fields: Sequence[str]) -> Pro
     return ProbedProgram(program, used_by, path, digest, day, tuple(missing.split()))
 
 
-def _over_ssh(host: NetworkHost, script: Sequence[str]) -> list[str]:
-    """The command that runs the script on a host. The remote shell gets it in quotes; nothing in it is from a
-    document."""
-    login = f"{host.user}@{host.address}" if host.user else host.address
-    return ["ssh", "-o", "BatchMode=yes", "-o", "ConnectTimeout=10", "--", login, shlex.join(script)]
+def run_on(host: NetworkHost, script: list[str], given: bytes = b"") -> tuple[int, bytes, str]:
+    """The exit code, the output and the errors of a command on a host. Raises ProbeFailed."""
+    if not is_here(host):
+        try:
+            done = CLIENT.run(host, script, given, WITHIN)
+        except SshFailed as error:
+            raise ProbeFailed(str(error), error.hint) from error
+        return done.code, done.output, done.errors
+    try:
+        found = subprocess.run(script, input=given, capture_output=True, check=False, timeout=WITHIN)
+    except subprocess.TimeoutExpired as error:
+        raise ProbeFailed(f"no answer within {WITHIN:g} s") from error
+    except OSError as error:
+        raise ProbeFailed(f"cannot run {script[0]}: {(error.strerror or str(error)).lower()}") from error
+    return found.returncode, found.stdout, found.stderr.decode(errors="replace")

@@ -14,7 +14,7 @@ from collections.abc import Iterable
 import msgspec
 
 from robocomp_yaml.deploy.local import procfs
-from robocomp_yaml.network.network import Network
+from robocomp_yaml.network.network import Network, NetworkHost, SshAccess
 from robocomp_yaml.source.digest import digest
 from robocomp_yaml.transactions import whole_file
 
@@ -23,9 +23,19 @@ _COPIES = "files"
 
 
 class RegisteredHost(msgspec.Struct, frozen=True):
+    """A host with how ssh reaches it. `user` is from entries of earlier versions, which had only that."""
+
     name: str
     address: str
     user: str = ""
+    ssh: SshAccess = SshAccess()
+    folders: tuple[tuple[str, str], ...] = ()
+    systemd: str = ""
+
+    @property
+    def host(self) -> NetworkHost:
+        ssh = SshAccess(self.user) if self.user else self.ssh
+        return NetworkHost(self.name, self.address, ssh, self.folders, systemd=self.systemd)
 
 
 class RegisteredDeployment(msgspec.Struct, frozen=True):
@@ -50,8 +60,12 @@ class RegisteredDeployment(msgspec.Struct, frozen=True):
 
 
 def entry_of(network: Network, engine: str, supervisor: int = 0, start: int = 0) -> RegisteredDeployment:
-    hosts = tuple(RegisteredHost(one.name, one.address, one.user) for one in network.hosts.values())
+    hosts = tuple(map(host_of, network.hosts.values()))
     return RegisteredDeployment(network.name, network.path, network.folder, engine, hosts, supervisor, start)
+
+
+def host_of(host: NetworkHost) -> RegisteredHost:
+    return RegisteredHost(host.name, host.address, ssh=host.ssh, folders=host.folders, systemd=host.systemd)
 
 
 def root() -> str:

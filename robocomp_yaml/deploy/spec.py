@@ -8,8 +8,10 @@ from __future__ import annotations
 from typing import Any
 
 import msgspec
+from msgspec.structs import replace
 
-from robocomp_yaml.network.network import Network, Process
+from robocomp_yaml.deploy.here import folder_on, is_behind, is_here
+from robocomp_yaml.network.network import Network, NetworkHost, Process
 from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.regular import regular
 
@@ -18,14 +20,16 @@ _NOT_KEPT = ("span", "own_span", "extra", "build")
 
 class ProcessSpec(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """`command` is the command of the process with the path of its configuration. `digests` are those of the watched
-    files, '' for a missing one. A spec contains the text of the configuration, and so secrets: only the owner may read
-    it."""
+    files here, '' for a missing one; all other paths are those on the host. `is_behind` is True for a host that ssh
+    reaches at a port of this machine. A spec contains the text of the configuration, and so secrets: only the owner may
+    read it."""
 
     process: Process
     address: str
     command: tuple[str, ...]
     config_path: str
     digests: tuple[tuple[str, str], ...] = ()
+    is_behind: bool = False
 
     @property
     def name(self) -> str:
@@ -58,13 +62,34 @@ def spec_of(network: Network, process: Process, digests: dict[str, str]) -> Proc
     for path in process.watched:
         if path not in digests:
             digests[path] = _digest_of(path)
-    config = network.config_path(process)
+    host = network.hosts[process.host]
+    there = process if not host.folders or is_here(host) else _on(host, process)
+    config = f"{folder_on(host, network.folder)}/{process.config.path}" if process.config else ""
     return ProcessSpec(
-        process,
-        network.address(process),
-        process.words(config),
+        there,
+        host.address,
+        there.words(config),
         config,
         tuple((path, digests[path]) for path in process.watched),
+        is_behind(host),
+    )
+
+
+def _on(host: NetworkHost, process: Process) -> Process:
+    """The process with the paths of its files on its host. The texts of its user, such as arguments, stay."""
+    program, *arguments = process.command
+    env = (replace(one, file=host.there(one.file)) if one.file.startswith("/") else one for one in process.env)
+    config = process.config
+    for path in process.folders:  # an IceStorm's configuration has the path of its database
+        if config:
+            config = replace(config, text=config.text.replace(path, host.there(path)))
+    return replace(
+        process,
+        command=(host.there(program) if program.startswith("/") else program, *arguments),
+        cwd=host.there(process.cwd),
+        env=tuple(env),
+        config=config,
+        folders=tuple(map(host.there, process.folders)),
     )
 
 

@@ -8,24 +8,27 @@ import os
 from msgspec.structs import replace
 
 from robocomp_yaml.deploy import folder as own_folder
-from robocomp_yaml.deploy import registered
+from robocomp_yaml.deploy import history, registered
 from robocomp_yaml.deploy.engines import LOCAL, make_engine
 from robocomp_yaml.network.network import FOLDER, Network, NetworkHost
 
 
 def stand_in(path: str) -> tuple[Network, str] | None:
-    """The network of the running processes of the document at a path, as they were started, and its engine. None if no
-    process runs, or neither the document nor the user's list of deployments has the name."""
+    """The network of the running processes of the document at a path, as they were started, and its engine; without
+    one, that of the last `up` that was all ready. None if there was none, or neither the document nor the user's list
+    of deployments has the name."""
     document, name = os.path.abspath(path), own_folder.deployment_in(path)
     one = registered.of_document(path)
     if one and name in ("", one.name):
-        hosts = {host.name: NetworkHost(host.name, host.address, host.user) for host in one.hosts}
+        hosts = {known.name: known.host for known in one.hosts}
         network, engine = Network(one.name, document, one.folder, hosts), one.engine
     elif name:
         network, engine = Network(name, document, os.path.join(os.path.dirname(document), FOLDER, name)), LOCAL
     else:
         return None
     running = asyncio.run(_with_processes(network, engine))
+    if running is None and (entries := history.read(network.folder)):  # after a power cut
+        running = history.network_of(network.name, document, network.folder, entries[-1], network)
     return (running, engine) if running is not None else None
 
 

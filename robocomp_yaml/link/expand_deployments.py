@@ -29,6 +29,7 @@ from robocomp_yaml.source.tree import Mapping as MappingNode
 from robocomp_yaml.source.tree import Node, Scalar, Sequence, mapping_at, sequence_at, text_at
 
 _Part = TypeVar("_Part")
+_HOST_KEYS = {"paths": "path", **{key: key for key in ("ssh", "env", "python", "limits", "systemd")}}
 _NO_HOSTS = "`hosts:` defines hosts; without it, all processes run on this machine"
 
 
@@ -251,7 +252,12 @@ class Expansion(msgspec.Struct):
 
     def _merge_host(self, host: Host, part: ExpandedDocument) -> None:
         known = self._hosts.setdefault(host.name, host)
-        if (known.address.text, known.user) != (host.address.text, host.user) and part.span is not None:
+        if host.user and host.ssh.user:
+            self._report(part, codes.TWO_USERS.at(host.ssh.span, name=host.name, hint="remove one of the two"))
+        if part.span is None:
+            return
+        related = [Related("the other host", known.address.span), Related("the include", part.span)]
+        if _ssh_address(known) != _ssh_address(host):
             fault = codes.HOST_DIFFERS.at(
                 host.address.span,
                 name=host.name,
@@ -259,7 +265,18 @@ class Expansion(msgspec.Struct):
                 other=_ssh_address(known),
                 document=os.path.basename(host.address.span.file),
                 hint="rename one of the two hosts",
-                related=[Related("the other host", known.address.span), Related("the include", part.span)],
+                related=related,
+            )
+            self.diagnostics.append(fault)
+        elif key := next((key for key in _HOST_KEYS if getattr(known, key) != getattr(host, key)), ""):
+            hint = "write it in the including document only, or the same in both"
+            fault = codes.HOST_KEY_DIFFERS.at(
+                host.span,
+                name=host.name,
+                key=_HOST_KEYS[key],
+                document=os.path.basename(host.address.span.file),
+                hint=hint,
+                related=related,
             )
             self.diagnostics.append(fault)
 
@@ -294,7 +311,8 @@ class Expansion(msgspec.Struct):
 
 
 def _ssh_address(host: Host) -> str:
-    return f"{host.user}@{host.address.text}" if host.user else host.address.text
+    user = host.user or host.ssh.user
+    return f"{user}@{host.address.text}" if user else host.address.text
 
 
 def _is_for(values: LinkedValues, component: LinkedComponent) -> bool:

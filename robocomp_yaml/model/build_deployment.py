@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model import deployment as model
 from robocomp_yaml.model.build_component import seconds
+from robocomp_yaml.model.build_host import host, limits, variable
 from robocomp_yaml.model.build_interface import as_text, doc, entries, required, span_of, text, texts
 from robocomp_yaml.model.located import Text
 from robocomp_yaml.model.port_range import port_range
@@ -20,7 +21,7 @@ def build(root: Mapping, path: str) -> model.Deployment:
     return model.Deployment(
         name=text(root, "deployment"),
         path=path,
-        hosts=tuple(_host(key, node) for key, node in entries(root, "hosts")),
+        hosts=tuple(host(key, node) for key, node in entries(root, "hosts")),
         services=tuple(_storm(key, node) for key, node in entries(root, "services")),
         entries=tuple(once(_entry, key, node) for key, node in entries(root, "components")),
         groups=(
@@ -30,6 +31,7 @@ def build(root: Mapping, path: str) -> model.Deployment:
         includes=tuple(texts(root, "include")),
         extra=_extra(root.get("x-rcmanager")),
         alive=_alive(root.get("alive")),
+        limits=limits(root.get("limits")),
         doc=doc(root),
         ports=port_range(root),
         control=text(root, "control"),
@@ -48,19 +50,6 @@ def _integer(parent: Node | None, key: str) -> int | None:
     """An integer. The schema also allows a float without a fraction, such as `3.0`."""
     node = parent.get(key) if parent else None
     return int(node.data) if isinstance(node, Scalar) and isinstance(node.data, (int, float)) else None
-
-
-def _host(key: Scalar, node: Node) -> model.Host:
-    address = required(as_text(node) or _text(node, "address"))
-    return model.Host(key.lexeme, address, text(node, "user"), _listen(node), doc(node), span=key.span)
-
-
-def _listen(node: Node) -> tuple[Text, ...]:
-    given = node.get("listen")
-    if isinstance(given, Sequence):
-        return tuple(texts(node, "listen"))
-    one = as_text(given)
-    return (one,) if one is not None else ()
 
 
 def _storm(key: Scalar, node: Node) -> model.Storm:
@@ -92,7 +81,7 @@ def _entry(key: Scalar, node: Node) -> model.Entry:
         executable=_text(node, "executable"),
         args=tuple(texts(node, "args")),
         cwd=_text(node, "cwd"),
-        env=tuple(_variable(name, value) for name, value in entries(node, "env")),
+        env=tuple(variable(name, value) for name, value in entries(node, "env")),
         host=_text(node, "host"),
         port=None if port is None else _port("", port, port.span),
         ports=tuple(_port(name.lexeme, value, name.span) for name, value in entries(node, "ports")),
@@ -105,7 +94,8 @@ def _entry(key: Scalar, node: Node) -> model.Entry:
         ready=_ready(node.get("ready")),
         role=text(node, "role"),
         alive=_alive(node.get("alive")),
-        listen=_listen(node),
+        listen=listen(node),
+        limits=limits(node.get("limits")),
         endpoints=tuple(_pairs(node, "endpoints")),
         after=tuple(texts(node, "after")),
         enabled=node.data.get("enabled") is not False,  # type: ignore[attr-defined]
@@ -125,13 +115,6 @@ def _pairs(node: Node, key: str) -> Iterator[model.Pair]:
     for name, value in entries(node, key):
         if isinstance(value, Scalar):
             yield model.Pair(name.lexeme, value.lexeme, span=value.span, name_span=name.span)
-
-
-def _variable(name: Scalar, value: Node) -> model.Variable:
-    if isinstance(value, Mapping):
-        return model.Variable(name.lexeme, source=text(value, "env"), file=text(value, "file"), span=name.span)
-    assert isinstance(value, Scalar)
-    return model.Variable(name.lexeme, value.lexeme, span=name.span)
 
 
 def _restart(node: Node | None) -> model.Restart | None:

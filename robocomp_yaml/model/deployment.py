@@ -22,15 +22,64 @@ CONFIG = "{config}"
 """A placeholder in arguments: the path of the process's configuration."""
 
 
+class Variable(Spanned, frozen=True):
+    """An environment variable: `value`, or the operator's variable `source`, or the text of `file`."""
+
+    name: str
+    value: str = ""
+    source: str = ""
+    file: str = ""
+
+
+class Pair(Spanned, frozen=True):
+    """A key and its text under `connect`, `topics` or `endpoints`. `span` is that of the text."""
+
+    name: str
+    text: str
+    name_span: Span = Span("")
+
+
+class Limits(Spanned, frozen=True):
+    """What a process may use; None if it is not set. `memory` and `core` are in bytes (`core` is infinite for any
+    size), `cpu` is in percent of a core, `cores` is a list of numbers and ranges, such as `0,2-3`."""
+
+    memory: int | None = None
+    cpu: int | None = None
+    cores: str | None = None
+    nice: int | None = None
+    realtime: int | None = None
+    core: float | None = None
+    files: int | None = None
+
+
+class SshOptions(Spanned, frozen=True):
+    """The key `ssh` of a host. `port` is None if it is not set; the others are '' then. `identity` and `known_hosts`
+    are paths of files of the operator."""
+
+    user: str = ""
+    port: int | None = None
+    identity: str = ""
+    known_hosts: str = ""
+    jump: str = ""
+
+
 class Host(Spanned, frozen=True):
     """An entry of `hosts:`. `user` is for ssh; '' is the operator's own. `listen` says where its processes listen:
-    ADDRESS, ANY, or names and IP addresses of the machine; () if it is not set."""
+    ADDRESS, ANY, or names and IP addresses of the machine; () if it is not set. `paths` are folders of the operator
+    with the folders on the host in their stead; a single folder is for the workspace, with the name ''. `systemd` is
+    `user` or `system`."""
 
     name: str
     address: Text
     user: str = ""
     listen: tuple[Text, ...] = ()
     doc: str = ""
+    ssh: SshOptions = SshOptions(span=Span(""))
+    paths: tuple[Pair, ...] = ()
+    env: tuple[Variable, ...] = ()
+    python: Text | None = None
+    limits: Limits | None = None
+    systemd: str = ""
 
 
 class Storm(Spanned, frozen=True):
@@ -47,28 +96,11 @@ class Storm(Spanned, frozen=True):
     publish_span: Span = Span("")
 
 
-class Variable(Spanned, frozen=True):
-    """An environment variable: `value`, or the operator's variable `source`, or the text of `file`."""
-
-    name: str
-    value: str = ""
-    source: str = ""
-    file: str = ""
-
-
 class Number(Spanned, frozen=True):
     """The TCP port of the interface `name`, which is '' for `port:`."""
 
     name: str
     number: int
-    name_span: Span = Span("")
-
-
-class Pair(Spanned, frozen=True):
-    """A key and its text under `connect`, `topics` or `endpoints`. `span` is that of the text."""
-
-    name: str
-    text: str
     name_span: Span = Span("")
 
 
@@ -133,6 +165,7 @@ class Entry(Spanned, frozen=True):
     role: str = ""
     alive: Alive | None = None
     listen: tuple[Text, ...] = ()
+    limits: Limits | None = None
     endpoints: tuple[Pair, ...] = ()
     after: tuple[Text, ...] = ()
     enabled: bool = True
@@ -184,6 +217,7 @@ class Deployment(Spanned, frozen=True):
     groups: tuple[Group, ...] = ()
     includes: tuple[Text, ...] = ()
     alive: Alive | None = None
+    limits: Limits | None = None
     extra: tuple[tuple[str, object], ...] = ()
     doc: str = ""
     ports: PortRange | None = None

@@ -3,6 +3,7 @@ what it serves, its TCP ports, and what its configuration gets."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from typing import Any
 
@@ -17,10 +18,11 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance, LinkedStorm
 from robocomp_yaml.link.program import Port
+from robocomp_yaml.link.workspace import root_above
 from robocomp_yaml.model import deployment as model
 from robocomp_yaml.network.configuration_base import ConfigurationBase, base_of
 from robocomp_yaml.network.listening import SSL, TCP, Listening, listening
-from robocomp_yaml.network.network import LOOPBACK, Endpoint, NetworkHost
+from robocomp_yaml.network.network import LOOPBACK, Endpoint, NetworkHost, SshAccess
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.ice_endpoint import IceEndpoint, parse_endpoint, spelled_host
 from robocomp_yaml.source.ice_options import BLANKS, InvalidIceText
@@ -243,8 +245,24 @@ def is_broken(group: LinkedGroup) -> bool:
 
 
 def _host(host: model.Host) -> NetworkHost:
+    """The paths of a host start at the folder of its document; a folder without a name is that of the workspace, else
+    of the document."""
+    above = os.path.dirname(host.span.file)
+
+    def absolute(path: str) -> str:
+        return os.path.abspath(os.path.join(above, os.path.expanduser(path))) if path else ""
+
+    ssh, root = host.ssh, root_above(above)
+    folders = (absolute(pair.name) or os.path.abspath(above if root is None else root) for pair in host.paths)
     return NetworkHost(
-        host.name, host.address.text, host.user, tuple(one.text for one in host.listen), host.address.span
+        host.name,
+        host.address.text,
+        SshAccess(host.user or ssh.user, ssh.port or 0, absolute(ssh.identity), absolute(ssh.known_hosts), ssh.jump),
+        tuple((here, os.path.normpath(pair.text)) for here, pair in zip(folders, host.paths, strict=True)),
+        host.python.text if host.python else "",
+        host.systemd,
+        tuple(one.text for one in host.listen),
+        span=host.address.span,
     )
 
 

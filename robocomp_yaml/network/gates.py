@@ -41,7 +41,7 @@ class Gates(msgspec.Struct):
             name = f"{group.name}.gate"
             while name in self.drafts.linked.instances:
                 name += "_"
-            python, how, span = Text("python3"), Text(model.ARGUMENT), group.group.span
+            python, how, span = Text(first.host.python or "python3"), Text(model.ARGUMENT), group.group.span
             enabled = any(owner.instance.entry.enabled for _, owner in ruled)
             entry = model.Entry(name, model.PROGRAM, python, config_as=how, enabled=enabled, span=span)
             folder = first.instance.folder

@@ -6,6 +6,7 @@ starts, shows or exports a network reads this, and no document. Paths are absolu
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
@@ -23,6 +24,8 @@ NEVER, ON_FAILURE, ALWAYS = "no", "on-failure", "always"
 SERVER, TASK = "server", "task"
 PROXY, TOPIC = "proxy", "topic"
 LOOPBACK = "localhost"
+PYTHON = "RCYAML_PYTHON"
+"""The variable of a process that sets the Python of a component."""
 FOLDER = ".rcyaml/deployments"
 """The folder, beside a deployment's document, that contains the deployment's own folder."""
 RUNS = ".rcyaml/run"
@@ -33,15 +36,60 @@ def is_loopback(address: str) -> bool:
     return address in (LOOPBACK, "::1", "ip6-localhost") or address.startswith("127.")
 
 
+class SshAccess(msgspec.Struct, frozen=True):
+    """How ssh reaches a host, in addition to the operator's own configuration of ssh: the user, the TCP port (0: as
+    configured), the private key and the file of known hosts (absolute paths), and the jump host; '' for what is not
+    set."""
+
+    user: str = ""
+    port: int = 0
+    identity: str = ""
+    known_hosts: str = ""
+    jump: str = ""
+
+
 class NetworkHost(Located, frozen=True):
-    """A machine. `address` is a name or an IP address, LOOPBACK if the document has no hosts. `user` is the user for
-    ssh, '' for the operator's own name. `listen` says where its processes listen, () for its own address."""
+    """A machine. `address` is a name or an IP address, LOOPBACK if the document has no hosts. `folders` are folders of
+    the operator (absolute paths), with the folders on the host in their stead. `python` is the Python for components,
+    and `systemd` the manager of the units of `install` (`user` or `system`); '' for what is not set. `listen` says where
+    its processes listen, () for its own address."""
 
     name: str
     address: str = LOOPBACK
-    user: str = ""
+    ssh: SshAccess = SshAccess()
+    folders: tuple[tuple[str, str], ...] = ()
+    python: str = ""
+    systemd: str = ""
     listen: tuple[str, ...] = ()
     span: Span = Span("")
+
+    @property
+    def user(self) -> str:
+        """The user for ssh, '' for the operator's own name."""
+        return self.ssh.user
+
+    def there(self, path: str) -> str:
+        """The path on the host of what has this absolute path on the operator's machine."""
+        for here, there in sorted(self.folders, key=lambda pair: len(pair[0]), reverse=True):
+            if path == here or path.startswith(here.rstrip("/") + "/"):
+                return os.path.join(there, path[len(here) :].lstrip("/")).rstrip("/") or "/"
+        return path
+
+
+class ResourceLimits(msgspec.Struct, frozen=True):
+    """What a process may use; None if it is not limited. `memory` and `core` are in bytes (`core` is UNLIMITED for any
+    size), `cpu` is in percent of a core, `cores` is a list of numbers and ranges, such as `0,2-3`."""
+
+    memory: int | None = None
+    cpu: int | None = None
+    cores: str | None = None
+    nice: int | None = None
+    realtime: int | None = None
+    core: int | None = None
+    files: int | None = None
+
+
+UNLIMITED = -1
 
 
 class EnvironmentVariable(msgspec.Struct, frozen=True):
@@ -174,6 +222,7 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
     ready: Readiness = Readiness()
     restart: RestartRule = RestartRule()
     alive: Liveness | None = None
+    limits: ResourceLimits = ResourceLimits()
     watched: tuple[str, ...] = ()
     folders: tuple[str, ...] = ()
     aliases: tuple[str, ...] = ()

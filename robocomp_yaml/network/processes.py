@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Iterator
 
@@ -18,10 +19,13 @@ from robocomp_yaml.network.listening import SSL
 from robocomp_yaml.network.network import (
     COMPONENT,
     PROGRAM,
+    PYTHON,
+    UNLIMITED,
     ConfigFile,
     EnvironmentVariable,
     Process,
     Readiness,
+    ResourceLimits,
     RestartRule,
 )
 from robocomp_yaml.parameters.hidden import secret_names
@@ -51,12 +55,13 @@ def of_draft(
         command,
         folder,
         PROGRAM if component is None else COMPONENT,
-        env=tuple(_variable(one, instance.document.path) for one in entry.env),
+        env=tuple(_environment(draft)),
         config=ConfigFile(f"config/{draft.name}", text, secrets) if text is not None and reads_config else None,
         endpoints=tuple(adapter.resolved() for adapter in draft.adapters),
         ready=ready,
         restart=_restart(entry.restart),
         alive=liveness.of_draft(draft),
+        limits=_limits(draft),
         watched=(program, *_code(instance.folder, component, known)) if os.path.isabs(program) else (),
         aliases=tuple(alias.name for alias in draft.aliases),
         groups=tuple(group.name for group in instance.groups),
@@ -72,6 +77,30 @@ def of_draft(
         extra=(*entry.extra, ("aliases", of_aliases)) if of_aliases else entry.extra,
         span=entry.span,
     )
+
+
+def _environment(draft: Draft) -> Iterator[EnvironmentVariable]:
+    """The variables of the entry, and those of its host that the entry does not set."""
+    instance, host = draft.instance, draft.instance.host
+    own = [_variable(one, instance.document.path) for one in instance.entry.env]
+    names = {one.name for one in own}
+    if host is not None and not {PYTHON, *(one.name for one in host.env)} <= names:
+        of_host = [_variable(one, host.span.file) for one in host.env]
+        if host.python and instance.component is not None:
+            of_host.append(EnvironmentVariable(PYTHON, host.python.text))
+        yield from ({one.name: one for one in of_host if one.name not in names}).values()
+    yield from own
+
+
+def _limits(draft: Draft) -> ResourceLimits:
+    """An entry's keys have precedence over those of its host, and these over those of its deployment."""
+    instance = draft.instance
+    layers = (instance.document.limits, instance.host.limits if instance.host else None, instance.entry.limits)
+    keys = ResourceLimits.__struct_fields__
+    found = {key: value for one in layers if one for key in keys if (value := getattr(one, key)) is not None}
+    if math.isinf(found.get("core", 0)):
+        found["core"] = UNLIMITED
+    return ResourceLimits(**found)
 
 
 def _variable(given: model.Variable, document: str) -> EnvironmentVariable:

@@ -35,7 +35,6 @@ pytestmark = [
 @pytest.fixture
 def reached_by_ssh(tmp_path: Path) -> Iterator[Deployment]:
     """Two hosts. The second is reached over SSH, with a key in the home of this test."""
-    pytest.importorskip("asyncssh", reason="asyncssh is not installed (extra `ssh`)")
     pytest.importorskip("IceGrid", reason="Ice for Python is not installed (Debian: python3-zeroc-ice)")
     with three_hosts() as hosts:
         hosts.need_a_network("so every host would be this machine")

@@ -20,6 +20,7 @@ import msgspec
 
 from robocomp_yaml import resources
 from robocomp_yaml.deploy import folder as own_folder
+from robocomp_yaml.deploy import ssh
 from robocomp_yaml.deploy.icegrid import settings
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry
 from robocomp_yaml.deploy.local.procfs import MARK
@@ -85,12 +86,12 @@ def write_script(files: GridFiles, host: NetworkHost, hosts: Collection[NetworkH
     address = "127.0.0.1" if host.address == LOOPBACK else own_address(host, hosts) or host.address
     who = f"{getpass.getuser()}@{socket.gethostname()}"
     facts = {
-        "folder": files.folder,
+        "folder": files.on(host.name).folder,
         "host": host.name,
         "owner": f"{who} {files.folder}, registry {registry.address}:{registry.port}",
         "certificate": _text(files.certificate),
         "key": _text(files.key),
-        "settings": as_text(settings.of_node(files, host.name, address, registry)),
+        "settings": as_text(settings.of_node(files.on(host.name), host.name, address, registry)),
         "run": resources.text("templates/icegrid/run"),
         "guard": resources.text("templates/icegrid/guard"),
     }
@@ -101,10 +102,12 @@ def write_script(files: GridFiles, host: NetworkHost, hosts: Collection[NetworkH
 
 
 class NodeStart(msgspec.Struct, frozen=True):
-    """The result of starting a node. `reason` is why that failed, or ''. `was_running` is True if it already ran."""
+    """The result of starting a node. `reason` is why that failed, or ''. `was_running` is True if it already ran.
+    `hint` suggests what to do about the reason, or is ''."""
 
     reason: str = ""
     was_running: bool = False
+    hint: str = ""
 
 
 def outcome(code: int | None, output: str, errors: str) -> NodeStart:
@@ -122,8 +125,7 @@ def start_local_node(script: str) -> NodeStart:
 
 def by_hand(script: str, host: NetworkHost) -> str:
     """The command that starts a node on another host."""
-    login = f"{host.user}@{host.address}" if host.user else host.address
-    return f"ssh {login} bash -s < {shlex.quote(script)}"
+    return f"{ssh.typed(host)} bash -s < {shlex.quote(script)}"
 
 
 def _text(path: str) -> str:

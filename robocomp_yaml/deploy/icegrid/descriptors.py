@@ -17,10 +17,12 @@ from collections.abc import Iterable
 from typing import Any
 
 import IceGrid
+import msgspec
 
 from robocomp_yaml.deploy import liveness
 from robocomp_yaml.deploy.engine import STOP_WITHIN
 from robocomp_yaml.deploy.icegrid.grid_files import KEEPER, GridFiles
+from robocomp_yaml.deploy.local import limits
 from robocomp_yaml.deploy.local.procfs import MARK
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.network.network import ICESTORM, Process
@@ -76,6 +78,7 @@ def server(files: GridFiles, spec: ProcessSpec, user: str, number: int, *, is_lo
     if process.config and process.config.pem and not is_local:
         words.append(f"c{files.folder}/{process.config.pem_path}")
         environment.append(f"RCYAML_PEM={encoded(process.config.pem)}")
+    words += [f"l{word}" for word in limits.words(msgspec.to_builtins(process.limits))]
     words += [f"={part}" for part in command]
     facts = _facts(
         process.name, "setpriv", ["--pdeathsig", "KILL", "--", "${node.data}/../run", *map(_literal, words)],

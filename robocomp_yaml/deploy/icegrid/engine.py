@@ -19,17 +19,18 @@ from msgspec.structs import replace
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy import registered
 from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
+from robocomp_yaml.deploy.here import is_here, is_near
 from robocomp_yaml.deploy.icegrid import obstacles as of_hosts
 from robocomp_yaml.deploy.icegrid import start_up
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles
 from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.local.log_reader import LineReader, LogReader, merged
-from robocomp_yaml.deploy.local.obstacles import CheckedSpecs, is_local, obstacles
+from robocomp_yaml.deploy.local.obstacles import CheckedSpecs, obstacles
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.network.network import NEVER, PROGRAM, Network, RestartRule
+from robocomp_yaml.network.network import NEVER, PROGRAM, Network, ResourceLimits, RestartRule
 
 if TYPE_CHECKING:
     from robocomp_yaml.deploy.icegrid.grid import GridSession
@@ -42,6 +43,7 @@ _CODE = "exit code "
 _RESERVE, _RESERVED = "reserve", 1 << 18  # bytes: for specs, rules and the registry's database
 _WRITE = 'head -c "$2" /dev/zero >"$1/.space"; code=$?; rm -f "$1/.space"; exit $code'
 _WRITE_WITHIN = 10.0
+_CHECK_WITHIN = 60.0
 _CALLS = 32  # threads, which mostly wait
 
 
@@ -62,7 +64,7 @@ class IceGridEngine:
         self._no_node: dict[str, Diagnostic] = {}  # by the name of the host
         self._cleared = CheckedSpecs()
         self._has_staged = self._has_changed = False
-        self._addresses: dict[str, str] = {}  # of the hosts that were used before
+        self._far: set[str] = set()  # other hosts that were used before
         self._unreached: dict[str, set[str]] = {}  # processes that could not be ended, by the name of the host
         self._lock = threading.Lock()
         self._calls = ThreadPoolExecutor(_CALLS, "icegrid")
@@ -81,7 +83,7 @@ class IceGridEngine:
             self._nodes = asyncio.create_task(self._call("", "reached", self._ensure_nodes, self._grid))
             await asyncio.sleep(0)  # so that it starts
         self._specs = self._files.specs()
-        self._addresses = {spec.process.host: spec.address for spec in self._specs.values() if spec}
+        self._far = {spec.process.host for spec in self._specs.values() if spec and not is_near(spec)}
         self._kept = self._desired = self._files.desired()
         return True
 
@@ -94,6 +96,7 @@ class IceGridEngine:
     def _ensure_nodes(self, grid: GridSession) -> None:
         used = {process.host for process in self._network.enabled()}
         hosts = [host for host in self._network.hosts.values() if host.name in used]
+        self._files.keep_folders(hosts)
         try:
             self._no_node = start_up.ensure_nodes(grid, self._files, self._network, hosts)
         except BaseException:
@@ -124,41 +127,31 @@ class IceGridEngine:
         return await self._beside("", "observed", observe, self._reached(), dict(self._specs), hosts)
 
     async def obstacles(self, specs: Sequence[ProcessSpec], leaving: Collection[str]) -> list[Diagnostic]:
-        """The obstacles: on this machine all, on other hosts a missing node and ports that are used."""
+        """The obstacles on all hosts, and missing nodes."""
         running = await self.observe() if self._grid else {}
         roots = {one.pid for name, one in running.items() if name in leaving and one.pid}
         own = procfs.descendants(roots, procfs.table()) if roots else set()
-        found = obstacles([spec for spec in specs if is_local(spec.address)], own)
+        found = obstacles([spec for spec in specs if is_near(spec)], own)
         if not found:
             self._cleared.note(specs)
         if self._nodes:
             await asyncio.shield(self._nodes)
         lost = {spec.process.host: self._no_node[spec.process.host] for spec in specs
                 if spec.process.host in self._no_node}  # fmt: skip
-        far = [spec for spec in specs if not is_local(spec.address) and spec.process.host not in lost]
+        far = [spec for spec in specs if not is_near(spec) and spec.process.host not in lost]
         found += await of_hosts.used_ports(far, running)
         if far and self._grid:
-            found += await self._beside("", "asked", self._missing_programs, far)
+            found += await self._beside("", "asked", self._lacking, far)
         return [*lost.values(), *found, *of_hosts.too_long(specs)]
 
-    def _missing_programs(self, specs: Sequence[ProcessSpec]) -> list[Diagnostic]:
-        """Diagnostics for programs and folders that other hosts lack, before anything is started. A program that is
-        looked up in a PATH of its own is not checked."""
-        found: list[Diagnostic] = []
-        for host in dict.fromkeys(spec.process.host for spec in specs):
-            own = [one for one in specs if one.process.host == host and not of_hosts.has_own_path(one)]
-            while own:
-                rows = [
-                    (str(number), one.process.cwd, one.command[0]) for number, one in enumerate(own[: of_hosts.AT_ONCE])
-                ]
-                server = replace(own[0], process=replace(own[0].process, name=of_hosts.CHECK, cwd="/", env=()))
-                command = ("bash", "-c", of_hosts.MISSING, "bash", *(word for row in rows for word in row))
-                lacking = of_hosts.of_answer(
-                    own[: of_hosts.AT_ONCE], self._run(self._reached(), server, command, _WRITE_WITHIN)
-                )
-                found += [lacking[1]] if lacking else []
-                own = own[lacking[0] + 1 if lacking else of_hosts.AT_ONCE :]
-        return found
+    def _lacking(self, specs: Sequence[ProcessSpec]) -> list[Diagnostic]:
+        """Diagnostics for all that other hosts lack, or have in another version, before anything is started."""
+        from robocomp_yaml.deploy.icegrid import preflight
+
+        def run(spec: ProcessSpec, command: tuple[str, ...], lines: list[str]) -> int:
+            return self._run(self._reached(), spec, command, _CHECK_WITHIN, lines)
+
+        return preflight.lacking(self._network, specs, run)
 
     async def stage(self, specs: Sequence[ProcessSpec]) -> None:
         await self._beside("", "prepared", self._stage, specs)
@@ -167,7 +160,7 @@ class IceGridEngine:
         """Stages the configurations for this machine, and reserves space for the engine's own files, also on other
         hosts: there, `run` writes the configurations at the start."""
         self._has_staged = True
-        near = [spec for spec in specs if is_local(spec.address)]
+        near = [spec for spec in specs if is_near(spec)]
         files = {path: text for spec in near for path, text in spec.config_files.items()}
         own_folder.stage(self._files.folder, files | {_RESERVE: " " * _RESERVED})
         sizes: dict[str, int] = {}
@@ -180,7 +173,7 @@ class IceGridEngine:
         for host, known in asked.items():
             if known.process.host != host:
                 continue  # it moves there
-            command = ("bash", "-c", _WRITE, "bash", f"{self._files.folder}/config", str(sizes[host]))
+            command = ("bash", "-c", _WRITE, "bash", f"{self._files.on(host).folder}/config", str(sizes[host]))
             if self._run(self._reached(), known, command, _WRITE_WITHIN):
                 raise OSError(errno.ENOSPC, f"{os.strerror(errno.ENOSPC)} on the host '{host}'", self._files.folder)
 
@@ -207,7 +200,7 @@ class IceGridEngine:
                 else:
                     leftovers.note(self._files, old.process.host, spec.name)
         for spec in specs:
-            for file, text in spec.config_files.items() if is_local(spec.address) else ():
+            for file, text in spec.config_files.items() if is_near(spec) else ():
                 own_folder.put(self._files.folder, file, text)
         with self._lock:
             self._specs.update({spec.name: spec for spec in specs})
@@ -215,7 +208,7 @@ class IceGridEngine:
             users = {host: grid.user_of(host) for host in {spec.process.host for spec in starting}}
             servers = [
                 (spec.process.host, descriptors.server(
-                    self._files, spec, users[spec.process.host], number, is_local=is_local(spec.address)
+                    self._files.on(spec.process.host), spec, users[spec.process.host], number, is_local=is_near(spec)
                 ))
                 for spec in starting
             ]  # fmt: skip
@@ -228,7 +221,7 @@ class IceGridEngine:
         """Passes the rules of a running process to its `run`."""
         from robocomp_yaml.deploy.icegrid.descriptors import alive_rule, restart_rule
 
-        path = self._files.rule(spec.name)
+        path = self._files.on(spec.process.host).rule(spec.name)
         script = 'mkdir -p -- "${2%/*}" && printf "%s\\n" "$1" >"$2.new" && mv -- "$2.new" "$2"'
         rules = f"{restart_rule(spec.process, number)}\n{alive_rule(spec.process)}"
         command = ("bash", "-c", script, "bash", rules, path)
@@ -251,12 +244,12 @@ class IceGridEngine:
     def _local_host(self) -> str:
         """The name of a host that is this machine, on which the keeper can run, or ''."""
         used = {process.host for process in self._network.enabled()}
-        names = (host.name for host in self._network.hosts.values() if host.name in used and is_local(host.address))
+        names = (host.name for host in self._network.hosts.values() if host.name in used and is_here(host))
         return next(names, "")
 
     async def start(self, name: str) -> None:
         spec = self._specs[name]
-        if spec and is_local(spec.address):
+        if spec and is_near(spec):
             self._cleared.require(spec)
         await self._set_desired(self._desired | {name})
         await self._beside(name, "started", self._reached().start, name)
@@ -295,7 +288,7 @@ class IceGridEngine:
             self._files.keep_specs(self._specs)
         by_host: dict[str, list[str]] = {}
         for name, spec in gone.items():
-            if spec and spec.process.config and states[name][0] and not is_local(spec.address):
+            if spec and spec.process.config and states[name][0] and not is_near(spec):
                 by_host.setdefault(spec.process.host, []).append(name)
         for host, own in by_host.items():
             leftovers.clean(self._reached(), host, own)
@@ -309,11 +302,11 @@ class IceGridEngine:
 
         def reader(name: str) -> LineReader:
             if grid and name in far:
-                return GridReader(grid, name)
+                return GridReader(grid, name, far[name])
             return LogReader(self._files.folder, name)
 
         specs, grid = {name: self._specs.get(name) for name in names}, self._grid
-        far = {name for name, spec in specs.items() if grid and spec and not is_local(spec.address)}
+        far = {name: spec.process.host for name, spec in specs.items() if grid and spec and not is_near(spec)}
         if not far:
             return merged([reader(name) for name in names], last, follow)
         readers = await self._beside("", "read", lambda: [reader(name) for name in names])
@@ -324,32 +317,41 @@ class IceGridEngine:
         assert spec
         return await self._beside(name, "asked", self._run, self._reached(), spec, tuple(command), within)
 
-    def _run(self, grid: GridSession, spec: ProcessSpec, command: tuple[str, ...], within: float) -> int:
-        """The exit code of a command that runs beside a process, on its host: as a server of its own."""
+    def _run(
+        self, grid: GridSession, spec: ProcessSpec, command: tuple[str, ...], within: float,
+        lines: list[str] | None = None,
+    ) -> int:  # fmt: skip
+        """The exit code of a command that runs beside a process, on its host: as a server of its own. Its output is
+        added to `lines`."""
         from robocomp_yaml.deploy.icegrid import descriptors
         from robocomp_yaml.deploy.icegrid.grid import GridFailed
         from robocomp_yaml.deploy.icegrid.status import run_status
 
-        host, is_near = spec.process.host, is_local(spec.address)
+        host, is_local = spec.process.host, is_near(spec)
         name = f"{spec.name}.ready"
-        process = replace(spec.process, name=name, kind=PROGRAM, config=None, folders=(), restart=RestartRule(NEVER))
+        process = replace(
+            spec.process, name=name, kind=PROGRAM, config=None, folders=(), restart=RestartRule(NEVER), alive=None,
+            limits=ResourceLimits(),
+        )  # fmt: skip
         own = replace(spec, process=process, command=command)
-        server = descriptors.server(self._files, own, grid.user_of(host), 0, is_local=is_near)
+        server = descriptors.server(self._files.on(host), own, grid.user_of(host), 0, is_local=is_local)
         with self._lock:
             self._deploy([name], [(host, server)])
         try:
             if not grid.run(name, within):
                 grid.stop(name)
                 return _TIMED_OUT
-            last = run_status(grid, name, is_local=is_near)
+            last = run_status(grid, name, host, is_local=is_local)
             code = last.last_exit.removeprefix(_CODE) if last else ""
+            if lines is not None:
+                lines += grid.printed(name, self._files.on(host).log(name))
             return int(code) if code.isdigit() else _UNKNOWN
         except GridFailed:
             return _NOT_FOUND
         finally:
             with self._lock:
                 self._deploy([name], [])
-            if is_near:
+            if is_local:
                 own_folder.remove(self._files.folder, f"state/icegrid/status/{name}")
                 own_folder.remove(self._files.folder, f"logs/{name}.log")
 
@@ -362,7 +364,7 @@ class IceGridEngine:
             self._unreached |= {host: set() for host in lost if host not in self._unreached}
         elif grid:
             if self._has_changed:
-                await self._beside("", "left", start_up.end_idle_nodes, grid, self._specs, self._addresses)
+                await self._beside("", "left", start_up.end_idle_nodes, grid, self._specs, self._far)
             await self._beside("", "left", grid.close)
         self.notes += [
             of_hosts.not_reached(self._network, host, sorted(names)) for host, names in self._unreached.items()

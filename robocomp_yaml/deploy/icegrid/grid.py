@@ -140,6 +140,12 @@ class GridSession:
                     iterator.destroy()
         return lines
 
+    def printed(self, name: str, log: str) -> list[str]:
+        """What the last run of a process has printed, by its log."""
+        lines = self.read(name, log)
+        starts = [number for number, line in enumerate(lines) if " rcyaml: started, pid " in line]
+        return lines[starts[-1] :] if starts else []
+
     def shut_down_node(self, host: str) -> None:
         with contextlib.suppress(GridFailed):
             self._call(self.admin.shutdownNode, host)
@@ -188,8 +194,8 @@ def in_words(error: Exception) -> str:
 class GridReader:
     """Reads a log on another host. Lines that are written while the node does not answer are read later."""
 
-    def __init__(self, grid: GridSession, name: str) -> None:
-        self._grid, self._name = grid, name
+    def __init__(self, grid: GridSession, name: str, host: str) -> None:
+        self._grid, self._name, self._path = grid, name, grid.files.on(host).log(name)
         self._seen = self._lines()
 
     def last(self, count: int) -> list[Line]:
@@ -204,6 +210,6 @@ class GridReader:
 
     def _lines(self) -> list[str]:
         try:
-            return [line for line in self._grid.read(self._name, self._grid.files.log(self._name)) if line]
+            return [line for line in self._grid.read(self._name, self._path) if line]
         except GridFailed:
             return []

@@ -1,7 +1,8 @@
 """The files of the IceGrid engine, and the address of its registry.
 
-The deployment's folder has the same path on every host. `state/icegrid` contains the deployment's key, the registry's
-files, a folder for each node, the status files of the `run` scripts, and the desired processes.
+The deployment's folder has the same path on every host, unless `path:` of a host says otherwise. `state/icegrid`
+contains the deployment's key, the registry's files, a folder for each node, the status files of the `run` scripts, and
+the desired processes.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from typing import Any
 import msgspec
 
 from robocomp_yaml.deploy import folder as own_folder
-from robocomp_yaml.deploy.local.obstacles import is_local
+from robocomp_yaml.deploy.here import folder_on, is_here
 from robocomp_yaml.deploy.own_address import own_address, towards_address
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.network.network import NetworkHost, is_loopback
@@ -26,8 +27,8 @@ KEEPER = "rcyaml.keeper"
 """The id of the keeper's server. No process can have this name."""
 
 _ROOT = "state/icegrid"
-_DESIRED, _SPECS, _REGISTRY, _NODES, _RULES = (
-    f"{_ROOT}/{name}.json" for name in ("wanted", "specs", "registry", "nodes", "rules")
+_DESIRED, _SPECS, _REGISTRY, _NODES, _RULES, _FOLDERS = (
+    f"{_ROOT}/{name}.json" for name in ("wanted", "specs", "registry", "nodes", "rules", "folders")
 )
 
 
@@ -42,6 +43,18 @@ class GridFiles(msgspec.Struct, frozen=True):
     """The files of the engine in a deployment's folder. Methods that write raise OSError."""
 
     folder: str
+
+    def on(self, host: str) -> GridFiles:
+        """The files on the host of this name."""
+        folder = self._read(_FOLDERS, {}).get(host, self.folder)
+        return GridFiles(folder) if folder != self.folder else self
+
+    def keep_folders(self, hosts: Iterable[NetworkHost]) -> None:
+        """Keeps the folders that the deployment has on these hosts, and on those that were used before."""
+        known = self._read(_FOLDERS, {})
+        folders = {host.name: folder_on(host, self.folder) for host in hosts}
+        if any(known.get(name, self.folder) != path for name, path in folders.items()):
+            self._write(_FOLDERS, known | folders)
 
     @property
     def root(self) -> str:
@@ -122,7 +135,7 @@ class GridFiles(msgspec.Struct, frozen=True):
     @property
     def copied(self) -> list[str]:
         """The files that the user's list of deployments keeps, so that the deployment is reached without its folder."""
-        return [f"{_ROOT}/key.pem", f"{_ROOT}/certificate.pem", _REGISTRY, _NODES, _SPECS, _DESIRED]
+        return [f"{_ROOT}/key.pem", f"{_ROOT}/certificate.pem", _REGISTRY, _NODES, _SPECS, _DESIRED, _FOLDERS]
 
     def _read(self, path: str, missing: Any) -> Any:
         """The content of a file; `missing` without a file, or with one of another version in another format."""
@@ -141,7 +154,7 @@ def registry_address(hosts: Iterable[NetworkHost]) -> str:
     """The address of this machine for all these hosts: a loopback address if all are this machine, else the address of
     its own entry, else the address from which it reaches the first of the others."""
     every = list(hosts)
-    others = [host.address for host in every if not is_local(host.address)]
+    others = [host.address for host in every if not is_here(host)]
     if not others:
         return "127.0.0.1"
     own = [host for host in every if host.address not in others and not is_loopback(host.address)]

@@ -17,11 +17,11 @@ from typing import Any
 import Ice
 import IceGrid
 
+from robocomp_yaml.deploy.here import is_near
 from robocomp_yaml.deploy.icegrid import leftovers
 from robocomp_yaml.deploy.icegrid.grid import GridFailed, GridSession, Unreachable
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles
 from robocomp_yaml.deploy.icegrid.status import is_over
-from robocomp_yaml.deploy.local.obstacles import is_local
 from robocomp_yaml.deploy.plan import in_order
 from robocomp_yaml.diag import terminal
 
@@ -114,7 +114,7 @@ class Keeper:
                 self._tries.pop(name, None)
                 continue
             at, delay = self._tries.get(name, (now, _SHORTEST / 2))
-            if at > now or is_over(grid, name, is_local=is_local(specs[name].address)):
+            if at > now or is_over(grid, name, specs[name].process.host, is_local=is_near(specs[name])):
                 continue
             self._tries[name] = (now + min(2 * delay, _LONGEST), min(2 * delay, _LONGEST))
             if name not in self.files.desired():

@@ -49,7 +49,7 @@ def end_all(grid: GridSession) -> None:
 
 def _end(grid: GridSession, host: str, names: list[str]) -> None:
     """Ends processes with a server for this only, in an application of its own, which no command changes."""
-    _run(grid, host, descriptors.ender(grid.files, names, grid.user_of(host)))
+    _run(grid, host, descriptors.ender(grid.files.on(host), names, grid.user_of(host)))
 
 
 def _run(grid: GridSession, host: str, server: Any) -> None:
@@ -68,9 +68,10 @@ def clean(
     removes the key of its node, which runs on without the file. A failure is ignored."""
     from robocomp_yaml.deploy.icegrid.grid import GridFailed
 
-    own = f"{grid.files.root}/nodes/{host}"
-    paths = [f"{grid.files.folder}/config/{name}{end}" for name in names for end in ("", PEM)]
-    paths += [f"{grid.files.folder}/config"] if everything else []
+    files = grid.files.on(host)
+    own = f"{files.root}/nodes/{host}"
+    paths = [f"{files.folder}/config/{name}{end}" for name in names for end in ("", PEM)]
+    paths += [f"{files.folder}/config"] if everything else []
     paths += [f"{own}/key.pem", f"{own}/certificate.pem", f"{own}/settings"] if with_key else []
     if not paths:
         return

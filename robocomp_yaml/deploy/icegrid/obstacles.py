@@ -4,14 +4,12 @@ hosts."""
 from __future__ import annotations
 
 import asyncio
-import errno
 import importlib.util
-import os
 import shutil
 from collections.abc import Mapping, Sequence
 
 from robocomp_yaml.deploy.engine import STOPPED, Running
-from robocomp_yaml.deploy.local.obstacles import is_local
+from robocomp_yaml.deploy.here import is_near
 from robocomp_yaml.deploy.readiness import listens
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.deploy.states import OVER
@@ -30,7 +28,7 @@ def too_long(specs: Sequence[ProcessSpec]) -> list[Diagnostic]:
     return [
         deploying.CANNOT.at(spec.process.span, name=spec.name, what="started", reason=_TOO_LONG)
         for spec in specs
-        if (config := spec.process.config) and not is_local(spec.address)
+        if (config := spec.process.config) and not is_near(spec)
         and len(encoded(config.text).encode()) > LONGEST_CONFIG
     ]  # fmt: skip
 
@@ -46,28 +44,6 @@ def missing() -> str:
             return f"{program} is not installed (Debian: {package})"
     return ""
 
-
-CHECK = "rcyaml.check"
-"""The name of the server that runs MISSING. No process can have this name."""
-
-AT_ONCE = 40
-"""Processes that MISSING is asked about at a time: an exit code has one byte."""
-
-_FOLDER, _FILE, _RIGHT = 2, 42, 82  # the first exit codes of MISSING; 0, 1, 124 and 127 have other meanings
-
-MISSING = f"""\
-while (( $# )); do
-    cd -- "${{2:-/}}" 2>/dev/null || exit $(( $1 + {_FOLDER} ))
-    case $3 in
-        */*) [[ -f $3 ]] || exit $(( $1 + {_FILE} ))
-             [[ -x $3 ]] || exit $(( $1 + {_RIGHT} )) ;;
-        *) type -P -- "$3" >/dev/null || exit $(( $1 + {_FILE} )) ;;
-    esac
-    shift 3
-done
-"""
-"""A script for bash, with a number, a folder and a program for each process. Its exit code has the number of the first
-process whose folder is missing, or whose program is missing or cannot be executed."""
 
 _WITHIN = 1.0  # seconds for an answer
 
@@ -97,32 +73,6 @@ async def used_ports(specs: Sequence[ProcessSpec], running: Mapping[str, Running
         for (spec, endpoint), is_taken in zip(ports, answers, strict=True)
         if is_taken
     ]  # fmt: skip
-
-
-def of_answer(specs: Sequence[ProcessSpec], code: int) -> tuple[int, Diagnostic] | None:
-    """What MISSING found, with the number of the process; None if it found nothing."""
-    first = next((one for one in (_RIGHT, _FILE, _FOLDER) if code >= one), code + 1)
-    number = code - first
-    if not 0 <= number < len(specs):
-        return None
-    spec = specs[number]
-    program, host = spec.command[0], spec.process.host
-    file = f"the file '{program}' is missing" if "/" in program else f"PATH contains no program '{program}'"
-    what = {
-        _FOLDER: f"its folder '{spec.process.cwd}' does not exist",
-        _FILE: f"{file} ({os.strerror(errno.ENOENT)})",
-        _RIGHT: f"'{program}' is not executable ({os.strerror(errno.EACCES)})",
-    }[first]
-    reason = f"{what}, on the host '{host}'"
-    found = deploying.CANNOT.at(
-        spec.process.span, hint=spec.process.build, name=spec.name, what="started", reason=reason
-    )  # fmt: skip
-    return number, found
-
-
-def has_own_path(spec: ProcessSpec) -> bool:
-    """Whether the program of a process is looked up in a PATH that the document sets."""
-    return "/" not in spec.command[0] and any(variable.name == "PATH" for variable in spec.process.env)
 
 
 def not_reached(network: Network, host: str, names: Sequence[str]) -> Diagnostic:

@@ -2,23 +2,22 @@
 
 from __future__ import annotations
 
-import asyncio
-import os
 import socket
 import time
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from robocomp_yaml.deploy import folder as own_folder
-from robocomp_yaml.deploy import registered
+from robocomp_yaml.deploy import registered, ssh
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import DeployFailed
+from robocomp_yaml.deploy.here import is_here
 from robocomp_yaml.deploy.icegrid import daemons, ending, settings
 from robocomp_yaml.deploy.icegrid.daemons import NodeStart, outcome
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry, free_port, registry_address
-from robocomp_yaml.deploy.local.obstacles import is_local
+from robocomp_yaml.deploy.install import installing
 from robocomp_yaml.deploy.local.record import clear_up
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.deploy.time_limit import until
@@ -33,7 +32,12 @@ if TYPE_CHECKING:
 _PATIENCE = 20.0  # seconds: far more than is needed, also on a busy machine
 _ENDS_WITHIN, _REGISTRY_ENDS_WITHIN = 15.0, 3.0
 _RECONNECTS_WITHIN = 15.0  # seconds in which a node reconnects to the registry
+_BY_SYSTEMD = NodeStart(
+    "systemd starts it there, and it does not reach the registry yet",
+    hint="`systemctl status 'rcyaml-*'` on that host shows why (`systemctl --user` for the units of a user)",
+)
 _PARALLEL = 8  # connections over SSH
+_RUN_WITHIN = 30.0  # seconds for the script of a node
 
 
 def reached(files: GridFiles, network: Network) -> GridSession | None:
@@ -97,8 +101,9 @@ def _answers(registry: Registry) -> bool:
 def ensure_nodes(
     grid: GridSession, files: GridFiles, network: Network, hosts: Iterable[NetworkHost]
 ) -> dict[str, Diagnostic]:
-    """Starts the missing nodes: on this machine directly, on other hosts over SSH. A node that was started by hand has
-    some seconds to reconnect to the registry. Returns a diagnostic for each host without a node, by its name."""
+    """Starts the missing nodes: on this machine directly, on other hosts over SSH, unless systemd starts them there. A
+    node that rcyaml did not start has some seconds to reconnect to the registry. Returns a diagnostic for each host
+    without a node, by its name."""
     registry = files.registry()
     assert registry
     known = files.nodes()
@@ -106,7 +111,9 @@ def ensure_nodes(
     missing = [host for host in hosts if not grid.has_node(host.name)]
     scripts = {host.name: daemons.write_script(files, host, network.hosts.values(), registry) for host in missing}
     begin = time.monotonic()
-    tried = _started(missing, scripts)
+    by_systemd = set(installing.hosts_of(files.folder))
+    waiting = {host.name: _BY_SYSTEMD for host in missing if host.name in by_systemd and not is_here(host)}
+    tried = {**_started([host for host in missing if host.name not in waiting], scripts), **waiting}
     by_hand = [host for host in missing if tried[host.name].reason and not known.get(host.name, True)]
     until(lambda: all(grid.has_node(host.name) for host in by_hand), _RECONNECTS_WITHIN + begin - time.monotonic())
     tried |= {host.name: daemons.NodeStart(was_running=True) for host in by_hand if grid.has_node(host.name)}
@@ -115,15 +122,17 @@ def ensure_nodes(
     faults = {}
     for host in missing:
         reason = tried[host.name].reason
-        hint = f"start it by hand, then try again: {daemons.by_hand(shown_path(scripts[host.name]), host)}"
+        hint = tried[host.name].hint
+        by_hand_too = f"start it by hand, then try again: {daemons.by_hand(shown_path(scripts[host.name]), host)}"
+        hint = f"{hint}; or {by_hand_too}" if hint else by_hand_too
         if not reason and not until(lambda host=host: grid.has_node(host.name), _PATIENCE):  # type: ignore[misc]
-            own = f"{files.root}/nodes/{host.name}"
+            own = f"{files.on(host.name).root}/nodes/{host.name}"
             words = daemons.last_words(own) or f"see {own}/log on that host"
             reason = f"it was started, but does not reach the registry at {registry.address}:{registry.port}: {words}"
             hint = "all hosts must reach each other over TCP: check for a firewall between them"
         if reason:
             where = host.span if host.span.file else Span(network.path)
-            hint = "" if is_local(host.address) else hint
+            hint = "" if is_here(host) else hint
             faults[host.name] = codes.NO_NODE.at(
                 where, name=host.name, address=host.address, reason=reason, hint=hint
             )  # fmt: skip
@@ -165,16 +174,15 @@ def ended(grid: GridSession, application: str) -> list[str]:
 
 
 def end_idle_nodes(
-    grid: GridSession, specs: Mapping[str, ProcessSpec | None], addresses: Mapping[str, str]
+    grid: GridSession, specs: Mapping[str, ProcessSpec | None], far: Collection[str]
 ) -> None:  # fmt: skip
-    """Ends the nodes of other hosts on which nothing of the deployment is left, after a move. `addresses` are those of
-    the hosts that were used before."""
+    """Ends the nodes of other hosts on which nothing of the deployment is left, after a move. `far` are the other hosts
+    that were used before."""
     from robocomp_yaml.deploy.icegrid import leftovers
 
     nodes, used = grid.files.nodes(), {spec.process.host for spec in specs.values() if spec}
     for host, is_started in list(nodes.items()):
-        is_far = host in addresses and not is_local(addresses[host])
-        if is_far and host not in used and grid.has_node(host) and not leftovers.of_host(grid.files, host):
+        if host in far and host not in used and grid.has_node(host) and not leftovers.of_host(grid.files, host):
             # The folder of configurations can be shared by all hosts.
             end_node(grid, host, is_started=is_started, with_configurations=False)
             if is_started:
@@ -205,6 +213,11 @@ def end_here(files: GridFiles) -> None:
     files.drop_configurations(with_key=not left)
 
 
+def end_daemons(files: GridFiles) -> None:
+    """Ends the registry, and the nodes of this machine that rcyaml started. All else stays, for the next start."""
+    _end_local(files)
+
+
 def _end_local(files: GridFiles) -> None:
     """Ends the registry, and the nodes of this machine that rcyaml started."""
     nodes = [f"{files.root}/nodes/{host}" for host, is_started in files.nodes().items() if is_started]
@@ -217,41 +230,19 @@ def _end_local(files: GridFiles) -> None:
 
 
 def _start(host: NetworkHost, script: str) -> daemons.NodeStart:
-    return daemons.start_local_node(script) if is_local(host.address) else run(script, host)
+    return daemons.start_local_node(script) if is_here(host) else run(script, host)
 
 
 def _failed(network: Network, reason: str) -> DeployFailed:
     return DeployFailed(codes.NO_REGISTRY.at(Span(network.path), reason=reason))
 
 
-_CONNECT_WITHIN, _RUN_WITHIN = 8.0, 30.0
-
-
 def run(script: str, host: NetworkHost) -> NodeStart:
-    """Runs the script with bash on the host, over SSH with the user's own keys, agent and known hosts, and without any
-    prompt."""
-    try:
-        import asyncssh
-    except ImportError:
-        return NodeStart("asyncssh is not installed (`pip install 'rcyaml[ssh]'`), and no node was started by hand")
-
-    with open(script, encoding="utf-8") as file:
+    """Runs the script with bash on the host, over ssh."""
+    with open(script, "rb") as file:
         text = file.read()
-
-    async def work() -> NodeStart:
-        options = {"username": host.user} if host.user else {}
-        async with asyncssh.connect(host.address, connect_timeout=_CONNECT_WITHIN, **options) as connection:
-            done = await asyncio.wait_for(connection.run("bash -s", input=text, check=False), _RUN_WITHIN)
-        return outcome(done.exit_status, str(done.stdout), str(done.stderr))
-
     try:
-        return asyncio.run(work())
-    except TimeoutError:
-        return NodeStart("ssh: no answer")
-    except OSError as error:
-        is_system = error.errno is not None and error.errno > 0  # asyncio's own text is about the call
-        return NodeStart(f"ssh: {os.strerror(error.errno or 0) if is_system else error.strerror or error}".lower())
-    except asyncssh.HostKeyNotVerifiable:
-        return NodeStart("ssh: its key differs from your known_hosts, or is missing there: connect once with `ssh`")
-    except asyncssh.Error as error:
-        return NodeStart(f"ssh: {str(error).strip() or 'the connection was closed'}")
+        done = ssh.CLIENT.run(host, ["bash", "-s"], text, _RUN_WITHIN)
+    except ssh.SshFailed as error:
+        return NodeStart(str(error), hint=error.hint)
+    return outcome(done.code, done.output.decode(errors="replace"), done.errors)

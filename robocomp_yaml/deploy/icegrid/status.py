@@ -8,10 +8,10 @@ from collections.abc import Mapping
 import msgspec
 
 from robocomp_yaml.deploy.engine import LOST, RUNNING, STOPPED, WAITING, Running
+from robocomp_yaml.deploy.here import is_near
 from robocomp_yaml.deploy.icegrid.grid import GridSession
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles
 from robocomp_yaml.deploy.local import procfs
-from robocomp_yaml.deploy.local.obstacles import is_local
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.deploy.states import ALIVE, OVER
 
@@ -48,9 +48,9 @@ def of_text(text: str) -> RunStatus | None:
         return None
 
 
-def run_status(grid: GridSession, name: str, *, is_local: bool) -> RunStatus | None:
+def run_status(grid: GridSession, name: str, host: str, *, is_local: bool) -> RunStatus | None:
     """The status of a process by its `run`, None if there is none yet."""
-    path = grid.files.status(name)
+    path = grid.files.on(host).status(name)
     if not is_local:
         return of_text("\n".join(grid.read(name, path)))
     try:
@@ -60,9 +60,9 @@ def run_status(grid: GridSession, name: str, *, is_local: bool) -> RunStatus | N
         return None
 
 
-def is_over(grid: GridSession, name: str, *, is_local: bool) -> bool:
+def is_over(grid: GridSession, name: str, host: str, *, is_local: bool) -> bool:
     """Whether a process has ended for good, by its policy."""
-    last = run_status(grid, name, is_local=is_local)
+    last = run_status(grid, name, host, is_local=is_local)
     return last is not None and last.state in OVER
 
 
@@ -70,8 +70,12 @@ def observe(grid: GridSession, specs: Mapping[str, ProcessSpec | None], hosts: M
     """The actual state of all processes. `hosts` has the host of a process without a valid spec. If the `run` of a
     process runs on this machine, its state does not need IceGrid."""
     desired = grid.files.desired()
-    local = {spec.address: is_local(spec.address) for spec in specs.values() if spec}
-    near = {name: run_status(grid, name, is_local=True) for name, spec in specs.items() if spec and local[spec.address]}
+    local = {spec.process.host: is_near(spec) for spec in specs.values() if spec}
+    near = {
+        name: run_status(grid, name, spec.process.host, is_local=True)
+        for name, spec in specs.items()
+        if spec and local[spec.process.host]
+    }
     alive = procfs.table() if near else {}
     runners = {name: last.runner for name, last in near.items() if last and _is_alive(grid.files, name, last, alive)}
     states = {name: ("Active", runner) for name, runner in runners.items()}
@@ -84,7 +88,7 @@ def observe(grid: GridSession, specs: Mapping[str, ProcessSpec | None], hosts: M
             found[name] = Running(name, spec, host, LOST if name in desired else STOPPED)
             continue
         # IceGrid was asked after the status file was read, which may have changed.
-        last = near[name] if name in runners else run_status(grid, name, is_local=name in near)
+        last = near[name] if name in runners else run_status(grid, name, host, is_local=name in near)
         found[name] = _running(name, spec, host, state, runner, last, name in desired, alive if name in near else None)
     return found
 

@@ -12,7 +12,7 @@ from collections.abc import Collection
 from contextlib import suppress
 from typing import Any
 
-from robocomp_yaml.deploy.local import procfs, program
+from robocomp_yaml.deploy.local import limits, procfs, program
 from robocomp_yaml.deploy.local.kernel import OpenFiles, die_with, tie
 from robocomp_yaml.deploy.local.log_file import LogFile
 from robocomp_yaml.deploy.states import ENDED, ENDS, GIVEN_UP, RUNNING, STOPPED, WAITING
@@ -209,11 +209,12 @@ class ChildProcess:
         files = [(one["name"], one["file"]) for one in self.spec["process"]["env"] if one["file"]]
         environment = {**self._environment, **program.variables(files), procfs.MARK: self.mark}
         found = program.find(command[0], folder, environment)
+        prefix = limits.words(self.spec["process"].get("limits", {}))
         output, written = os.pipe2(os.O_CLOEXEC | os.O_NONBLOCK)
         os.set_blocking(written, True)
         try:
             started = subprocess.Popen(
-                [*tie(), found, *command[1:]], cwd=folder or "/", env=environment, stdin=subprocess.DEVNULL,
+                [*tie(), *prefix, found, *command[1:]], cwd=folder or "/", env=environment, stdin=subprocess.DEVNULL,
                 stdout=written, stderr=written, start_new_session=True,
                 preexec_fn=None if tie() else functools.partial(die_with, os.getpid()),
             )  # fmt: skip

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import os
-import socket
 import time
 from collections.abc import Collection, Iterable, Iterator, Sequence
 
+from robocomp_yaml.deploy import limits
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import DeployFailed
 from robocomp_yaml.deploy.folder import document_in
+from robocomp_yaml.deploy.here import is_here
 from robocomp_yaml.deploy.local import procfs, program
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.terminal import typed
-from robocomp_yaml.network.network import FOLDER, LOOPBACK, RUNS, Network, Process
+from robocomp_yaml.network.network import FOLDER, RUNS, Network, Process
 
 _VALID = 2.0  # seconds for which a check without obstacles is valid
 
@@ -44,7 +45,8 @@ def obstacles(specs: Sequence[ProcessSpec], own: Collection[int]) -> list[Diagno
         for port, pids in procfs.listeners(ports).items()
         if not pids or not set(pids) <= set(own)
     }
-    return [found for spec in specs for found in (*_of_program(spec), *_of_ports(spec, taken))]
+    found = [found for spec in specs for found in (*_of_program(spec), *_of_ports(spec, taken))]
+    return [*found, *limits.denied(specs)]
 
 
 class CheckedSpecs:
@@ -70,23 +72,10 @@ def elsewhere(network: Network) -> Diagnostic | None:
     """A diagnostic for the first process that runs on another machine; None if all run on this one."""
     for process in network.enabled():
         host = network.hosts[process.host]
-        if not is_local(host.address):
+        if not is_here(host):
             where = host.span if host.span.file else process.span
             return deploying.OTHER_MACHINE.at(where, name=process.name, host=host.name, address=host.address)
     return None
-
-
-def is_local(address: str) -> bool:
-    """Whether an address is one of this machine: only those can be bound. False if it cannot be resolved."""
-    if address == LOOPBACK:
-        return True
-    try:
-        family, kind, protocol, _, target = socket.getaddrinfo(address, 0, type=socket.SOCK_STREAM)[0]
-        with socket.socket(family, kind, protocol) as probe:
-            probe.bind(target)
-    except OSError:
-        return False
-    return True
 
 
 def _of_ports(spec: ProcessSpec, taken: dict[int, list[int]]) -> Iterator[Diagnostic]:

@@ -66,8 +66,12 @@ class _Service:
             server.close()
         for name in list(self._watches):
             self._watch(name, None)
-        stops = (self._stop(child, END_WITHIN) for child in self.children.values())
-        await asyncio.gather(*stops, return_exceptions=True)  # the keeper kills what does not end
+        left = dict(self.children)
+        while left:  # first those that no other one needs
+            needed = {name for child in left.values() for name in child.spec["process"]["after"]}
+            free = [name for name in left if name not in needed] or list(left)
+            stops = (self._stop(left.pop(name), END_WITHIN) for name in free)
+            await asyncio.gather(*stops, return_exceptions=True)  # the keeper kills what does not end
         for child in self.children.values():
             child.log.close()
         if os.getppid() != keeper:  # the keeper was killed, and cannot remove the record

@@ -12,9 +12,8 @@ from collections.abc import Iterable
 
 from robocomp_yaml.emit.exports import _unwritable
 from robocomp_yaml.emit.exports._commands import by_host, configs, file_name, with_files
-from robocomp_yaml.emit.layout import GENERATED
-from robocomp_yaml.link import workspace
-from robocomp_yaml.network.network import ALWAYS, COMPONENT, ICESTORM, NEVER, Network, Process
+from robocomp_yaml.network.files import home_of, shared_folders
+from robocomp_yaml.network.network import ALWAYS, ICESTORM, NEVER, Network, Process
 from robocomp_yaml.source.yaml_text import quoted
 
 _IMAGE = "${RCYAML_IMAGE:-debian:bookworm}"
@@ -70,10 +69,8 @@ def _service(process: Process, by_name: dict[str, Process]) -> list[str]:
 
 def _volumes(process: Process, inside: str) -> list[str]:
     """The mounts: the folders of the program, its configuration, and files with variables."""
-    home = os.path.dirname(process.command[0]) if os.path.isabs(process.command[0]) else ""
-    if process.kind == COMPONENT and os.path.basename(home) == "bin":
-        home = os.path.dirname(home)
-    read = dict.fromkeys((home, _folder(process), *_shared(home)))
+    home = home_of(process)
+    read = dict.fromkeys((home, _folder(process), *shared_folders(home)))
     mounts = [(folder, folder, False) for folder in read if folder and not _SYSTEM.match(folder)]
     mounts += [(folder, folder, True) for folder in process.folders]
     if process.config is not None:
@@ -81,19 +78,6 @@ def _volumes(process: Process, inside: str) -> list[str]:
     lines = [_mount(source, target, _WRITTEN if is_written else _READ) for source, target, is_written in mounts]
     lines += [_mount(path, path, _FILE) for path in _files(process)]
     return ["  volumes:", *lines] if lines else []
-
-
-def _shared(home: str) -> list[str]:
-    """The folders that a component in Python reads when it starts, and shares with other components of its workspace. A
-    program that was built contains what it needs."""
-    if not os.path.isfile(os.path.join(home, GENERATED, "component.py")):
-        return []
-    root = workspace.root_above(home)
-    if root is None or os.path.isdir(os.path.join(home, GENERATED, "runtime")):
-        return []
-    shared, _ = workspace.read(root)
-    folders = (os.path.abspath(folder) for folder in (shared.runtime_folder, shared.slice_folder))
-    return [folder for folder in folders if os.path.isdir(folder)]
 
 
 _READ, _WRITTEN = "read_only: true", "bind: {create_host_path: true}"

@@ -11,10 +11,14 @@ import re
 from robocomp_yaml.emit.exports import _unwritable
 from robocomp_yaml.emit.exports._commands import by_host, configs, file_name, with_files
 from robocomp_yaml.emit.exports._unwritable import Unwritable
-from robocomp_yaml.network.network import ICESTORM, Network, Process
+from robocomp_yaml.network.network import ICESTORM, UNLIMITED, Network, Process, ResourceLimits
 from robocomp_yaml.source.text import OF_NO_LINE
 
 _SPECIAL = "-@:+!|"
+_LIMITS = {
+    "memory": "MemoryMax", "cpu": "CPUQuota", "cores": "CPUAffinity", "nice": "Nice",
+    "realtime": "CPUSchedulingPriority", "core": "LimitCORE", "files": "LimitNOFILE",
+}  # fmt: skip
 _UNIT_NAME = re.compile(r"[^A-Za-z0-9:_.-]")
 _ESCAPES = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\r": "\\r", "\t": "\\t"}
 
@@ -56,9 +60,20 @@ def _unit(network: Network, process: Process, names: set[str]) -> str:
     unit.put("Restart", restart.policy)
     unit.put("RestartSec", f"{restart.delay:g}")
     unit.put("TimeoutStopSec", "10")
+    _limits(unit, process.limits)
     unit.section("Install")
     unit.put("WantedBy", _target(network))
     return unit.text
+
+
+def _limits(unit: UnitFile, limits: ResourceLimits) -> None:
+    for key, setting in _LIMITS.items():
+        value = getattr(limits, key)
+        if key == "realtime" and value is not None:
+            unit.put("CPUSchedulingPolicy", "fifo")
+        if value is not None:
+            shown = "infinity" if value == UNLIMITED and key == "core" else value
+            unit.put(setting, f"{shown}%" if key == "cpu" else f"{shown}")
 
 
 def _environment(unit: UnitFile, network: Network, process: Process) -> None:

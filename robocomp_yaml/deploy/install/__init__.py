@@ -1,0 +1,1 @@
+"""Lets systemd start a deployment when its hosts boot."""

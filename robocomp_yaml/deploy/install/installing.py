@@ -1,0 +1,271 @@
+"""Installs the units of a deployment on its hosts, and removes them. The user's own state has a record of each
+installed deployment."""
+
+from __future__ import annotations
+
+import contextlib
+import getpass
+import os
+from collections.abc import Iterable
+
+import msgspec
+from msgspec.structs import replace
+
+from robocomp_yaml.deploy import folder as own_folder
+from robocomp_yaml.deploy import registered
+from robocomp_yaml.deploy.engines import LOCAL
+from robocomp_yaml.deploy.install import units
+from robocomp_yaml.deploy.install.units import HostUnit
+from robocomp_yaml.deploy.probe import ProbeFailed, run_on
+from robocomp_yaml.deploy.registered import RegisteredDeployment, RegisteredHost
+from robocomp_yaml.diag.codes import deploying as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.network.network import Network, NetworkHost
+from robocomp_yaml.source.digest import digest
+from robocomp_yaml.transactions import whole_file
+
+
+class InstalledUnit(msgspec.Struct, frozen=True):
+    """A unit on a host, with the manager that starts it, and its further files."""
+
+    host: RegisteredHost
+    name: str
+    manager: str
+    files: tuple[str, ...]
+    is_here: bool
+
+
+class Installed(msgspec.Struct, frozen=True):
+    """An installed deployment: its document and its own folder (absolute paths), its engine and its units."""
+
+    name: str
+    document: str
+    folder: str
+    engine: str
+    units: tuple[InstalledUnit, ...] = ()
+
+
+def of_folder(folder: str) -> Installed | None:
+    """The record of the deployment in this folder, None if it is not installed."""
+    with contextlib.suppress(OSError, ValueError), open(_path(folder), "rb") as file:
+        return msgspec.json.decode(file.read(), type=Installed)
+    return None
+
+
+def hosts_of(folder: str) -> list[str]:
+    """The names of the hosts on which the deployment in this folder is installed."""
+    record = of_folder(folder)
+    return [unit.host.name for unit in record.units] if record else []
+
+
+def every() -> list[Installed]:
+    found = []
+    with contextlib.suppress(OSError):
+        for name in sorted(os.listdir(_root())):
+            with contextlib.suppress(OSError, ValueError), open(f"{_root()}/{name}", "rb") as file:
+                found.append(msgspec.json.decode(file.read(), type=Installed))
+    return found
+
+
+def named(name: str) -> list[RegisteredDeployment]:
+    """The installed deployments of this name, as entries of the user's list."""
+    return [
+        RegisteredDeployment(one.name, one.document, one.folder, one.engine, tuple(unit.host for unit in one.units))
+        for one in every()
+        if one.name == name
+    ]
+
+
+def install(
+    network: Network, engine: str, wanted: list[HostUnit]
+) -> tuple[list[HostUnit], list[Diagnostic]]:  # fmt: skip
+    """Writes the units on all hosts, and returns those that were written. A host that cannot be reached is reported."""
+    diagnostics = _unset(network)
+    if diagnostics:
+        return [], diagnostics
+    if engine != LOCAL:
+        wanted, fault = _with_nodes(network, wanted)
+        if fault:
+            return [], [fault]
+    written: list[HostUnit] = []
+    if diagnostics := _unreached(network, wanted):
+        return [], diagnostics
+    own_folder.make(network.folder)
+    before = of_folder(network.folder)
+    done = {(one.host.name, one.name): one for one in (before.units if before else ())}
+    for unit in wanted:
+        texts = ["unit", unit.text, *(text for pair in unit.files.items() for text in pair)]
+        try:
+            answer = _ask(unit.host, unit.is_here, "install", unit.manager, unit.name, unit.target, network.path, texts)
+            reason, hint = answer.get("refused", ""), ""
+        except ProbeFailed as error:
+            reason, hint = str(error), error.hint
+        if reason:
+            diagnostics.append(_fault(network, unit.host, "written", reason, hint))
+            continue
+        done[unit.host.name, unit.name] = InstalledUnit(
+            registered.host_of(unit.host), unit.name, unit.manager, tuple(unit.files), unit.is_here
+        )
+        written.append(replace(unit, notes=_notes(unit, answer)))
+    if done:
+        keep(Installed(network.name, network.path, network.folder, engine, tuple(done.values())))
+    return written, diagnostics
+
+
+def _with_nodes(network: Network, wanted: list[HostUnit]) -> tuple[list[HostUnit], Diagnostic | None]:
+    """The units with the scripts of their nodes, which contain the deployment's key. The nodes count as started by
+    hand: `down` leaves them."""
+    from robocomp_yaml.deploy.icegrid import daemons, obstacles, settings
+    from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry, free_port, registry_address
+
+    files = GridFiles(network.folder)
+    try:
+        if lacking := obstacles.missing():
+            raise OSError(0, lacking)
+        own_folder.make(network.folder)
+        settings.make_key(files)
+        files.keep_folders([unit.host for unit in wanted])
+        registry = files.registry()
+        if registry is None:
+            address = registry_address(network.hosts.values())
+            registry = Registry(address, free_port(address))
+            files.keep_registry(registry)
+        found = []
+        for unit in wanted:
+            if unit.is_here:
+                found.append(unit)
+                continue
+            with open(daemons.write_script(files, unit.host, registry), encoding="utf-8") as file:
+                node = f"foreground=yes\n{file.read()}"
+            path = f"{files.on(unit.host.name).folder}/{units.OWN}/node"
+            found.append(replace(unit, files={**unit.files, path: node}))
+        files.keep_nodes({**files.nodes(), **{unit.host.name: False for unit in found if not unit.is_here}})
+    except OSError as error:
+        reason = error.strerror or str(error)
+        return [], codes.NO_REGISTRY.at(Span(network.path), reason=reason)
+    return found, None
+
+
+def uninstall(network: Network, record: Installed) -> list[Diagnostic]:
+    """Removes the units of all hosts. What could not be removed stays in the record, for the next time."""
+    diagnostics, left = list[Diagnostic](), list[InstalledUnit]()
+    for unit in record.units:
+        host = unit.host.host
+        target = "multi-user.target" if unit.manager == units.SYSTEM else "default.target"
+        texts = [text for path in unit.files for text in (path, "")]
+        if not unit.is_here:  # the key of its node
+            own = os.path.dirname(os.path.dirname(os.path.dirname(unit.files[0])))
+            texts += [f"{own}/state/icegrid/nodes/{host.name}", ""]
+        try:
+            answer = _ask(host, unit.is_here, "remove", unit.manager, unit.name, target, record.document, texts)
+            reason, hint = answer.get("refused", ""), ""
+        except ProbeFailed as error:
+            reason, hint = str(error), error.hint
+        if reason:
+            left.append(unit)
+            diagnostics.append(_fault(network, network.hosts.get(host.name, host), "removed", reason, hint))
+    if left:
+        keep(replace(record, units=tuple(left)))
+    else:
+        forget(record.folder)
+    if record.engine != LOCAL and registered.of_folder(record.folder) is None:
+        from robocomp_yaml.deploy.icegrid import start_up
+        from robocomp_yaml.deploy.icegrid.grid_files import GridFiles
+
+        files, kept = GridFiles(record.folder), {unit.host.name for unit in left}
+        gone = {unit.host.name for unit in record.units if not unit.is_here} - kept
+        files.keep_nodes({name: own for name, own in files.nodes().items() if name not in gone})
+        start_up.end_here(files)
+    return diagnostics
+
+
+def states(record: Installed) -> dict[str, str]:
+    """The state of the unit of each host that answers, by the host's name: `active`, `activating`, `inactive`."""
+    found = {}
+    for unit in record.units:
+        with contextlib.suppress(ProbeFailed):
+            answer = _ask(unit.host.host, unit.is_here, "show", unit.manager, unit.name, "", record.document, [])
+            found[unit.host.name] = answer.get("state", "")
+    return found
+
+
+def forget(folder: str) -> None:
+    with contextlib.suppress(OSError):
+        os.unlink(_path(folder))
+    with contextlib.suppress(OSError):
+        os.rmdir(_root())
+
+
+def user() -> str:
+    return getpass.getuser()
+
+
+def _ask(
+    host: NetworkHost, is_near: bool, what: str, manager: str, unit: str, target: str, owner: str, texts: Iterable[str]
+) -> dict[str, str]:  # fmt: skip
+    """What the script on a host answers. Raises ProbeFailed."""
+    given = "".join(f"{text}\0" for text in (what, manager, unit, target, owner, *texts))
+    where = NetworkHost(host.name) if is_near else host
+    command = ["bash", "-c", units.script(), "units"]
+    code, output, errors = run_on(where, command, given.encode(errors="surrogateescape"))
+    if code:
+        lines = errors.strip().splitlines()
+        raise ProbeFailed(lines[-1] if lines else f"exit code {code}")
+    return dict(line.split("\t", 1) for line in output.decode(errors="replace").splitlines() if "\t" in line)
+
+
+def _notes(unit: HostUnit, answer: dict[str, str]) -> tuple[str, ...]:
+    if answer.get("systemd") == "no":
+        return (f"the {unit.manager} manager of systemd does not answer now: the unit starts at the next boot",)
+    if answer.get("lingers") == "no":
+        who = unit.host.ssh.user if not unit.is_here and unit.host.ssh.user else user()
+        return (
+            f"this user's units start only at login: `sudo loginctl enable-linger {who}` on that host changes that",
+        )
+    return ()
+
+
+def _unreached(network: Network, wanted: Iterable[HostUnit]) -> list[Diagnostic]:
+    """Diagnostics for hosts that cannot be reached: then no host is changed."""
+    found = []
+    for unit in wanted:
+        try:
+            _ask(unit.host, unit.is_here, "show", unit.manager, unit.name, unit.target, network.path, [])
+        except ProbeFailed as error:
+            found.append(_fault(network, unit.host, "written", str(error), error.hint))
+    return found
+
+
+def _fault(network: Network, host: NetworkHost, what: str, reason: str, hint: str) -> Diagnostic:
+    return codes.NO_UNIT.at(_span(network, host), hint=hint, host=host.name, what=what, reason=reason)
+
+
+def _unset(network: Network) -> list[Diagnostic]:
+    """Diagnostics for variables that are not set now, and would not be set at the next boot."""
+    return [
+        codes.UNSET_VARIABLE.at(
+            process.span, name=process.name, variable=variable.source, hint=f"export {variable.source}=…"
+        )
+        for process in network.enabled()
+        for variable in process.env
+        if variable.source and variable.source not in os.environ
+    ]  # fmt: skip
+
+
+def _span(network: Network, host: NetworkHost) -> Span:
+    return host.span if host.span.file else Span(network.path)
+
+
+def _root() -> str:
+    return os.path.join(os.path.dirname(registered.root()), "installed")
+
+
+def _path(folder: str) -> str:
+    return os.path.join(_root(), f"{digest(os.fsencode(os.path.realpath(folder)))[:20]}.json")
+
+
+def keep(record: Installed) -> None:
+    """Raises OSError."""
+    os.makedirs(_root(), mode=0o700, exist_ok=True)
+    whole_file.put(_path(record.folder), msgspec.json.encode(record), 0o600)

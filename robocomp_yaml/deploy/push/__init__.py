@@ -1,0 +1,1 @@
+"""Brings the files of a deployment to its other hosts."""

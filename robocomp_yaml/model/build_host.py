@@ -1,0 +1,103 @@
+"""Builds the hosts of a deployment from the tree of its document, and what entries have in common with them: variables
+and limits. The tree fits the schema."""
+
+from __future__ import annotations
+
+import math
+
+from robocomp_yaml.model import deployment as model
+from robocomp_yaml.model.build_interface import as_text, doc, entries, required, text
+from robocomp_yaml.source.tree import Mapping, Node, Scalar
+
+_UNITS = {"B": 1, "KB": 10**3, "MB": 10**6, "GB": 10**9, "KiB": 1 << 10, "MiB": 1 << 20, "GiB": 1 << 30}
+_CORES = {"on": math.inf, "off": 0}
+
+
+def host(key: Scalar, node: Node) -> model.Host:
+    """An entry of `hosts:`."""
+    address = required(as_text(node) or as_text(node.get("address")))
+    return model.Host(
+        key.lexeme,
+        address,
+        text(node, "user"),
+        listen(node),
+        doc(node),
+        _ssh(node.get("ssh"), key),
+        _paths(node.get("path")),
+        tuple(variable(name, value) for name, value in entries(node, "env")),
+        as_text(node.get("python")),
+        limits(node.get("limits")),
+        text(node, "systemd"),
+        span=key.span,
+    )
+
+
+def listen(node: Node) -> tuple[Text, ...]:
+    """Where the processes of a host or an entry listen: () if it is not set."""
+    given = node.get("listen")
+    if isinstance(given, Sequence):
+        return tuple(texts(node, "listen"))
+    one = as_text(given)
+    return (one,) if one is not None else ()
+
+
+def _ssh(node: Node | None, key: Scalar) -> model.SshOptions:
+    if node is None:
+        return model.SshOptions(span=key.span)
+    return model.SshOptions(
+        text(node, "user"),
+        _integer(node, "port"),
+        text(node, "identity"),
+        text(node, "known-hosts"),
+        text(node, "jump"),
+        span=node.span,
+    )
+
+
+def _paths(node: Node | None) -> tuple[model.Pair, ...]:
+    if isinstance(node, Scalar):
+        return (model.Pair("", node.lexeme, span=node.span),)
+    pairs = node.items() if isinstance(node, Mapping) else ()
+    return tuple(
+        model.Pair(name.lexeme, value.lexeme, span=value.span, name_span=name.span)
+        for name, value in pairs
+        if isinstance(value, Scalar)
+    )
+
+
+def variable(name: Scalar, value: Node) -> model.Variable:
+    """A variable of `env:`."""
+    if isinstance(value, Mapping):
+        return model.Variable(name.lexeme, source=text(value, "env"), file=text(value, "file"), span=name.span)
+    assert isinstance(value, Scalar)
+    return model.Variable(name.lexeme, value.lexeme, span=name.span)
+
+
+def limits(node: Node | None) -> model.Limits | None:
+    """The key `limits`, None if it is not set."""
+    if node is None:
+        return None
+    cpu, core = text(node, "cpu"), text(node, "core")
+    return model.Limits(
+        _size(text(node, "memory")),
+        int(cpu.rstrip(" %")) if cpu else None,
+        text(node, "cores") or None,
+        _integer(node, "nice"),
+        _integer(node, "realtime"),
+        _CORES[core] if core in _CORES else _size(core),
+        _integer(node, "files"),
+        span=node.span,
+    )
+
+
+def _size(spelled: str) -> int | None:
+    """A number of bytes, None for an empty text."""
+    if not spelled:
+        return None
+    number = spelled.rstrip("KMGiB ")
+    return round(float(number) * _UNITS[spelled[len(number) :].strip()])
+
+
+def _integer(parent: Node, key: str) -> int | None:
+    node = parent.get(key)
+    return int(node.data) if isinstance(node, Scalar) and isinstance(node.data, (int, float)) else None

@@ -1,0 +1,87 @@
+"""A machine that boots: a real systemd of a user among processes of its own. Its power is cut by killing it."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+from processes import until
+
+MANAGER = shutil.which("systemd", path="/usr/lib/systemd:/lib/systemd")
+# It is not the first of its processes, and starts only where the systemd of the machine seems to be.
+_ALONE = """\
+mount -t tmpfs tmpfs /run && mkdir -p /run/systemd/system || exit 1
+"$@"
+exit
+"""
+
+
+def need_systemd() -> None:
+    if MANAGER is None or os.geteuid() != 0:
+        pytest.skip("systemd is not installed here (Debian: systemd), or only root may have one of its own")
+
+
+class Machine:
+    """A machine with the home `home`. `inside` are the words that run a command in its network."""
+
+    def __init__(self, home: Path, inside: Sequence[str] = ()) -> None:
+        self.home, self._inside = home, list(inside)
+        (home / "run").mkdir(parents=True, mode=0o700)
+        self.environment = {
+            "HOME": str(home), "XDG_RUNTIME_DIR": f"{home}/run", "XDG_CONFIG_HOME": f"{home}/config",
+            "XDG_STATE_HOME": f"{home}/state", "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}",
+        }  # fmt: skip
+        self._power: subprocess.Popen[bytes] | None = None
+
+    def boot(self) -> None:
+        """Starts only what systemd starts."""
+        assert MANAGER
+        shutil.rmtree(self.home / "run")
+        (self.home / "run").mkdir(mode=0o700)
+        words = ["unshare", "--fork", "--pid", "--mount", "--mount-proc", "--kill-child", "sh", "-c", _ALONE, "sh",
+                 MANAGER, "--user", "--unit=default.target"]  # fmt: skip
+        with open(self.home / "systemd.log", "wb") as log:
+            self._power = subprocess.Popen(
+                [*self._inside, *words], env=self.environment, stdin=subprocess.DEVNULL, stdout=log, stderr=log
+            )  # fmt: skip
+        power = self._power
+        until(lambda: "running" in self.systemctl("show", "-p", "SystemState") or power.poll() is not None
+              or bool(self.systemctl("show", "-p", "Version").strip()), "systemd runs")  # fmt: skip
+        if power.poll() is not None:
+            pytest.skip(f"systemd does not run here: {(self.home / 'systemd.log').read_text(encoding='utf-8')}")
+
+    def cut(self) -> None:
+        """Cuts the power: all its processes end at once."""
+        if self._power:
+            self._power.kill()
+            self._power.wait()
+            self._power = None
+
+    def run(self, *words: str, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
+        """A command on the machine; while it is off, beside it."""
+        return subprocess.run(
+            [*self._inside, *self._enter(), *words], cwd=cwd, env=self.environment, capture_output=True, text=True,
+            check=False, timeout=120,
+        )  # fmt: skip
+
+    def rcyaml(self, *words: str, cwd: Path, code: int | None = 0) -> str:
+        done = self.run(
+            "env", "-C", str(cwd), sys.executable, "-m", "robocomp_yaml", "deploy", *words, cwd=cwd
+        )  # fmt: skip
+        assert code in (None, done.returncode), done.stdout + done.stderr
+        return done.stdout + done.stderr
+
+    def systemctl(self, *words: str) -> str:
+        return self.run("systemctl", "--user", *words).stdout
+
+    def _enter(self) -> list[str]:
+        if self._power is None:
+            return []
+        children = Path(f"/proc/{self._power.pid}/task/{self._power.pid}/children").read_text(encoding="ascii").split()
+        return ["nsenter", "--pid", "--mount", "--target", children[0]] if children else []
