@@ -7,6 +7,7 @@
 if(NOT component_qt_versions)
   set(component_qt_versions Qt6 Qt5)
 endif()
+unset(QT_DIR CACHE) # that of another component in the same tree, which may want the other version
 find_package(QT QUIET NAMES ${component_qt_versions} COMPONENTS ${component_qt})
 if(QT_FOUND)
   find_package(Qt${QT_VERSION_MAJOR} QUIET COMPONENTS ${component_qt})
