@@ -17,7 +17,7 @@ from robocomp_yaml.link.deployments import LinkedDeployment, LinkedStorm
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.model.deployment import PROGRAM
 from robocomp_yaml.model.located import Text
-from robocomp_yaml.network import liveness, processes
+from robocomp_yaml.network import liveness, processes, ready_when
 from robocomp_yaml.network.assigned_ports import assign_ports
 from robocomp_yaml.network.configuration import Configuration
 from robocomp_yaml.network.connections import Connections
@@ -48,8 +48,14 @@ def derive(linked: LinkedDeployment, program: Program, addresses: Addresses) -> 
     connections.resolve()
     gates.connect()
     topics.resolve()
-    diagnostics = [*port_faults, *endpoint_faults(drafts), *liveness.faults(drafts), *connections.diagnostics]
-    diagnostics += topics.diagnostics
+    diagnostics = [
+        *port_faults,
+        *endpoint_faults(drafts),
+        *liveness.faults(drafts),
+        *ready_when.faults(drafts),
+        *connections.diagnostics,
+    ]
+    diagnostics += [*connections.diagnostics, *topics.diagnostics]
     needs = [*_explicit(drafts, gates), *connections.needs, *gates.needs, *topics.needs]
     enabled = {draft.name for draft in drafts.drafts.values() if draft.instance.entry.enabled}
     needed = {need.target for need in needs if need.source in enabled}

@@ -24,7 +24,7 @@ _ATTRIBUTES = {
 }  # fmt: skip
 """The elements of a node with one value, and the attribute of the value; in RCManager's order."""
 
-_OWN = ("alias", "endpoint", "dependence", "aliases")
+_OWN = ("alias", "endpoint", "pinged", "dependence", "aliases")
 _GENERAL = {
     "editor": {"path": "kate", "dock": "false"},
     "timeouts": {"fixed": "1000.0", "blink": "300.0"},
@@ -98,6 +98,8 @@ class _Exporter:
                          self.dependences(process, name, kept), {**made, **unchanged})  # fmt: skip
 
     def endpoint(self, process: Process, kept: Kept, number: int) -> str:
+        if "pinged" in kept:
+            return _text(kept.get("pinged"))
         text = _text(kept.get("endpoint"))
         proxy = proxy_at(text)
         ports = {endpoint.port for endpoint in process.endpoints}
