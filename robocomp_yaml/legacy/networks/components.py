@@ -12,6 +12,7 @@ from robocomp_yaml.legacy.convert import Converted
 from robocomp_yaml.legacy.document import data
 from robocomp_yaml.legacy.draft import ComponentDraft
 from robocomp_yaml.legacy.networks.command import NodeCommand
+from robocomp_yaml.link import options
 from robocomp_yaml.source.discover import of_kind
 from robocomp_yaml.source.heading import root_of
 
@@ -88,4 +89,10 @@ def _known(path: str, content: Mapping[str, object]) -> KnownComponent:
     served = implements if isinstance(implements, list) else []
     names = [str(next(iter(item), "")) if isinstance(item, dict) else str(item) for item in served]
     interfaces = tuple(name.rpartition(".")[2] for name in names)
+    listed = content.get("options")
+    for option in listed if isinstance(listed, list) else []:
+        added = options.meanings().get(str(option).lower())
+        if added is not None:
+            interfaces = tuple(dict.fromkeys((*interfaces, *added.interfaces["implements"])))
+            required |= {name: name for name in added.interfaces["requires"] if name not in required}
     return KnownComponent(str(content.get("component", "")), path, interfaces, required)

@@ -45,6 +45,7 @@ class Processes(msgspec.Struct, eq=False):
             host = next(host_of(node) for node in self.running if node.name == name)
             for interface, port in config.ports.items():
                 serving.setdefault((host, port), (name, interface))
+        named: set[tuple[str, int]] = set()
         for node in self.running:
             endpoint = node.endpoint
             if endpoint is None or endpoint.is_storm:
@@ -56,6 +57,10 @@ class Processes(msgspec.Struct, eq=False):
             owner = self.owner(node).name
             mine = (owner, endpoint.identity.lower())
             other = serving.setdefault((host_of(node), endpoint.port), mine)
+            if (host_of(node), endpoint.port) in named and other == mine:
+                node.is_only_pinged = True  # by its other name
+                continue
+            named.add((host_of(node), endpoint.port))
             is_same = other[0] == owner and other[1].removesuffix("comp") == mine[1].removesuffix("comp")
             if not is_same and (other[0] != owner or self.is_known(owner, node)):
                 node.is_only_pinged = True
@@ -86,7 +91,7 @@ class Processes(msgspec.Struct, eq=False):
                 connect[proxy] = text or serving[0].endpoint.proxy(serving[0].elsewhere or host_of(serving[0]))
             elif len(candidates := self.candidates(node, interface)) > 1:
                 target = self.at(text, candidates)
-                connect[proxy] = target or text or candidates[0].name
+                connect[proxy] = target or text or self.named(candidates[0])
                 if not target and not text:
                     guesses.append(codes.GUESSED_SERVER.at(
                         node.span, name=node.alias, interface=interface, target=candidates[0].name,
@@ -114,6 +119,25 @@ class Processes(msgspec.Struct, eq=False):
             or ports & set(self.configured.get(node.name, _NOTHING).ports.values())
         ]  # fmt: skip
         return at[0] if len(at) == 1 and at[0] not in self.owners and not self.has_aliases(at[0]) else ""
+
+    def named(self, node: NetworkNode) -> str:
+        """Return a node's name, or its proxy if the name does not tell which of a process's endpoints it is."""
+        if node.endpoint is None or (node.name not in self.owners and not self.has_aliases(node.name)):
+            return node.name
+        return node.endpoint.proxy(host_of(node))
+
+    def address_of(self, nodes: Sequence[NetworkNode]) -> str:
+        """Return the host in the configurations' proxies to the ports of these nodes, if it is one; or ''."""
+        ports = {node.endpoint.port for node in nodes if node.endpoint is not None}
+        remote = {host_of(node) for node in self.running}
+        found: set[str] = set()
+        for config in self.configured.values():
+            for text in config.proxies.values():
+                proxy = proxy_at(text)
+                for one in proxy.endpoints if proxy is not None else ():
+                    if one.port in ports and one.host and one.host not in LOOPBACK | remote:
+                        found.add(one.host)
+        return found.pop() if len(found) == 1 else ""
 
     def has_aliases(self, name: str) -> bool:
         return any(owner.name == name for owner in self.owners.values())

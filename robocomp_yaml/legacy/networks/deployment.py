@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import re
+import socket
+from collections import Counter
 from collections.abc import Mapping, Sequence
 
 import msgspec
@@ -23,6 +25,9 @@ from robocomp_yaml.legacy.workspaces import Workspaces
 from robocomp_yaml.source.text import OF_NO_LINE
 
 _IP = re.compile(r"[\d.:]+")
+_SHARED = ("workingDir", "configFile", "radius", "color")
+_FEWEST = 3
+"""Nodes of which something is kept only once."""
 
 
 def build_deployments(
@@ -87,7 +92,8 @@ class _DeploymentBuilder(msgspec.Struct, eq=False):
         users = self.network.users
         for address, name in hosts.items():
             user = {"user": users[address]} if address in users else {}
-            listed.put(name, Map.of({"address": address, **user}))
+            reached = address if address != LOCAL else self.here(running)
+            listed.put(name, Map.of({"address": reached, **user}))
         document.put_some("hosts", listed)
         for node in nodes:
             self.report_problems(node)
@@ -101,9 +107,29 @@ class _DeploymentBuilder(msgspec.Struct, eq=False):
         document.put_some("services", services)
         document.put("components", components)
         self.network.extra.put_some("nodes", kept)
+        self.share(running)
         document.put_some(self.site.key, self.network.extra)
         document.entries[-1].notes.foot += notes.foot
         return document
+
+    def share(self, running: Sequence[NetworkNode]) -> None:
+        """Keep what most nodes have in common once, as `each`, if each of them has a value for it."""
+        nodes = [node for node in running if node.extra.entries]
+        shared = Map()
+        for key in _SHARED:
+            entries = [next((one for one in node.extra.entries if one.key == key), None) for node in nodes]
+            plain = [one for one in entries if one is not None and isinstance(one.value, str | Raw) and not one.notes]
+            if len(plain) < len(nodes) or len(nodes) < _FEWEST:
+                continue
+            value, count = Counter(repr(one.value) for one in plain).most_common(1)[0]
+            if 2 * count < len(nodes):
+                continue
+            shared.put(key, next(one.value for one in plain if repr(one.value) == value))
+            for node in nodes:
+                node.extra.entries = [
+                    one for one in node.extra.entries if one.key != key or repr(one.value) != value
+                ]  # fmt: skip
+        self.network.extra.put_some("each", shared)
 
     def is_started(self, node: NetworkNode) -> bool:
         if node.command is None:
@@ -165,6 +191,15 @@ class _DeploymentBuilder(msgspec.Struct, eq=False):
             names[address] = safe_name(name, names.values())
         return names
 
+    def here(self, running: Sequence[NetworkNode]) -> str:
+        """Return the address by which other hosts reach the one that the file calls localhost: that in a proxy to one
+        of its nodes, else the name of this machine. It is kept for the exporter."""
+        local = [node for node in running if host_of(node) == LOCAL]
+        address = self.processes.address_of(local) or socket.gethostname()
+        self.diagnostics.append(codes.LOCAL_ADDRESS.at(local[0].span, address=address))
+        self.network.extra.put(LOCAL, address)
+        return address
+
     def report_problems(self, node: NetworkNode) -> None:
         """Report the problems of a node that do not prevent its conversion."""
         command, endpoint = node.command, node.endpoint
@@ -217,7 +252,9 @@ class _DeploymentBuilder(msgspec.Struct, eq=False):
         depends = [self.by_alias[alias] for alias, _, _ in node.after if alias in self.by_alias]
         connect, guesses = self.processes.connections(node, depends)
         self.diagnostics += guesses
-        result, problem = component_entry(node, component, host, after, self.site, connect)
+        result, problem = component_entry(
+            node, component, host, after, self.site, connect, self.processes.configured[node.name].ports
+        )
         if problem:
             self.diagnostics.append(codes.ODD_ENDPOINT.at(node.endpoint_span, problem=problem))
         return result

@@ -53,9 +53,10 @@ def program_entry(node: NetworkNode, host: str, after: List, site: Destination, 
 
 def component_entry(
     node: NetworkNode, component: KnownComponent, host: str, after: List, site: Destination,
-    connect: Mapping[str, str],
+    connect: Mapping[str, str], configured: Mapping[str, int],
 ) -> tuple[Map, str]:  # fmt: skip
-    """Return the entry, and the problem of its endpoint, or ''."""
+    """Return the entry, and the problem of its endpoint, or ''. `configured` are the ports of its configuration, which
+    need not be repeated."""
     command = node.command
     assert command is not None
     entry, problem = Map(block=True), ""
@@ -69,18 +70,20 @@ def component_entry(
     if command.config:
         entry.put("config", _config(command, component, site))
     if node.endpoint is not None and not node.is_only_pinged:
-        problem = _ports(entry, node, component)
+        problem = _ports(entry, node, component, configured)
     entry.put_some("connect", Map.of(connect))
     return _completed(entry, node, after, site.key), problem
 
 
-def _ports(entry: Map, node: NetworkNode, component: KnownComponent) -> str:
+def _ports(entry: Map, node: NetworkNode, component: KnownComponent, configured: Mapping[str, int]) -> str:
     endpoint = node.endpoint
     assert endpoint is not None
     served = [*component.implements, COMMON]
     name = next((name for name in served if name.lower() == node.interface.lower()), None)
     if name is None:
         return f"'{node.alias}' serves '{node.interface}', which {component.name} does not implement"
+    if len(configured) > 1 and configured.get(name.lower()) == endpoint.port:
+        return ""
     port = Raw(str(endpoint.port))
     notes = node.by_key.get("endpoints")
     if endpoint.options or endpoint.protocol not in ("tcp", "default"):

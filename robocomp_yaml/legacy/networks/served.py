@@ -26,8 +26,9 @@ class ConfigAddresses(msgspec.Struct, frozen=True):
     proxies: Mapping[str, str] = {}
 
     def proxy(self, name: str, interface: str) -> str:
-        """The proxy of a required interface: by its name, else the only one to an object of the interface; or ''."""
-        if found := self.proxies.get(name.lower()):
+        """The proxy of a required interface: by its name (older tools count from 0), else the only one to an object
+        of the interface; or ''."""
+        if found := self.proxies.get(name.lower()) or self.proxies.get(f"{name.lower()}0"):
             return found
         same = {text for text in self.proxies.values() if (proxy_at(text) or _NONE).identity == interface.lower()}
         return same.pop() if len(same) == 1 else ""

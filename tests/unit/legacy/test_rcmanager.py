@@ -88,16 +88,19 @@ def test_one_host_needs_no_hosts(migrated: Callable[..., tuple[Any, list[str]]])
     assert said == []
 
 
-def test_hosts_have_names_addresses_and_users(migrated: Callable[..., tuple[Any, list[str]]]) -> None:
+def test_hosts_have_names_addresses_and_users(
+    migrated: Callable[..., tuple[Any, list[str]]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("socket.gethostname", lambda: "operator")
     there = ('<node alias="{0}" endpoint="{0}:tcp -h {1} -p {2}"><upCommand command="rcremote {1} t /d {0}"/>'
              '<downCommand command="ssh ana@{1} killall {0}"/></node>')  # fmt: skip
     document, said = migrated(there.format("a", "10.0.0.2", 1), there.format("b", "robot.local", 2), LASER.format(UP))
     assert document["hosts"] == {
         "host1": {"address": "10.0.0.2", "user": "ana"}, "robot": {"address": "robot.local", "user": "ana"},
-        "localhost": {"address": "localhost"},
+        "localhost": {"address": "operator"},
     }  # fmt: skip
     assert [entry["host"] for entry in document["components"].values()] == ["host1", "robot", "localhost"]
-    assert said == ["RC5039"]  # other hosts cannot connect to 'localhost'
+    assert said == ["RC5047"]  # other hosts cannot connect to 'localhost'
 
 
 def test_icestorm_is_a_service(migrated: Callable[..., tuple[Any, list[str]]]) -> None:
