@@ -31,6 +31,13 @@ class Enumerators(msgspec.Struct, frozen=True):
     constants: list[str]
 
 
+class Handles(msgspec.Struct, frozen=True):
+    """The proxies' classes of a module, for which there is a handle, as in Ice's older mapping."""
+
+    module: str
+    names: list[str]
+
+
 class OlderName(msgspec.Struct, frozen=True):
     """Another name of a proxy, which older versions of the tool gave it."""
 
@@ -55,6 +62,8 @@ class RobocompView(msgspec.Struct, frozen=True):
     legacy_sources: str
     services: list[ServiceView]
     older: list[OlderName]
+    handles: list[Handles]
+    handle_names: list[str]
 
 
 def qt_view(linked: LinkedComponent) -> QtView | None:
@@ -71,6 +80,10 @@ def robocomp_view(linked: LinkedComponent, ports: Ports) -> RobocompView | None:
     if not component.compatibility:
         return None
     accessors = ports.accessors
+    handles = [
+        Handles(ice_name(scope.module.name), [f"{one.name}Prx" for one in scope.module.all_interfaces])
+        for scope in linked.modules() if scope.module.all_interfaces
+    ]  # fmt: skip
     served = sorted({port.interface.name.lower() for port in (*linked.implements, *linked.subscribes)})
     return RobocompView(
         base=f"{component.gui.base}, public Ui_guiDlg" if component.gui else "QObject",
@@ -84,6 +97,8 @@ def robocomp_view(linked: LinkedComponent, ports: Ports) -> RobocompView | None:
         legacy_sources="|".join(["commonbehaviorI", *(f"{name}I" for name in served)]),
         services=[_behind_pointer(service) for service in ports.services],
         older=list(_older(accessors)),
+        handles=handles,
+        handle_names=sorted({name for one in handles for name in one.names}),
     )
 
 
