@@ -103,7 +103,6 @@ def _robocomp(component: LinkedComponent, view: View, parts: list[FilePlan]) -> 
         "generated/main.cpp": "robocomp_main.cpp",
         "generated/robocomp/enumerators.h": "robocomp_enumerators.h",
         "generated/robocomp/handles.h": "robocomp_handles.h",
-        "generated/robocomp/no_handles.h": "robocomp_no_handles.h",
         "generated/component.cmake": "component.cmake",
         "generated/CMakeLists.txt": "robocomp_CMakeLists.txt",
     }
