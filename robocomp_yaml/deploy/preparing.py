@@ -9,6 +9,7 @@ from msgspec.structs import replace
 
 from robocomp_yaml.deploy import protection
 from robocomp_yaml.deploy.authority import Authority, names_at, properties
+from robocomp_yaml.deploy.here import folder_on
 from robocomp_yaml.deploy.own_address import is_name, own_address
 from robocomp_yaml.network.network import COMPONENT, ICESTORM, ConfigFile, Network, Process
 from robocomp_yaml.source.ice_endpoint import spelled_host
@@ -79,7 +80,7 @@ def _secured(network: Network, folder: str, *, create: bool) -> Network:
     due = authority.due(hosts)
     pems = {name: _NEW if name in due else authority.pem(name) for name in hosts}
     processes = {
-        name: _with(one, folder, pems[one.host]) if one.is_secured and one.config else one
+        name: _with(one, folder_on(network.hosts[one.host], folder), pems[one.host]) if one.is_secured and one.config else one
         for name, one in network.processes.items()
     }
     return replace(network, processes=processes)

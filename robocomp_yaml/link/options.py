@@ -30,10 +30,10 @@ def expanded(component: Component) -> tuple[Component, list[Diagnostic]]:
     """Returns the component with what its options add, without duplicates, and diagnostics about the options."""
     diagnostics: list[Diagnostic] = []
     for option in component.options:
-        meaning = _meanings().get(option.text.lower())
+        meaning = meanings().get(option.text.lower())
         if meaning is None:
             others = {other.text.lower() for other in component.options}
-            hint = did_you_mean(option.text, _meanings(), others, otherwise=f"there are {', '.join(_meanings())}")
+            hint = did_you_mean(option.text, meanings(), others, otherwise=f"there are {', '.join(meanings())}")
             diagnostics.append(codes.UNKNOWN_OPTION.at(option.span, name=option.text, hint=hint))
             continue
         component = _with(component, option, meaning)
@@ -54,7 +54,7 @@ def _with(component: Component, option: Text, meaning: OptionMeaning) -> Compone
 
 
 @cache
-def _meanings() -> dict[str, OptionMeaning]:
+def meanings() -> dict[str, OptionMeaning]:
     """The meanings of all options by their names in lower case."""
     names = (name for name in resources.names("migrate/options") if name.endswith(".yaml"))
     return {name.removesuffix(".yaml"): _meaning(resources.text(f"migrate/options/{name}"), name) for name in names}

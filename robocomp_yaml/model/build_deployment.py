@@ -136,7 +136,10 @@ def _ready(node: Node | None) -> model.Ready | None:
         _integer(node, "port"),
         _command(node.get("command")),
         text(node, "log"),
-        span=next((node.entries[key][1].span for key in ("port", "command", "log") if key in node.entries), node.span),
+        text(node, "ping"),
+        span=next(
+            (node.entries[key][1].span for key in ("port", "ping", "command", "log") if key in node.entries), node.span
+        ),
     )
 
 

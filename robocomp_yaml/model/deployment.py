@@ -105,13 +105,15 @@ class Number(Spanned, frozen=True):
 
 
 class Ready(Spanned, frozen=True):
-    """When a process is ready: `port` accepts connections, `command` exits with 0, or a line of output matches `log`.
-    If none is set, all that the process serves must answer a ping. `within` is in seconds, None if it is not set."""
+    """When a process is ready: `port` accepts connections, the proxy `ping` answers, `command` exits with 0, or a line
+    of output matches `log`. If none is set, all that the process serves must answer a ping. `within` is in seconds,
+    None if it is not set."""
 
     within: float | None = None
     port: int | None = None
     command: tuple[str, ...] = ()
     log: str = ""
+    ping: str = ""
 
 
 class Restart(Spanned, frozen=True):

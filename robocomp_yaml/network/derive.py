@@ -17,7 +17,7 @@ from robocomp_yaml.link.deployments import LinkedDeployment, LinkedStorm
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.model.deployment import PLAIN, PROGRAM, TOKEN
 from robocomp_yaml.model.located import Text
-from robocomp_yaml.network import liveness, processes, security
+from robocomp_yaml.network import liveness, processes, ready_when, security
 from robocomp_yaml.network.assigned_ports import assign_ports
 from robocomp_yaml.network.configuration import Configuration
 from robocomp_yaml.network.connections import Connections
@@ -48,7 +48,13 @@ def derive(linked: LinkedDeployment, program: Program, addresses: Addresses) -> 
     connections.resolve()
     gates.connect()
     topics.resolve()
-    diagnostics = [*port_faults, *endpoint_faults(drafts), *liveness.faults(drafts), *connections.diagnostics]
+    diagnostics = [
+        *port_faults,
+        *endpoint_faults(drafts),
+        *liveness.faults(drafts),
+        *ready_when.faults(drafts),
+        *connections.diagnostics,
+    ]
     diagnostics += topics.diagnostics
     diagnostics += security.faults(drafts, [*connections.connections, *topics.connections])
     needs = [*_explicit(drafts, gates), *connections.needs, *gates.needs, *topics.needs]

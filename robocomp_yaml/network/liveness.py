@@ -10,6 +10,7 @@ from robocomp_yaml.addresses.port_numbers import COMMON_BEHAVIOR
 from robocomp_yaml.diag.codes import deploying as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.model.deployment import Alive
+from robocomp_yaml.network import ready_when
 from robocomp_yaml.network.draft import Draft, Drafts
 from robocomp_yaml.network.network import AUTO, FOREVER, Liveness
 
@@ -60,4 +61,5 @@ def _is_on(layers: list[Alive], is_on: bool) -> bool:
 def _asked(draft: Draft) -> str:
     """The proxy of the object that is asked, '' if there is none."""
     served = (offer.proxy for offer in draft.offers if offer.endpoint and offer.endpoint.protocol != "udp")
-    return introspection(draft) or next(served, "")
+    ready = draft.instance.entry.ready
+    return introspection(draft) or (ready_when.pinged(ready, draft) if ready and ready.ping else next(served, ""))

@@ -254,7 +254,7 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
     def is_server(self) -> bool:
         """Whether it runs until it is stopped; a task is done when it exits with 0. By default, a process that serves
         something is a server, as is every component."""
-        serves = self.kind in (COMPONENT, ICESTORM) or bool(self.endpoints or self.ready.port)
+        serves = self.kind in (COMPONENT, ICESTORM) or bool(self.endpoints or self.ready.port or self.ready.pings)
         return self.role == SERVER if self.role else serves
 
     @property

@@ -13,7 +13,7 @@ from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.link.workspace import component_argument
 from robocomp_yaml.model import deployment as model
 from robocomp_yaml.model.deployment import CONFIG
-from robocomp_yaml.network import icestorm, liveness
+from robocomp_yaml.network import icestorm, liveness, ready_when
 from robocomp_yaml.network.draft import Draft, StormDraft
 from robocomp_yaml.network.listening import SSL
 from robocomp_yaml.network.network import (
@@ -24,14 +24,12 @@ from robocomp_yaml.network.network import (
     ConfigFile,
     EnvironmentVariable,
     Process,
-    Readiness,
     ResourceLimits,
     RestartRule,
 )
 from robocomp_yaml.parameters.hidden import secret_names
 
 _DEFAULTS = RestartRule()
-_LONGEST_SETTLED = 3.0  # seconds
 
 
 def of_draft(
@@ -47,7 +45,7 @@ def of_draft(
         folder = os.path.abspath(os.path.join(os.path.dirname(instance.document.path), entry.cwd.text))
     command = tuple(_command(draft, program))
     reads_config = any(CONFIG in part for part in command[1:])
-    ready = _ready(draft)
+    ready = ready_when.of_draft(draft)
     of_aliases = {alias.name: dict(alias.entry.extra) for alias in draft.aliases if alias.entry.extra}
     return Process(
         draft.name,
@@ -69,7 +67,7 @@ def of_draft(
         is_ice=component is not None or bool(draft.offers or entry.config_as or entry.connect),
         role=entry.role,
         is_secured=draft.protocol == SSL,
-        settled=_settled(entry.ready, ready),
+        settled=ready_when.settled(entry.ready, ready),
         secrets=tuple(sorted(set(secret_names(component.parameters.parameters.root)))) if component is not None else (),
         component=component.component.name if component is not None else "",
         build=_build(draft),
@@ -158,26 +156,6 @@ def _command(draft: Draft, program: str) -> Iterator[str]:
     yield from (argument.text for argument in entry.args)
     if how.startswith("-"):
         yield f"{how}={CONFIG}"
-
-
-def _ready(draft: Draft) -> Readiness:
-    """By default, everything that a component serves answers a ping. A program may not use Ice, so that only its first
-    TCP port must be open."""
-    given = draft.instance.entry.ready
-    within = given.within if given and given.within is not None else Readiness().within
-    if given and (given.port is not None or given.command or given.log):
-        return Readiness(within, (), given.port, given.command, given.log)
-    if draft.instance.component is not None:
-        return Readiness(within, tuple(offer.proxy for offer in draft.offers if offer.endpoint))
-    ports = [offer.endpoint.port for offer in draft.offers if offer.endpoint and offer.endpoint.protocol != "udp"]
-    return Readiness(within, port=ports[0] if ports else None)
-
-
-def _settled(given: model.Ready | None, ready: Readiness) -> float | None:
-    """For a process without a condition, the time of its `ready:` is the time that it must run, up to some seconds."""
-    if ready.has_condition or given is None or given.within is None:
-        return None
-    return min(given.within, _LONGEST_SETTLED)
 
 
 def _restart(given: model.Restart | None) -> RestartRule:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from functools import lru_cache
 
 import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml.source.ice_endpoint import IceEndpoint, UnknownProtocol, read_endpoint, segments
 from robocomp_yaml.source.ice_options import BLANKS, InvalidIceText, Word, after_blanks, check_version, forbid_value
@@ -75,6 +77,22 @@ def proxy_at(text: str) -> Proxy | None:
         return parse_proxy(text)
     except InvalidIceText:
         return None
+
+
+def reached_at(text: str, address: str, is_here: Callable[[str], bool]) -> str:
+    """The proxy with `address` in its endpoints that have no host, or one that `is_here`; the text as it is, if it has
+    no endpoints."""
+    proxy = proxy_at(text)
+    if proxy is None or not proxy.endpoints:
+        return text
+    head = text[: text.index(":", text.index(proxy.identity) + len(proxy.identity))].rstrip(BLANKS)
+    endpoints = [
+        replace(one, host=address).reached_at(address)
+        if not one.host or is_here(one.host)
+        else one.reached_at(one.host)
+        for one in proxy.endpoints
+    ]
+    return ":".join([head, *endpoints])
 
 
 def _options(text: str, at: int) -> tuple[str, int]:

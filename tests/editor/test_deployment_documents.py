@@ -78,8 +78,8 @@ COMPLETIONS = [
     (E + "restart: |", ["on-failure", "always", "no", "with limits"]),
     (E + "restart: {p|}", ["policy", "delay", "tries", "within"]),
     (E + "restart: {policy: |}", ['"no"', "on-failure", "always"]),
-    (E + "ready: |", ["time", "port", "command", "log"]),
-    (E + "ready: {p|}", ["within", "port", "command", "log"]),
+    (E + "ready: |", ["time", "port", "ping", "command", "log"]),
+    (E + "ready: {p|}", ["within", "port", "ping", "command", "log"]),
     (E + "ready: {command: |}", ["command"]),
     (E + "limits: |", ["memory and priority", "real time"]),
     (D + "limits: |", ["memory and priority", "real time"]),
@@ -194,7 +194,7 @@ MESSAGES = [
     (
         E + "ready: 10 sec",
         [
-            "5:12 ready: is a time, such as 10 s, or a condition: {port: 10003, within: 10 s}, {command: […]} or "
+            "5:12 ready: is a time, such as 10 s, or a condition: {port: 10003, within: 10 s}, {ping: …}, {command: […]} or "
             "{log: …}"
         ],
     ),
@@ -268,6 +268,7 @@ HOVERS = [
     (E + "rea|dy: {log: a}", "Ready"),
     (E + "ready: {with|in: 1 s}", "Time limit"),
     (E + "ready: {po|rt: 1}", "Port of readiness"),
+    (E + "ready: {pi|ng: a}", "Proxy of readiness"),
     (E + "ready: {comm|and: [a]}", "Command"),
     (E + "ready: {lo|g: a}", "Line of the log"),
     (E + "lis|ten: any", "Listen"),

@@ -153,7 +153,6 @@ public:
 	RoboCompTypes::Side Arm_state(RoboCompTypes::Pose &pose, Named &named);
 	void Arm_breakDown();
 	void Arm_betray();
-	void Arm_block(const float seconds);
 	Image grasp(const Image &image);
 
 public slots:
@@ -161,6 +160,8 @@ public slots:
 	int startup_check();
 	void initialize(int period);
 private:
+	void Arm_block(const float seconds);
+	vector<RoboCompArm::ArmEventsPrx> audience;
 	bool startup_check_flag;
 	int limit, turns;
 	string owner;
@@ -177,6 +178,11 @@ SpecificWorker::SpecificWorker(MapPrx& mprx, bool startup_check) : GenericWorker
 {
 	this->startup_check_flag = startup_check;
 	turns = 0;
+	RoboCompArm::ArmEventsPrx first = armevents_proxy;
+	audience.push_back(first);
+	audience.push_back(RoboCompArm::ArmEventsPrx::uncheckedCast(mprx["armevents_pubproxy"]));
+	rInfo("an audience of " + std::to_string(audience.size()));
+	rDebug(QString("as RoboComp's log"));
 }
 
 SpecificWorker::~SpecificWorker()
@@ -217,7 +223,7 @@ void SpecificWorker::compute()
 		cout << "first turn, period " << Period << " limit " << limit << " of " << owner << endl;
 	try
 	{
-		armevents_pubproxy->count(turns);
+		audience[turns % 2]->count(turns);
 	}
 	catch(const Ice::Exception &e)
 	{

@@ -114,6 +114,8 @@ def test_robocomps_generations(
     assert "blocked at 1 9\n" in said
     serving.wait_for("first turn, period 20 limit 9 of Shelly\n")
     serving.wait_for("failed: seven")
+    if name == "Old":
+        assert "an audience of 2\n" in serving.output and "as RoboComp's log\n" in serving.output
     if name == "New":
         assert "emergency after turn 3\nrestored\n" in serving.wait_for("rested\n").output
     until(lambda: behavior(port).getPeriod() == 500, "setPeriod() by the user's code")

@@ -6,6 +6,8 @@ JSON: `{"stage": "import" | "construct" | "step" | "done", "wrong": text}`.
 
 from __future__ import annotations
 
+import ast
+import builtins
 import importlib.util
 import json
 import logging
@@ -25,12 +27,33 @@ SECONDS = 1.5
 OURS = {"generated", "genericworker", "interfaces", "specificworker", "Ice", "IceStorm", "PySide6", "PySide2", "PySide"}
 
 
+def undefined_names(folder: Path) -> set[str]:
+    """The names that code uses and does not define, so that they come from `import *`."""
+    used: set[str] = set()
+    for path in folder.glob("*.py"):
+        try:
+            nodes = list(ast.walk(ast.parse(path.read_bytes())))
+        except SyntaxError:
+            continue
+        names = [node for node in nodes if isinstance(node, ast.Name)]
+        used |= {node.id for node in names if isinstance(node.ctx, ast.Load)}
+        used -= {node.id for node in names if not isinstance(node.ctx, ast.Load)}
+        used -= {node.name for node in nodes if isinstance(node, ast.FunctionDef | ast.ClassDef)}
+        used -= {node.arg for node in nodes if isinstance(node, ast.arg)}
+    return used - set(dir(builtins)) - {"QtCore", "QtWidgets", "QtGui", "Ice", "GenericWorker", "interfaces", "ifaces"}
+
+
+UNDEFINED = undefined_names(ROOT / "src")
+
+
 class Fake(ModuleType):
     """A module with every name."""
 
     __path__: ClassVar[list[str]] = []
 
     def __getattr__(self, name: str) -> object:
+        if name == "__all__":
+            return sorted(UNDEFINED)
         if name.startswith("__"):
             raise AttributeError(name)
         value = MagicMock(name=f"{self.__name__}.{name}")

@@ -14,6 +14,7 @@ from robocomp_yaml.emit.exports import _unwritable
 from robocomp_yaml.emit.exports._commands import by_host, configs, file_name, with_files
 from robocomp_yaml.network.files import home_of, shared_folders
 from robocomp_yaml.network.network import ALWAYS, ICESTORM, NEVER, Network, Process
+from robocomp_yaml.source.ice_proxy import proxy_at
 from robocomp_yaml.source.yaml_text import quoted
 
 _IMAGE = "${RCYAML_IMAGE:-debian:bookworm}"
@@ -106,7 +107,9 @@ def _health(process: Process) -> list[str]:
     if process.ready.command:
         return with_files(process, process.ready.command)
     listening = [endpoint.port for endpoint in process.endpoints if endpoint.port and endpoint.protocol == "tcp"]
-    port = process.ready.port or (listening[0] if listening and not process.ready.log else 0)
+    found = [one.port for proxy in map(proxy_at, process.ready.pings) if proxy for one in proxy.endpoints if one.port]
+    pinged = found if not process.component else []
+    port = process.ready.port or next(iter(pinged or ([] if process.ready.log else listening)), 0)
     return ["bash", "-c", f"</dev/tcp/127.0.0.1/{port}"] if port else []
 
 

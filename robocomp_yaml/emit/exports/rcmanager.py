@@ -24,7 +24,7 @@ _ATTRIBUTES = {
 }  # fmt: skip
 """The elements of a node with one value, and the attribute of the value; in RCManager's order."""
 
-_OWN = ("alias", "endpoint", "dependence", "aliases")
+_OWN = ("alias", "endpoint", "pinged", "dependence", "aliases")
 _GENERAL = {
     "editor": {"path": "kate", "dock": "false"},
     "timeouts": {"fixed": "1000.0", "blink": "300.0"},
@@ -51,13 +51,19 @@ class _Exporter:
         self.network = network
         self.kept = dict(network.extra)
         self.nodes = _mapping(self.kept.pop("nodes", None))
+        self.each = _mapping(self.kept.pop("each", None))
+        self.here = _text(self.kept.pop(LOOPBACK, ""))
         self.owners = {name: process.name for process in network.processes.values()
                        for name in (process.name, *process.aliases)}  # fmt: skip
         self.aliases = {name: _text(self.of(name).get("alias"), name) for name in self.owners}
         self.by_alias = {alias: name for name, alias in self.aliases.items()}
 
     def of(self, name: str) -> Kept:
-        """What the document keeps of a node."""
+        """What the document keeps of a node, and of each one of which it keeps something."""
+        kept = self.kept_of(name)
+        return {**self.each, **kept} if kept else kept
+
+    def kept_of(self, name: str) -> Kept:
         process = self.network.processes.get(self.owners.get(name, ""))
         if process is None or name in self.nodes:
             return _mapping(self.nodes.get(name))
@@ -97,14 +103,21 @@ class _Exporter:
         yield from _node(self.aliases[name], self.endpoint(process, kept, number),
                          self.dependences(process, name, kept), {**made, **unchanged})  # fmt: skip
 
+    def address(self, process: Process) -> str:
+        """The address of a process; localhost, if the migrated file called it so."""
+        address = self.network.address(process)
+        return LOOPBACK if address == self.here else address
+
     def endpoint(self, process: Process, kept: Kept, number: int) -> str:
+        if "pinged" in kept:
+            return _text(kept.get("pinged"))
         text = _text(kept.get("endpoint"))
         proxy = proxy_at(text)
         ports = {endpoint.port for endpoint in process.endpoints}
         if "endpoint" in kept and (proxy is None or not {one.port for one in proxy.endpoints} - ports):
             return text
         selected = [endpoint for endpoint in process.endpoints if endpoint.identity][number : number + 1]
-        address = self.network.address(process)
+        address = self.address(process)
         return "".join(f"{one.identity}:{one.protocol} -h {spelled_host(address)} -p {one.port}" for one in selected)
 
     def dependences(self, process: Process, name: str, kept: Kept) -> list[str]:
@@ -118,7 +131,7 @@ class _Exporter:
 
     def command(self, process: Process, name: str) -> str:
         words = shlex.join(process.words(self.network.config_path(process)))
-        return f"rcremote {self.network.address(process)} {file_name(name)} {shlex.quote(process.cwd)} {words}"
+        return f"rcremote {self.address(process)} {file_name(name)} {shlex.quote(process.cwd)} {words}"
 
     def pattern(self, process: Process, config: str) -> str:
         """A regular expression that matches the command line of this process only: it contains the process's own
@@ -136,8 +149,8 @@ class _Exporter:
             words = command.split()
         if words[:1] == ["rcremote"]:
             host, folder, words = words[1], words[3], words[4:]
-            local = (host in _LOCAL) == (self.network.address(process) in _LOCAL)
-            if not local or (host not in _LOCAL and host != self.network.address(process)):
+            local = (host in _LOCAL) == (self.address(process) in _LOCAL)
+            if not local or (host not in _LOCAL and host != self.address(process)):
                 return False
             if self.path(os.path.dirname(self.network.path), folder) != process.cwd:
                 return False

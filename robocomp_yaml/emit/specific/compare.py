@@ -73,10 +73,11 @@ def compare(
             before = {method.name: method for method in getattr(older, part, ())}
             for method in getattr(skeleton, part):
                 mine = known.get(method.name, [])
-                defined = mine or (bodies.get(method.name) if part == "definitions" else None)
                 others = accepted.get(method.name, ())
-                if accepted and not defined:  # the oldest versions of RoboComp's tool omit the interface's name
-                    defined = known.get(method.name.partition("_")[2])
+                # The oldest versions of RoboComp's tool omit the interface's name.
+                names = (method.name, method.name.partition("_")[2]) if accepted else (method.name,)
+                inside = bodies if part == "definitions" else {}
+                defined = any(known.get(name) or inside.get(name) for name in names)
                 if not defined and method.name not in elsewhere and not others:
                     result.missing.append(MissingMethod(skeleton, method))
                 if mine and not any(_fits_any(one, method, before.get(method.name), others) for _, one in mine):

@@ -102,6 +102,7 @@ def _robocomp(component: LinkedComponent, view: View, parts: list[FilePlan]) -> 
         "generated/genericworker.cpp": "robocomp_genericworker.cpp",
         "generated/main.cpp": "robocomp_main.cpp",
         "generated/robocomp/enumerators.h": "robocomp_enumerators.h",
+        "generated/robocomp/handles.h": "robocomp_handles.h",
         "generated/component.cmake": "component.cmake",
         "generated/CMakeLists.txt": "robocomp_CMakeLists.txt",
     }

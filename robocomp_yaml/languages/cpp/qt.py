@@ -31,6 +31,21 @@ class Enumerators(msgspec.Struct, frozen=True):
     constants: list[str]
 
 
+class Handles(msgspec.Struct, frozen=True):
+    """The proxies' classes of a module, for which there is a handle, as in Ice's older mapping."""
+
+    module: str
+    names: list[str]
+
+
+class OlderName(msgspec.Struct, frozen=True):
+    """Another name of a proxy, which older versions of the tool gave it."""
+
+    proxy: str
+    name: str
+    now: str
+
+
 class RobocompView(msgspec.Struct, frozen=True):
     """What code for RoboComp's own tool needs. `tie`, `tuple_types` and `map` list the accessors; `methods` are
     declared for classes that override them, protected, so that nobody else calls them; `legacy_sources` are the names
@@ -46,6 +61,9 @@ class RobocompView(msgspec.Struct, frozen=True):
     enumerators: list[Enumerators]
     legacy_sources: str
     services: list[ServiceView]
+    older: list[OlderName]
+    handles: list[Handles]
+    handle_names: list[str]
 
 
 def qt_view(linked: LinkedComponent) -> QtView | None:
@@ -62,6 +80,10 @@ def robocomp_view(linked: LinkedComponent, ports: Ports) -> RobocompView | None:
     if not component.compatibility:
         return None
     accessors = ports.accessors
+    handles = [
+        Handles(ice_name(scope.module.name), [f"{one.name}Prx" for one in scope.module.all_interfaces])
+        for scope in linked.modules() if scope.module.all_interfaces
+    ]  # fmt: skip
     served = sorted({port.interface.name.lower() for port in (*linked.implements, *linked.subscribes)})
     return RobocompView(
         base=f"{component.gui.base}, public Ui_guiDlg" if component.gui else "QObject",
@@ -74,7 +96,25 @@ def robocomp_view(linked: LinkedComponent, ports: Ports) -> RobocompView | None:
         enumerators=[_enumerators(scope) for scope in linked.modules()],
         legacy_sources="|".join(["commonbehaviorI", *(f"{name}I" for name in served)]),
         services=[_behind_pointer(service) for service in ports.services],
+        older=list(_older(accessors)),
+        handles=handles,
+        handle_names=sorted({name for one in handles for name in one.names}),
     )
+
+
+def _older(accessors: list[AccessorView]) -> Iterator[OlderName]:
+    """Older versions named the proxy of a publisher like that of a server, and counted proxies of one interface from
+    0."""
+    taken = {accessor.name for accessor in accessors}
+    for accessor in accessors:
+        stem = accessor.name.removesuffix("_pubproxy").removesuffix("_proxy")
+        names = [f"{stem}_proxy"] if accessor.name.endswith("_pubproxy") else []
+        if f"{stem}1_proxy" in taken:
+            names.append(f"{stem}0_proxy")
+        for name in names:
+            if name not in taken:
+                taken.add(name)
+                yield OlderName(accessor.proxy, name, accessor.name)
 
 
 def _casts(accessors: list[AccessorView]) -> list[str]:

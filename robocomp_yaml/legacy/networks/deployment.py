@@ -4,24 +4,30 @@ from __future__ import annotations
 
 import os
 import re
+import socket
+from collections import Counter
 from collections.abc import Mapping, Sequence
 
 import msgspec
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.digraph import reachable
 from robocomp_yaml.legacy.document import List, Map, Notes, Raw
 from robocomp_yaml.legacy.draft import DeploymentDraft
 from robocomp_yaml.legacy.ledger import LedgerEntry
 from robocomp_yaml.legacy.networks.command import LOCAL, LOOPBACK, is_config
 from robocomp_yaml.legacy.networks.components import KnownComponent, match, of_folder, of_run
+from robocomp_yaml.legacy.networks.conflicts import Processes, host_of, without_circles
 from robocomp_yaml.legacy.networks.entries import COMMON, Destination, component_entry, program_entry
 from robocomp_yaml.legacy.networks.node import NetworkDraft, NetworkNode, safe_name
+from robocomp_yaml.legacy.networks.served import ConfigAddresses, addresses
 from robocomp_yaml.legacy.workspaces import Workspaces
 from robocomp_yaml.source.text import OF_NO_LINE
 
 _IP = re.compile(r"[\d.:]+")
+_SHARED = ("workingDir", "configFile", "radius", "color")
+_FEWEST = 3
+"""Nodes of which something is kept only once."""
 
 
 def build_deployments(
@@ -65,8 +71,9 @@ class _DeploymentBuilder(msgspec.Struct, eq=False):
     by_alias: dict[str, NetworkNode] = {}
     owners: dict[str, NetworkNode] = {}
     """By the name of a node, the first node of the same process."""
-    waits: dict[str, set[str]] = {}
-    """By the name of a process's first node, the names of those that it waits for."""
+    waits: dict[str, list[str]] = {}
+    """By the name of a process's first node, the names of those that it waits for, without circles."""
+    processes: Processes = msgspec.field(default_factory=lambda: Processes((), {}, {}, {}))
 
     def document(self) -> Map:
         nodes = self.network.nodes
@@ -76,6 +83,7 @@ class _DeploymentBuilder(msgspec.Struct, eq=False):
             node.interface = spelled.get(node.interface.lower(), node.interface)
         running = [node for node in nodes if self.is_started(node)]
         self.find_owners(running)
+        self.find_processes(running)
         self.find_waits()
         hosts = self.hosts(running)
         notes = self.network.notes
@@ -84,7 +92,8 @@ class _DeploymentBuilder(msgspec.Struct, eq=False):
         users = self.network.users
         for address, name in hosts.items():
             user = {"user": users[address]} if address in users else {}
-            listed.put(name, Map.of({"address": address, **user}))
+            reached = address if address != LOCAL else self.here(running)
+            listed.put(name, Map.of({"address": reached, **user}))
         document.put_some("hosts", listed)
         for node in nodes:
             self.report_problems(node)
@@ -98,9 +107,29 @@ class _DeploymentBuilder(msgspec.Struct, eq=False):
         document.put_some("services", services)
         document.put("components", components)
         self.network.extra.put_some("nodes", kept)
+        self.share(running)
         document.put_some(self.site.key, self.network.extra)
         document.entries[-1].notes.foot += notes.foot
         return document
+
+    def share(self, running: Sequence[NetworkNode]) -> None:
+        """Keep what most nodes have in common once, as `each`, if each of them has a value for it."""
+        nodes = [node for node in running if node.extra.entries]
+        shared = Map()
+        for key in _SHARED:
+            entries = [next((one for one in node.extra.entries if one.key == key), None) for node in nodes]
+            plain = [one for one in entries if one is not None and isinstance(one.value, str | Raw) and not one.notes]
+            if len(plain) < len(nodes) or len(nodes) < _FEWEST:
+                continue
+            value, count = Counter(repr(one.value) for one in plain).most_common(1)[0]
+            if 2 * count < len(nodes):
+                continue
+            shared.put(key, next(one.value for one in plain if repr(one.value) == value))
+            for node in nodes:
+                node.extra.entries = [
+                    one for one in node.extra.entries if one.key != key or repr(one.value) != value
+                ]  # fmt: skip
+        self.network.extra.put_some("each", shared)
 
     def is_started(self, node: NetworkNode) -> bool:
         if node.command is None:
@@ -123,16 +152,37 @@ class _DeploymentBuilder(msgspec.Struct, eq=False):
                 owner.is_shared = node.is_shared = True
                 self.diagnostics.append(codes.SAME_PROCESS.at(node.span, name=node.alias, other=owner.alias))
 
+    def find_processes(self, running: Sequence[NetworkNode]) -> None:
+        """Find the components that are started, and which endpoints are only pinged."""
+        components: dict[str, KnownComponent] = {}
+        configured: dict[str, ConfigAddresses] = {}
+        for node in running:
+            command = node.command
+            if node.name in self.owners or command is None or command.in_shell or _is_storm(node):
+                continue
+            component = match(command, self.known)
+            if component is not None:
+                components[node.name] = component
+                configured[node.name] = addresses(command, component, self.site.sources)
+        self.processes = Processes(running, self.owners, components, configured)
+        self.diagnostics += self.processes.find_pinged()
+
     def find_waits(self) -> None:
+        waits: dict[str, list[str]] = {}
         for node in self.network.nodes:
             owner = self.owners.get(node.name, node).name
             targets = [self.by_alias[alias] for alias, _, _ in node.after if alias in self.by_alias]
-            names = {self.owners.get(target.name, target).name for target in targets} - {owner}
-            self.waits.setdefault(owner, set()).update(names)
+            names = [self.owners.get(target.name, target).name for target in targets]
+            waits.setdefault(owner, []).extend(name for name in names if name != owner)
+        self.waits, dropped = without_circles({name: list(dict.fromkeys(targets)) for name, targets in waits.items()})
+        by_name = {node.name: node for node in self.network.nodes}
+        for name, target in dropped:
+            node = by_name[name]
+            self.diagnostics.append(codes.CIRCLE.at(node.span, name=node.alias, other=by_name[target].alias))
 
     def hosts(self, running: Sequence[NetworkNode]) -> dict[str, str]:
         """Return the name of each host by its address; none where all processes run on this host."""
-        addresses = dict.fromkeys(_address(node) for node in running)
+        addresses = dict.fromkeys(host_of(node) for node in running)
         if set(addresses) <= {LOCAL}:
             return {}
         names: dict[str, str] = {}
@@ -140,6 +190,15 @@ class _DeploymentBuilder(msgspec.Struct, eq=False):
             name = f"host{len(names) + 1}" if _IP.fullmatch(address) else address.partition(".")[0]
             names[address] = safe_name(name, names.values())
         return names
+
+    def here(self, running: Sequence[NetworkNode]) -> str:
+        """Return the address by which other hosts reach the one that the file calls localhost: that in a proxy to one
+        of its nodes, else the name of this machine. It is kept for the exporter."""
+        local = [node for node in running if host_of(node) == LOCAL]
+        address = self.processes.address_of(local) or socket.gethostname()
+        self.diagnostics.append(codes.LOCAL_ADDRESS.at(local[0].span, address=address))
+        self.network.extra.put(LOCAL, address)
+        return address
 
     def report_problems(self, node: NetworkNode) -> None:
         """Report the problems of a node that do not prevent its conversion."""
@@ -157,14 +216,14 @@ class _DeploymentBuilder(msgspec.Struct, eq=False):
                 self.diagnostics.append(codes.ODD_ENDPOINT.at(node.endpoint_span, problem=problem))
             return
         host = LOCAL if endpoint.host in LOOPBACK else endpoint.host
-        if command is not None and host and host != _address(node):
-            problem = f"'{node.alias}' is started on {_address(node)}, but its endpoint is on {endpoint.host}"
+        if command is not None and host and host != host_of(node):
+            problem = f"'{node.alias}' is started on {host_of(node)}, but its endpoint is on {endpoint.host}"
             self.diagnostics.append(codes.ODD_ENDPOINT.at(node.endpoint_span, problem=problem))
 
     def service(self, node: NetworkNode, hosts: dict[str, str]) -> Map:
         storm, result = Map(), Map()
         if hosts:
-            storm.put("host", hosts[_address(node)])
+            storm.put("host", hosts[host_of(node)])
         assert node.endpoint is not None
         storm.put("port", Raw(str(node.endpoint.port)))
         result.put("icestorm", storm)
@@ -186,12 +245,16 @@ class _DeploymentBuilder(msgspec.Struct, eq=False):
             return program_entry(node, "", List(), self.site, process=owner.name)
         assert node.command is not None
         after = self.after(node)
-        host = hosts.get(_address(node), "")
-        component = None if node.command.in_shell else match(node.command, self.known)
+        host = hosts.get(host_of(node), "")
+        component = self.processes.components.get(node.name)
         if component is None:
             return program_entry(node, host, after, self.site)
         depends = [self.by_alias[alias] for alias, _, _ in node.after if alias in self.by_alias]
-        result, problem = component_entry(node, component, host, after, self.site, depends)
+        connect, guesses = self.processes.connections(node, depends)
+        self.diagnostics += guesses
+        result, problem = component_entry(
+            node, component, host, after, self.site, connect, self.processes.configured[node.name].ports
+        )
         if problem:
             self.diagnostics.append(codes.ODD_ENDPOINT.at(node.endpoint_span, problem=problem))
         return result
@@ -210,16 +273,14 @@ class _DeploymentBuilder(msgspec.Struct, eq=False):
                     node.notes.add(notes)
                     continue
                 is_plain = is_plain and at is node and target.name == alias and target.name not in self.owners
+                if self.owners.get(target.name, target).name not in self.waits.get(node.name, ()):
+                    is_plain = False  # it would close a circle
+                    continue
                 if all(item.value != target.name for item in listed.items):
                     listed.put(target.name, notes)
-        if not is_plain or self.is_in_cycle(node):
+        if not is_plain:
             self.keep_dependences(node)
         return listed
-
-    def is_in_cycle(self, node: NetworkNode) -> bool:
-        """Whether a node depends on itself through others. A deployment ignores one of these dependences."""
-        waits = self.waits
-        return node.name in reachable(waits.get(node.name, ()), lambda name: waits.get(name, ()))
 
     def keep_dependences(self, node: NetworkNode) -> None:
         """Keep the dependences of the file where `after:` is not equivalent."""
@@ -232,6 +293,5 @@ def _spellings(known: Sequence[KnownComponent]) -> dict[str, str]:
     return {name.lower(): name for name in names}
 
 
-def _address(node: NetworkNode) -> str:
-    host = node.command.host if node.command is not None else LOCAL
-    return LOCAL if host in LOOPBACK else host
+def _is_storm(node: NetworkNode) -> bool:
+    return node.endpoint is not None and node.endpoint.is_storm

@@ -33,6 +33,10 @@ class NodeEndpoint(msgspec.Struct, frozen=True):
     def is_storm(self) -> bool:
         return self.identity == TOPIC_MANAGER
 
+    def pinged(self, host: str) -> str:
+        """Return the proxy for `ping:`, which may leave the host open."""
+        return self.proxy(host) if host else f"{self.identity}:{self.text}"
+
     def proxy(self, host: str) -> str:
         """Return the proxy of the endpoint on a host, in the spelling that exporters write."""
         return f"{self.identity}:{self.protocol} -h {spelled_host(host)} -p {self.port} {self.options}".rstrip()

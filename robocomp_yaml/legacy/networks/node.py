@@ -35,6 +35,10 @@ class NetworkNode(msgspec.Struct, eq=False):
     extra: Map = msgspec.field(default_factory=Map)
     is_shared: bool = False
     """Whether several nodes are the same process."""
+    is_only_pinged: bool = False
+    """Whether the endpoint is only what the manager asks: the process does not serve it as far as is known."""
+    elsewhere: str = ""
+    """The host of the endpoint, if it is not that of the process."""
 
 
 class NetworkDraft(msgspec.Struct, eq=False):

@@ -11,8 +11,11 @@ import pytest
 from click.testing import Result
 
 from conftest import write_tree
+from rcmanager_facts import facts
+from robocomp_yaml.emit.exports import export
 from robocomp_yaml.legacy.networks import command, endpoint
 from robocomp_yaml.legacy.networks.node import safe_name
+from robocomp_yaml.pipeline import analyse
 from robocomp_yaml.source.tree import parse
 
 Run = Callable[..., Result]
@@ -88,16 +91,19 @@ def test_one_host_needs_no_hosts(migrated: Callable[..., tuple[Any, list[str]]])
     assert said == []
 
 
-def test_hosts_have_names_addresses_and_users(migrated: Callable[..., tuple[Any, list[str]]]) -> None:
+def test_hosts_have_names_addresses_and_users(
+    migrated: Callable[..., tuple[Any, list[str]]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("socket.gethostname", lambda: "operator")
     there = ('<node alias="{0}" endpoint="{0}:tcp -h {1} -p {2}"><upCommand command="rcremote {1} t /d {0}"/>'
              '<downCommand command="ssh ana@{1} killall {0}"/></node>')  # fmt: skip
     document, said = migrated(there.format("a", "10.0.0.2", 1), there.format("b", "robot.local", 2), LASER.format(UP))
     assert document["hosts"] == {
         "host1": {"address": "10.0.0.2", "user": "ana"}, "robot": {"address": "robot.local", "user": "ana"},
-        "localhost": {"address": "localhost"},
+        "localhost": {"address": "operator"},
     }  # fmt: skip
     assert [entry["host"] for entry in document["components"].values()] == ["host1", "robot", "localhost"]
-    assert said == ["RC5039"]  # other hosts cannot connect to 'localhost'
+    assert said == ["RC5047"]  # other hosts cannot connect to 'localhost'
 
 
 def test_icestorm_is_a_service(migrated: Callable[..., tuple[Any, list[str]]]) -> None:
@@ -270,3 +276,122 @@ def test_existing_components_are_discovered(rcyaml: Run, tmp_path: Path) -> None
     assert rcyaml("migrate", "robot.xml").exit_code == 0
     text = (tmp_path / "robot.ddsl.yaml").read_text(encoding="utf-8")
     assert "component: laser/laser.cdsl.yaml" in text and "port: 10003" in text
+
+
+NODE = '<node alias="{0}" endpoint="{1}">{2}<upCommand command="rcremote {3} {0} /opt/{0} ./bin/{0}"/></node>'
+
+
+def node(alias: str, endpoint: str, *after: str, host: str = "localhost") -> str:
+    return NODE.format(alias, endpoint, "".join(f'<dependence alias="{other}"/>' for other in after), host)
+
+
+def test_an_endpoint_that_several_nodes_name_is_pinged(migrated: Callable[..., tuple[Any, list[str]]]) -> None:
+    document, said = migrated(node("a", "arm:tcp -p 10001"), node("b", "arm:tcp -p 10001 -h 127.0.0.1"))
+    entries = document["components"]
+    assert said == ["RC5044"]
+    assert entries["a"]["endpoints"] == {"arm": "tcp -p 10001"}
+    assert "endpoints" not in entries["b"] and entries["b"]["ready"] == {"ping": "arm:tcp -p 10001"}
+    assert entries["b"]["x-rcmanager"]["pinged"] == "arm:tcp -p 10001 -h 127.0.0.1"
+
+
+def test_the_same_port_on_two_hosts_is_served(migrated: Callable[..., tuple[Any, list[str]]]) -> None:
+    there = [node(name, f"arm:tcp -h {host} -p 10001", host=host) for name, host in (("a", "r1"), ("b", "r2"))]
+    document, said = migrated(*there)
+    assert not said and all("endpoints" in entry for entry in document["components"].values())
+
+
+def test_an_endpoint_on_another_host_is_pinged_there(migrated: Callable[..., tuple[Any, list[str]]]) -> None:
+    document, said = migrated(node("a", "arm:tcp -h 10.0.0.9 -p 10001", host="10.0.0.2"))
+    assert said == ["RC5035"]
+    assert document["components"]["a"]["ready"] == {"ping": "arm:tcp -h 10.0.0.9 -p 10001"}
+
+
+@pytest.mark.parametrize(("waits", "kept"), [
+    ({"a": ["b"], "b": ["a"]}, {"a": ["b"]}),
+    ({"a": ["b"], "b": ["c"], "c": ["a"]}, {"a": ["b"], "b": ["c"]}),
+    ({"a": ["b", "c"], "b": ["c"], "c": []}, {"a": ["b", "c"], "b": ["c"]}),
+], ids=["two", "three", "none"])  # fmt: skip
+def test_waits_in_a_circle(
+    migrated: Callable[..., tuple[Any, list[str]]], waits: dict[str, list[str]], kept: dict[str, list[str]]
+) -> None:
+    nodes = [node(name, f"arm:tcp -p {10001 + n}", *after) for n, (name, after) in enumerate(waits.items())]
+    document, said = migrated(*nodes)
+    entries = document["components"]
+    assert {name: entry["after"] for name, entry in entries.items() if "after" in entry} == kept
+    dropped = [name for name, after in waits.items() if kept.get(name, []) != after]
+    assert said == ["RC5045"] * len(dropped)
+    assert all(entries[name]["x-rcmanager"]["dependence"] == waits[name] for name in dropped)
+
+
+def test_the_operators_address_is_that_of_its_clients(rcyaml: Run, tmp_path: Path) -> None:
+    manager = "\n".join([
+        "<rcmanager>", node("legs", "motor:tcp -h localhost -p 10001"),
+        '<node alias="head" endpoint="speech:tcp -h 10.0.0.2 -p 10002"><upCommand command="rcremote 10.0.0.2 head '
+        '/home/me/repo/speech ./bin/talk --Ice.Config=etc/config_robot"/></node>', "</rcmanager>",
+    ])  # fmt: skip
+    write_tree(tmp_path, {
+        "interfaces/Motor.idsl": IDSL.format("Motor"), "interfaces/Speech.idsl": IDSL.format("Speech"),
+        "speech/speech.cdsl":
+            'import "Motor.idsl";\n' + CDSL.format("SpeechComp", "Speech", ";\n requires Motor", "python"),
+        "speech/etc/config_robot": "MotorProxy = motor:tcp -h 10.0.0.7 -p 10001\nSpeech.Endpoints = tcp -p 10002\n",
+        "robot.xml": manager,
+    })  # fmt: skip
+    rcyaml("-q", "migrate", ".")
+    tree, _ = parse("x", (tmp_path / "robot.ddsl.yaml").read_text(encoding="utf-8"))
+    assert tree is not None
+    document: Any = tree.data
+    assert document["hosts"]["localhost"] == {"address": "10.0.0.7"}
+    # The component is found from the folder of its program, whose name is another one.
+    assert document["components"]["head"]["component"] == "speech/speech.cdsl.yaml"
+    result = rcyaml("check", "robot.ddsl.yaml")
+    assert "error" not in result.output, result.output
+
+
+TWO_MOTORS = [node("left", "motor:tcp -p 10001"), node("right", "motor:tcp -p 10002")]
+
+
+@pytest.mark.parametrize(("config", "after", "connect", "code"), [
+    ("MotorProxy = motor:tcp -h localhost -p 10002\n", [], "right", []),
+    ("MotorProxy = motor:tcp -h localhost -p 10003\n", [], "motor:tcp -h localhost -p 10003", []),
+    ("", ["right"], "right", []),
+    ("", [], "left", ["RC5046"]),
+], ids=["address", "elsewhere", "dependence", "guess"])  # fmt: skip
+def test_who_serves_what_several_nodes_serve(
+    rcyaml: Run, tmp_path: Path, config: str, after: list[str], connect: str, code: list[str]
+) -> None:
+    waits = "".join(f'<dependence alias="{other}"/>' for other in after)
+    head = (
+        f'<node alias="head" endpoint="speech:tcp -p 10009">{waits}<upCommand command="rcremote localhost head '
+        '/home/me/repo/speech python src/speechcomp.py etc/config"/></node>'
+    )
+    write_tree(tmp_path, {
+        "interfaces/Motor.idsl": IDSL.format("Motor"), "interfaces/Speech.idsl": IDSL.format("Speech"),
+        "speech/speech.cdsl":
+            'import "Motor.idsl";\n' + CDSL.format("SpeechComp", "Speech", ";\n requires Motor", "python"),
+        "speech/etc/config": "Speech.Endpoints = tcp -p 10009\n" + config,
+        "robot.xml": "\n".join(["<rcmanager>", *TWO_MOTORS, head, "</rcmanager>"]),
+    })  # fmt: skip
+    said = json.loads(rcyaml("migrate", ".", "--format", "json").stdout)["diagnostics"]
+    assert [one["code"] for one in said if one["code"] == "RC5046"] == code
+    tree, _ = parse("x", (tmp_path / "robot.ddsl.yaml").read_text(encoding="utf-8"))
+    assert tree is not None
+    document: Any = tree.data
+    assert document["components"]["head"]["connect"] == {"Motor": connect}
+    result = rcyaml("check", "robot.ddsl.yaml")
+    assert "error" not in result.output, result.output
+
+
+def test_what_most_nodes_share_is_kept_once(rcyaml: Run, tmp_path: Path) -> None:
+    look = '<radius value="10.0"/><color value="{}"/><workingDir path="/home/robot"/>'
+    nodes = [
+        f'<node alias="{name}" endpoint="arm:tcp -h localhost -p {port}">{look.format(color)}'
+        f'<upCommand command="rcremote localhost {name} /opt ./bin/{name}"/></node>'
+        for name, port, color in (("a", 10001, "#111"), ("b", 10002, "#222"), ("c", 10003, "#111"))
+    ]
+    source = "\n".join(["<rcmanager>", *nodes, "</rcmanager>"])
+    write_tree(tmp_path, {"robot.xml": source})
+    rcyaml("-q", "migrate", "robot.xml")
+    text = (tmp_path / "robot.ddsl.yaml").read_text(encoding="utf-8")
+    assert text.count("/home/robot") == text.count("radius") == text.count("#111") == text.count("#222") == 1
+    (exported,) = export(analyse([str(tmp_path / "robot.ddsl.yaml")]).networks.popitem()[1], "rcmanager").values()
+    assert facts(exported.encode())[0] == facts(source.encode())[0]

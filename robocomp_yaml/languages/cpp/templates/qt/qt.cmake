@@ -7,11 +7,16 @@
 if(NOT component_qt_versions)
   set(component_qt_versions Qt6 Qt5)
 endif()
-find_package(QT QUIET NAMES ${component_qt_versions} COMPONENTS ${component_qt})
-if(QT_FOUND)
-  find_package(Qt${QT_VERSION_MAJOR} QUIET COMPONENTS ${component_qt})
-endif()
-if(NOT QT_FOUND OR NOT Qt${QT_VERSION_MAJOR}_FOUND)
+# One after the other: find_package(QT NAMES …) does not keep to the order, and remembers the result for the whole tree.
+unset(QT_VERSION_MAJOR)
+foreach(version IN LISTS component_qt_versions)
+  find_package(${version} QUIET COMPONENTS ${component_qt})
+  if(${version}_FOUND)
+    string(REPLACE "Qt" "" QT_VERSION_MAJOR ${version})
+    break()
+  endif()
+endforeach()
+if(NOT QT_VERSION_MAJOR)
   list(JOIN component_qt " " component_qt)
   message(FATAL_ERROR
     "${component_name} needs Qt 6 or 5 (${component_qt}), which is not installed.\n"

@@ -115,6 +115,18 @@ foreach(module IN ITEMS
 endforeach()
 list(REMOVE_DUPLICATES component_qt_used)
 
+# The libraries that RoboComp's build linked to all components, as far as they are installed: its own, by their newer and
+# older names, and those that they use. The linker drops the ones without a use.
+set(component_usual)
+foreach(name IN ITEMS innermodel osgviewer qmat robocomp_innermodel robocomp_osgviewer robocomp_qmat
+    osg osgUtil osgGA osgDB osgViewer osgText OpenThreads boost_system)
+  find_library(component_library_${name} ${name} HINTS "${component_robocomp}/lib" /opt/robocomp/lib)
+  mark_as_advanced(component_library_${name})
+  if(component_library_${name})
+    list(APPEND component_usual "${component_library_${name}}")
+  endif()
+endforeach()
+
 # Headers of Slice files by the names that slice2cpp gives them by default: `Laser.h` for `Laser.ice.h`.
 set(component_headers "${CMAKE_CURRENT_BINARY_DIR}/${component_name}_slice_headers")
 foreach(stem IN LISTS component_stems)
@@ -143,7 +155,7 @@ function(component_as_robocomp target)
       target_link_directories(${target} PRIVATE "${folder}/lib")
     endif()
   endforeach()
-  target_link_libraries(${target} PRIVATE ${component_qt_used} ${LIBS} ${SPECIFIC_LIBS})
+  target_link_libraries(${target} PRIVATE ${component_qt_used} ${LIBS} ${SPECIFIC_LIBS} ${component_usual})
   target_link_options(${target} PRIVATE "LINKER:--as-needed")
   # Other forms than that of the window.
   file(GLOB forms "${component_root}/src/*.ui")
