@@ -88,8 +88,8 @@ function(rcyaml_make part comment)
   add_custom_target(rcyaml_make_${part}_${rcyaml_key} DEPENDS ${made})
 endfunction()
 
-# The headers that nearly every file includes, also of the run time, precompiled. GCC ignores precompiled headers that do
-# not match the options of a file; other compilers do not.
+# The headers that nearly every file includes, also of the run time, precompiled. GCC ignores precompiled headers that
+# do not match the options of a file; other compilers do not.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_CONFIGURATION_TYPES
     AND NOT TARGET rcyaml_make_headers_${rcyaml_key})
   rcyaml_make(headers "Compiling the headers of C++ components" headers/rcyaml.h headers/rcyaml.h.gch)
