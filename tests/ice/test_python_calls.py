@@ -164,3 +164,40 @@ def test_paths_with_blanks_and_accents(build: Build, start: Start, free_port: Po
     built = build({**INTERFACES, "mi brazo ñ/arm.cdsl.yaml": cdsl("Brazo", implements=["Arm"])})
     arm = built["Brazo"].configure({"Arm.Endpoints": f"tcp -p {free_port()}"})
     start(arm.command).wait_for("Brazo is running")
+
+
+THREADS = """
+from generated.genericworker import GenericWorker
+import threading
+
+class SpecificWorker(GenericWorker):
+    def initialize(self):
+        self.mine = threading.local()
+
+    def Arm_move(self, path, fast):
+        self.mine.calls = getattr(self.mine, "calls", 0) + 1
+        return self.mine.calls
+"""
+CALLS_IN_TURN = """
+from generated.genericworker import GenericWorker
+
+class SpecificWorker(GenericWorker):
+    def initialize(self):
+        print("called", *(self.arm_proxy.move([], False) for _ in range(3)))
+"""
+
+
+@pytest.mark.parametrize("pool", [{}, {"Arm.ThreadPool.Size": 1}, {"Ice.ThreadPool.Server.SizeMax": 4}])
+def test_threads_keep_their_python_state(build: Build, start: Start, free_port: Ports, pool: dict[str, object]) -> None:
+    """So calls are as fast as Ice's own, and thread-local values stay. Threads that may end early do not keep it."""
+    documents = {"a/a.cdsl.yaml": cdsl("A", implements=["Arm"]), "b/b.cdsl.yaml": cdsl("B", requires=["Arm"])}
+    built = build({**INTERFACES, **documents})
+    port = free_port()
+    (built["A"].root / "src" / "specificworker.py").write_text(THREADS)
+    (built["B"].root / "src" / "specificworker.py").write_text(CALLS_IN_TURN)
+    built["A"].configure({"Arm.Endpoints": f"tcp -p {port}", **pool})
+    built["B"].configure({"ArmProxy": f"arm:tcp -h 127.0.0.1 -p {port}"})
+    serving = start(built["A"].command).wait_for("A is running")
+    said = start(built["B"].command).wait_for("B is running").output
+    assert f"called {'1 1 1' if 4 in pool.values() else '1 2 3'}\n" in said
+    assert serving.stop() == 0

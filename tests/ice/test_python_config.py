@@ -102,6 +102,8 @@ def test_a_port_in_use(arm: Built, start: Start) -> None:
         endpoint = f"tcp -h 127.0.0.1 -p {other.getsockname()[1]}"
         arm.configure({"Arm.Endpoints": endpoint})
         assert fails(start, arm) == f"cannot serve Arm at '{endpoint}' (etc/config): Address already in use"
+        arm.configure({"CommonBehavior.Endpoints": endpoint})  # which has threads of its own
+        assert fails(start, arm) == f"cannot serve CommonBehavior at '{endpoint}' (etc/config): Address already in use"
 
 
 @pytest.mark.parametrize("wrong", ["hand:tcp -p x", ":tcp -p 1", '"'])

@@ -110,18 +110,19 @@ def _accessor(accessor: lowering.Accessor, summary: str, function: str, argument
 def _implemented(service: lowering.Service, servants: NameAllocator) -> ServiceView:
     words = (service.port.name, service.identity, service.port.interface.name)
     arguments = ", ".join(map(literal, words))
-    return _served(service, servants, "Servant", arguments, ("services.implement", f"{{{arguments}}}"))
+    return _served(service, servants, "GeneratedServant", arguments, ("services.implement", f"{{{arguments}}}"))
 
 
 def _subscribed(service: lowering.Service, servants: NameAllocator) -> ServiceView:
     arguments = f"{literal(service.port.name)}, {literal(service.port.interface.name)}"
-    return _served(service, servants, "Subscriber", arguments, ("topics.subscribe", f"services, {arguments}"))
+    return _served(service, servants, "GeneratedSubscriber", arguments, ("topics.subscribe", f"services, {arguments}"))
 
 
 def _served(
     service: lowering.Service, servants: NameAllocator, suffix: str, arguments: str, function: tuple[str, str]
 ) -> ServiceView:
     port, calls = service.port, {called.method.name: called.name for called in service.methods}
+    # "Generated", since the user's header is read after it, in the same translation unit.
     servant = servants.allocate(f"{port.name}{suffix}")
     if any(method.name == servant for method in port.interface.methods):
         servant += "_"

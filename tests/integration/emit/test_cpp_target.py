@@ -121,7 +121,7 @@ def test_names_that_cmake_reserves(link: Link, name: str) -> None:
 def test_names_that_clash(link: Link) -> None:
     """`A_b.c` with `A.b_c`, a method with an accessor, a method with a keyword, the class of a servant with a method."""
     text = (
-        "interfaces:\n  A_b: {methods: {c: {returns: int}}}\n  A: {methods: {b_c: {returns: bool}, AServant: {}}}\n"
+        "interfaces:\n  A_b: {methods: {c: {returns: int}}}\n  A: {methods: {b_c: {returns: bool}, AGeneratedServant: {}}}\n"
         "  speech: {methods: {proxy: {}, pubproxy: {}}}\n  static: {methods: {cast: {}}}\n"
     )
     lists = "implements: [A_b, A, speech, static]\nrequires: [speech]\npublishes: [speech]\nsubscribes: [speech]"
@@ -129,10 +129,10 @@ def test_names_that_clash(link: Link) -> None:
     header = got["generated/genericworker.h"]
     names = re.findall(r"virtual \w+ (\w+)\(", header)
     assert names == [
-        "A_b_c", "A_b_c_", "A_AServant", "speech_proxy_", "speech_pubproxy_", "static_cast_"
+        "A_b_c", "A_b_c_", "A_AGeneratedServant", "speech_proxy_", "speech_pubproxy_", "static_cast_"
     ]  # fmt: skip
     assert re.findall(r"> (\w+);", header) == ["speech_proxy", "speech_pubproxy"]
-    assert "class AServant_ : public X::A\n" in got["generated/genericworker.cpp"]
+    assert "class AGeneratedServant_ : public X::A\n" in got["generated/genericworker.cpp"]
 
 
 def test_names_of_parameters_that_clash(link: Link) -> None:
@@ -165,8 +165,8 @@ def test_interfaces_with_one_name_in_two_modules(link: Link) -> None:
     got = files(link(documents))
     assert re.findall(r"virtual void (\w+)\(", got["generated/genericworker.h"]) == ["A_f", "A_f_"]
     assert re.findall(r"class (\w+ : public \w::A)", got["generated/genericworker.cpp"]) == [
-        "AServant : public X::A",
-        "BServant : public Y::A",
+        "AGeneratedServant : public X::A",
+        "BGeneratedServant : public Y::A",
     ]
 
 

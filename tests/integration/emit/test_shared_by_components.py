@@ -217,3 +217,19 @@ def test_a_container_has_what_a_component_shares(
     for shared in ("runtime", "slice"):
         assert (f'source: "{workspace / shared}",' in made) is is_read
     assert f'source: "{workspace / "components" / "motor"}",' in made
+
+
+def test_forty_components_have_few_files(rcyaml: Run, tmp_path: Path) -> None:
+    """Eighteen files for each one: its own, its interface, and its part of the run time."""
+    tree: Tree = {"rcyaml.yaml": "interfaces: [.]\n"}
+    for number in range(40):
+        name, needed = f"Part{number}", f"Part{(number + 1) % 40}"
+        tree[f"{name}.idsl.yaml"] = f"module: RoboComp{name}\ninterfaces: {{{name}: {{methods: {{stop: }}}}}}\n"
+        tree[f"{name}/part.cdsl.yaml"] = (
+            f"component: {name}Comp\nlanguage: cpp\nimports: [{name}, {needed}]\n"
+            f"implements: [{name}]\nrequires: [{needed}]\n"
+        )
+    write_tree(tmp_path, tree)
+    assert rcyaml("-q", "compile", ".").exit_code == 0
+    written = len(files(tmp_path)) - len(tree)
+    assert 600 < written <= 720

@@ -88,6 +88,13 @@ function(rcyaml_make part comment)
   add_custom_target(rcyaml_make_${part}_${rcyaml_key} DEPENDS ${made})
 endfunction()
 
+# The headers that nearly every file includes, also of the run time, precompiled. GCC ignores precompiled headers that
+# do not match the options of a file; other compilers do not.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_CONFIGURATION_TYPES
+    AND NOT TARGET rcyaml_make_headers_${rcyaml_key})
+  rcyaml_make(headers "Compiling the headers of C++ components" headers/rcyaml.h headers/rcyaml.h.gch)
+endif()
+
 # A library of the run time that needs only Ice: `rcyaml_library(core Ice::Ice++11)`.
 function(rcyaml_library part)
   set(name "rcyaml_${part}_${rcyaml_key}")
@@ -99,6 +106,9 @@ function(rcyaml_library part)
     list(APPEND made include/CommonBehavior.ice.h)
   endif()
   rcyaml_make(${part} "Compiling the run time of C++ components: ${part}" ${made})
+  if(TARGET rcyaml_make_headers_${rcyaml_key})
+    add_dependencies(rcyaml_make_${part}_${rcyaml_key} rcyaml_make_headers_${rcyaml_key})
+  endif()
   add_library(${name} STATIC IMPORTED GLOBAL)
   set_target_properties(${name} PROPERTIES IMPORTED_LOCATION "${rcyaml_kept}/lib${part}.a")
   add_dependencies(${name} rcyaml_make_${part}_${rcyaml_key})
@@ -123,13 +133,6 @@ function(rcyaml_core)
 endfunction()
 rcyaml_core()
 
-# The headers that nearly every file of a component includes, precompiled. GCC ignores precompiled headers that do not
-# match the options of a file; other compilers do not.
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_CONFIGURATION_TYPES
-    AND NOT TARGET rcyaml_make_headers_${rcyaml_key})
-  rcyaml_make(headers "Compiling the headers of C++ components" headers/rcyaml.h headers/rcyaml.h.gch)
-  add_dependencies(rcyaml_make_headers_${rcyaml_key} rcyaml_make_core_${rcyaml_key})
-endif()
 function(rcyaml_read_headers target)
   if(TARGET rcyaml_make_headers_${rcyaml_key})
     add_dependencies(${target} rcyaml_make_headers_${rcyaml_key})

@@ -7,11 +7,11 @@ import threading
 from collections.abc import Callable
 
 import Ice
-from generated.runtime import commonbehavior, configuration, facet, servants, worker
+from generated.runtime import commonbehavior, configuration, facet, ice_threads, servants, worker
 from generated.runtime.errors import StartError
 from generated.runtime.log import IceLogger
 from generated.runtime.parameters import Live, Store, Table
-from generated.runtime.ports import Component, Subscribed
+from generated.runtime.ports import Component, Implemented, Subscribed
 from generated.runtime.peers import ACM, SENT, Peers
 from generated.runtime.proxies import connect
 from generated.runtime.schedule import Schedule
@@ -105,7 +105,7 @@ class Application:
         self._warn_of_properties()
         for port in self._component.implements:
             adapter = self._adapter(port.name, self._settings.endpoints(port.name))
-            servant = servants.servant(port.interface, port.methods, self._gate, self._calls_of(port.name))
+            servant = self._servant(port, adapter, self._calls_of(port.name))
             adapter.add(servant, Ice.stringToIdentity(port.identity))
             adapter.activate()
         proxies = self._connect()
@@ -124,6 +124,12 @@ class Application:
         self._vitals.turns.start()
         self._vitals.become(RUNNING)
         return running
+
+    def _servant(
+        self, port: Implemented | Subscribed, adapter: Ice.ObjectAdapter, tally: Callable[[str], Tally]
+    ) -> Ice.Object:
+        threads_stay = ice_threads.stay(self._communicator.getProperties(), adapter.getName())
+        return servants.servant(port.interface, port.methods, self._gate, tally, threads_stay)
 
     def _calls_of(self, port: str) -> Callable[[str], Tally]:
         return lambda operation: self._vitals.call(f"{port}.{operation}")
@@ -182,7 +188,7 @@ class Application:
         for port in self._component.subscribes:
             adapter = self._adapter(f"{port.name}Topic", self._settings.topic_endpoints(port.name))
             tally = self._vitals.topic(port.name, topics.name(port), "in")
-            servant = servants.servant(port.interface, port.methods, self._gate, lambda operation, tally=tally: tally)
+            servant = self._servant(port, adapter, lambda operation, tally=tally: tally)
             subscribers.append((port, adapter.addWithUUID(servant)))
             adapter.activate()
         return subscribers

@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import Ice
+from generated.runtime import ice_threads
 from generated.runtime.log import ALREADY_LOGGED
 from generated.runtime.ports import Method
 from generated.runtime.vitals import Tally
@@ -27,8 +28,8 @@ class Gate:
 
     def __init__(self, log: logging.Logger) -> None:
         self.log = log
+        self.worker: Worker | None = None  # while calls may pass
         self._lock = threading.Lock()
-        self._worker: Worker | None = None
         self._early: list[tuple[Call, Ice.Future]] = []
         self._closed = False
 
@@ -37,18 +38,19 @@ class Gate:
         with self._lock:
             if self._closed:
                 raise Ice.UnknownException(f"{ALREADY_LOGGED}the component is stopping")
-            if self._worker is None:
+            if self.worker is None:
                 future = Ice.Future()
                 self._early.append((call, future))
                 return future
-        return call(self._worker)
+            worker = self.worker
+        return call(worker)
 
     def open(self, worker: Worker) -> None:
         """Executes the waiting calls in their order, and then lets all calls pass."""
         while True:
             with self._lock:
                 if not self._early:
-                    self._worker = worker
+                    self.worker = None if self._closed else worker
                     return
                 early, self._early = self._early, []
             for call, future in early:
@@ -61,28 +63,45 @@ class Gate:
         """Rejects all calls, also waiting ones."""
         with self._lock:
             self._closed = True
+            self.worker = None
             early, self._early = self._early, []
         for _, future in early:
             future.set_exception(Ice.UnknownException(f"{ALREADY_LOGGED}the component is stopping"))
 
 
 def servant(
-    interface: type[Ice.Object], methods: Sequence[Method], gate: Gate, tally: Callable[[str], Tally]
+    interface: type[Ice.Object],
+    methods: Sequence[Method],
+    gate: Gate,
+    tally: Callable[[str], Tally],
+    threads_stay: bool,
 ) -> Ice.Object:
     """An object of this interface, whose operations call the worker's methods. `tally` is what counts the calls of an
-    operation of Slice."""
-    operations = {method.operation: _operation(method, gate, tally) for method in methods}
+    operation of Slice; `threads_stay` says that Ice calls it in threads that stay until the component stops."""
+
+    def first(operation: str) -> Tally:
+        if threads_stay:
+            ice_threads.keep_state()
+        return tally(operation)
+
+    operations = {method.operation: _operation(method, gate, first) for method in methods}
     return type(f"{interface.__name__}Servant", (interface,), operations)()
 
 
-def _operation(method: Method, gate: Gate, tally: Callable[[str], Tally]) -> Callable[..., Any]:
-    found: list[Tally] = []
+def _operation(method: Method, gate: Gate, first: Callable[[str], Tally]) -> Callable[..., Any]:
+    """`first` is called with the operation's name in Slice, at its first call."""
+    counted: Tally | None = None
 
     def operation(self: Ice.Object, *arguments: Any) -> Any:
-        if not found:
-            found.append(tally(arguments[-1].operation))  # the last one is Ice's `current`
+        nonlocal counted
+        if counted is None:
+            counted = first(arguments[-1].operation)  # the last one is Ice's `current`
+        found = counted
         inputs = arguments[:-1]
-        return gate.enter(lambda worker: _call(worker, method, inputs, gate.log, found[0]))
+        worker = gate.worker
+        if worker is None:
+            return gate.enter(lambda worker: _call(worker, method, inputs, gate.log, found))
+        return _call(worker, method, inputs, gate.log, found)
 
     return operation
 

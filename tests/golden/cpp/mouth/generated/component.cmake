@@ -21,15 +21,15 @@ list(APPEND component_interfaces ${component_interface})
 rcyaml_slice(component_interface "${component_slice}" "Mouth" "Types")
 list(APPEND component_interfaces ${component_interface})
 
-# Generated files are one translation unit, so that their headers are parsed once.
+# Generated files are one translation unit, so that their headers are parsed once. The last one reads the user's header.
 set(component_generated)
-foreach(file IN ITEMS genericworker.cpp parameters.cpp)
+foreach(file IN ITEMS genericworker.cpp parameters.cpp main.cpp)
   list(APPEND component_generated "${component_root}/generated/${file}")
 endforeach()
 set_source_files_properties(${component_generated} PROPERTIES UNITY_GROUP generated)
 
 file(GLOB component_specific CONFIGURE_DEPENDS "${component_root}/src/*.cpp")
-add_executable(MouthComp ${component_generated} "${component_root}/generated/main.cpp" ${component_specific})
+add_executable(MouthComp ${component_generated} ${component_specific})
 set_target_properties(MouthComp PROPERTIES
   OUTPUT_NAME "MouthComp"
   RUNTIME_OUTPUT_DIRECTORY "$<1:${component_root}/bin>"

@@ -11,10 +11,10 @@ namespace
 {
 
 /// The object of Mouth: its operations call the worker's methods.
-class MouthServant : public RoboCompMouth::Mouth
+class MouthGeneratedServant : public RoboCompMouth::Mouth
 {
 public:
-    explicit MouthServant(::GenericWorker& worker) : worker_(worker)
+    explicit MouthGeneratedServant(::GenericWorker& worker) : worker_(worker)
     {
     }
 
@@ -59,10 +59,10 @@ private:
 };
 
 /// The object of MouthEvents: its operations call the worker's methods.
-class MouthEventsSubscriber : public RoboCompMouth::MouthEvents
+class MouthEventsGeneratedSubscriber : public RoboCompMouth::MouthEvents
 {
 public:
-    explicit MouthEventsSubscriber(::GenericWorker& worker) : worker_(worker)
+    explicit MouthEventsGeneratedSubscriber(::GenericWorker& worker) : worker_(worker)
     {
     }
 
@@ -76,10 +76,10 @@ private:
 };
 
 /// The object of Mouth: its operations call the worker's methods.
-class MouthSubscriber : public RoboCompMouth::Mouth
+class MouthGeneratedSubscriber : public RoboCompMouth::Mouth
 {
 public:
-    explicit MouthSubscriber(::GenericWorker& worker) : worker_(worker)
+    explicit MouthGeneratedSubscriber(::GenericWorker& worker) : worker_(worker)
     {
     }
 
@@ -172,12 +172,12 @@ void GenericWorker::connect(const runtime::Connections& connections, runtime::Se
                 {"open", "::RoboCompMouth::Jammed"},
             },
         },
-        std::make_shared<MouthServant>(*this));
+        std::make_shared<MouthGeneratedServant>(*this));
     twin_proxy = connections.require<RoboCompMouth::MouthPrx>({"Twin", runtime::Absent::wait});
     backup_proxy = connections.require<RoboCompMouth::MouthPrx>(
         {"Backup", runtime::Absent::ignore, std::chrono::milliseconds(1500)});
     const runtime::Topics topics(connections);
     mouthevents_pubproxy = topics.publish<RoboCompMouth::MouthEventsPrx>("MouthEvents", "MouthEvents");
-    topics.subscribe(services, "MouthEvents", "MouthEvents", std::make_shared<MouthEventsSubscriber>(*this));
-    topics.subscribe(services, "Mouth", "Mouth", std::make_shared<MouthSubscriber>(*this));
+    topics.subscribe(services, "MouthEvents", "MouthEvents", std::make_shared<MouthEventsGeneratedSubscriber>(*this));
+    topics.subscribe(services, "Mouth", "Mouth", std::make_shared<MouthGeneratedSubscriber>(*this));
 }
