@@ -38,6 +38,7 @@ COMMANDS = {
     "mock": "Serve interfaces and publish topics in place of components.",
     "migrate": "Convert legacy files to YAML documents, without loss.",
     "config": "Check, show, change and export the values of parameters.",
+    "edit": "Change a deployment or a component; comments and layout stay.",
     "graph": "Draw a deployment, or the components of a folder.",
     "deploy": "Run a network of components: plan, up, status, logs, down.",
     "lsp": "Serve editors: diagnostics as you type, fixes, formatting.",
