@@ -41,6 +41,7 @@ COMMANDS = {
     "edit": "Change a deployment or a component; comments and layout stay.",
     "graph": "Draw a deployment, or the components of a folder.",
     "deploy": "Run a network of components: plan, up, status, logs, down.",
+    "manager": "Serve a network to browsers and programs: see it, and change it.",
     "lsp": "Serve editors: diagnostics as you type, fixes, formatting.",
     "schema": "Print the JSON Schema of a kind of document.",
     "explain": "Explain a diagnostic, with examples.",
