@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import threading
 from collections.abc import Callable, Sequence
@@ -14,8 +13,11 @@ from robocomp_yaml.api.editing.editor import DocumentEditor, Revision
 from robocomp_yaml.api.workspace import Workspace
 from robocomp_yaml.deploy import json_data
 from robocomp_yaml.diag.diagnostic import ERROR
-from robocomp_yaml.diag.errors import Refused
+from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.diag.render.json import as_data
+from robocomp_yaml.emit.graphs.forms.json import picture_data
+from robocomp_yaml.emit.graphs.picture import Cell
+from robocomp_yaml.emit.graphs.screen import screen_geometry
 from robocomp_yaml.link.workspace import root_above
 from robocomp_yaml.network.network import Network
 from robocomp_yaml.source.inside import stays_inside
@@ -35,6 +37,7 @@ class ManagedDeployment:
         self._include = tuple(include)
         self._lock = threading.Lock()
         self._states: dict[str, object] = {}
+        self._cells: dict[str, Cell] = {}
 
     def with_workspace(self, work: Callable[[Workspace], T]) -> T:
         """What `work` makes of the documents as they are now."""
@@ -61,7 +64,12 @@ class ManagedDeployment:
         """The picture of the network as data, with the version of its document. Raises Faulty if there is none."""
 
         def work(workspace: Workspace) -> dict[str, Any]:
-            data = json.loads(workspace.draw("json", self.path))
+            picture = workspace.picture(self.path)
+            if picture is None:
+                raise Faulty(workspace.analysis.diagnostics, workspace.documents_read)
+            geometry = screen_geometry(picture, self._cells)
+            self._cells = {**self._cells, **geometry.cells}  # what is added again is where it was
+            data = picture_data(picture, geometry)
             return {**data, "document": self.path, "version": self._editor.version(self.path)}
 
         return self.with_workspace(work)
