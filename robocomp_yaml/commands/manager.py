@@ -73,19 +73,31 @@ def command(
     watchers = {
         name: Watcher(ManagedDeployment(path, include, engine)) for name, path in _named(documents).items()
     }  # fmt: skip
+    page = _page()
     made = bound(where)
     rules = rules_for(made, where, rights)
 
     def on_ready() -> None:
         _print(rules, where, documents)
-        if not no_browser and not unix and _has_display():
+        if page is None:
+            terminal.say("its page is not installed: pip install rcyaml-manager (here: pip install ./web)", err=True)
+        elif not no_browser and not unix and _has_display():
             import webbrowser
 
             from robocomp_yaml.manager.serving import address
 
             webbrowser.open(address(rules, where))
 
-    ctx.exit(serve(watchers, made, where, rules, None, on_ready))
+    ctx.exit(serve(watchers, made, where, rules, page, on_ready))
+
+
+def _page() -> dict[str, str] | None:
+    """The files of the page, None if it is not installed."""
+    try:
+        import rcyaml_manager
+    except ImportError:
+        return None
+    return rcyaml_manager.files() or None
 
 
 def _named(documents: list[str]) -> dict[str, str]:

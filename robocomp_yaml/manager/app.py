@@ -31,7 +31,7 @@ _CONFLICT, _WRONG, _FAULTY, _SILENT = 409, 400, 422, 502
 def application(watchers: Mapping[str, Watcher], rules: AccessRules, page: Mapping[str, str] | None = None) -> Guard:
     """The manager of these deployments, by the names that addresses have. `page` are the paths of the page's files by
     their names, None if there is none."""
-    served = Served(watchers)
+    served = Served(watchers, rules.rights)
 
     @asynccontextmanager
     async def watching(app: Starlette) -> AsyncIterator[None]:

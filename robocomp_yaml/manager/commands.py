@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import asyncio
 import json
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import Awaitable, Callable, Collection, Mapping
 from typing import Any
 
 import msgspec
@@ -39,8 +39,8 @@ class Unknown(Refused):
 class Served:
     """The deployments that are served, by the names that addresses have."""
 
-    def __init__(self, watchers: Mapping[str, Watcher]) -> None:
-        self.watchers = watchers
+    def __init__(self, watchers: Mapping[str, Watcher], rights: Collection[str]) -> None:
+        self.watchers, self.rights = watchers, rights
 
     def watcher(self, request: Request) -> Watcher:
         name = request.path_params["deployment"]
@@ -80,10 +80,11 @@ async def _body(request: Request, type_: type[requests.T]) -> requests.T:
 
 async def _list(served: Served, request: Request) -> Any:
     return {
+        "rights": list(served.rights),
         "deployments": [
             {"id": name, "document": one.managed.path, "problem": one.problem}
             for name, one in served.watchers.items()
-        ]
+        ],
     }  # fmt: skip
 
 
@@ -217,7 +218,7 @@ async def _set_parameter(served: Served, request: Request) -> Any:
 _ONE = "/deployments/{deployment}"
 _NAMES = ("name", "A process or group; may be repeated. Without it, all.")
 COMMANDS = (
-    Command("GET", "/deployments", READ, "The deployments that are served.", _list),
+    Command("GET", "/deployments", READ, "The deployments that are served, and what this manager may do.", _list),
     Command("GET", f"{_ONE}/graph", READ, "The picture of the network, with its geometry.", _graph),
     Command("GET", f"{_ONE}/status", READ, "The state of each process.", _status),
     Command("GET", f"{_ONE}/history", READ, "What happened since the manager runs, whoever caused it.", _history),

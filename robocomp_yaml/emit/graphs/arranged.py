@@ -103,7 +103,8 @@ def _layers_of(
                 made[level[name]].setdefault(strip, []).append(name)
         for name in names:
             if name not in linked:
-                emptiest = min(made, key=lambda layer: len(layer.get(strip, ())))
+                own_layers = [layer for layer in made if strip in layer] or made
+                emptiest = min(own_layers, key=lambda layer: len(layer.get(strip, ())))
                 emptiest.setdefault(strip, []).append(name)
     return made
 

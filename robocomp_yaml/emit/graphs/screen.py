@@ -12,12 +12,14 @@ from itertools import accumulate
 import msgspec
 
 from robocomp_yaml.emit.graphs.arranged import Arranged, arrange
-from robocomp_yaml.emit.graphs.geometry import SMALL, STEP, TITLE, EdgePath, Point, Rectangle, texts_of
+from robocomp_yaml.emit.graphs.geometry import STEP, TITLE, EdgePath, Point, Rectangle, texts_of
 from robocomp_yaml.emit.graphs.grid import Area
 from robocomp_yaml.emit.graphs.measure import shortened, width
 from robocomp_yaml.emit.graphs.picture import Cell, Picture, PictureLine, PictureNode
 from robocomp_yaml.emit.graphs.routes import Net, NetBranch, routes_of
 
+SMALL_ON_SCREEN = 12.0
+"""The size of all texts but the titles of nodes."""
 LINE_HEIGHT = 16.0
 """Twice the distance of two tracks: lines that end at texts are never on those that leave nodes."""
 _PAD, _NODE_PAD = 8.0, 12.0
@@ -82,7 +84,7 @@ class _ScreenPlacer:
         later: list[Net] = []
         for net in self.routes.nets:
             node = self.picture.nodes[net.target]
-            texts = texts_of(node)
+            texts = _texts(node)
             names = [text.partition(" ")[0] for text in texts]
             at = names.index(net.label, 1) if net.label in names[1:] else -1
             if at < 0 or at in used.setdefault(net.target, set()):
@@ -97,8 +99,8 @@ class _ScreenPlacer:
         return found
 
     def _block(self, node: PictureNode) -> Rectangle:
-        texts = texts_of(node)
-        widest = max([width(texts[0], TITLE, bold=True), *(width(text, SMALL) for text in texts[1:])])
+        texts = _texts(node)
+        widest = max([width(texts[0], TITLE, bold=True), *(width(text, SMALL_ON_SCREEN) for text in texts[1:])])
         coming = [at for net, at in self.ends.items() if net.target == node.name]
         leaving = sum(1 for net in self.routes.nets for one in net.branches if one.source == node.name)
         lines = max([len(texts), *(at + 1 for at in coming), (leaving + 1) // 2])
@@ -146,7 +148,7 @@ class _ScreenPlacer:
         left, right = self.x[area.top] - pad, self.x[area.bottom] + self.wide[area.bottom] + pad
         top, bottom = self.y[area.left] - above, self.y[area.right] + self.high[area.right] + pad
         room = self.wide[area.top] + pad - _PAD  # lines cross the frame behind the first layer
-        return Rectangle(left, top, right - left, bottom - top, [shortened(title, SMALL, room)])
+        return Rectangle(left, top, right - left, bottom - top, [shortened(title, SMALL_ON_SCREEN, room)])
 
     def _route(self) -> None:
         """The corners of the lines, in the order of the picture's."""
@@ -193,6 +195,11 @@ class _ScreenPlacer:
     def _track_y(self, column: int, net: Net) -> float:
         top = self.y[column] - self.gaps[column]
         return top + self._closing(column) + STEP * (self.routes.gaps[column, net] + 1)
+
+
+def _texts(node: PictureNode) -> list[str]:
+    """The lines of text of a node; the frame of its first group names that."""
+    return texts_of(node, node.groups[1:])
 
 
 def _key(line: PictureLine) -> tuple[str, str, str, str]:

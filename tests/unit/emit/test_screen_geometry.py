@@ -20,7 +20,7 @@ from robocomp_yaml.emit.graphs.picture import (
     PictureLine,
     PictureNode,
 )
-from robocomp_yaml.emit.graphs.screen import LINE_HEIGHT, ScreenGeometry, screen_geometry
+from robocomp_yaml.emit.graphs.screen import LINE_HEIGHT, SMALL_ON_SCREEN, ScreenGeometry, screen_geometry
 
 Point = tuple[float, float]
 
@@ -92,7 +92,7 @@ def check(picture: Picture, made: ScreenGeometry) -> None:
             is_member = node.box == host and bool(node.groups) and node.groups[0] == group
             assert (inside if is_member else lambda a, b: not overlap(a, b))(frame, box)
     frames = [*hosts.values(), *(frame for _, _, frame in made.groups)]
-    titles = [Rectangle(one.x + 8, one.y + 4, width(one.texts[0], 11), 14) for one in frames]
+    titles = [Rectangle(one.x + 8, one.y + 4, width(one.texts[0], SMALL_ON_SCREEN), 14) for one in frames]
     for points in made.lines:
         assert not any(crosses(segment, title) for segment in segments(points) for title in titles)
     for (_, host, frame), (_, _, other) in combinations(made.groups, 2):
@@ -191,7 +191,7 @@ def test_thirty_processes_are_readable_on_a_screen() -> None:
     geometry = screen_geometry(made)
     check(made, geometry)
     zoom = min(1500 / geometry.width, 850 / geometry.height)
-    assert 11 * zoom >= 11, (geometry.width, geometry.height)
+    assert SMALL_ON_SCREEN * zoom >= 11, (geometry.width, geometry.height)
 
 
 def test_nothing_is_drawn_of_nothing() -> None:
