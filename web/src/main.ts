@@ -14,16 +14,17 @@ const find = <T extends HTMLElement>(id: string) => document.getElementById(id) 
 const canvas = find<HTMLCanvasElement>("picture"), which = find<HTMLSelectElement>("which"), filter = find<HTMLSelectElement>("filter");
 const model = new Model();
 const scene = new Scene(canvas, model);
-const tree = new Tree(find("tree"), model, select);
+const tree = new Tree(find("tree"), model, (name) => select(name, true));
 let deployment = "", details: Details, progress = "";
 
 const path = () => `deployments/${encodeURIComponent(deployment)}`;
 
-function select(name: string): void {
+/** Selects a node. `isFound`: it was not clicked in the picture, so that the picture goes where it is. */
+function select(name: string, isFound = false): void {
   model.selected = name;
   show();
   scene.covered = find("details").hidden ? 0 : find("details").offsetWidth;
-  if (name) scene.show(name);
+  if (name) scene.show(name, isFound);
 }
 
 function show(): void {

@@ -2,7 +2,7 @@
 
 import { Model, Node, Placed, SIGNS } from "./model";
 
-const FAINT = 0.16, SMALLEST = 6, MARGIN = 16;
+const FAINT = 0.16, FAR = 0.3, READ = 0.9, SMALLEST = 6, MARGIN = 16;
 
 export class Scene {
   zoom = 1;
@@ -61,10 +61,11 @@ export class Scene {
     this.change();
   }
 
-  /** Moves the picture so that a node is seen. */
-  show(name: string): void {
+  /** Moves the picture so that a node is seen, and if wanted, its texts are read. */
+  show(name: string, isRead = false): void {
     const node = this.model.nodes.get(name);
     if (!node) return;
+    if (isRead && 12 * this.zoom < SMALLEST) this.zoomAt(READ / this.zoom, this.x + node.x * this.zoom, this.y + node.y * this.zoom);
     const [left, top] = [this.x + node.x * this.zoom, this.y + node.y * this.zoom];
     const { clientWidth, clientHeight: height } = this.canvas;
     const width = clientWidth - this.covered;
@@ -101,11 +102,12 @@ export class Scene {
     for (const host of graph.hosts) if (host.width) frame(host as Placed, color("host"), host.title, 12);
     for (const group of graph.groups) frame(group, color("group"), group.name, 12);
     context.lineJoin = "round";
+    const isFar = 12 * zoom < SMALLEST;
     for (const edge of graph.edges) {
       const isClear = model.selected ? edge.from === model.selected || edge.to === model.selected
         : model.shows(edge.from) && model.shows(edge.to);
       const isBad = edge.faults.some((fault) => fault.severity === "error");
-      context.globalAlpha = isClear ? 1 : FAINT;
+      context.globalAlpha = !isClear ? FAINT : isFar && !model.selected ? FAR : 1;
       context.strokeStyle = context.fillStyle = color(isBad ? "down" : edge.kind === "uses" ? "line" : edge.kind === "after" ? "soft" : "topic");
       context.lineWidth = model.selected && isClear ? 2 * line : line;
       context.setLineDash(edge.kind === "after" ? [4, 4] : []);
@@ -127,7 +129,7 @@ export class Scene {
       this.node(node, color, font, line);
     }
     context.globalAlpha = 1;
-    if (12 * zoom < SMALLEST) this.far([...graph.hosts.map((host) => [host, host.title]), ...graph.groups.map((group) => [group, group.name])] as [Placed, string][], color, font);
+    if (isFar) this.far([...graph.hosts.map((host) => [host, host.title]), ...graph.groups.map((group) => [group, group.name])] as [Placed, string][], color, font);
     this.drawn += 1;
   }
 
@@ -138,12 +140,13 @@ export class Scene {
     for (const [box, title] of boxes) {
       const width = context.measureText(title).width;
       if (!box.width || width + size > box.width || 2 * size > box.height) continue;
+      const top = box.y + 22 - size * 1.35; // above the first nodes
       context.globalAlpha = 0.85;
       context.fillStyle = color("back");
-      context.fillRect(box.x + size / 3, box.y + size / 3, width + size / 2, size * 1.35);
+      context.fillRect(box.x + size / 3, top, width + size / 2, size * 1.35);
       context.globalAlpha = 1;
       context.fillStyle = color("text");
-      context.fillText(title, box.x + size / 2, box.y + size * 1.35);
+      context.fillText(title, box.x + size / 2, top + size);
     }
   }
 
