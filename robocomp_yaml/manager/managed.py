@@ -131,7 +131,7 @@ class ManagedDeployment:
         def work(workspace: Workspace) -> Revision:
             if isinstance(change, ComponentChange) and not document:
                 raise Refused("a change of a component names its document")
-            revision = self._editor.revise(self._own(workspace, document or self.path), change, based_on)
+            revision = self._editor.revise(self._own(workspace, document or self.path), change, based_on, workspace)
             self._own(workspace, revision.path)
             if write:
                 self._editor.write(revision, force=force)

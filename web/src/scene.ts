@@ -1,6 +1,6 @@
 // The picture on the canvas: it is drawn from the model whenever something changed, at most once in a frame.
 
-import { Model, Node, Placed, SIGNS } from "./model";
+import { Edge, Model, Node, Placed, SIGNS } from "./model";
 
 const FAINT = 0.16, FAR = 0.3, READ = 0.9, SMALLEST = 6, MARGIN = 16;
 
@@ -103,25 +103,7 @@ export class Scene {
     for (const group of graph.groups) frame(group, color("group"), group.name, 12);
     context.lineJoin = "round";
     const isFar = 12 * zoom < SMALLEST;
-    for (const edge of graph.edges) {
-      const isClear = model.selected ? edge.from === model.selected || edge.to === model.selected
-        : model.shows(edge.from) && model.shows(edge.to);
-      const isBad = edge.faults.some((fault) => fault.severity === "error");
-      context.globalAlpha = !isClear ? FAINT : isFar && !model.selected ? FAR : 1;
-      context.strokeStyle = context.fillStyle = color(isBad ? "down" : edge.kind === "uses" ? "line" : edge.kind === "after" ? "soft" : "topic");
-      context.lineWidth = model.selected && isClear ? 2 * line : line;
-      context.setLineDash(edge.kind === "after" ? [4, 4] : []);
-      context.beginPath();
-      edge.points.forEach(([x, y], at) => at ? context.lineTo(x, y) : context.moveTo(x, y));
-      context.stroke();
-      context.setLineDash([]);
-      const [x, y] = edge.points[edge.points.length - 1];
-      context.beginPath();
-      context.moveTo(x, y);
-      context.lineTo(x - 6, y - 3.5);
-      context.lineTo(x - 6, y + 3.5);
-      context.fill();
-    }
+    this.lines(graph.edges, color, line, isFar);
     const [left, top] = [-this.x / zoom, -this.y / zoom];
     const [right, bottom] = [left + this.canvas.clientWidth / zoom, top + this.canvas.clientHeight / zoom];
     for (const node of graph.nodes) {
@@ -131,6 +113,43 @@ export class Scene {
     context.globalAlpha = 1;
     if (isFar) this.far([...graph.hosts.map((host) => [host, host.title]), ...graph.groups.map((group) => [group, group.name])] as [Placed, string][], color, font);
     this.drawn += 1;
+  }
+
+  /** The lines, all that look alike at once: a stroke for each would take most of the time. */
+  private lines(edges: Edge[], color: (name: string) => string, line: number, isFar: boolean): void {
+    const { context, model } = this;
+    const alike = new Map<string, { edges: Edge[]; alpha: number; color: string; isChosen: boolean; isDashed: boolean }>();
+    for (const edge of edges) {
+      const isClear = model.selected ? edge.from === model.selected || edge.to === model.selected
+        : model.shows(edge.from) && model.shows(edge.to);
+      const isBad = edge.faults.some((fault) => fault.severity === "error");
+      const name = isBad ? "down" : edge.kind === "uses" ? "line" : edge.kind === "after" ? "soft" : "topic";
+      const alpha = !isClear ? FAINT : isFar && !model.selected && !isBad ? FAR : 1;
+      const isDashed = edge.kind === "after", isChosen = isClear && Boolean(model.selected);
+      const key = `${name} ${alpha} ${isDashed} ${isChosen}`;
+      const found = alike.get(key) ?? { edges: [], alpha, color: color(name), isChosen, isDashed };
+      found.edges.push(edge);
+      alike.set(key, found);
+    }
+    for (const one of [...alike.values()].sort((a, b) => a.alpha - b.alpha)) {
+      context.globalAlpha = one.alpha;
+      context.strokeStyle = context.fillStyle = one.color;
+      context.lineWidth = one.isChosen ? 2 * line : line;
+      context.setLineDash(one.isDashed ? [4, 4] : []);
+      context.beginPath();
+      for (const edge of one.edges) edge.points.forEach(([x, y], at) => at ? context.lineTo(x, y) : context.moveTo(x, y));
+      context.stroke();
+      if (isFar) continue;
+      context.beginPath();
+      for (const edge of one.edges) {
+        const [x, y] = edge.points[edge.points.length - 1];
+        context.moveTo(x, y);
+        context.lineTo(x - 6, y - 3.5);
+        context.lineTo(x - 6, y + 3.5);
+      }
+      context.fill();
+    }
+    context.setLineDash([]);
   }
 
   /** The names of hosts and groups from afar, where the texts of their boxes are too small: as long as there is room. */

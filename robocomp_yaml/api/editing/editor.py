@@ -81,12 +81,14 @@ class DocumentEditor:
         """The version of a document on the disk, for `based_on`. Raises Refused if it cannot be read."""
         return self._remember(_read(path))
 
-    def revise(self, document: str, change: changes.DocumentChange, based_on: str = "") -> Revision:
+    def revise(
+        self, document: str, change: changes.DocumentChange, based_on: str = "", workspace: Workspace | None = None
+    ) -> Revision:  # fmt: skip
         """A change of a deployment's or a component's document, checked with all documents of the workspace.
         `based_on` is the version that the change means, '' for whatever the file contains. Raises EditConflict if the
-        file is another one, Refused if the change is not possible, and Faulty if the document cannot be parsed."""
-        self.living.refresh()
-        workspace = self.living.look(*self.living.paths)
+        file is another one, Refused if the change is not possible, and Faulty if the document cannot be parsed.
+        `workspace` are the documents as they are, if they were just read."""
+        workspace = workspace or self._now()
         path = self._document(workspace, document, change)
         before = _read(path)
         if based_on and self._remember(before) != based_on:
@@ -139,13 +141,16 @@ class DocumentEditor:
             reason = "it was changed by somebody else" if is_other else "there is no such change"
             raise Refused(f"{document} has nothing to {way}: {reason}")
         before, after = (found.after, found.before) if way == UNDO else (found.before, found.after)
-        self.living.refresh()
-        workspace = self.living.look(*self.living.paths)
+        workspace = self._now()
         revision = self._checked(workspace, document, f"{way}: {found.what}", before, after)
         self._replace(document, before, after)
         past.done += -1 if way == UNDO else 1
         history.write(document, past)
         return revision
+
+    def _now(self) -> Workspace:
+        self.living.refresh()
+        return self.living.look(*self.living.paths)
 
     def _replace(self, path: str, before: bytes, after: bytes) -> None:
         if before == after:
