@@ -15,7 +15,7 @@ SEED ?= 1
 demo_NEEDS := python3-venv python3-zeroc-ice
 test_NEEDS := $(demo_NEEDS) \
   zeroc-ice-compilers libzeroc-ice-dev zeroc-ice-slice zeroc-icebox libzeroc-icestorm3.7 zeroc-icegrid zeroc-ice-utils \
-  qt6-base-dev cmake g++ make ninja-build nodejs npm git openssl iproute2 openssh-client rsync \
+  qt6-base-dev cmake g++ make ninja-build nodejs npm git openssl iproute2 openssh-client rsync chromium \
   openjdk-17-jdk-headless libzeroc-ice3.7-java neovim
 # More packages for the tests, which few want on their own machine: the CI has an SSH server, and systemd.
 MORE ?=
@@ -49,13 +49,17 @@ $(VENV)/tests: pyproject.toml $(VENV)/rcyaml
 	@$(PYTHON) tools/prepare.py environment test
 	@touch $@
 
+$(VENV)/page: web/build_page.py web/package-lock.json $(wildcard web/src/*) $(VENV)/tests
+	@$(PYTHON) tools/prepare.py page
+	@touch $@
+
 demo: system-demo $(VENV)/rcyaml
 	@$(VENV)/bin/python examples/demo.py
 
 ice: $(VENV)/rcyaml
 	@$(PYTHON) tools/prepare.py ice
 
-test: system-test $(VENV)/tests
+test: system-test $(VENV)/tests $(VENV)/page
 	@$(VENV)/bin/python -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder -q
 
 # All builds, also the long ones that seldom fail, more cases in random tests, and all faults of a large network.

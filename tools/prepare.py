@@ -6,6 +6,7 @@ its whole output is printed. Runs with any Python from 3.7 on, without other pac
 
     prepare.py system GOAL PACKAGE...   Debian's packages for `make GOAL`
     prepare.py environment [EXTRA]      rcyaml and its dependencies, in .venv
+    prepare.py page                     the page of the manager, in .venv
     prepare.py ice                      Ice, compiled into .venv
     prepare.py advise                   prints how to install Ice
 """
@@ -64,7 +65,7 @@ def main(goal: str, *words: str) -> None:
     elif goal == "environment":
         environment(*words)
     else:
-        {"ice": ice, "advise": advise}[goal]()
+        {"ice": ice, "advise": advise, "page": page}[goal]()
 
 
 def system(goal: str, packages: Sequence[str]) -> None:
@@ -134,6 +135,14 @@ def environment(extra: str = "") -> None:
     what = f"rcyaml and what its {extra}s need" if extra else "rcyaml"
     spec = f"{ROOT}[{extra}]" if extra else str(ROOT)
     call([PYTHON, "-m", "pip", "install", "--editable", spec], f"installing {what} into {shown()}", of_pip)
+
+
+def page() -> None:
+    """Builds the page of the manager, which needs PyPI (Node) and npm's registry (esbuild)."""
+    try:
+        call([PYTHON, "-m", "pip", "install", ROOT / "web"], "building the page of the manager", of_pip)
+    except Failed as error:
+        show(f"{error}\n\nthe page of the manager is not built: its tests will be skipped")
 
 
 def without_ensurepip() -> None:

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from robocomp_yaml.api.building import Built
     from robocomp_yaml.api.compiling import Compilation
     from robocomp_yaml.api.deploying import Deployment
+    from robocomp_yaml.api.editing.changes import DocumentChange
+    from robocomp_yaml.api.editing.editor import DocumentEditor, EditConflict, Revision
     from robocomp_yaml.api.fixing import Fixing
     from robocomp_yaml.api.living import LivingWorkspace
     from robocomp_yaml.api.migrating import Migration
@@ -41,14 +43,16 @@ if TYPE_CHECKING:
     from robocomp_yaml.parameters.editing.show import Value
 
 __all__ = [
-    "ERROR", "NOTE", "WARNING", "Attached", "Built", "Change", "Compilation", "Deployment", "Diagnostic", "Faulty",
-    "File", "Fixing", "Line", "LivingWorkspace", "Migration", "Network", "Outcome", "Plan", "Refused", "Related",
-    "Result", "Span", "Status", "Value", "Values", "Workspace", "follow", "load", "migrate",
+    "ERROR", "NOTE", "WARNING", "Attached", "Built", "Change", "Compilation", "Deployment", "Diagnostic",
+    "DocumentEditor", "EditConflict", "Faulty", "File", "Fixing", "Line", "LivingWorkspace", "Migration", "Network",
+    "Outcome", "Plan", "Refused", "Related", "Result", "Revision", "Span", "Status", "Value", "Values", "Workspace",
+    "change", "edit", "follow", "load", "migrate",
 ]  # fmt: skip
 
 _HOMES = {
     "api.building": "Built", "api.compiling": "Compilation", "api.deploying": "Deployment", "api.fixing": "Fixing",
-    "api.living": "LivingWorkspace", "api.migrating": "Migration",
+    "api.editing.editor": "DocumentEditor EditConflict Revision", "api.living": "LivingWorkspace",
+    "api.migrating": "Migration",
     "api.outcome": "File Outcome", "api.values": "Change Values",
     "api.workspace": "Workspace", "deploy.attached": "Attached", "deploy.engine": "Line",
     "deploy.operations": "Result Status", "deploy.plan": "Plan", "network.network": "Network",
@@ -79,6 +83,24 @@ def follow(*paths: str, include: Iterable[str] = ()) -> LivingWorkspace:
     from robocomp_yaml.api.living import LivingWorkspace
 
     return LivingWorkspace(paths or (".",), include)
+
+
+def edit(*paths: str, include: Iterable[str] = ()) -> DocumentEditor:
+    """Changes the documents at these paths, in small steps that keep comments and layout; see docs/edit.md."""
+    from robocomp_yaml.api.editing.editor import DocumentEditor
+
+    return DocumentEditor(follow(*paths, include=include))
+
+
+def change(data: Mapping[str, object]) -> DocumentChange:
+    """The change that data describes, such as `{"change": "move", "entry": "speech", "host": "head"}`. Raises Refused
+    if there is no such change."""
+    from robocomp_yaml.api.editing.changes import from_json
+
+    try:
+        return from_json(data)
+    except ValueError as error:
+        raise Refused(str(error)) from None
 
 
 def migrate(

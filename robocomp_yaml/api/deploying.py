@@ -154,11 +154,12 @@ class Deployment:
         self._diagnostics += shown
         return has_errors(shown)
 
-    def plan(self, *names: str) -> Plan:
+    def plan(self, *names: str, restart: bool = False) -> Plan:
         """The plan of `up`: what it would start, stop, restart and change, and why. The diagnostics have the
         obstacles."""
         chosen = self.chosen(names)
         self._diagnostics += limits.ignored(self.network, chosen or self.enabled)
+        forced = (chosen or self.enabled) if restart else set[str]()
         self._report_stale(names)
 
         async def work() -> Plan:
@@ -166,7 +167,7 @@ class Deployment:
             is_running = await self._engine.open(self.network, create=False)
             running = await self._engine.observe() if is_running else {}
             alive = {name for name, one in running.items() if one.is_alive}
-            found = make_plan(await operations.without_present(self.network, alive), running, chosen)
+            found = make_plan(await operations.without_present(self.network, alive), running, chosen, forced)
             self._diagnostics += unstable(found)
             specs = [step.spec for step in found.of(START, RESTART) if step.spec]
             self._diagnostics += await self._engine.obstacles(specs, {step.name for step in found.of(STOP, RESTART)})
@@ -308,6 +309,19 @@ class Deployment:
                 f"the pattern '{pattern}' takes too long: write it without a repetition in a repetition"
             ) from error
         return found
+
+    def stopping(self, *names: str) -> list[str]:
+        """The names of the running processes that `down` would stop, with all that depend on them."""
+        chosen = self.chosen(names)
+
+        async def work() -> list[str]:
+            is_running = await self._engine.open(self.network, create=False)
+            running = await self._engine.observe() if is_running else {}
+            await self._engine.close()
+            leaving = operations.leaving(running, chosen)
+            return [one.name for one in running.values() if one.name in leaving and one.is_alive]
+
+        return self._run(work())
 
     def down(self, *names: str, report: Report | None = None) -> list[str]:
         """Stops the network, or the named processes with all that depend on them. Returns the names of the stopped

@@ -145,13 +145,14 @@ class Workspace:
         plugins = self.analysis.workspaces.of(inside).plugins
         if form not in forms(plugins):
             raise Refused(f"unknown picture '{form}'; choose one of {', '.join(forms(plugins))}")
-        picture = self._picture(path)
+        picture = self.picture(path)
         if picture is None:
             raise Faulty(self.analysis.diagnostics, self.documents_read)
         return draw(picture, form, plugins)
 
-    def _picture(self, path: str) -> Picture | None:
-        """None if the document, or everything in the folder, has too many errors."""
+    def picture(self, path: str) -> Picture | None:
+        """The content of a picture, for rcyaml itself. None if the document, or everything in the folder, has too many
+        errors."""
         from robocomp_yaml.api.which import deployments_of, only_deployment
         from robocomp_yaml.emit.graphs import of_components, of_network
 

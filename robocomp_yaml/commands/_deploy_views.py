@@ -7,23 +7,19 @@ import zlib
 from collections.abc import Collection, Sequence
 from typing import Any
 
-import msgspec
-
 from robocomp_yaml.commands._origins import is_worth_a_line, origin, settings_data
+from robocomp_yaml.deploy import json_data
 from robocomp_yaml.deploy.differences import shown_path
-from robocomp_yaml.deploy.engine import OWN, Line, Running
+from robocomp_yaml.deploy.engine import OWN, Line
 from robocomp_yaml.deploy.listing import ListedDeployment
 from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, Result, Status
-from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, PlanStep
+from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan
 from robocomp_yaml.deploy.probe import ProbedProgram
 from robocomp_yaml.diag.terminal import Shown, columns, cut, line, pad, paint, shown
 from robocomp_yaml.network.network import Network
 
 _SIGNS = {START: "+", STOP: "-", RESTART: "~", CHANGE: "*", KEEP: "="}
 _TINTS = {START: "32", STOP: "31", RESTART: "33", CHANGE: "36", KEEP: "2"}
-PRESENT = "another one is present"
-"""The state of a shared IceStorm that is not started, because another one answers at its address."""
-
 _LOG_TINTS = ("36", "33", "32", "35", "34", "96", "93", "92", "95", "94")
 
 
@@ -48,20 +44,11 @@ def plan_lines(plan: Plan, network: Network, color: bool, *, everything: bool) -
 
 def plan_data(plan: Plan, network: Network | None = None) -> list[dict[str, Any]]:
     """The steps; with a network, also the values of the configurations of what does not stop."""
-    made = [_step_data(step) for step in plan.steps.values()]
+    made = json_data.plan_steps(plan)
     for step, data in zip(plan.steps.values(), made, strict=True):
         if network is not None and step.action != STOP:
             data["config"] = settings_data(network.settings_of(step.name))
     return made
-
-
-def _step_data(step: PlanStep) -> dict[str, Any]:
-    changes = [
-        {"field": change.field, "old": change.old, "new": change.new, "needs_restart": not change.is_live}
-        for change in step.changes
-    ]
-    host = step.spec.process.host if step.spec else step.running.host if step.running else ""
-    return {"name": step.name, "host": host, "action": step.action, "reason": step.reason, "changes": changes}
 
 
 def result_text(network: Network, result: Result) -> str:
@@ -77,15 +64,6 @@ def result_text(network: Network, result: Result) -> str:
     return f"{network.name}: failed; {after.get(result.undone, 'the started processes were stopped')}"
 
 
-def result_data(result: Result) -> dict[str, object]:
-    outcome = result.outcome
-    ready = [name for name in outcome.began if name not in outcome.failed]
-    return {
-        "plan": plan_data(result.plan),
-        "result": {"ready": ready, "failed": list(outcome.failed), "skipped": outcome.skipped, "undone": result.undone},
-    }
-
-
 def status_lines(
     network: Network, found: Sequence[Status], color: bool, room: int | None = None
 ) -> list[Shown]:  # fmt: skip
@@ -97,7 +75,7 @@ def status_lines(
         rows.append(
             (
                 status.name,
-                _state(status),
+                json_data.state_in_words(status),
                 str(alive.pid) if alive else "-",
                 status.host,
                 duration(alive.uptime) if alive else "-",
@@ -130,18 +108,6 @@ def _cpu(seconds: float | None) -> str:
     return "unknown" if seconds is None else f"{seconds:.1f} s" if seconds < 100 else duration(seconds)
 
 
-def _state(one: Status) -> str:
-    if one.running is None:
-        return PRESENT if one.is_ready else "not started"
-    if one.state == "running":
-        if one.is_ready:
-            return "ready"
-        if one.running.not_alive:
-            return f"not alive: {one.running.not_alive}"
-        return one.own.words if one.own and not one.own.is_running else "running, not ready"
-    return f"{one.state}: {one.running.last_exit}" if one.running.last_exit else one.state
-
-
 def deployment_lines(found: Sequence[ListedDeployment]) -> list[Shown]:
     """A table of deployments."""
     rows = [("DEPLOYMENT", "STATE", "ENGINE", "HOSTS", "DOCUMENT")]
@@ -151,30 +117,6 @@ def deployment_lines(found: Sequence[ListedDeployment]) -> list[Shown]:
         rows.append((one.name, state, one.engine, ", ".join(one.hosts), document))
     widths = [max(columns(row[column]) for row in rows) for column in range(len(rows[0]))]
     return [Shown("  ".join(pad(*cell) for cell in zip(row, widths, strict=True)).rstrip()) for row in rows]
-
-
-def status_data(network: Network, found: Sequence[Status]) -> list[dict[str, Any]]:
-    return [_status_data(network, one, one.running) for one in found]
-
-
-def _status_data(network: Network, one: Status, running: Running | None) -> dict[str, Any]:
-    process = network.processes.get(one.name)
-    address = network.address(process) if process else ""
-    return {
-        "name": one.name, "host": one.host, "state": one.state if running else _state(one), "ready": one.is_ready,
-        "pid": running.pid if running else 0, "uptime": round(running.uptime, 3) if running else 0,
-        "restarts": running.restarts if running else 0, "last_exit": running.last_exit if running else "",
-        "not_alive": running.not_alive if running else "", "own": msgspec.to_builtins(one.own),
-        "memory": running.memory if running else 0, "cpu": running.cpu if running else 0,
-        "lost_lines": running.lost_lines if running else 0,
-        "endpoints": [
-            {
-                "interface": endpoint.interface, "identity": endpoint.identity, "endpoint": endpoint.text,
-                "host": address, "port": endpoint.port,
-            }
-            for endpoint in (process.endpoints if process else ())
-        ],
-    }  # fmt: skip
 
 
 def lost_lines(found: Sequence[Status]) -> list[Shown]:
@@ -220,7 +162,7 @@ class LogView:
 
 
 def line_data(logged: Line) -> str:
-    return json.dumps({"name": logged.name, "time": logged.time, "text": logged.text}, ensure_ascii=False) + "\n"
+    return json.dumps(json_data.line_data(logged), ensure_ascii=False) + "\n"
 
 
 def _endpoints(network: Network, name: str) -> str:

@@ -18,6 +18,7 @@ from robocomp_yaml.api import which
 from robocomp_yaml.commands import _deploy_views as views
 from robocomp_yaml.commands import _options, _signals
 from robocomp_yaml.commands._progress import Progress
+from robocomp_yaml.deploy import json_data
 from robocomp_yaml.deploy.engine import Line
 from robocomp_yaml.deploy.listing import listed
 from robocomp_yaml.deploy.operations import Choose, Result
@@ -146,7 +147,7 @@ class DeploySession(msgspec.Struct):
         result = self.run(start, on_interrupt)
         self._say_installed("at boot, as it is left now")
         if self.format_ == "json":
-            self.end(views.result_data(result))
+            self.end(json_data.result_data(result))
         if shows and self.prints_progress:
             terminal.say(views.result_text(self.network, result))
         self.end()
@@ -176,7 +177,7 @@ class DeploySession(msgspec.Struct):
         code = 0 if all(one.is_as_desired for one in found) else 1
         if self.format_ == "json":
             self.end(
-                {"processes": views.status_data(self.network, found), "installed": self.deployment.installed}, code
+                {"processes": json_data.status_data(self.network, found), "installed": self.deployment.installed}, code
             )
         room = shutil.get_terminal_size().columns if sys.stdout.isatty() else None
         terminal.say(*views.status_lines(self.network, found, self._color, room))

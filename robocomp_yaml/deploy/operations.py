@@ -190,13 +190,18 @@ async def down(engine: Engine, names: Collection[str], report: Report) -> list[s
     """Stops all processes, or these and all that are after them. Returns those that ran. The engine ends with its last
     process. Raises DeployFailed."""
     running = await engine.observe()
-    after = {name: one.spec.process.after if one.spec else () for name, one in running.items()}
-    leaving = with_dependents(after, names) & set(running) if names else set(running)
-    alive = [one.name for one in running.values() if one.name in leaving and one.is_alive]
-    await stop_all(engine, [running[name] for name in leaving], report)
-    await engine.forget(leaving)
-    await engine.close(end=len(leaving) == len(running))
+    stopped = leaving(running, names)
+    alive = [one.name for one in running.values() if one.name in stopped and one.is_alive]
+    await stop_all(engine, [running[name] for name in stopped], report)
+    await engine.forget(stopped)
+    await engine.close(end=len(stopped) == len(running))
     return alive
+
+
+def leaving(running: Mapping[str, Running], names: Collection[str]) -> set[str]:
+    """The names of these processes and all that are after them; without names, of all."""
+    after = {name: one.spec.process.after if one.spec else () for name, one in running.items()}
+    return with_dependents(after, names) & set(running) if names else set(running)
 
 
 async def end_if_idle(engine: Engine) -> None:

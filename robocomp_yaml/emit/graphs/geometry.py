@@ -5,6 +5,7 @@ Nothing overlaps, by construction: rows, columns, channels and gaps are as large
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import accumulate
 
 import msgspec
@@ -70,12 +71,13 @@ def geometry_of(picture: Picture) -> Geometry:
     return _Placer(picture, grid, routes).place()
 
 
-def texts_of(node: PictureNode) -> list[str]:
-    """The lines of text of a node: its title, what it is, and what it serves."""
+def texts_of(node: PictureNode, groups: Sequence[str] | None = None) -> list[str]:
+    """The lines of text of a node: its title, what it is, its groups (or only these), and what it serves."""
+    groups = node.groups if groups is None else groups
     served = node.served()
     if len(served) > MOST_SERVED:
         served = [*served[: MOST_SERVED - 1], f"and {len(served) - MOST_SERVED + 1} more"]
-    more = [*node.about, *(f"in {group}" for group in node.groups), *([] if node.enabled else ["not started"]), *served]
+    more = [*node.about, *(f"in {group}" for group in groups), *([] if node.enabled else ["not started"]), *served]
     return [shortened(node.title, TITLE, WIDEST, bold=True), *(shortened(text, SMALL, WIDEST) for text in more)]
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import msgspec
 
@@ -65,14 +65,22 @@ class PictureLine(msgspec.Struct, frozen=True):
     faults: tuple[PictureFault, ...] = ()
 
 
+class Cell(msgspec.Struct, frozen=True):
+    """Where a node is among those of its host and group: `layer` counts from the left, `slot` from the top."""
+
+    layer: int
+    slot: int
+
+
 class Picture(msgspec.Struct):
-    """`faults` are those that belong to no node and no line."""
+    """`faults` are those that belong to no node and no line. `cells` are those of nodes that stay where they are."""
 
     name: str
     boxes: list[Box] = []
     nodes: dict[str, PictureNode] = {}
     lines: list[PictureLine] = []
     faults: tuple[PictureFault, ...] = ()
+    cells: Mapping[str, Cell] = {}
 
     def inside(self, box: str) -> list[PictureNode]:
         """The nodes in a box; those outside for ''."""

@@ -1,0 +1,161 @@
+"""The changes that a person makes in a network or a component: small and typed.
+
+Every interface to rcyaml makes the same changes.
+
+`entry` is a name below `components:`, as written (`mouth{i}`). JSON has the name of the change as `change`:
+`{"change": "connect", "entry": "speech", "port": "Mouth", "to": "mouth"}`.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import msgspec
+
+
+class _Tagged(msgspec.Struct, frozen=True, tag_field="change", forbid_unknown_fields=True):
+    """A change; its name in JSON is its tag."""
+
+
+class Connect(_Tagged, frozen=True, tag="connect"):
+    """A required interface is served by `to`: an entry, one of its interfaces, a group, or a proxy."""
+
+    entry: str
+    port: str
+    to: str
+
+
+class Disconnect(_Tagged, frozen=True, tag="disconnect"):
+    """The document does not set the server of a required interface any more."""
+
+    entry: str
+    port: str
+
+
+class NameTopic(_Tagged, frozen=True, tag="topic"):
+    """A published or subscribed topic has the name `to` in this network; '': its own."""
+
+    entry: str
+    port: str
+    to: str = ""
+
+
+class MoveEntry(_Tagged, frozen=True, tag="move"):
+    """An entry runs on another host."""
+
+    entry: str
+    host: str
+
+
+class AddHost(_Tagged, frozen=True, tag="add-host"):
+    name: str
+    address: str
+    user: str = ""
+
+
+class RemoveHost(_Tagged, frozen=True, tag="remove-host"):
+    name: str
+
+
+class GroupEntries(_Tagged, frozen=True, tag="group"):
+    """Entries, or other groups, become members of a group, which is made if it is missing."""
+
+    group: str
+    members: tuple[str, ...]
+
+
+class UngroupEntries(_Tagged, frozen=True, tag="ungroup"):
+    """Members leave a group; without members, the group is removed. Its members stay."""
+
+    group: str
+    members: tuple[str, ...] = ()
+
+
+class AddEntry(_Tagged, frozen=True, tag="add"):
+    """A component, by the path of its document or folder relative to the working folder, or a program with its
+    arguments."""
+
+    entry: str
+    component: str = ""
+    program: str = ""
+    args: tuple[str, ...] = ()
+    host: str = ""
+
+
+class RemoveEntry(_Tagged, frozen=True, tag="remove"):
+    """An entry is removed, with what this document connects to it."""
+
+    entry: str
+
+
+class RenameEntry(_Tagged, frozen=True, tag="rename"):
+    """An entry or a group has another name, wherever this document names it."""
+
+    entry: str
+    name: str
+
+
+class SetParameter(_Tagged, frozen=True, tag="set"):
+    """A parameter has this value in this network; null: that of the component's own configuration."""
+
+    entry: str
+    parameter: str
+    value: Any
+
+
+class SetPort(_Tagged, frozen=True, tag="port"):
+    """The TCP port of an interface, or of the first one if `interface` is ''; null: a derived one."""
+
+    entry: str
+    number: int | None
+    interface: str = ""
+
+
+class SetInstances(_Tagged, frozen=True, tag="instances"):
+    entry: str
+    count: int
+
+
+class StartAfter(_Tagged, frozen=True, tag="after"):
+    """An entry starts when `needed` (entries, services, groups) are ready."""
+
+    entry: str
+    needed: tuple[str, ...]
+
+
+class StartIndependently(_Tagged, frozen=True, tag="not-after"):
+    entry: str
+    needed: tuple[str, ...]
+
+
+class AddPorts(_Tagged, frozen=True, tag="add-ports"):
+    """A component implements, requires, publishes or subscribes to (`key`) further interfaces, which are imported."""
+
+    key: str
+    interfaces: tuple[str, ...]
+
+
+class RemovePorts(_Tagged, frozen=True, tag="remove-ports"):
+    key: str
+    interfaces: tuple[str, ...]
+
+
+DeploymentChange = (
+    Connect | Disconnect | NameTopic | MoveEntry | AddHost | RemoveHost | GroupEntries | UngroupEntries | AddEntry
+    | RemoveEntry | RenameEntry | SetParameter | SetPort | SetInstances | StartAfter | StartIndependently
+)  # fmt: skip
+ComponentChange = AddPorts | RemovePorts
+DocumentChange = DeploymentChange | ComponentChange
+
+
+def from_json(data: object) -> DocumentChange:
+    """The change that JSON data describes. Raises ValueError with a message for users."""
+    try:
+        made: DocumentChange = msgspec.convert(data, DocumentChange)
+    except msgspec.ValidationError as error:
+        raise ValueError(str(error)) from None
+    return made
+
+
+def name_of(change: DocumentChange) -> str:
+    return str(type(change).__struct_config__.tag)

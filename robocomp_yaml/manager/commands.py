@@ -1,0 +1,249 @@
+"""The commands of the manager: a table, from which its routes and their description are made.
+
+Each does what a command of the command line does, by the same functions of the library.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import Awaitable, Callable, Collection, Mapping
+from typing import Any
+
+import msgspec
+from starlette.requests import Request
+
+from robocomp_yaml.api.editing.editor import Revision
+from robocomp_yaml.api.refusals import meant
+from robocomp_yaml.diag.errors import Refused
+from robocomp_yaml.diag.render.json import as_data
+from robocomp_yaml.manager import requests
+from robocomp_yaml.manager.access import EDIT, OPERATE, READ
+from robocomp_yaml.manager.events import PROGRESS
+from robocomp_yaml.manager.requests import (
+    CallRequest,
+    EditRequest,
+    OperationRequest,
+    ParameterRequest,
+    UndoRequest,
+)
+from robocomp_yaml.manager.watching import Watcher
+
+_LARGEST = 1 << 20  # bytes of a body
+
+
+class Unknown(Refused):
+    """The address names something that is not there."""
+
+
+class Served:
+    """The deployments that are served, by the names that addresses have."""
+
+    def __init__(self, watchers: Mapping[str, Watcher], rights: Collection[str]) -> None:
+        self.watchers, self.rights = watchers, rights
+
+    def watcher(self, request: Request) -> Watcher:
+        name = request.path_params["deployment"]
+        if name not in self.watchers:
+            raise Unknown(f"there is no deployment '{name}'{meant(name, self.watchers)}")
+        return self.watchers[name]
+
+
+class Command(msgspec.Struct, frozen=True):
+    """A command of the manager: what it `does` in a sentence, the request in its body, and its parameters with what
+    they mean."""
+
+    method: str
+    path: str
+    right: str
+    does: str
+    run: Callable[[Served, Request], Awaitable[Any]]
+    body: type[msgspec.Struct] | None = None
+    query: tuple[tuple[str, str], ...] = ()
+
+
+def number(request: Request, name: str, default: int) -> int:
+    text = request.query_params.get(name, "")
+    if text and not (text.isascii() and text.isdigit() and len(text) < 9):
+        raise Refused(f"{name} is '{text}', and must be a number")
+    return int(text) if text else default
+
+
+async def _body(request: Request, type_: type[requests.T]) -> requests.T:
+    content = b""
+    async for part in request.stream():
+        content += part
+        if len(content) > _LARGEST:
+            raise Refused("the request is too large")
+    return requests.read(content, type_)
+
+
+async def _list(served: Served, request: Request) -> Any:
+    return {
+        "rights": list(served.rights),
+        "deployments": [
+            {"id": name, "document": one.managed.path, "problem": one.problem}
+            for name, one in served.watchers.items()
+        ],
+    }  # fmt: skip
+
+
+async def _graph(served: Served, request: Request) -> Any:
+    return await asyncio.to_thread(served.watcher(request).managed.graph)
+
+
+async def _status(served: Served, request: Request) -> Any:
+    watcher = served.watcher(request)
+    return {"processes": list(watcher.states.values()), "problem": watcher.problem}
+
+
+async def _history(served: Served, request: Request) -> Any:
+    return {"happened": list(served.watcher(request).events.past)}
+
+
+async def _plan(served: Served, request: Request) -> Any:
+    action = request.query_params.get("action", "up")
+    if action not in ("up", "restart", "down"):
+        raise Refused(f"there is no plan of '{action}': up, restart or down")
+    managed = served.watcher(request).managed
+    return await asyncio.to_thread(managed.plan, request.query_params.getlist("name"), action)
+
+
+def _operation(action: str) -> Callable[[Served, Request], Awaitable[Any]]:
+    async def run(served: Served, request: Request) -> Any:
+        wanted, watcher = await _body(request, OperationRequest), served.watcher(request)
+        events, loop = watcher.events, asyncio.get_running_loop()
+
+        def report(event: Any) -> None:
+            data = {"action": action, **msgspec.to_builtins(event)}
+            loop.call_soon_threadsafe(events.send, PROGRESS, data)
+
+        events.happened("", f"{action} {' '.join(wanted.names)}".rstrip())
+        done = await asyncio.to_thread(
+            watcher.managed.operate, action, wanted.names, wanted.on_failure, wanted.timeout, report
+        )
+        events.happened("", f"{action}: {'done' if done['ok'] else 'failed'}")
+        return done
+
+    return run
+
+
+async def _logs(served: Served, request: Request) -> Any:
+    query, managed = request.query_params, served.watcher(request).managed
+    names, last = query.getlist("name"), number(request, "last", 20)
+    lines = await asyncio.to_thread(managed.logs, names, last, query.get("since", ""), query.get("grep", ""))
+    return {"lines": lines}
+
+
+async def _documents(served: Served, request: Request) -> Any:
+    return {"documents": await asyncio.to_thread(served.watcher(request).managed.documents)}
+
+
+async def _document(served: Served, request: Request) -> Any:
+    managed = served.watcher(request).managed
+    return await asyncio.to_thread(managed.document, request.query_params.get("path") or managed.path)
+
+
+async def _edit(served: Served, request: Request) -> Any:
+    wanted, watcher = await _body(request, EditRequest), served.watcher(request)
+    revision = await asyncio.to_thread(
+        watcher.managed.revise, wanted.change, wanted.document, wanted.based_on, write=wanted.write, force=wanted.force
+    )
+    if wanted.write and not revision.is_empty:
+        watcher.events.happened("", revision.what)
+    return {**_revised(revision), "written": wanted.write and not revision.is_empty}
+
+
+def _back(*, again: bool) -> Callable[[Served, Request], Awaitable[Any]]:
+    async def run(served: Served, request: Request) -> Any:
+        wanted, watcher = await _body(request, UndoRequest), served.watcher(request)
+        revision = await asyncio.to_thread(watcher.managed.undo, wanted.document, again=again)
+        watcher.events.happened("", revision.what)
+        return {**_revised(revision), "written": True}
+
+    return run
+
+
+def _revised(revision: Revision) -> dict[str, Any]:
+    return {
+        "document": revision.path, "change": revision.what, "version": revision.version, "diff": revision.diff,
+        "text": revision.after.decode("utf-8-sig", "replace"),
+        "errors": [as_data(one) for one in revision.new_errors],
+        "diagnostics": [as_data(one) for one in revision.diagnostics],
+    }  # fmt: skip
+
+
+async def _call(served: Served, request: Request) -> Any:
+    wanted, path = await _body(request, CallRequest), served.watcher(request).managed.path
+
+    def work() -> Any:
+        from robocomp_yaml.api.addresses import Addresses
+        from robocomp_yaml.api.calling import RemoteMethod
+
+        words = [json.dumps(wanted.arguments)] if wanted.arguments else []
+        return RemoteMethod(Addresses(path), wanted.method).call(words, timeout=wanted.timeout).data
+
+    return await asyncio.to_thread(work)
+
+
+async def _parameters(served: Served, request: Request) -> Any:
+    path, process = served.watcher(request).managed.path, request.query_params.get("process", "")
+
+    def work() -> Any:
+        from robocomp_yaml.api.addresses import Addresses
+        from robocomp_yaml.api.running_parameters import RunningParameters
+
+        with RunningParameters(Addresses(path), process).connected() as session:
+            return {"parameters": [msgspec.to_builtins(row) for row in session.values()]}
+
+    return await asyncio.to_thread(work)
+
+
+async def _set_parameter(served: Served, request: Request) -> Any:
+    wanted, watcher = await _body(request, ParameterRequest), served.watcher(request)
+
+    def work() -> Any:
+        from robocomp_yaml.api.addresses import Addresses
+        from robocomp_yaml.api.running_parameters import RunningParameters
+
+        with RunningParameters(Addresses(watcher.managed.path), wanted.process).connected() as session:
+            was, now = session.set(wanted.parameter, wanted.value)
+            return {"path": wanted.parameter, "value": now, "was": was}
+
+    done = await asyncio.to_thread(work)
+    watcher.events.happened(wanted.process, f"set {wanted.parameter}")
+    return done
+
+
+_ONE = "/deployments/{deployment}"
+_NAMES = ("name", "A process or group; may be repeated. Without it, all.")
+COMMANDS = (
+    Command("GET", "/deployments", READ, "The deployments that are served, and what this manager may do.", _list),
+    Command("GET", f"{_ONE}/graph", READ, "The picture of the network, with its geometry.", _graph),
+    Command("GET", f"{_ONE}/status", READ, "The state of each process.", _status),
+    Command("GET", f"{_ONE}/history", READ, "What happened since the manager runs, whoever caused it.", _history),
+    Command("GET", f"{_ONE}/plan", READ, "What an operation would do, and why.", _plan,
+            query=(_NAMES, ("action", "up, restart or down; by default up."))),
+    Command("GET", f"{_ONE}/logs", READ, "The last lines of the logs.", _logs,
+            query=(_NAMES, ("last", "The number of lines of each process; by default 20."),
+                   ("since", "A time in UTC, as lines have it."), ("grep", "A regular expression."))),
+    Command("GET", f"{_ONE}/documents", READ, "The documents of the workspace.", _documents),
+    Command("GET", f"{_ONE}/document", READ, "The text of a document, its version and its diagnostics.", _document,
+            query=(("path", "The document; by default, that of the deployment."),)),
+    Command("GET", f"{_ONE}/parameters", READ, "The values that a running component has now.", _parameters,
+            query=(("process", "The process."),)),
+    Command("POST", f"{_ONE}/up", OPERATE, "Start the network, and apply changes to it.", _operation("up"),
+            OperationRequest),
+    Command("POST", f"{_ONE}/restart", OPERATE, "Stop processes, and start them again.", _operation("restart"),
+            OperationRequest),
+    Command("POST", f"{_ONE}/down", OPERATE, "Stop processes, with all that depend on them.", _operation("down"),
+            OperationRequest),
+    Command("POST", f"{_ONE}/rollback", OPERATE, "Go back to the last up that was all ready.",
+            _operation("rollback"), OperationRequest),
+    Command("POST", f"{_ONE}/call", OPERATE, "Call a method of a running component.", _call, CallRequest),
+    Command("POST", f"{_ONE}/parameters", OPERATE, "Change a value of a running component, for now.", _set_parameter,
+            ParameterRequest),
+    Command("POST", f"{_ONE}/edit", EDIT, "Make a change in a document.", _edit, EditRequest),
+    Command("POST", f"{_ONE}/undo", EDIT, "Undo the last change of a document.", _back(again=False), UndoRequest),
+    Command("POST", f"{_ONE}/redo", EDIT, "Make a change again that was undone.", _back(again=True), UndoRequest),
+)  # fmt: skip

@@ -1,0 +1,177 @@
+"""Watches a deployment while the manager runs: its processes, and its documents.
+
+The engine is observed often, which is one question for all processes. Whether each is ready is asked seldom, and at
+once after a change. What is sent are differences.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+from collections.abc import AsyncIterator, Mapping, Sequence
+from contextlib import aclosing
+from typing import Any
+
+from robocomp_yaml.api.refusals import meant
+from robocomp_yaml.deploy import json_data, operations
+from robocomp_yaml.deploy.engine import DeployFailed, Engine, Running
+from robocomp_yaml.deploy.engines import make_engine
+from robocomp_yaml.deploy.log_filter import LogFilter, selected
+from robocomp_yaml.deploy.operations import Status
+from robocomp_yaml.diag.errors import Faulty, Refused
+from robocomp_yaml.manager.events import DOCUMENTS, STATES, Events, ServerEvent
+from robocomp_yaml.manager.managed import ManagedDeployment
+from robocomp_yaml.network.network import Network
+
+OBSERVE, ASK, DISK = 0.4, 2.0, 1.0
+"""Seconds between two observations, between two questions whether all are ready, and between two looks at the disk."""
+
+
+class Watcher:
+    """Watches one deployment. `states` are those of its processes, as `deploy status --format json` has them."""
+
+    def __init__(self, managed: ManagedDeployment) -> None:
+        self.managed, self.events = managed, Events()
+        self.states: dict[str, dict[str, Any]] = {}
+        self.problem = ""
+        self._network: Network | None = None
+        self._engine: Engine | None = None
+        self._engine_name = ""
+        self._asked, self._seen = 0.0, dict[str, tuple[object, ...]]()
+
+    async def begin(self) -> None:
+        """Reads the documents, and the first states."""
+        await self._read()
+        await self._look()
+
+    async def run(self) -> None:
+        """Watches until it is cancelled."""
+        async with asyncio.TaskGroup() as tasks:
+            tasks.create_task(self._watch_processes())
+            tasks.create_task(self._watch_documents())
+
+    @property
+    def first(self) -> list[ServerEvent]:
+        """What a new listener gets before all further events."""
+        return [ServerEvent(STATES, {"all": True, "processes": list(self.states.values()), "problem": self.problem})]
+
+    def chosen(self, names: Sequence[str]) -> list[str]:
+        """The processes that these names and groups mean, all without names. Raises Refused if one is unknown."""
+        network = self._network
+        processes = network.processes if network is not None else {}
+        found: list[str] = []
+        for name in names:
+            members = [one.name for one in processes.values() if name in (one.name, *one.aliases, *one.groups)]
+            if not members:
+                raise Refused(f"there is no process or group '{name}'{meant(name, processes)}")
+            found += members
+        return found or [one.name for one in processes.values() if one.enabled]
+
+    async def log_lines(self, names: Sequence[str], last: int) -> AsyncIterator[dict[str, str]]:
+        """The last lines of the logs of these processes, and all that follow, until the engine ends."""
+        if self._network is None:
+            return
+        engine = make_engine(self._engine_name, self._network)
+        with contextlib.suppress(DeployFailed, OSError):
+            await engine.open(self._network, create=False)
+            try:
+                async with aclosing(selected(engine, names, last, True, LogFilter())) as lines:
+                    async for line in lines:
+                        yield json_data.line_data(line)
+            finally:
+                await engine.close()
+
+    async def _watch_documents(self) -> None:
+        while True:
+            await asyncio.sleep(DISK)
+            if self.managed.has_changed():
+                await self._read()
+                self.events.send(DOCUMENTS, {"problem": self.problem})
+
+    async def _read(self) -> None:
+        problem = ""
+        try:
+            network, name = await asyncio.to_thread(self.managed.network)
+        except (Faulty, Refused) as error:
+            problem = str(error)
+        else:
+            if self._network is not None and (name != self._engine_name or network.folder != self._network.folder):
+                await self._leave()
+            self._network, self._engine_name = network, name
+        self.problem, self._asked = problem, 0.0
+
+    async def _watch_processes(self) -> None:
+        while True:
+            await asyncio.sleep(OBSERVE)
+            await self._look()
+
+    async def _look(self) -> None:
+        network, now = self._network, asyncio.get_running_loop().time()
+        if network is None:
+            return
+        try:
+            running = await self._observe(network)
+            seen = {name: _gist(one) for name, one in running.items()}
+            if seen != self._seen or now - self._asked > ASK:
+                self._asked, self._seen = now, seen
+                await self._ask(network)
+        except (DeployFailed, OSError) as error:
+            self._note(f"the state of the processes is unknown: {error}")
+            await self._leave()
+
+    async def _observe(self, network: Network) -> Mapping[str, Running]:
+        if self._engine is None:
+            engine = make_engine(self._engine_name, network)
+            if not await engine.open(network, create=False):
+                await engine.close()
+                return {}
+            self._engine = engine
+        try:
+            return await self._engine.observe()
+        except DeployFailed:
+            await self._leave()  # what supervised them ended
+            return {}
+
+    async def _ask(self, network: Network) -> None:
+        """Asks which processes are ready, and sends what differs."""
+        if self._engine is not None:
+            found = await operations.status(self._engine, network, (), True)
+        else:
+            found = [Status(one.name, one.host, False, None, one.is_server) for one in network.enabled()]
+        states = {one["name"]: one for one in json_data.status_data(network, found)}
+        words = {one.name: json_data.state_in_words(one) for one in found}
+        down = {one.name: one.is_down for one in found}
+        for name, state in states.items():
+            state["words"], state["down"] = words[name], down[name]
+        changed = [one for name, one in states.items() if _lasting(one) != _lasting(self.states.get(name, {}))]
+        gone = [name for name in self.states if name not in states]
+        for one in changed:
+            was = self.states.get(one["name"])
+            if was is not None and one["restarts"] > was["restarts"]:
+                self.events.happened(one["name"], f"ended by itself: {one['last_exit']}; started again")
+            if was is not None and was["words"] != one["words"]:
+                self.events.happened(one["name"], one["words"])
+        self.states = states
+        if changed or gone:
+            self.events.send(STATES, {"all": False, "processes": changed, "gone": gone, "problem": self.problem})
+
+    def _note(self, problem: str) -> None:
+        if problem != self.problem:
+            self.problem = problem
+            self.events.send(STATES, {"all": False, "processes": [], "gone": [], "problem": problem})
+
+    async def _leave(self) -> None:
+        engine, self._engine = self._engine, None
+        if engine is not None:
+            with contextlib.suppress(DeployFailed, OSError):
+                await engine.close()
+
+
+def _lasting(state: Mapping[str, Any]) -> dict[str, Any]:
+    """What of a state does not change by itself."""
+    return {key: value for key, value in state.items() if key != "uptime"}
+
+
+def _gist(one: Running) -> tuple[object, ...]:
+    """What of a process changes only if something happens to it."""
+    return one.state, one.pid, one.restarts, one.last_exit, one.not_alive

@@ -1,0 +1,203 @@
+"""The page of the manager in a real browser, over a real network of programs."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from processes import until
+from test_manager import Manager, manager, robot
+
+__all__ = ["robot"]
+
+pytest.importorskip("rcyaml_manager", reason="the page is not built: pip install ./web")
+pytest.importorskip("playwright", reason="pip install playwright")
+
+from playwright.sync_api import ConsoleMessage, Page, expect, sync_playwright
+
+BROWSER = shutil.which("chromium")
+if BROWSER is None:
+    pytest.skip("Chromium is not installed: apt install chromium", allow_module_level=True)
+
+Open = Callable[[Manager], Page]
+
+
+@pytest.fixture
+def page() -> Iterator[Open]:
+    """Opens the page of a manager. Nothing may be wrong in the browser's console, and nobody else may be asked."""
+    wrong: list[str] = []
+    asked: set[str] = set()
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=BROWSER, args=["--no-sandbox", "--disable-gpu"])
+
+        def is_wrong(message: ConsoleMessage) -> bool:
+            """Not that the manager ended, or refused something: that is shown in the page."""
+            return message.type == "error" and not message.text.startswith("Failed to load resource")
+
+        def opened(one: Manager) -> Page:
+            made = browser.new_page(viewport={"width": 1300, "height": 800})
+            made.on("console", lambda message: wrong.append(message.text) if is_wrong(message) else None)
+            made.on("pageerror", lambda error: wrong.append(str(error)))
+            made.on("request", lambda request: asked.add(request.url.split("/")[2]))
+            made.goto(f"http://127.0.0.1:{one.port}/?token={one.token}")
+            expect(item(made, "base")).to_be_visible()
+            return made
+
+        yield opened
+        browser.close()
+    assert wrong == []
+    assert all(host.startswith("127.0.0.1:") for host in asked)
+
+
+def item(page: Page, name: str) -> Any:
+    return page.get_by_role("treeitem", name=name)
+
+
+def pixels(page: Page) -> list[int]:
+    """The picture as it was drawn: every 97th byte of it."""
+    found: list[int] = page.evaluate(
+        "() => { const c = document.getElementById('picture');"
+        "return [...c.getContext('2d').getImageData(0, 0, c.width, c.height).data].filter((_, at) => at % 97 === 0) }"
+    )
+    return found
+
+
+def test_the_network_is_started_and_seen(robot: Path, page: Open) -> None:
+    with manager(robot) as one:
+        shown = page(one)
+        assert shown.url == f"http://127.0.0.1:{one.port}/"
+        expect(item(shown, "arm, not started")).to_be_visible()
+        before = pixels(shown)
+        assert len(set(before)) > 5  # a picture
+        shown.get_by_role("button", name="Start…", exact=True).first.click()
+        dialog = shown.get_by_role("dialog")
+        expect(dialog.get_by_role("listitem")).to_have_text([
+            "start base: it does not run yet", "start camera: it does not run yet", "start arm: it does not run yet",
+        ])  # fmt: skip
+        assert set(one.words().values()) == {"not started"}  # a plan does nothing
+        dialog.get_by_role("button", name="Do it").click()
+        for name in ("base", "camera", "arm"):
+            expect(item(shown, f"{name}, ready")).to_be_visible(timeout=20_000)
+        assert pixels(shown) != before
+        expect(shown.get_by_role("status")).to_contain_text("3 ready")
+
+        item(shown, "camera").click()
+        details = shown.get_by_role("complementary")
+        expect(details.get_by_role("heading", name="camera")).to_be_visible()
+        pid = next(state["pid"] for state in one.robot("status")[1]["processes"] if state["name"] == "camera")
+        expect(details).to_contain_text(str(pid))
+        os.kill(pid, signal.SIGKILL)
+        expect(details).to_contain_text("SIGKILL", timeout=10_000)
+        expect(details).to_contain_text("Restarts")
+
+        details.get_by_role("button", name="stop camera").click()
+        shown.get_by_role("dialog").get_by_role("button", name="Do it").click()
+        expect(item(shown, "camera, not started")).to_be_visible(timeout=20_000)
+
+
+def test_the_keyboard_reaches_everything(robot: Path, page: Open) -> None:
+    with manager(robot) as one:
+        shown = page(one)
+        shown.get_by_role("treeitem", name="this machine").focus()
+        for key in ("ArrowDown", "ArrowDown", "Enter"):
+            shown.keyboard.press(key)
+        expect(shown.get_by_role("heading", name="camera")).to_be_visible()
+        expect(item(shown, "camera")).to_have_attribute("aria-selected", "true")
+        assert shown.evaluate("model.selected") == "camera"
+        for key in ("Home", "ArrowLeft"):
+            shown.keyboard.press(key)
+        expect(item(shown, "base")).to_be_hidden()
+        for key in ("ArrowRight", "End", "Escape"):
+            shown.keyboard.press(key)
+        expect(shown.get_by_role("complementary")).to_be_hidden()
+        assert shown.evaluate("document.activeElement.dataset.name") == "arm"
+
+
+def test_the_picture_is_moved_and_clicked(robot: Path, page: Open) -> None:
+    with manager(robot) as one:
+        shown = page(one)
+        shown.wait_for_timeout(300)
+        place = shown.locator("canvas").bounding_box()
+        assert place is not None
+
+        def middle(name: str) -> tuple[float, float]:
+            x, y = shown.evaluate(
+                "(name) => { const n = model.nodes.get(name);"
+                "return [scene.x + (n.x + n.width / 2) * scene.zoom, scene.y + (n.y + n.height / 2) * scene.zoom] }",
+                name,
+            )
+            return place["x"] + x, place["y"] + y
+
+        was, before = middle("arm"), pixels(shown)
+        shown.mouse.move(place["x"] + 20, place["y"] + 20)
+        shown.mouse.down()
+        shown.mouse.move(place["x"] + 80, place["y"] + 50, steps=5)
+        shown.mouse.up()
+        now = middle("arm")
+        assert (round(now[0] - was[0]), round(now[1] - was[1])) == (60, 30)
+        until(lambda: pixels(shown) != before, "the view moves")
+        shown.mouse.move(*now)
+        zoom = shown.evaluate("scene.zoom")
+        shown.mouse.wheel(0, -300)
+        until(lambda: shown.evaluate("scene.zoom") > zoom, "the view grows")
+        shown.mouse.click(*middle("arm"))
+        expect(shown.get_by_role("heading", name="arm")).to_be_visible()
+
+
+def test_search_and_filter_leave_what_is_meant(robot: Path, page: Open) -> None:
+    with manager(robot) as one:
+        shown = page(one)
+        shown.get_by_role("searchbox").fill("cam")
+        expect(item(shown, "camera")).to_be_visible()
+        expect(item(shown, "base")).to_be_hidden()
+        assert shown.evaluate("[...model.nodes.keys()].filter((name) => model.isClear(name))") == ["camera"]
+        shown.get_by_role("searchbox").fill("")
+        assert one.robot("up", {"names": ["camera"]})[1]["ok"]
+        shown.get_by_label("Show").select_option("ready")
+        expect(item(shown, "camera, ready")).to_be_visible(timeout=10_000)
+        expect(item(shown, "base")).to_be_hidden()
+
+
+def test_texts_of_programs_are_no_markup(robot: Path, page: Open) -> None:
+    document = robot / "robot.ddsl.yaml"
+    evil = "<img src=x onerror=document.title=1><b>bold</b>"
+    document.write_text(document.read_text().replace("echo the base turns", f"echo the base turns '{evil}'"))
+    with manager(robot) as one:
+        shown = page(one)
+        assert one.robot("up", {"names": ["base"]})[1]["ok"]
+        item(shown, "base").click()
+        log = shown.get_by_role("log")
+        expect(log).to_contain_text(evil)
+        assert log.locator("b, img").count() == 0
+        assert shown.title() == "Robot"
+
+
+def test_changes_of_the_document_appear_and_move_nothing(robot: Path, page: Open) -> None:
+    document = robot / "robot.ddsl.yaml"
+    with manager(robot) as one:
+        shown = page(one)
+        places = "Object.fromEntries([...model.nodes].map(([name, node]) => [name, node.x]))"
+        before = shown.evaluate(places)
+        change = {"change": "add", "entry": "wrist", "program": "sleep", "args": ["9"]}
+        assert one.robot("edit", {"change": change})[0] == 200
+        expect(item(shown, "wrist")).to_be_visible(timeout=10_000)
+        after = shown.evaluate(places)
+        assert {name: after[name] for name in before} == before
+        document.write_text("deployment: Robot\ncomponents: [\n")
+        expect(shown.get_by_role("alert")).to_contain_text("RC01", timeout=10_000)
+        assert shown.evaluate("model.nodes.size") == 4  # the last picture stays
+
+
+def test_without_the_right_there_are_no_buttons(robot: Path, page: Open) -> None:
+    with manager(robot, "--read-only") as one:
+        shown = page(one)
+        item(shown, "arm").click()
+        expect(shown.get_by_role("heading", name="arm")).to_be_visible()
+        assert shown.get_by_role("button", name="Start").count() == 0
+        assert shown.get_by_role("button", name="Stop").count() == 0
