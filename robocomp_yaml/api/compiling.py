@@ -139,10 +139,10 @@ class Compilation:
 
     def _names_below(self, root: str) -> OfferedNames:
         """The names of a workspace, also those of documents that are no part of this run."""
-        documents, disk = self._analysis.linker.documents, self._analysis.disk
+        documents, disk = self._analysis.documents, self._analysis.disk
 
         def tree_of(path: str) -> Node | None:
-            document = documents.read.get(disk.real(path))
+            document = documents.get(disk.real(path))
             return document.tree if document is not None else read_tree(path, disk)[0]
 
         return names_below(root, disk, tree_of)

@@ -80,7 +80,9 @@ def _secured(network: Network, folder: str, *, create: bool) -> Network:
     due = authority.due(hosts)
     pems = {name: _NEW if name in due else authority.pem(name) for name in hosts}
     processes = {
-        name: _with(one, folder_on(network.hosts[one.host], folder), pems[one.host]) if one.is_secured and one.config else one
+        name: _with(one, folder_on(network.hosts[one.host], folder), pems[one.host])
+        if one.is_secured and one.config
+        else one
         for name, one in network.processes.items()
     }
     return replace(network, processes=processes)

@@ -64,7 +64,7 @@ def _with(process: Process, line: str) -> Process:
 def context(network: Network, proxy: str) -> dict[str, str]:
     """The context of a call that controls a component of the network. The token is not sent in plain text to another
     host, where the component would reject the call."""
-    from robocomp_yaml.deploy.local.obstacles import is_local
+    from robocomp_yaml.deploy.here import is_local
     from robocomp_yaml.source.ice_proxy import proxy_at
 
     found = proxy_at(proxy)

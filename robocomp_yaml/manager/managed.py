@@ -154,7 +154,7 @@ class ManagedDeployment:
         )
 
     def _documents(self, workspace: Workspace) -> list[str]:
-        read = (document.path for document in workspace.analysis.linker.documents.read.values())
+        read = (document.path for document in workspace.analysis.documents.values())
         root = os.path.realpath(self.root)
         return sorted(path for path in read if stays_inside(root, os.path.realpath(path)))
 

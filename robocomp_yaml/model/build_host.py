@@ -6,8 +6,9 @@ from __future__ import annotations
 import math
 
 from robocomp_yaml.model import deployment as model
-from robocomp_yaml.model.build_interface import as_text, doc, entries, required, text
-from robocomp_yaml.source.tree import Mapping, Node, Scalar
+from robocomp_yaml.model.build_interface import as_text, doc, entries, required, text, texts
+from robocomp_yaml.model.located import Text
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 _UNITS = {"B": 1, "KB": 10**3, "MB": 10**6, "GB": 10**9, "KiB": 1 << 10, "MiB": 1 << 20, "GiB": 1 << 30}
 _CORES = {"on": math.inf, "off": 0}

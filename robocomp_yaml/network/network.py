@@ -51,8 +51,8 @@ class SshAccess(msgspec.Struct, frozen=True):
 class NetworkHost(Located, frozen=True):
     """A machine. `address` is a name or an IP address, LOOPBACK if the document has no hosts. `folders` are folders of
     the operator (absolute paths), with the folders on the host in their stead. `python` is the Python for components,
-    and `systemd` the manager of the units of `install` (`user` or `system`); '' for what is not set. `listen` says where
-    its processes listen, () for its own address."""
+    and `systemd` the manager of the units of `install` (`user` or `system`); '' for what is not set. `listen` says
+    where its processes listen, () for its own address."""
 
     name: str
     address: str = LOOPBACK

@@ -136,7 +136,9 @@ def _with_nodes(network: Network, wanted: list[HostUnit]) -> tuple[list[HostUnit
             if unit.is_here:
                 found.append(unit)
                 continue
-            with open(daemons.write_script(files, unit.host, registry), encoding="utf-8") as file:
+            with open(
+                daemons.write_script(files, unit.host, network.hosts.values(), registry), encoding="utf-8"
+            ) as file:
                 node = f"foreground=yes\n{file.read()}"
             path = f"{files.on(unit.host.name).folder}/{units.OWN}/node"
             found.append(replace(unit, files={**unit.files, path: node}))
