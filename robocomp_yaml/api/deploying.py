@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from msgspec.structs import replace
 
-from robocomp_yaml.api.refusals import cannot_write, meant, require
+from robocomp_yaml.api.refusals import meant, require
 from robocomp_yaml.building.job import RELEASE
 from robocomp_yaml.deploy import folder, history, limits, operations, registered
 from robocomp_yaml.deploy.attached import Attached, attached
@@ -58,8 +58,7 @@ class Deployment:
     def __init__(self, analysis: Analysis, path: str, engine: str | None = None, *, lenient: bool = False) -> None:
         require("engine", engine or LOCAL, ENGINES)
         self.path, self._analysis = path, analysis
-        network = analysis.networks.get(os.path.realpath(path))
-        self.unread = network is None
+        self.unread = (network := analysis.networks.get(os.path.realpath(path))) is None
         if network is None and lenient:
             from robocomp_yaml.deploy.stand_in import stand_in
 
@@ -353,15 +352,10 @@ class Deployment:
     def export(self, form: str, *, reveal: bool = True) -> dict[str, str]:
         """The files from which another tool runs the network, by path. Secrets are hidden unless `reveal` is set.
         Raises Refused if the format is unknown, Faulty if it cannot express the network."""
-        from robocomp_yaml.deploy import exported
-        from robocomp_yaml.emit import exports
+        from robocomp_yaml.api import exporting
 
         plugins = self._analysis.program.plugins_of(self.path)
-        require("export format", form, exports.forms(plugins))
-        try:
-            files, diagnostics = exported.files(self.network, form, plugins, reveal=reveal)
-        except Faulty as error:  # a plug-in failed
-            files, diagnostics = {}, [*error.diagnostics]
+        files, diagnostics = exporting.export(self.network, form, plugins, reveal=reveal)
         self._diagnostics += diagnostics
         if has_errors(diagnostics):
             raise Faulty(self.diagnostics)
@@ -370,16 +364,12 @@ class Deployment:
     def write_export(self, form: str, output: str) -> list[str]:
         """Writes the files of an export below a folder, readable only for their owner. Returns their paths. Raises
         Faulty if one would overwrite a file that no export wrote, Refused if a file cannot be written."""
-        from robocomp_yaml.deploy import exported
+        from robocomp_yaml.api import exporting
 
         files = self.export(form)
-        try:
-            self._diagnostics += exported.conflicts(output, files)
-            if has_errors(self._diagnostics):
-                raise Faulty(self.diagnostics)
-            exported.write(output, files)
-        except OSError as error:
-            raise cannot_write(error.filename or output, error) from error
+        self._diagnostics += exporting.write(output, files)
+        if has_errors(self._diagnostics):
+            raise Faulty(self.diagnostics)
         return [os.path.normpath(os.path.join(output, path)) for path in files]
 
     def _run(self, work: Coroutine[Any, Any, T], *, change: bool = False) -> T:
@@ -401,8 +391,8 @@ class Deployment:
         finally:
             work.close()
             self._lock.close()
-        where = shown_path(self.network.folder)
-        self._diagnostics.append(deploying.FOLDER.at(Span(self.network.path), path=where, reason=reason))
+        where, span = shown_path(self.network.folder), Span(self.network.path)
+        self._diagnostics.append(deploying.FOLDER.at(span, path=where, reason=reason))
         raise Faulty(self.diagnostics)
 
 

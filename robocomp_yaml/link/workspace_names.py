@@ -150,7 +150,7 @@ class _Collected:
 
 
 def _relative(path: str, folder: str) -> str:
-    return os.path.relpath(path, folder or ".").replace(os.sep, "/")
+    return os.path.relpath(path or ".", folder or ".").replace(os.sep, "/")
 
 
 def _members(tree: Mapping, section: str) -> Iterator[tuple[str, Node]]:

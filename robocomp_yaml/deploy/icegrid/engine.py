@@ -168,13 +168,12 @@ class IceGridEngine:
         for spec in specs:
             if spec not in near and spec.name in self._desired and (known := self._specs.get(spec.name)):
                 asked[spec.process.host] = known
-                size = len(spec.process.config.text.encode(errors="surrogateescape")) if spec.process.config else 0
+                size = sum(len(text.encode(errors="surrogateescape")) for text in spec.config_files.values())
                 sizes[spec.process.host] = sizes.get(spec.process.host, 0) + size
         for host, known in asked.items():
-            if known.process.host != host:
-                continue  # it moves there
             command = ("bash", "-c", _WRITE, "bash", f"{self._files.on(host).folder}/config", str(sizes[host]))
-            if self._run(self._reached(), known, command, _WRITE_WITHIN):
+            moves = known.process.host != host
+            if not moves and self._run(self._reached(), known, command, _WRITE_WITHIN):
                 raise OSError(errno.ENOSPC, f"{os.strerror(errno.ENOSPC)} on the host '{host}'", self._files.folder)
 
     async def prepare(self, specs: Sequence[ProcessSpec]) -> None:
@@ -224,8 +223,7 @@ class IceGridEngine:
         path = self._files.on(spec.process.host).rule(spec.name)
         script = 'mkdir -p -- "${2%/*}" && printf "%s\\n" "$1" >"$2.new" && mv -- "$2.new" "$2"'
         rules = f"{restart_rule(spec.process, number)}\n{alive_rule(spec.process)}"
-        command = ("bash", "-c", script, "bash", rules, path)
-        self._run(grid, spec, command, _RULE_WITHIN)
+        self._run(grid, spec, ("bash", "-c", script, "bash", rules, path), _RULE_WITHIN)
 
     def _deploy(self, replaced: Collection[str], servers: list[tuple[str, Any]]) -> None:
         """Deploys these servers, and all that were deployed before except the replaced ones."""

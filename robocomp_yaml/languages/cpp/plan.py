@@ -57,6 +57,7 @@ class View(msgspec.Struct, frozen=True):
     slices: list[str]
     parts: str
     sources: list[str]
+    is_main_apart: bool
     qt: QtView | None
     robocomp: RobocompView | None
     machine: MachineView | None
@@ -130,6 +131,8 @@ def _view(linked: LinkedComponent, layout: Layout) -> View:
     files = [file for file in lowered.files if is_needed or file != COMMON]
     connections = "connections" if has_topics or ports.requires else "/*connections*/"
     services = "services" if ports.services else "/*services*/"
+    # The code of windows and of RoboComp's components clashes with main.cpp in one translation unit.
+    is_main_apart = component.gui is not None or bool(component.compatibility)
     is_taken = component.name.lower() in _CMAKE_TARGETS
     return View(
         source=one_line(lowered.source),
@@ -149,7 +152,12 @@ def _view(linked: LinkedComponent, layout: Layout) -> View:
         interfaces=lowered.interfaces,
         slices=_slices(linked),
         parts=" ".join(f"rcyaml::{part}" for part in _parts(linked, has_topics=has_topics)),
-        sources=["genericworker.cpp", "parameters.cpp", *(["statemachine.cpp"] if linked.machine else [])],
+        sources=[
+            *("genericworker.cpp", "parameters.cpp"),
+            *(["statemachine.cpp"] if linked.machine else []),
+            *([] if is_main_apart else ["main.cpp"]),
+        ],
+        is_main_apart=is_main_apart,
         machine=LANGUAGE.part("statemachine").view(linked.machine) if linked.machine else None,
         base=_base(linked),
         qt=qt.qt_view(linked),
