@@ -52,14 +52,20 @@ needs_corpus = pytest.mark.skipif(not CORPUS.is_dir(), reason="the corpus of leg
 
 @pytest.fixture(autouse=True, scope="session")
 def own_state(tmp_path_factory: pytest.TempPathFactory) -> Generator[None]:
-    """Deployments of tests are not in the list of the user who runs the tests."""
-    before = os.environ.get("XDG_STATE_HOME")
-    os.environ["XDG_STATE_HOME"] = str(tmp_path_factory.mktemp("state"))
-    yield
-    if before is None:
-        del os.environ["XDG_STATE_HOME"]
-    else:
-        os.environ["XDG_STATE_HOME"] = before
+    """Deployments of tests are not in the list of the user who runs the tests, and their units are not the user's."""
+    with pytest.MonkeyPatch.context() as patch:
+        use_folders_in(tmp_path_factory.mktemp("user"), patch)
+        yield
+
+
+def use_folders_in(home: Path, patch: pytest.MonkeyPatch) -> None:
+    """What rcyaml keeps for a user is kept in this folder, and no systemd of the user is reached."""
+    for name in ("state", "config", "runtime"):
+        (home / name).mkdir(parents=True)
+    patch.setenv("XDG_STATE_HOME", str(home / "state"))
+    patch.setenv("XDG_CONFIG_HOME", str(home / "config"))
+    patch.setenv("XDG_RUNTIME_DIR", str(home / "runtime"))
+    patch.delenv("DBUS_SESSION_BUS_ADDRESS", raising=False)
 
 
 Tree = Mapping[str, "str | bytes | None"]

@@ -82,12 +82,12 @@ class Guard:
             return
         refusal = self._refusal(scope)
 
-        async def send_with_headers(message: Message) -> None:
-            if message["type"] == "http.response.start":
+        async def send_with_headers(event: Message) -> None:
+            if event["type"] == "http.response.start":
                 own = [(name.lower().encode(), value.encode()) for name, value in HEADERS.items()]
-                named = {name for name, _ in message["headers"]}
-                message["headers"] = [*message["headers"], *(one for one in own if one[0] not in named)]
-            await send(message)
+                named = {name for name, _ in event["headers"]}
+                event["headers"] = [*event["headers"], *(one for one in own if one[0] not in named)]
+            await send(event)
 
         await (refusal or self.app)(scope, receive, send_with_headers)
 

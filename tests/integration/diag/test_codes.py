@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 from click.testing import Result
 
-from conftest import write_tree
+from conftest import use_folders_in, write_tree
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import table
 from robocomp_yaml.diag.codes.files import NOTHING_FOUND, UNKNOWN_KIND
@@ -50,6 +50,12 @@ def _with_free_ports(text: str) -> str:
         with socket.create_server(("127.0.0.1", 0)) as free:
             text = text.replace(port, str(free.getsockname()[1]))
     return text
+
+
+@pytest.fixture(autouse=True)
+def own_folders(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What an example installs is not there for the next one."""
+    use_folders_in(tmp_path_factory.mktemp("user"), monkeypatch)
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.id)
