@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import difflib
 import shutil
-import sys
 import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -85,7 +84,8 @@ class CaseStudy:
     def copy(self) -> None:
         """A fresh copy of the example."""
         shutil.rmtree(self.session.folder, ignore_errors=True)
-        shutil.copytree(HERE / "speech", self.session.folder, ignore=shutil.ignore_patterns("__pycache__", ".gitignore"))
+        made = shutil.ignore_patterns("__pycache__", ".gitignore")
+        shutil.copytree(HERE / "speech", self.session.folder, ignore=made)
 
     def edit(self, edits: Edits) -> None:
         """Changes files as a user would, and shows the lines."""
@@ -105,19 +105,12 @@ class CaseStudy:
         self.session.run("rcyaml", "compile", "--merge")
         self.session.run("rcyaml", "deploy", "up", "--build")
 
-    def call(self, method: str, *arguments: str) -> object:
-        """The result of a call over Ice, which is shown."""
-        self.session.run("rcyaml", "call", method, *arguments)
-        return self.session.answer("call", method, *arguments).get("returns")
-
     def openings(self) -> list[float]:
-        """Says a text. Returns how wide the mouth is, again and again while it is said."""
+        """Says a text. Returns how wide the mouth is, ten times a second while it is said."""
         self.session.run("rcyaml", "call", "speech.Speech.say", f"text={TEXT}")
-        widths = []
-        while self.session.answer("call", "speech.Speech.isSpeaking")["returns"]:
-            widths.append(float(self.session.answer("call", "mouth.Mouth.getOpening")["returns"]))
-            time.sleep(0.1)
-        say(f"the mouth was open by {', '.join(f'{width:.0f}' for width in widths)} mm")
+        answers = self.session.answers("call", "mouth.Mouth.getOpening", "--repeat", "15", "--every", "0.1 s")
+        widths = [float(one["returns"]) for one in answers]
+        say(f"the mouth is open by {', '.join(f'{width:.0f}' for width in widths)} mm")
         return widths
 
 
@@ -150,6 +143,7 @@ def walk(study: CaseStudy, look: Callable[[str], None] = lambda step: None) -> N
     study.deploy()
     study.openings()
     run("rcyaml", "call", "speech.Speech.synchronizeMouth", "on=false")
+    time.sleep(1)  # the mouth closes
     study.openings()
     look("method")
 
@@ -165,7 +159,7 @@ def main() -> int:
         comment("All processes are stopped.")
         study.session.run("rcyaml", "deploy", "down")
     sounds = FOLDER / "components/speech/sounds"
-    comment(f"The voice is in {sounds.relative_to(HERE.parent)}/, the motors' way in components/jointmotor/ways.svg there.")
+    comment(f"{sounds.relative_to(HERE.parent)}/ has the voice, and ways.svg of JointMotorComp the way of its motors.")
     return 0
 
 

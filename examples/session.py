@@ -6,6 +6,7 @@ import json
 import os
 import subprocess
 import sys
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -38,19 +39,25 @@ class Session:
 
     def answer(self, *words: str) -> dict[str, Any]:
         """The JSON output of a command of rcyaml, which is not shown."""
-        done = subprocess.run(
-            [*RCYAML, *words, "--format", "json"],
-            cwd=self.folder, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
-        )  # fmt: skip
-        answer: dict[str, Any] = json.loads(done.stdout)
+        answer: dict[str, Any] = json.loads(self._json(words))
         return answer
+
+    def answers(self, *words: str) -> list[dict[str, Any]]:
+        """The same of a command that prints JSON line by line."""
+        return [json.loads(line) for line in self._json(words).splitlines()]
+
+    def _json(self, words: Sequence[str]) -> str:
+        return subprocess.run(
+            [*RCYAML, *words, "--format", "json"],
+            cwd=self.folder, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+        ).stdout  # fmt: skip
 
 
 def _quoted(word: str) -> str:
     return f"'{word}'" if set(word) & set(" :") else word
 
 
-def ends(main: Any, name: str) -> None:
+def ends(main: Callable[[], int], name: str) -> None:
     """Runs `main`, and ends with its exit code, 1 if a command failed, or 130 after Ctrl-C."""
     try:
         sys.exit(main())
