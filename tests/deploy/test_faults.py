@@ -347,8 +347,9 @@ def test_only_logs_use_the_time_of_day() -> None:
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
         if isinstance(node, ast.Attribute) and ast.unparse(node) in asking
     }
-    # `status` for what another host tells of its own clock, `authority` for when certificates end.
-    assert users == {"log_file.py", "status.py", "authority.py"}
+    # `status` for what another host tells of its own clock, `authority` for when certificates end, `sending` for the
+    # name of a folder.
+    assert users == {"log_file.py", "status.py", "authority.py", "sending.py"}
 
 
 def test_the_supervisor_is_small(place: Place) -> None:

@@ -19,7 +19,7 @@ def test_the_table_is_up_to_date(compiled: Workbench, request: pytest.FixtureReq
     rows: list[tuple[Spot, list[str]]] = []
 
     async def ask(editor: Editor) -> None:
-        answered = await editor.start(compiled.folder)
+        answered = await editor.start(compiled.folder, schema_server="no")
         ours = Ours(editor, compiled.folder, answered.capabilities)
         for spot in spots():
             rows.append((spot, await ours.answers(spot)))
