@@ -17,14 +17,16 @@ test_NEEDS := $(demo_NEEDS) \
   zeroc-ice-compilers libzeroc-ice-dev zeroc-ice-slice zeroc-icebox libzeroc-icestorm3.7 zeroc-icegrid zeroc-ice-utils \
   qt6-base-dev cmake g++ make ninja-build nodejs npm git openssl iproute2 openssh-client rsync chromium \
   openjdk-17-jdk-headless libzeroc-ice3.7-java neovim
+case-study_NEEDS := $(demo_NEEDS) zeroc-ice-compilers libzeroc-ice-dev zeroc-ice-slice cmake g++ make ninja-build espeak-ng
 # More packages for the tests, which few want on their own machine: the CI has an SSH server, and systemd.
 MORE ?=
 
-.PHONY: help demo test test-long fast unit fuzz mutants lint format macros bench ice clean system-demo system-test
+.PHONY: help demo case-study test test-long fast unit fuzz mutants lint format macros bench ice clean system-demo system-test system-case-study
 .NOTPARALLEL:
 
 help:
 	@echo "make demo   install into $(VENV), and run the example: migrate, check, compile, deploy, call"
+	@echo "make case-study  the paper's case study: a head that speaks gets a mouth, in four changes"
 	@echo "make test   install the requirements of the tests, and run all tests"
 	@echo "make test-long  the same with all C++ builds, more random cases and all faults: more than half an hour"
 	@echo "make unit   the unit tests: some 20 seconds"
@@ -38,7 +40,7 @@ help:
 	@echo "make ice    compile Ice into $(VENV), if python3-zeroc-ice of Debian cannot be installed: some minutes"
 	@echo "make clean  remove $(VENV) and the files of the demo"
 
-system-demo system-test: system-%:
+system-demo system-test system-case-study: system-%:
 	@$(PYTHON) tools/prepare.py system $* $($*_NEEDS) $(if $(filter test,$*),$(MORE))
 
 $(VENV)/rcyaml: pyproject.toml
@@ -55,6 +57,9 @@ $(VENV)/page: web/build_page.py web/package-lock.json $(wildcard web/src/*) $(VE
 
 demo: system-demo $(VENV)/rcyaml
 	@$(VENV)/bin/python examples/demo.py
+
+case-study: system-case-study $(VENV)/rcyaml
+	@$(VENV)/bin/python examples/case_study.py
 
 ice: $(VENV)/rcyaml
 	@$(PYTHON) tools/prepare.py ice
@@ -96,4 +101,4 @@ bench: $(VENV)/rcyaml
 	@$(VENV)/bin/python benchmarks/living.py
 
 clean:
-	rm -rf $(VENV) .demo
+	rm -rf $(VENV) .demo .case-study

@@ -33,7 +33,7 @@ ROOT = Path(__file__).resolve().parent.parent
 ENVIRONMENT = ROOT / os.environ.get("VENV", ".venv")
 PYTHON = ENVIRONMENT / "bin" / "python"
 OLDEST = (3, 11)
-DURATION = {"demo": "about half a minute", "test": "some minutes"}  # for 10 and for 700 MB, on a fast network
+DURATION = {"demo": "about half a minute", "case-study": "a minute or two", "test": "some minutes"}  # on a fast network
 QUIETLY = {"DEBIAN_FRONTEND": "noninteractive", "PIP_DISABLE_PIP_VERSION_CHECK": "1", "LC_ALL": "C.UTF-8"}
 APT = ["-o", "DPkg::Lock::Timeout=120", "-o", "Dpkg::Use-Pty=0", "-q"]
 FOR_ADMINISTRATORS = "sudo apt install python3-zeroc-ice"

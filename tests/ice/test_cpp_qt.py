@@ -175,7 +175,7 @@ def test_without_qt(tmp_path: Path) -> None:
     """One readable line says what to install; a component without a window does not need it."""
     keys: dict[str, Any] = {"gui": {"toolkit": "qt", "base": "QWidget"}}
     built = build({**INTERFACES, "any.cdsl.yaml": cdsl("Any", "cpp", **keys)}, tmp_path / "with")["Any"]
-    hidden = ["-DCMAKE_DISABLE_FIND_PACKAGE_QT=ON", "-DCMAKE_DISABLE_FIND_PACKAGE_Qt6=ON"]
+    hidden = [*(f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON" for name in ("QT", "Qt6", "Qt5"))]
     command = ["cmake", "-S", str(built.root), "-B", str(tmp_path / "build"), *hidden]
     done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode != 0

@@ -49,7 +49,7 @@ def review(built: Build, disk: Disk, *, merge: bool = False) -> Review:
     """Reviews the user's files of all plans. Only components with a file that is not up to date are parsed. `disk`
     records what is read to see how they use the worker."""
     result = Review()
-    if not built.components:
+    if not any(file.policy == ONCE for plan in built.plans for file in plan.files):
         return result
     from robocomp_yaml.emit.specific import reading
 
