@@ -16,11 +16,12 @@ import msgspec
 
 from robocomp_yaml.deploy import ice_call, introspection
 from robocomp_yaml.deploy.engine import DeployFailed, Engine, Running
+from robocomp_yaml.deploy.ice_call import PLAIN, SECURE
 from robocomp_yaml.deploy.introspection import NoFacet, OwnState
 from robocomp_yaml.deploy.states import RUNNING, fault, state_of
 from robocomp_yaml.network.network import Network, Process
 from robocomp_yaml.wire import introspection as wire
-from robocomp_yaml.wire import protocol
+from robocomp_yaml.wire import protocol, tls
 from robocomp_yaml.wire.introspection import Facts, Sections
 from robocomp_yaml.wire.protocol import Connection, Reply
 
@@ -142,15 +143,15 @@ async def samples(
             order = [*own, *(name for name in running if name not in own)]
             chosen = [name for name in order if not names or name in names]
             processes = {name: _process(network, running.get(name), name) for name in chosen}
-            proxies = {
-                name: process.introspection
+            targets = {
+                name: (process.introspection, process.pem)
                 for name, process in processes.items()
                 if process and process.introspection and (problem or _runs(running.get(name)))
             }
-            told = await asked.sections(proxies, min(_LONGEST, max(every, 0.2)))
+            told = await asked.sections(targets, min(_LONGEST, max(every, 0.2)))
             now = {name: _Reading(clock, running.get(name), told.get(name)) for name in chosen}
             found = (
-                _sample(processes[name], name, now[name], before.get(name), asked.has_facet(proxies.get(name)), problem)
+                _sample(processes[name], name, now[name], before.get(name), asked.has_facet(targets.get(name)), problem)
                 for name in chosen
             )
             yield NetworkSample(problem, tuple(found))
@@ -209,38 +210,39 @@ class _Asked:
         self._open: dict[str, Connection] = {}
         self._without: set[str] = set()
 
-    def has_facet(self, proxy: str | None) -> bool:
-        return proxy is not None and proxy not in self._without
+    def has_facet(self, target: tuple[str, str] | None) -> bool:
+        return target is not None and target[0] not in self._without
 
-    async def sections(self, proxies: Mapping[str, str], within: float) -> dict[str, Sections]:
-        """What each component says, by name; without those that do not answer in time."""
-        for gone in self._open.keys() - set(proxies.values()):
+    async def sections(self, targets: Mapping[str, tuple[str, str]], within: float) -> dict[str, Sections]:
+        """What each component says, by name; without those that do not answer in time. A target is a proxy, and a key
+        and certificates if it is over TLS."""
+        proxies = {proxy for proxy, _ in targets.values()}
+        for gone in self._open.keys() - proxies:
             self._open.pop(gone).close()
-        self._without &= set(proxies.values())
-        answers = await asyncio.gather(*(self._report(proxy, within) for proxy in proxies.values()))
-        return {name: answer for name, answer in zip(proxies, answers, strict=True) if answer is not None}
+        self._without &= proxies
+        answers = await asyncio.gather(*(self._report(*target, within) for target in targets.values()))
+        return {name: answer for name, answer in zip(targets, answers, strict=True) if answer is not None}
 
-    async def _report(self, proxy: str, within: float) -> Sections | None:
+    async def _report(self, proxy: str, pem: str, within: float) -> Sections | None:
         if proxy in self._without:
             return None
         try:
-            address = ice_call.address_of(proxy)
+            address = ice_call.address_of(proxy, SECURE if pem else PLAIN)
             if address is None:
-                return await introspection.report(proxy, _SECTIONS, within)
-            reply = await self._reply(proxy, *address, within)
-            return introspection.sections_in(reply)
+                return await introspection.report(proxy, _SECTIONS, within, pem)
+            return introspection.sections_in(await self._reply(proxy, *address, pem, within))
         except NoFacet:
             self._without.add(proxy)
             return None
 
-    async def _reply(self, proxy: str, identity: str, host: str, port: int, within: float) -> Reply | None:
+    async def _reply(self, proxy: str, identity: str, host: str, port: int, pem: str, within: float) -> Reply | None:
         message = protocol.request(identity, wire.REPORT, wire.FACET, wire.names(_SECTIONS))
         is_new = proxy not in self._open
         try:
             async with asyncio.timeout(within):
                 while True:
                     if proxy not in self._open:
-                        self._open[proxy] = await Connection.open(host, port)
+                        self._open[proxy] = await Connection.open(host, port, tls.of_text(pem) if pem else None)
                     try:
                         return await self._open[proxy].answer(message)
                     except ConnectionError:  # it was started again
@@ -248,7 +250,7 @@ class _Asked:
                         if is_new:
                             return None
                         is_new = True
-        except OSError:  # also at the end of the time: a late answer would be taken for the next one
+        except (OSError, ValueError):  # also at the end of the time: a late answer would be taken for the next one
             if proxy in self._open:
                 self._open.pop(proxy).close()
         return None

@@ -124,6 +124,7 @@ public class SpecificWorker extends GenericWorker {
 DOCUMENT = """\
 deployment: Robot
 alive: off
+security: {security}
 services: {{storm{storm}: {{icestorm: {{port: {storm}}}}}}}
 components:
   left: {{component: {language}}}
@@ -139,21 +140,23 @@ def sampled(rcyaml: Rcyaml) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize(
-    "language",
+    ("language", "security"),
     [
-        pytest.param("python", id="python"),
-        pytest.param("cpp", id="cpp", marks=[pytest.mark.slow, needs_cpp]),
-        pytest.param("java", id="java", marks=[pytest.mark.slow, needs_java]),
+        pytest.param("python", "none", id="python"),
+        pytest.param("python", "tls", id="over TLS"),
+        pytest.param("cpp", "none", id="cpp", marks=[pytest.mark.slow, needs_cpp]),
+        pytest.param("java", "none", id="java", marks=[pytest.mark.slow, needs_java]),
     ],
 )
 def test_what_a_component_says(
-    language: str, place: Place, tmp_path: Path, rcyaml: Rcyaml, free_port: Ports, monkeypatch: pytest.MonkeyPatch
-) -> None:
+    language: str, security: str, place: Place, tmp_path: Path, rcyaml: Rcyaml, free_port: Ports,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
     monkeypatch.setenv("PATH", f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}")
     cdsl = f"component: Hand\nlanguage: {language}\nimports: [Gripper]\nimplements: [Gripper]\npublishes: [Force]\n"
     write_tree(tmp_path, {
         **FILES, f"{language}/hand.cdsl.yaml": f"{cdsl}subscribes: [Force]\nperiod: 40 ms\n",
-        "hands.ddsl.yaml": DOCUMENT.format(language=language, storm=free_port()),
+        "hands.ddsl.yaml": DOCUMENT.format(language=language, security=security, storm=free_port()),
     })  # fmt: skip
     assert rcyaml("compile", ".").exit_code == 0
     write_tree(tmp_path / language, CODE[language])
