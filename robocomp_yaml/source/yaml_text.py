@@ -24,7 +24,7 @@ _READ_OTHERWISE = pattern(
 _BAD_START = pattern(r"[-?:](?:\s|$)|[,\[\]{}#&*!|>'\"%@`]|---|\.\.\.|\s")
 _BAD_INSIDE = pattern(r":(?:\s|$)|\s\#|\s$|[\t\n\r]")
 _BAD_IN_FLOW = pattern(r"[,\[\]{}:?]")  # libyaml refuses a colon and a question mark
-_UNPRINTABLE = pattern("[^\x09\x20-\x7e\xa0-\u2027\u202a-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]")
+_UNPRINTABLE = pattern("[\x00-\x08\x0a-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff\ufeff\ufffe\uffff]")
 
 
 def scalar(data: Any) -> str:
