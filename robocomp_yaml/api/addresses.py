@@ -13,6 +13,7 @@ from robocomp_yaml.api import which
 from robocomp_yaml.api.refusals import meant
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
 from robocomp_yaml.diag.errors import Faulty, Refused
+from robocomp_yaml.diag.listing import some
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.link.component_references import stem
@@ -138,8 +139,9 @@ class Addresses:
         )
         known = self.names()
         first = text.partition(".")[0]
-        listed = ", ".join(known[:_MOST]) + (f" and {len(known) - _MOST} more" if len(known) > _MOST else "")
-        otherwise = f"known are {listed}, and HOST:PORT" if known else "name a HOST:PORT, such as localhost:10001"
+        otherwise = (
+            f"known are {some(known, _MOST)}, and HOST:PORT" if known else "name a HOST:PORT, such as localhost:10001"
+        )
         where = self.path or "this workspace"
         raise Refused(f"{where} has no component '{first}'{meant(first, known, otherwise)}")
 
@@ -334,8 +336,7 @@ class Addresses:
         names = [f"{peer.name}.{door.name}.{one.name}" for door in own or peer.doors for one in door.interface.methods]
         if not names:
             return "; it serves no interface of these documents"
-        more = f" and {len(names) - _MOST} more" if len(names) > _MOST else ""
-        return f"; there is {', '.join(names[:_MOST])}{more}"
+        return f"; there is {some(names, _MOST)}"
 
     def _refuse_errors(self, files: set[str]) -> None:
         """Raises Faulty if one of these documents has errors."""

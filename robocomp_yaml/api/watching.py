@@ -6,6 +6,7 @@ import os
 from collections.abc import Iterable
 
 from robocomp_yaml.api.workspace import Workspace
+from robocomp_yaml.diag.listing import some
 from robocomp_yaml.source.discover import documents_below, is_skipped
 from robocomp_yaml.source.disk import Disk, documents_in, names_in, state_of
 from robocomp_yaml.source.text import read_bytes
@@ -87,7 +88,7 @@ def is_current(disk: Disk, concern: Concern) -> bool:
 def shown(paths: Iterable[str]) -> str:
     """Some of the changed paths, for people: documents first."""
     names = sorted({_relative(path) for path in paths}, key=lambda name: (not name.endswith(".yaml"), name))
-    return f"{', '.join(names[:3])}{f' and {len(names) - 3} more' if len(names) > 3 else ''}"
+    return some(names)
 
 
 def _relative(path: str) -> str:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 from robocomp_yaml.api.refusals import meant
 from robocomp_yaml.diag.errors import Refused
+from robocomp_yaml.diag.listing import some
 from robocomp_yaml.link.component_references import References, stem
 from robocomp_yaml.link.flat_configs import FLAT
 from robocomp_yaml.source.discover import kind_of, of_kind
@@ -63,8 +64,7 @@ def _only(nearest: Iterable[list[str]], several: str) -> str | None:
     """The only element of the first list that has one; None if all lists are empty. Raises Refused if it has more."""
     found = next(filter(None, nearest), [])
     if len(found) > 1:
-        more = f" and {len(found) - 10} more" if len(found) > 10 else ""
-        raise Refused(f"{several}: {', '.join(found[:10])}{more}; name one of them")
+        raise Refused(f"{several}: {some(found, 10)}; name one of them")
     return found[0] if found else None
 
 

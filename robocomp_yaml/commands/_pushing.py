@@ -8,6 +8,7 @@ from robocomp_yaml.commands._progress import LiveLines
 from robocomp_yaml.deploy.push.planned import HostPush
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.diagnostic import has_errors
+from robocomp_yaml.diag.listing import some
 
 
 def push(session: DeploySession, names: tuple[str, ...], *, dry_run: bool) -> None:
@@ -62,20 +63,17 @@ def _lines(one: HostPush, dry_run: bool, width: int) -> list[str]:
     if one.replaced:
         what = "would replace" if dry_run else "replaced"
         lines.append(
-            f"{name}  {what} what no push had brought, or was changed there (kept in {one.kept}): {_some(one.replaced)}"
+            f"{name}  {what} what no push had brought, or was changed there (kept in {one.kept}): "
+            f"{some(sorted(one.replaced), 5)}"
         )
     if one.changed:
         lines.append(
-            f"{name}  nothing needs these any more; they stay, because they were changed there: {_some(one.changed)}"
+            f"{name}  nothing needs these any more; they stay, because they were changed there: "
+            f"{some(sorted(one.changed), 5)}"
         )
     if one.built:
         lines.append(f"{name}  kept {', '.join(sorted(one.built))}: built there")
     return lines
-
-
-def _some(paths: list[str], most: int = 5) -> str:
-    more = f" and {len(paths) - most} more" if len(paths) > most else ""
-    return ", ".join(sorted(paths)[:most]) + more
 
 
 def _count(number: int) -> str:

@@ -14,6 +14,7 @@ from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._command import LibraryCommand
 from robocomp_yaml.commands._plugin_choices import PluginChoice
 from robocomp_yaml.diag import terminal
+from robocomp_yaml.diag.listing import some
 from robocomp_yaml.diag.render import tell
 from robocomp_yaml.diag.render.json import dumps, run_as_data
 
@@ -192,9 +193,8 @@ def _summary(outcome: Outcome) -> str:
 def _to_build(outcome: Outcome) -> Iterator[str]:
     names = outcome.to_build
     if names:
-        more = f" and {len(names) - SHOWN} more" if len(names) > SHOWN else ""
         command = terminal.typed("rcyaml", "build", *(names if len(names) == 1 else ()))
-        yield f"build again: {', '.join(names[:SHOWN])}{more}: `{command}`"
+        yield f"build again: {some(names, SHOWN)}: `{command}`"
 
 
 def _skipped(outcome: Outcome) -> Iterator[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 
+from robocomp_yaml.diag.listing import some
 from robocomp_yaml.link.program import LinkedComponent, Program
 from robocomp_yaml.lsp import values
 from robocomp_yaml.model.component import LISTS
@@ -52,13 +53,13 @@ def described(analysis: Analysis, one: DefinedName) -> Iterator[str]:
     program = analysis.program
     if one.kind in (kinds.INTERFACE, kinds.TOPIC):
         for list_, users in of_interface(program, one.key):
-            yield f"{_IN_WORDS[list_]} {_listed(users)}"
+            yield f"{_IN_WORDS[list_]} {some(users, _MOST)}"
     elif one.kind == kinds.COMPONENT:
         if users := of_component(analysis, one.key[1]):
-            yield f"processes: {_listed(users)}"
+            yield f"processes: {some(users, _MOST)}"
     elif one.kind == kinds.HOST:
         if users := _on_host(analysis, one):
-            yield f"processes: {_listed(users)}"
+            yield f"processes: {some(users, _MOST)}"
     elif one.kind == kinds.PARAMETER:
         yield from _of_parameter(analysis, one)
     elif one.kind == kinds.ENTRY:
@@ -144,8 +145,3 @@ def connected(analysis: Analysis, real: str, process: str) -> Iterator[str]:
             yield f"{'publishes' if one.is_out else 'subscribes to'} {one.topic}"
         elif one.source == process:
             yield f"{one.port} → {one.target or one.proxy}"
-
-
-def _listed(names: list[str]) -> str:
-    more = f" and {len(names) - _MOST} more" if len(names) > _MOST else ""
-    return ", ".join(names[:_MOST]) + more

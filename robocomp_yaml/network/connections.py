@@ -10,6 +10,7 @@ from robocomp_yaml.addresses.interface_comparison import InterfaceComparison, na
 from robocomp_yaml.addresses.workspaces import Addresses
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic, Related
+from robocomp_yaml.diag.listing import some
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.deployments import LinkedGroup, LinkedInstance, LinkedStorm, Target
@@ -180,7 +181,6 @@ class Connections(msgspec.Struct):
         self, draft: Draft, name: str, interface: str, offers: list[Offer], span: Span, port: Port | None = None
     ) -> None:
         names = [self._name(offer, draft) for offer in offers]
-        more = f" and {len(names) - _MANY} more" if len(names) > _MANY else ""
         by_span = {offer.span: name for name, offer in reversed(list(zip(names, offers[:_MANY], strict=False)))}
         related = [Related(f"'{name}' serves it", span) for span, name in reversed(by_span.items())]
         self.diagnostics.append(
@@ -189,7 +189,7 @@ class Connections(msgspec.Struct):
                 source=draft.name,
                 port=name,
                 interface=interface,
-                candidates=", ".join(names[:_MANY]) + more,
+                candidates=some(names, _MANY),
                 hint=f"write `connect: {{{name}: {names[0]}}}`, or another one",
                 related=related + _required(port),
             )

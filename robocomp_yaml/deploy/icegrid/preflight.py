@@ -17,6 +17,7 @@ from robocomp_yaml.deploy.push.host_files import digest_of
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.listing import some
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.network import files
@@ -116,11 +117,10 @@ def answers(
     for of_process, paths in stale.items():
         if of_process in missing:
             continue  # the same push brings all
-        more = f" and {len(paths) - _SHOWN} more" if len(paths) > _SHOWN else ""
         found.append(
             codes.CANNOT.at(
                 specs[of_process].process.span, name=specs[of_process].name, what="started",
-                reason=f"the host '{host.name}' has another version of {', '.join(paths[:_SHOWN])}{more}",
+                reason=f"the host '{host.name}' has another version of {some(paths, _SHOWN)}",
                 hint=f"`{_push(network, host)}` brings it",
             )
         )  # fmt: skip
