@@ -51,7 +51,7 @@ _SUFFIXES = {SUFFIXES}  # of the types of numbers
 GLOBALS = _OTHERS.union(f"{{name}}{{suffix}}" for name in _FUNCTIONS for suffix in _SUFFIXES)
 """.replace("'", '"')
 _SLICE = "module M { struct S { int a; }; exception E { S s; }; interface I { S f(out int a) throws E; }; };\n"
-_INCLUDE = re.compile(r"^#include <(?!Q|\{|genericworker)([^>]+)>", re.MULTILINE)
+_INCLUDE = re.compile(r"^#include <(?!Q|\{|genericworker|boost/)([^>]+)>", re.MULTILINE)
 
 
 def found() -> dict[str, set[str]]:
