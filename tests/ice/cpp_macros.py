@@ -143,8 +143,8 @@ def globals_table(names: set[str]) -> str:
 
 
 def _listed(name: str, names: set[str], comment: str = "") -> str:
-    words = textwrap.fill(" ".join(sorted(names)), 112, break_long_words=False, break_on_hyphens=False)
-    return f'{name} = frozenset({comment}\n    """{textwrap.indent(words, "    ").lstrip()}""".split()\n)'
+    words = textwrap.fill(" ".join(sorted(names)) + '""".split()', 112, break_long_words=False, break_on_hyphens=False)
+    return f'{name} = frozenset({comment}\n    """{textwrap.indent(words, "    ").lstrip()}\n)'
 
 
 def main() -> None:
