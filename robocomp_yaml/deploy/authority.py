@@ -2,10 +2,9 @@
 authority that signs them.
 
 All are in the folder of the user's state, and only there is the authority's key. A process has the key of its host in a
-file beside its configuration, which `down` removes. They are made with openssl, as the engine icegrid makes its key.
+file beside its configuration, which `down` removes.
 
-A certificate is valid from 1970 on, because the clock of a host without a battery starts there, and for YEARS. When it
-ends within RENEWED, the next `up` makes a new one.
+A certificate is valid for YEARS. When it ends within RENEWED, the next `up` makes a new one.
 """
 
 from __future__ import annotations
@@ -14,14 +13,12 @@ import contextlib
 import datetime
 import ipaddress
 import os
-import subprocess
-import tempfile
 import time
 from collections.abc import Iterable, Mapping
 
 import msgspec
 
-from robocomp_yaml.deploy import registered
+from robocomp_yaml.deploy import openssl, registered
 from robocomp_yaml.deploy.own_address import towards_address
 from robocomp_yaml.network.network import LOOPBACK, Network
 from robocomp_yaml.transactions import whole_file
@@ -33,34 +30,19 @@ YEARS = 10
 RENEWED = 365 * 86400.0  # seconds
 _DAY = 86400.0
 _NOT_BEFORE = 1767225600.0  # 2026: an earlier time is that of a clock that was not set
-_FAR = "99991231235959Z"
 _HERE = ("localhost", "127.0.0.1", "::1")
-_SETTINGS = """\
-[ca]
-default_ca = own
-[own]
-database = database
-new_certs_dir = .
-rand_serial = yes
-default_md = sha256
-default_startdate = 19700101000000Z
-default_enddate = {end}
-policy = any
-unique_subject = no
-x509_extensions = {kind}
-[any]
-commonName = supplied
-[authority]
+_AUTHORITY = """\
 basicConstraints = critical, CA:true
 keyUsage = critical, keyCertSign, cRLSign
 subjectKeyIdentifier = hash
-[member]
+"""
+_MEMBER = """\
 basicConstraints = critical, CA:false
 keyUsage = critical, digitalSignature
 extendedKeyUsage = serverAuth, clientAuth
 subjectKeyIdentifier = hash
 authorityKeyIdentifier = keyid
-{names}
+subjectAltName = {names}
 """
 
 
@@ -121,38 +103,21 @@ class Authority:
         return {}
 
     def _make_authority(self) -> None:
-        with self._working("authority", _FAR, ()) as work:
-            _openssl(work, "req", "-new", *_KEY, "-subj", "/CN=rcyaml", "-keyout", "key", "-out", "request")
-            _openssl(work, "ca", "-batch", "-selfsign", "-notext", "-config", "settings", "-keyfile", "key", "-in",
-                     "request", "-out", "certificate")  # fmt: skip
+        with openssl.certificate(self._folder, "rcyaml", _AUTHORITY) as work:
             self._keep(work, "key", "authority.key")
             self._keep(work, "certificate", "authority.crt")
 
     def _make(self, name: str, names: tuple[str, ...]) -> Certificate:
         end = max(time.time(), _NOT_BEFORE) + YEARS * 365 * _DAY
         text = datetime.datetime.fromtimestamp(end, datetime.UTC).strftime("%Y%m%d%H%M%SZ")
-        with self._working("member", text, names) as work:
-            _openssl(work, "req", "-new", *_KEY, "-subj", f"/CN={name[:60]}", "-keyout", "key", "-out", "request")
-            _openssl(work, "ca", "-batch", "-notext", "-config", "settings", "-keyfile",
-                     f"{self._folder}/authority.key", "-cert", f"{self._folder}/authority.crt", "-in", "request",
-                     "-out", "certificate")  # fmt: skip
-            parts = [f"{work}/key", f"{work}/certificate", f"{self._folder}/authority.crt"]
+        extensions, own = _MEMBER.format(names=", ".join(map(_alternative, names))), f"{self._folder}/authority"
+        with openssl.certificate(self._folder, name[:60], extensions, end=text, signer=own) as work:
+            parts = [f"{work}/key", f"{work}/certificate", f"{own}.crt"]
             whole_file.put(self.path(name), b"".join(map(_read, parts)), 0o600)
         return Certificate(names, end)
 
     def _keep(self, work: str, name: str, target: str) -> None:
         whole_file.put(f"{self._folder}/{target}", _read(f"{work}/{name}"), 0o600)
-
-    @contextlib.contextmanager
-    def _working(self, kind: str, end: str, names: tuple[str, ...]):  # type: ignore[no-untyped-def]
-        """A folder with openssl's settings."""
-        alternatives = f"subjectAltName = {', '.join(map(_alternative, names))}" if names else ""
-        settings = _SETTINGS.format(kind=kind, end=end, names=alternatives)
-        with tempfile.TemporaryDirectory(dir=self._folder) as work:
-            for name, text in (("settings", settings), ("database", "")):
-                with open(f"{work}/{name}", "w", encoding="ascii") as file:
-                    file.write(text)
-            yield work
 
 
 def names_at(network: Network, host: str, own: str = "") -> set[str]:
@@ -188,9 +153,6 @@ def properties(path: str) -> dict[str, str]:
     }
 
 
-_KEY = ("-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes")
-
-
 def _alternative(name: str) -> str:
     try:
         ipaddress.ip_address(name)
@@ -202,18 +164,6 @@ def _alternative(name: str) -> str:
 def _read(path: str) -> bytes:
     with open(path, "rb") as file:
         return file.read()
-
-
-def _openssl(folder: str, *words: str) -> None:
-    mask = os.umask(0o077)
-    try:
-        done = subprocess.run(
-            ["openssl", *words], cwd=folder, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL
-        )
-    finally:
-        os.umask(mask)
-    if done.returncode:
-        raise OSError(0, f"openssl cannot create a certificate: {done.stderr.strip()[-300:]}")
 
 
 def of_commands(network: Network) -> dict[str, str]:

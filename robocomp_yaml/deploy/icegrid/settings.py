@@ -8,28 +8,12 @@ the network.
 from __future__ import annotations
 
 import os
-import subprocess
-import tempfile
 
+from robocomp_yaml.deploy import openssl
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry
 
 INSTANCE = "rcyaml"
-# Valid at any time, because clocks of hosts can be wrong. Only `openssl ca` lets one set the first day.
-_AUTHORITY = """\
-[ca]
-default_ca = own
-[own]
-database = database
-new_certs_dir = .
-rand_serial = yes
-default_md = sha256
-default_startdate = 19700101000000Z
-default_enddate = 99991231235959Z
-policy = any
-x509_extensions = extensions
-[any]
-commonName = supplied
-[extensions]
+_EXTENSIONS = """\
 basicConstraints = critical, CA:true
 subjectKeyIdentifier = hash
 """
@@ -42,30 +26,14 @@ _PATIENCE = {"Ice.ACM.Timeout": "4", "Ice.Override.ConnectTimeout": "3000"}
 
 
 def make_key(files: GridFiles) -> None:
-    """Creates the deployment's key and certificate, once. Raises OSError if openssl is missing or fails."""
+    """Creates the deployment's key and certificate, once. The certificate is valid at any time, because clocks of hosts
+    can be wrong. Raises OSError if openssl is missing or fails."""
     if os.path.exists(files.key) and os.path.exists(files.certificate):
         return
     os.makedirs(files.root, mode=0o700, exist_ok=True)
-    mask = os.umask(0o077)
-    try:
-        with tempfile.TemporaryDirectory(dir=files.root) as folder:
-            for name, text in (("settings", _AUTHORITY), ("database", "")):
-                with open(f"{folder}/{name}", "w", encoding="utf-8") as file:
-                    file.write(text)
-            _openssl(folder, "req", "-new", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes",
-                     "-subj", "/CN=rcyaml", "-keyout", files.key, "-out", "request")  # fmt: skip
-            _openssl(folder, "ca", "-batch", "-selfsign", "-notext", "-config", "settings", "-keyfile", files.key,
-                     "-in", "request", "-out", files.certificate)  # fmt: skip
-    finally:
-        os.umask(mask)
-
-
-def _openssl(folder: str, *words: str) -> None:
-    done = subprocess.run(
-        ["openssl", *words], cwd=folder, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL
-    )
-    if done.returncode:
-        raise OSError(0, f"openssl cannot create a key: {done.stderr.strip()[-300:]}")
+    with openssl.certificate(files.root, "rcyaml", _EXTENSIONS) as work:
+        os.replace(f"{work}/key", files.key)
+        os.replace(f"{work}/certificate", files.certificate)
 
 
 def secured(key: str, certificate: str) -> dict[str, str]:
