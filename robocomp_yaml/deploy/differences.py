@@ -10,12 +10,12 @@ from msgspec.structs import replace
 
 from robocomp_yaml import secrets
 from robocomp_yaml.deploy.spec import ProcessSpec
+from robocomp_yaml.model.deployment import UNLIMITED
 from robocomp_yaml.network.network import (
     AUTO,
     FOREVER,
     SERVER,
     TASK,
-    UNLIMITED,
     ConfigFile,
     EnvironmentVariable,
     Process,

@@ -11,7 +11,8 @@ from robocomp_yaml.deploy.local import limits
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.network.network import Network, ResourceLimits
+from robocomp_yaml.model.deployment import ResourceLimits
+from robocomp_yaml.network.network import Network
 
 _RIGHTS = {"nice": "nice", "realtime": "rtprio", "core": "core", "files": "nofile"}
 _WITHIN = 5.0

@@ -3,15 +3,13 @@ and limits. The tree fits the schema."""
 
 from __future__ import annotations
 
-import math
-
 from robocomp_yaml.model import deployment as model
 from robocomp_yaml.model.build_interface import as_text, doc, entries, required, text, texts
 from robocomp_yaml.model.located import Text
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 _UNITS = {"B": 1, "KB": 10**3, "MB": 10**6, "GB": 10**9, "KiB": 1 << 10, "MiB": 1 << 20, "GiB": 1 << 30}
-_CORES = {"on": math.inf, "off": 0}
+_CORES = {"on": model.UNLIMITED, "off": 0}
 
 
 def host(key: Scalar, node: Node) -> model.Host:
@@ -74,12 +72,12 @@ def variable(name: Scalar, value: Node) -> model.Variable:
     return model.Variable(name.lexeme, value.lexeme, span=name.span)
 
 
-def limits(node: Node | None) -> model.Limits | None:
+def limits(node: Node | None) -> model.ResourceLimits | None:
     """The key `limits`, None if it is not set."""
     if node is None:
         return None
     cpu, core = text(node, "cpu"), text(node, "core")
-    return model.Limits(
+    return model.ResourceLimits(
         _size(text(node, "memory")),
         int(cpu.rstrip(" %")) if cpu else None,
         text(node, "cores") or None,
@@ -87,7 +85,6 @@ def limits(node: Node | None) -> model.Limits | None:
         _integer(node, "realtime"),
         _CORES[core] if core in _CORES else _size(core),
         _integer(node, "files"),
-        span=node.span,
     )
 
 

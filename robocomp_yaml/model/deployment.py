@@ -5,6 +5,8 @@ Names and paths are as written; the texts of an entry with `instances:` still co
 
 from __future__ import annotations
 
+import msgspec
+
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.located import Spanned, Text
 from robocomp_yaml.model.port_range import PortRange
@@ -39,8 +41,8 @@ class Pair(Spanned, frozen=True):
     name_span: Span = Span("")
 
 
-class Limits(Spanned, frozen=True):
-    """What a process may use; None if it is not set. `memory` and `core` are in bytes (`core` is infinite for any
+class ResourceLimits(msgspec.Struct, frozen=True):
+    """What a process may use; None if it is not limited. `memory` and `core` are in bytes (`core` is UNLIMITED for any
     size), `cpu` is in percent of a core, `cores` is a list of numbers and ranges, such as `0,2-3`."""
 
     memory: int | None = None
@@ -48,8 +50,11 @@ class Limits(Spanned, frozen=True):
     cores: str | None = None
     nice: int | None = None
     realtime: int | None = None
-    core: float | None = None
+    core: int | None = None
     files: int | None = None
+
+
+UNLIMITED = -1
 
 
 class SshOptions(Spanned, frozen=True):
@@ -78,7 +83,7 @@ class Host(Spanned, frozen=True):
     paths: tuple[Pair, ...] = ()
     env: tuple[Variable, ...] = ()
     python: Text | None = None
-    limits: Limits | None = None
+    limits: ResourceLimits | None = None
     systemd: str = ""
 
 
@@ -167,7 +172,7 @@ class Entry(Spanned, frozen=True):
     role: str = ""
     alive: Alive | None = None
     listen: tuple[Text, ...] = ()
-    limits: Limits | None = None
+    limits: ResourceLimits | None = None
     endpoints: tuple[Pair, ...] = ()
     after: tuple[Text, ...] = ()
     enabled: bool = True
@@ -219,7 +224,7 @@ class Deployment(Spanned, frozen=True):
     groups: tuple[Group, ...] = ()
     includes: tuple[Text, ...] = ()
     alive: Alive | None = None
-    limits: Limits | None = None
+    limits: ResourceLimits | None = None
     extra: tuple[tuple[str, object], ...] = ()
     doc: str = ""
     ports: PortRange | None = None

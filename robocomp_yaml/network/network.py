@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.model.deployment import CONFIG, PLAIN, TLS, TOKEN
+from robocomp_yaml.model.deployment import CONFIG, PLAIN, TLS, TOKEN, ResourceLimits
 from robocomp_yaml.model.located import Located
 
 if TYPE_CHECKING:
@@ -74,22 +74,6 @@ class NetworkHost(Located, frozen=True):
             if path == here or path.startswith(here.rstrip("/") + "/"):
                 return os.path.join(there, path[len(here) :].lstrip("/")).rstrip("/") or "/"
         return path
-
-
-class ResourceLimits(msgspec.Struct, frozen=True):
-    """What a process may use; None if it is not limited. `memory` and `core` are in bytes (`core` is UNLIMITED for any
-    size), `cpu` is in percent of a core, `cores` is a list of numbers and ranges, such as `0,2-3`."""
-
-    memory: int | None = None
-    cpu: int | None = None
-    cores: str | None = None
-    nice: int | None = None
-    realtime: int | None = None
-    core: int | None = None
-    files: int | None = None
-
-
-UNLIMITED = -1
 
 
 class EnvironmentVariable(msgspec.Struct, frozen=True):

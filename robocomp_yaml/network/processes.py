@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Iterator
 
@@ -12,7 +11,7 @@ from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.link.workspace import component_argument
 from robocomp_yaml.model import deployment as model
-from robocomp_yaml.model.deployment import CONFIG
+from robocomp_yaml.model.deployment import CONFIG, ResourceLimits
 from robocomp_yaml.network import icestorm, liveness, ready_when
 from robocomp_yaml.network.draft import Draft, StormDraft
 from robocomp_yaml.network.listening import SSL
@@ -20,11 +19,9 @@ from robocomp_yaml.network.network import (
     COMPONENT,
     PROGRAM,
     PYTHON,
-    UNLIMITED,
     ConfigFile,
     EnvironmentVariable,
     Process,
-    ResourceLimits,
     RestartRule,
 )
 from robocomp_yaml.parameters.hidden import secret_names
@@ -96,8 +93,6 @@ def _limits(draft: Draft) -> ResourceLimits:
     layers = (instance.document.limits, instance.host.limits if instance.host else None, instance.entry.limits)
     keys = ResourceLimits.__struct_fields__
     found = {key: value for one in layers if one for key in keys if (value := getattr(one, key)) is not None}
-    if math.isinf(found.get("core", 0)):
-        found["core"] = UNLIMITED
     return ResourceLimits(**found)
 
 

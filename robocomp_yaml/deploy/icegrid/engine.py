@@ -30,7 +30,8 @@ from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.network.network import NEVER, PROGRAM, Network, ResourceLimits, RestartRule
+from robocomp_yaml.model.deployment import ResourceLimits
+from robocomp_yaml.network.network import NEVER, PROGRAM, Network, RestartRule
 
 if TYPE_CHECKING:
     from robocomp_yaml.deploy.icegrid.grid import GridSession
@@ -172,8 +173,7 @@ class IceGridEngine:
                 sizes[spec.process.host] = sizes.get(spec.process.host, 0) + size
         for host, known in asked.items():
             command = ("bash", "-c", _WRITE, "bash", f"{self._files.on(host).folder}/config", str(sizes[host]))
-            moves = known.process.host != host
-            if not moves and self._run(self._reached(), known, command, _WRITE_WITHIN):
+            if known.process.host == host and self._run(self._reached(), known, command, _WRITE_WITHIN):
                 raise OSError(errno.ENOSPC, f"{os.strerror(errno.ENOSPC)} on the host '{host}'", self._files.folder)
 
     async def prepare(self, specs: Sequence[ProcessSpec]) -> None:

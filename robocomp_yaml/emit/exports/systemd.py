@@ -11,7 +11,8 @@ import re
 from robocomp_yaml.emit.exports import _unwritable
 from robocomp_yaml.emit.exports._commands import by_host, configs, file_name, with_files
 from robocomp_yaml.emit.exports._unwritable import Unwritable
-from robocomp_yaml.network.network import ICESTORM, UNLIMITED, Network, Process, ResourceLimits
+from robocomp_yaml.model.deployment import UNLIMITED, ResourceLimits
+from robocomp_yaml.network.network import ICESTORM, Network, Process
 from robocomp_yaml.source.text import OF_NO_LINE
 
 _SPECIAL = "-@:+!|"
