@@ -1,4 +1,4 @@
-"""The whole workflow with the examples, as a user would type it: migrate, check, compile, deploy, call.
+"""The whole workflow with the examples, as a user would type it: migrate, check, compile, deploy, call, look.
 
 Works on a copy of the examples in `.demo/`. Run it with `make demo`. The exit code is 1 if the network cannot be
 started because Ice is missing.
@@ -11,6 +11,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+from manager_picture import show
 from session import Session, comment, ends, say
 
 HERE = Path(__file__).resolve().parent
@@ -64,6 +65,7 @@ def main() -> int:
         session.run("python3", "say.py", proxy_of("Speech"), TEXT)
         session.run("rcyaml", "deploy", "status", NETWORK)
         session.run("rcyaml", "deploy", "logs", "-n", "6", NETWORK)
+        show(session, NETWORK)
     finally:
         comment("All processes are stopped in order.")
         session.run("rcyaml", "deploy", "down", NETWORK)

@@ -6,7 +6,6 @@ This module imports little but click, so that `rcyaml --help` is fast.
 from __future__ import annotations
 
 import atexit
-import gc
 import importlib
 import io
 import os
@@ -40,6 +39,7 @@ COMMANDS = {
     "migrate": "Convert legacy files to YAML documents, without loss.",
     "config": "Check, show, change and export the values of parameters.",
     "edit": "Change a deployment or a component; comments and layout stay.",
+    "rename": "Rename an interface, method, parameter, host … everywhere.",
     "graph": "Draw a deployment, or the components of a folder.",
     "deploy": "Run a network of components: plan, up, status, logs, down.",
     "manager": "Serve a network to browsers and programs: see it, and change it.",
@@ -47,6 +47,9 @@ COMMANDS = {
     "schema": "Print the JSON Schema of a kind of document.",
     "explain": "Explain a diagnostic, with examples.",
 }
+
+
+EPILOG = "`rcyaml COMMAND --help` describes each. Documentation: https://github.com/robocomp/rcyaml/tree/main/docs"
 
 
 class _ReaderGone(Exception):
@@ -113,7 +116,9 @@ class LazyGroup(CommandGroup):
             raise
 
 
-@click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.group(
+    cls=LazyGroup, epilog=EPILOG, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100}
+)
 @click.version_option(__version__, "-V", "--version", prog_name="rcyaml")
 @click.option("--color", type=click.Choice(["auto", "always", "never"]), default="auto", help="Colour the output.")
 @click.option("-q", "--quiet", is_flag=True, help="Print only what is wrong.")
@@ -149,7 +154,6 @@ def _report(error: click.ClickException) -> None:
 
 def main() -> None:
     """Runs rcyaml and exits: with 0 (success), 1 (errors), 2 (wrong usage), or 128 plus the number of a signal."""
-    gc.set_threshold(200_000, 20, 100)  # a run is short, and most of its objects live until its end
     end = _ProcessEnd()
     atexit.register(end.at_once)  # registered first, called last
     _make_streams_usable()

@@ -14,11 +14,15 @@ _Kept = TypeVar("_Kept")
 
 
 class Memory:
-    """`kept` is how many results are kept."""
+    """`kept` is how many results are kept. `on_make` is called before each result is made, and may raise an exception
+    to end the analysis."""
 
     def __init__(self) -> None:
+        self.on_make: Callable[[], None] = lambda: None
         self._results: dict[Hashable, tuple[tuple[Any, ...], Any]] = {}
         self._parts: dict[Hashable, dict[Any, Any]] | None = {}
+        self._within: dict[Hashable, set[Hashable]] = {}  # what was used for a result
+        self._making: list[set[Hashable]] = []
         self._used: set[Hashable] = set()
         self._used_before: set[Hashable] = set()
 
@@ -26,24 +30,43 @@ class Memory:
     def kept(self) -> int:
         return len(self._results)
 
-    def result(self, part: Hashable, causes: tuple[Any, ...], make: Callable[[], _Kept]) -> _Kept:
+    def result(
+        self, part: Hashable, causes: tuple[Any, ...], make: Callable[[], _Kept],
+        holds: Callable[[_Kept], bool] = lambda kept: True,
+    ) -> _Kept:  # fmt: skip
         """The result of `make` for this part of a pass: the kept one if its causes are the same. Only one result is
-        kept for each part."""
-        self._used.add(part)
+        kept for each part. `holds` is for causes that are known only with a result: whether they are still the same."""
         known = self._results.get(part)
-        if known is not None and _is_same(known[0], causes):
+        if known is not None and _is_same(known[0], causes) and holds(known[1]):
+            self._use(part)
             result: _Kept = known[1]
             return result
-        result = make()
+        self.on_make()
+        self._making.append(set())
+        try:
+            result = make()
+        finally:
+            within = self._making.pop()
+        if within:
+            self._within[part] = within
+        else:
+            self._within.pop(part, None)
+        self._use(part)
         self._results[part] = causes, result
         return result
+
+    def _use(self, part: Hashable) -> None:
+        """A part is used, and with it all that was used for it."""
+        used = self._making[-1] if self._making else self._used
+        used.add(part)
+        used |= self._within.get(part, set())
 
     def parts(self, name: Hashable) -> dict[Any, Any]:
         """The parts of which a pass made its last result, for it to use them again. They may have changed since: an
         earlier result may not be used any more."""
         if self._parts is None:
             return {}
-        self._used.add(("parts", name))
+        self._use(("parts", name))
         return self._parts.setdefault(name, {})
 
     def fork(self) -> Memory:
@@ -57,8 +80,9 @@ class Memory:
         used = self._used | self._used_before
         for name in [name for name in self._parts or () if ("parts", name) not in used]:
             del (self._parts or {})[name]
-        for part in self._results.keys() - self._used - self._used_before:
+        for part in self._results.keys() - used:
             del self._results[part]
+            self._within.pop(part, None)
         self._used, self._used_before = set(), self._used
 
 

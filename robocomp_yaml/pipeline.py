@@ -23,22 +23,26 @@ import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml.addresses.workspaces import Addresses
-from robocomp_yaml.check import checks
-from robocomp_yaml.check.allowed import Allowances, AllowanceVerdict
+from robocomp_yaml.check import check_documents, checks_of_plugins
+from robocomp_yaml.check.allowed import Allowances, AllowanceVerdict, commented_in
 from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
 from robocomp_yaml.diag.hidden import Hidden
+from robocomp_yaml.link import undeployed
 from robocomp_yaml.link.documents import Document, Documents
 from robocomp_yaml.link.linker import Linker
-from robocomp_yaml.link.program import Program
+from robocomp_yaml.link.program import NamedDocuments, Program
+from robocomp_yaml.link.undeployed import Undeployed
 from robocomp_yaml.link.workspace import ImportSearch, Workspaces
 from robocomp_yaml.memory import Memory
 from robocomp_yaml.network.networks import DerivedNetworks, networks_of
 from robocomp_yaml.source.allowances import Allowance
-from robocomp_yaml.source.discover import WORKSPACE_FILE, DiscoveredDocuments, discover
+from robocomp_yaml.source.discover import WORKSPACE_FILE, DiscoveredDocuments, discover, finds_again
 from robocomp_yaml.source.disk import Disk, Files
+from robocomp_yaml.source.file_names import is_deployment
 from robocomp_yaml.source.spelled import DocumentTexts, spelled
 
 if TYPE_CHECKING:
+    from robocomp_yaml.link.deployments import LinkedDeployment
     from robocomp_yaml.network.network import Network
 
 
@@ -54,6 +58,7 @@ class Analysis(msgspec.Struct, frozen=True):
     disk: Disk
     derived: DerivedNetworks
     addresses: Addresses
+    undeployed: Undeployed
     texts: DocumentTexts
     allowed: Allowances
     diagnostics: tuple[Diagnostic, ...] = ()
@@ -131,26 +136,115 @@ def analyse(
         return Linker(read, search, workspaces)
 
     linker = linker_of({})
-    program, documents = linker.link(discovered.documents), linker.documents.read
-    addresses = Addresses(program, workspaces, lambda paths: linker_of(documents).link(paths))
-    derived = networks_of(program, addresses)
+    rest = _link_undeployed(linker, linker.follow(discovered.documents), discovered)
+    documents = linker.documents.read
+    addresses = Addresses(linker.linked(), workspaces, lambda paths: linker_of(documents).link(paths))
+    derived = _derive(linker, rest, addresses, discovered) if linker.deployments else DerivedNetworks()
+    program = linker.linked()
     diagnostics = [*discovered.diagnostics, *linker.documents.diagnostics, *workspaces.diagnostics, *linker.diagnostics]
-    for check in checks(program, [one.plugins for one in workspaces.declared]):
+    for check in checks_of_plugins(program, [one.plugins for one in workspaces.declared]):
         diagnostics += check(program)
-    if derived.networks:
-        from robocomp_yaml.check.networks import check_networks  # most runs have no deployment
-
-        diagnostics += check_networks(derived, program)
     diagnostics += addresses.faults()
     if any(document.kind != "idsl" for document in documents.values()):
         from robocomp_yaml.check import secrets
 
-        diagnostics += secrets.check(program, documents.values())
+        others = [document for real, document in documents.items() if real not in rest.documents]
+        part = "secrets", discovered.documents
+        held = memory.result(part, (rest,), lambda: list(secrets.held(program, rest.documents.values())))
+        diagnostics += secrets.check(program, [*held, *secrets.held(program, others)])
     texts = DocumentTexts(disk.contents, {document.path: document.tree for document in documents.values()})
-    allowed = Allowances.of(texts, program.plugins_of)
-    analysis = Analysis(program, documents, workspaces, search, discovered, disk, derived, addresses, texts, allowed)
+    part = "commented", discovered.documents
+    commented = memory.result(part, (rest,), lambda: commented_in(rest.contents))
+    more = commented_in({path: raw for path, raw in disk.contents.items() if path not in rest.contents})
+    allowed = Allowances.of(texts, [*commented, *more], program.plugins_of)
+    analysis = Analysis(
+        program, documents, workspaces, search, discovered, disk, derived, addresses, rest, texts, allowed
+    )
     judged = analysis.without_suppressed([*diagnostics, *analysis.allowed.faults])
     return replace(analysis, diagnostics=tuple(in_order(analysis.for_users(judged.reported))), used=judged.used)
+
+
+def alone(path: str, overlay: Mapping[str, bytes], memory: Memory, files: Files) -> list[Diagnostic]:
+    """The diagnostics of a document's syntax and shape, without anything that it refers to."""
+    disk = Disk(overlay, files)
+    workspaces = Workspaces(disk)
+    read = Documents(disk, plugins_of=workspaces.plugins_of, memory=memory)
+    document = read.get(path)
+    texts = DocumentTexts(disk.contents, {path: document.tree})
+    allowed = Allowances.of(texts, commented_in(disk.contents), workspaces.plugins_of)
+    judged = allowed.judge(read.diagnostics, lambda file: workspaces.of(file).lint)
+    shown = list(spelled(_with_lint(judged.reported, workspaces), texts))
+    from robocomp_yaml.check import secrets
+
+    hidden = secrets.hidden(Program(disk=disk), [document], {path})
+    return in_order(hidden.veiled(one) for one in shown)
+
+
+def _link_undeployed(linker: Linker, named: NamedDocuments, discovered: DiscoveredDocuments) -> Undeployed:
+    """Links and checks everything but the deployments, or recalls it from the last analysis of the same documents."""
+    memory, is_new = linker.documents.memory, False
+
+    def make() -> Undeployed:
+        nonlocal is_new
+        is_new = True
+        return undeployed.linked(linker, named, check_documents)
+
+    if not any(map(is_deployment, discovered.documents)):  # an edit of another document changes all of this
+        return make()
+    part = "undeployed", discovered.documents, tuple(linker.deployments)
+    disk = linker.documents.disk
+    causes = undeployed.causes(linker, named)
+    known = memory.result(part, causes, make, lambda kept: finds_again(kept.walked, disk))
+    if not is_new:
+        undeployed.recall(linker, known)
+    return known
+
+
+class _Derived(msgspec.Struct, frozen=True):
+    """Linked deployments, their networks and all diagnostics, with the files that were read for them and what was
+    computed; `walked` are the folders that were searched, with the documents found. `is_lasting`: no plug-in checked
+    them, whose checks may depend on anything."""
+
+    deployments: Mapping[str, LinkedDeployment]
+    networks: DerivedNetworks
+    diagnostics: list[Diagnostic]
+    contents: Mapping[str, bytes]
+    kept: undeployed.Kept
+    walked: Mapping[str, list[str]]
+    is_lasting: bool
+
+
+def _derive(linker: Linker, rest: Undeployed, addresses: Addresses, discovered: DiscoveredDocuments) -> DerivedNetworks:
+    """Links the deployments, and derives and checks their networks, or recalls them from the last analysis of the same
+    deployments and components."""
+    from robocomp_yaml.check.networks import check_networks  # most runs have no deployment
+
+    disk, memory, is_new = linker.documents.disk, linker.documents.memory, False
+
+    def make() -> _Derived:
+        nonlocal is_new
+        is_new, begin, walked = True, len(linker.diagnostics), set(disk.walked)
+        linker.link_deployments()
+        program = linker.linked()
+        networks = networks_of(program, addresses)
+        linker.diagnostics += check_networks(networks, program)
+        documents = (linker.documents.read[real] for real in linker.deployments)
+        contents = undeployed.contents_of(disk, documents)
+        return _Derived(
+            program.deployments, networks, linker.diagnostics[begin:], contents, undeployed.kept_of(linker),
+            undeployed.walked_since(disk, walked),  # the other components of a workspace have ports, too
+            not any(linker.workspaces.plugins_of(model.path).active for model in models.values()),
+        )  # fmt: skip
+
+    part, models = ("networks", discovered.documents), linker.deployments
+    causes = rest, disk.version, *models, *models.values()
+    made = memory.result(part, causes, make, lambda kept: kept.is_lasting and finds_again(kept.walked, disk))
+    if not is_new:
+        linker.tables.deployments.update(made.deployments)
+        linker.diagnostics += made.diagnostics
+        disk.recall(made.contents)
+        undeployed.recall_kept(linker, made.kept)
+    return made.networks
 
 
 def _with_lint(diagnostics: Iterable[Diagnostic], workspaces: Workspaces) -> Iterator[Diagnostic]:

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator, Sequence
+from functools import lru_cache
 
 from robocomp_yaml.patterns import pattern
+from robocomp_yaml.semantics import secrecy
 from robocomp_yaml.semantics.secrecy import HIDDEN as HIDDEN
 from robocomp_yaml.semantics.secrecy import USER_INFO
-from robocomp_yaml.semantics.secrecy import is_secret as is_secret
 from robocomp_yaml.semantics.secrecy import url as url
 
 _ASSIGNMENT = pattern(
@@ -30,6 +31,12 @@ _WHOLE = pattern(r"((?:--?)?[^\x00-@\[-^`{-\x7f][\w.\-]*)([=:])(?!//)(.+)\Z", re
 _REFERENCE = pattern(
     r"\$\{?[A-Za-z_]|\{ *env *: *([\"']?)[A-Za-z_][A-Za-z0-9_]*\1 *(?:\}|\Z)|\{ *file *: *[^\s\[\]{},]"
 )
+
+
+@lru_cache(20_000)  # an editor asks again after each key, for all keys of a document
+def is_secret(name: str) -> bool:
+    """Whether a variable, an option, a parameter or a property of this name is secret."""
+    return secrecy.is_secret(name)
 
 
 def masked(text: str) -> str:

@@ -3,41 +3,28 @@
 from __future__ import annotations
 
 import gc
-import json
 import os
 import signal
 from collections.abc import Callable, Generator, Mapping
+from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pytest
 from click.testing import CliRunner, Result
-from hypothesis import HealthCheck, settings
-from hypothesis.database import DirectoryBasedExampleDatabase
 
+import in_memory
 import own_ports
 import tiers
+from robocomp_yaml import api
 from robocomp_yaml.cli import group
-
-if TYPE_CHECKING:
-    from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.diag.diagnostic import ERROR
+from robocomp_yaml.diag.render.json import as_data
+from robocomp_yaml.link.program import LinkedComponent
 
 ROOT = Path(__file__).resolve().parent.parent
 CORPUS = ROOT.parent / "shared" / "corpus"
 
-# Random tests take the same examples in every run, here and in CI; `make fuzz` looks for new ones.
 FUZZING = bool(os.environ.get("RCYAML_FUZZ"))
-settings.register_profile(
-    "fixed", derandomize=True, database=None, deadline=None, print_blob=True,
-    suppress_health_check=[HealthCheck.too_slow],
-)  # fmt: skip
-settings.register_profile(
-    "fuzz", derandomize=False, database=DirectoryBasedExampleDatabase(ROOT / ".fuzz" / "examples"), deadline=None,
-    print_blob=True, suppress_health_check=list(HealthCheck),
-)  # fmt: skip
-# The first of them, where only the unit tests run; all tests together take all.
-settings.register_profile("quick", settings.get_profile("fixed"), max_examples=40)
-settings.load_profile("fuzz" if FUZZING else "fixed")
 
 # What takes longest begins first where whole files are handed out to several processes (`--dist loadfile`).
 LONGEST = (
@@ -87,6 +74,14 @@ def write_tree(folder: Path, files: Tree) -> Path:
     return folder
 
 
+def unsaved(files: Tree) -> dict[str, bytes]:
+    """The texts of a tree by path, as an editor has them that did not save them in the working folder. All else of the
+    tree, such as links, is written."""
+    texts = {name: text for name, text in files.items() if isinstance(text, str) and not text.startswith("-> ")}
+    write_tree(Path(), {name: content for name, content in files.items() if name not in texts})
+    return {os.path.abspath(name): text.encode() for name, text in texts.items()}
+
+
 def read_tree(folder: Path) -> dict[str, str]:
     """Every file below a folder, path to text, sorted; without what Python itself leaves there."""
     return {
@@ -113,44 +108,69 @@ def rcyaml(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.M
 
 
 @pytest.fixture
-def diagnostics(rcyaml: Callable[..., Result], tmp_path: Path) -> Callable[..., list[dict[str, object]]]:
+def diagnostics(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., list[dict[str, object]]]:
     """The diagnostics that `rcyaml check` gives for a tree, as data."""
+    monkeypatch.chdir(tmp_path)
 
-    def check(files: Tree, *args: str) -> list[dict[str, object]]:
-        write_tree(tmp_path, files)
-        return json.loads(rcyaml("check", "--format", "json", *args).stdout)["diagnostics"]
+    def check(files: Tree, *paths: str) -> list[dict[str, object]]:
+        return [as_data(one) for one in api.load(*paths, overlay=unsaved(files)).check()]
 
     return check
 
 
 @pytest.fixture
-def link(tmp_path: Path) -> Callable[[Tree], LinkedComponent]:
-    """`link({path: YAML})`: the one component among the documents."""
-    from robocomp_yaml import pipeline
-    from robocomp_yaml.diag.diagnostic import ERROR
+def link() -> Callable[[Tree], LinkedComponent]:
+    """`link({path: YAML})`: the one component among the documents. Tests that have the same documents share it."""
+    return lambda documents: _linked(tuple(documents.items()))
 
-    def linked(documents: Tree) -> LinkedComponent:
-        analysis = pipeline.analyse([str(write_tree(tmp_path, documents))])
-        assert [d for d in analysis.diagnostics if d.severity == ERROR] == []
-        (component,) = analysis.program.components.values()
-        return component
 
-    return linked
+@cache
+def _linked(documents: tuple[tuple[str, str], ...]) -> LinkedComponent:
+    analysis = in_memory.analysed(dict(documents))
+    assert [d for d in analysis.diagnostics if d.severity == ERROR] == []
+    (component,) = analysis.program.components.values()
+    return component
+
+
+def use_memory() -> None:
+    """Thousands of small folders are made and removed in memory, where the machine has it as folder: a disk takes
+    a tenth of the time of the unit tests."""
+    if os.access("/dev/shm", os.W_OK):
+        os.environ.setdefault("PYTEST_DEBUG_TEMPROOT", "/dev/shm")
+
+
+def settle_random_tests() -> None:
+    """Random tests take the same examples in every run, here and in CI; `make fuzz` looks for new ones. Units have no
+    random tests, and do without the time of the import."""
+    from hypothesis import HealthCheck, settings
+    from hypothesis.database import DirectoryBasedExampleDatabase
+
+    settings.register_profile(
+        "fixed", derandomize=True, database=None, deadline=None, print_blob=True,
+        suppress_health_check=[HealthCheck.too_slow],
+    )  # fmt: skip
+    settings.register_profile(
+        "fuzz", derandomize=False, database=DirectoryBasedExampleDatabase(ROOT / ".fuzz" / "examples"), deadline=None,
+        print_blob=True, suppress_health_check=list(HealthCheck),
+    )  # fmt: skip
+    settings.load_profile("fuzz" if FUZZING else "fixed")
 
 
 def pytest_configure(config: pytest.Config) -> None:
     """Tests interrupt what they start, which ignores that if we do: so does what a script runs in the background."""
-    if config.option.markexpr == "unit" and not FUZZING:
-        settings.load_profile("quick")
+    if config.option.markexpr == "unit":
+        use_memory()
+    else:
+        settle_random_tests()
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def pytest_collection_finish() -> None:
     """The garbage collector skips what lives as long as the run, and looks for cycles less often: a tenth of the time
-    of the unit tests. Ten thousand objects more are still little memory."""
+    of the unit tests. A hundred thousand objects more are still little memory."""
     gc.freeze()
-    gc.set_threshold(10_000, 10, 10)
+    gc.set_threshold(100_000, 10, 10)
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:

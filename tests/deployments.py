@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import os
-from pathlib import Path
 
-from conftest import Tree, write_tree
+from conftest import Tree, unsaved
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.network.network import Network, Process
 from robocomp_yaml.pipeline import Analysis, analyse
@@ -44,8 +43,7 @@ def deployed(text: str, **others: str) -> Tree:
 
 def analysed(files: Tree, *, folder: bool = False) -> Analysis:
     """Everything about the deployment `robot` (or, with `folder`, about all documents), in the working folder."""
-    write_tree(Path(), files)
-    return analyse(["." if folder else "robot.ddsl.yaml"])
+    return analyse(["." if folder else "robot.ddsl.yaml"], overlay=unsaved(files))
 
 
 def network(files: Tree) -> Network:

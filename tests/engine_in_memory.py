@@ -52,7 +52,8 @@ def running(one: Process, state: str = RUNNING, **more: Any) -> Running:
 
 class InMemory:
     """`done` is what was asked of it, in order. Of the processes, `ending` end while they are started, `silent`
-    never become ready, and `blocked` cannot be started, which is seen before."""
+    never become ready, `blocked` cannot be started, which is seen before, and those in `needing` are ready as long as
+    another one runs."""
 
     name = "memory"
 
@@ -63,11 +64,12 @@ class InMemory:
         self.ending, self.silent, self.blocked = ending.split(), silent.split(), blocked.split()
         self.specs: dict[str, ProcessSpec] = {}
         self.logs: dict[str, list[str]] = {}
+        self.needing: dict[str, str] = {}
 
     async def open(self, network: Network, *, create: bool) -> bool:
         return True
 
-    async def observe(self) -> dict[str, Running]:
+    async def observe(self, *, use: bool = False) -> dict[str, Running]:
         return dict(self.now)
 
     async def obstacles(self, specs: Sequence[ProcessSpec], leaving: Collection[str]) -> list[Diagnostic]:
@@ -111,7 +113,8 @@ class InMemory:
             yield line
 
     async def run(self, name: str, command: Sequence[str], within: float) -> int:
-        return 1 if name in self.silent else 0
+        needed = self.now.get(self.needing.get(name, name))
+        return 0 if name not in self.silent and needed and needed.state == RUNNING else 1
 
     async def close(self, *, end: bool = False) -> None:
         self.done.append("end" if end else "close")
@@ -136,7 +139,7 @@ class InMemory:
 
     def down(self, *names: str) -> list[str]:
         self.events = []
-        return asyncio.run(down(self, names, self.events.append))
+        return asyncio.run(down(self, names, self.events.append, "/no/folder"))
 
     def states(self) -> Mapping[str, str]:
         return {name: one.state for name, one in self.now.items()}

@@ -10,11 +10,14 @@ import msgspec
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import Program
+from robocomp_yaml.memory import Memory
 from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.source.tree import Node
 
 ROOT = "/in-memory"
 COMPONENT = "component: C\nlanguage: python\n"
+_MEMORY = Memory()
+"""Documents that many tests have are parsed once."""
 
 
 class Said(NamedTuple):
@@ -32,7 +35,7 @@ class Said(NamedTuple):
 def analysed(documents: Mapping[str, str], *asked: str) -> Analysis:
     """Everything about documents that are given by name; `asked` are those of interest, all where none is named."""
     overlay = {f"{ROOT}/{name}": text.encode() for name, text in documents.items()}
-    return analyse([f"{ROOT}/{name}" for name in asked] or [ROOT], overlay=overlay)
+    return analyse([f"{ROOT}/{name}" for name in asked] or [ROOT], overlay=overlay, memory=_MEMORY)
 
 
 def said(documents: Mapping[str, str], *asked: str) -> list[Said]:

@@ -20,6 +20,7 @@ interfaces:
     methods:
       move: {in: {target: Pose, fast: bool}, returns: Pose}
       where: {out: {pose: Pose, age: int}}
+      way: {returns: Path}
       close:
   Ear: {methods: {hear: {in: {text: string}}}}
 topics:
@@ -32,6 +33,7 @@ types:
 parameters:
   speed: {type: int, range: [1, 400], default: 150, editable: true}
   device: {type: string, default: tty}
+  mode: {type: string, values: [slow, fast], default: slow}
   motors: {list: Motor, default: [{name: left}], editable: true}
   offsets: {map: Motor, default: {}}
   camera: {group: {fps: {type: int, default: 30, editable: true}, lens: {type: string, default: a}}}

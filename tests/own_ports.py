@@ -28,10 +28,11 @@ def only(folder: Path | None, monkeypatch: pytest.MonkeyPatch) -> None:
         own = procfs.descendants([os.getpid(), *deployed], alive)
         return {port: pids for port, pids in found.items() if own & set(pids)}
 
-    async def connect_to_own(host: str, port: int, **how: Any) -> Any:
+    async def connect_to_own(*address: Any, **how: Any) -> Any:
+        _, port = address or how["sock"].getpeername()
         if not own_listeners([port]):
             raise ConnectionRefusedError
-        return await connect(host, port, **how)
+        return await connect(*address, **how)
 
     monkeypatch.setattr(procfs, "listeners", own_listeners)
     monkeypatch.setattr(asyncio, "open_connection", connect_to_own)

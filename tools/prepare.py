@@ -19,6 +19,8 @@ import json
 import os
 import re
 import shutil
+import signal
+import socket
 import subprocess
 import sys
 import sysconfig
@@ -33,8 +35,18 @@ ROOT = Path(__file__).resolve().parent.parent
 ENVIRONMENT = ROOT / os.environ.get("VENV", ".venv")
 PYTHON = ENVIRONMENT / "bin" / "python"
 OLDEST = (3, 11)
-DURATION = {"demo": "about half a minute", "case-study": "a minute or two", "test": "some minutes"}  # on a fast network
-QUIETLY = {"DEBIAN_FRONTEND": "noninteractive", "PIP_DISABLE_PIP_VERSION_CHECK": "1", "LC_ALL": "C.UTF-8"}
+DURATION = {
+    "demo": "about half a minute",
+    "case-study": "a minute or two",
+    "experiment": "about half a minute",
+    "test": "some minutes",
+}  # on a fast network
+QUIETLY = {
+    "DEBIAN_FRONTEND": "noninteractive", "PIP_DISABLE_PIP_VERSION_CHECK": "1", "LC_ALL": "C.UTF-8",
+    "npm_config_fetch_retries": "1", "npm_config_fetch_timeout": "20000",
+}  # fmt: skip
+LOCALHOST = "localhost"
+LONGEST_PAGE = 180.0  # seconds, then its registry is out of reach
 APT = ["-o", "DPkg::Lock::Timeout=120", "-o", "Dpkg::Use-Pty=0", "-q"]
 FOR_ADMINISTRATORS = "sudo apt install python3-zeroc-ice"
 LASTS = "some ten minutes"
@@ -70,6 +82,7 @@ def main(goal: str, *words: str) -> None:
 
 def system(goal: str, packages: Sequence[str]) -> None:
     """Installs the missing packages. Without the rights, the demo itself reports what is missing."""
+    name_this_machine()
     missing = [package for package in packages if not is_installed(package)]
     if not missing:
         return
@@ -83,6 +96,29 @@ def system(goal: str, packages: Sequence[str]) -> None:
     count = len(missing)
     what = f"installing {f'{count} packages' if count > 1 else missing[0]}, which takes {DURATION[goal]}"
     call([*as_root, "apt-get", *APT, "install", "-y", "--no-install-recommends", *missing], what, of_apt)
+
+
+def name_this_machine(hosts: Path = Path("/etc/hosts")) -> None:
+    """Sees to it that 'localhost' is known. The smallest Debian has no /etc/hosts. Raises Failed if a person must."""
+    if knows_localhost():
+        return
+    line = f"127.0.0.1 {LOCALHOST}"
+    as_root = rights()
+    if as_root is None or hosts.exists():
+        raise Failed(
+            f"this machine does not know the name {LOCALHOST}. An administrator adds this line to {hosts}: {line}"
+        )
+    call(
+        [*as_root, "sh", "-c", f"echo '{line}' > {hosts}"],
+        f"writing {hosts}, which is missing, so that {LOCALHOST} is known",
+    )
+
+
+def knows_localhost() -> bool:
+    try:
+        return bool(socket.getaddrinfo(LOCALHOST, None, socket.AF_INET))
+    except OSError:
+        return False
 
 
 def is_installed(package: str) -> bool:
@@ -132,17 +168,20 @@ def environment(extra: str = "") -> None:
             call([sys.executable, "-m", "venv", "--clear", "--system-site-packages", ENVIRONMENT], f"making {shown()}")
         else:
             without_ensurepip()
-    what = f"rcyaml and what its {extra}s need" if extra else "rcyaml"
+    users = {"lsp": "language server needs"}.get(extra, f"{extra.rstrip('s')}s need")
+    what = f"rcyaml and what its {users}" if extra else "rcyaml"
     spec = f"{ROOT}[{extra}]" if extra else str(ROOT)
     call([PYTHON, "-m", "pip", "install", "--editable", spec], f"installing {what} into {shown()}", of_pip)
 
 
 def page() -> None:
-    """Builds the page of the manager, which needs PyPI (Node) and npm's registry (esbuild)."""
+    """Builds the page of the manager, which needs PyPI (Node) and npm's registry (esbuild). Without, nothing fails."""
+    wanted = ["--editable", f"{ROOT}[manager]", ROOT / "web"]
     try:
-        call([PYTHON, "-m", "pip", "install", ROOT / "web"], "building the page of the manager", of_pip)
+        call([PYTHON, "-m", "pip", "install", *wanted], "building the page of the manager", of_pip, LONGEST_PAGE)
     except Failed as error:
-        show(f"{error}\n\nthe page of the manager is not built: its tests will be skipped")
+        last = "\n".join(str(error).splitlines()[-3:])
+        show(f"{last}\nThe page of the manager is not built: its tests are skipped, and the demo does not show it.")
 
 
 def without_ensurepip() -> None:
@@ -223,21 +262,28 @@ def of_pip(line: str) -> str:
     return found[1][0].lower() + found[1][1:] if found else ""
 
 
-def call(command: Sequence[str | Path], doing: str, describe: Callable[[str], str] = lambda line: "") -> None:
+def call(
+    command: Sequence[str | Path], doing: str, describe: Callable[[str], str] = lambda line: "",
+    longest: float | None = None,
+) -> None:  # fmt: skip
     """Runs a command with a progress line. `describe` turns a line of its output into a short text. If the command
-    fails, its whole output is printed. Raises Failed."""
+    fails, or takes more seconds than `longest`, its whole output is printed. Raises Failed."""
     progress = Progress(doing)
     try:
         running = subprocess.Popen(
             command, cwd=ROOT, env={**os.environ, **QUIETLY}, stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8", errors="replace",
+            start_new_session=longest is not None,
         )  # fmt: skip
     except OSError as error:
         progress.end("failed")
         raise Failed(f"cannot run {command[0]}: {error.strerror}") from None
     output = []
+    limit = threading.Timer(longest, os.killpg, (running.pid, signal.SIGTERM)) if longest is not None else None
     with running:
         try:
+            if limit is not None:
+                limit.start()
             for line in running.stdout or ():
                 output.append(line)
                 progress.note = describe(line) or progress.note
@@ -246,6 +292,8 @@ def call(command: Sequence[str | Path], doing: str, describe: Callable[[str], st
             raise
         finally:
             progress.end("done" if running.wait() == 0 else "failed")
+            if limit is not None:
+                limit.cancel()
     if running.returncode:
         raise Failed("".join(output).rstrip() + f"\n\n{doing.partition(',')[0]} failed, see above: {words_of(command)}")
 

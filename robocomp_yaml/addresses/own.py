@@ -8,11 +8,10 @@ import msgspec
 
 from robocomp_yaml.addresses.port_numbers import COMMON_BEHAVIOR
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.link.flat_configs import FlatConfig, flat_config
+from robocomp_yaml.link.flat_configs import FlatConfig
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues
 from robocomp_yaml.semantics import connections
 from robocomp_yaml.semantics.texts import unquoted
-from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.tree import Mapping, Scalar
 
 MANAGER = "IceStorm/TopicManager:default -p 9999"
@@ -36,28 +35,6 @@ class OwnAddresses(msgspec.Struct, frozen=True):
     manager: OwnText | None = None
 
 
-def flat_addresses(linked: LinkedComponent, disk: Disk) -> OwnAddresses:
-    """The addresses in a component's flat `etc/config`."""
-    flat = flat_config(os.path.dirname(linked.component.path), disk)
-    return of_flat(flat, linked) if flat is not None else OwnAddresses()
-
-
-def replaces_values(flat: FlatConfig | None, values: LinkedValues) -> bool:
-    """Whether a component has the values of its flat config instead of those of its values document: the user changed
-    the file, and the document does not contain the changes."""
-    if flat is None or flat.is_unchanged:
-        return False
-    from robocomp_yaml.parameters.layers.effective import effective
-    from robocomp_yaml.parameters.writing.properties import properties as written
-
-    found = effective(values)[0] if values.parameters is not None else None
-    if found is None:
-        return False  # the errors of the document are reported
-    stated = {made.key: made.value for each in written(values, found, beside=True)[0] for made in each.properties}
-    known = (stated, flat.base)
-    return any(value not in [each.get(key) for each in known] for key, value in flat.properties.items())
-
-
 def of_values(values: LinkedValues) -> OwnAddresses:
     """The addresses of a values document and its layers."""
     from robocomp_yaml.parameters.writing.properties import merged_entries  # most components have no values document
@@ -66,6 +43,7 @@ def of_values(values: LinkedValues) -> OwnAddresses:
     for name, node in merged_entries(values, "endpoints"):
         if isinstance(node, Scalar):
             found.endpoints[name] = OwnText(unquoted(node.lexeme), node.span)
+            found.endpoints.setdefault(name.removesuffix(connections.OLDEST), found.endpoints[name])
     for name, node in merged_entries(values, "proxies"):
         text = node.get("proxy") if isinstance(node, Mapping) else node
         if isinstance(text, Scalar):
@@ -104,12 +82,3 @@ def adapters(linked: LinkedComponent) -> list[str]:
 def document(linked: LinkedComponent) -> str:
     """The real path of a component's document, which identifies the component."""
     return os.path.realpath(linked.component.path)
-
-
-def is_own(values: LinkedValues) -> bool:
-    """Whether a values document is the `etc/config.yaml` of its component."""
-    component = values.parameters.component if values.parameters else None
-    if component is None:
-        return False
-    own = os.path.join(os.path.dirname(component.component.path), "etc", "config.yaml")
-    return os.path.realpath(own) == os.path.realpath(values.document.path)

@@ -7,14 +7,17 @@ change once they are in an `etc/config`.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable
 
 import msgspec
 
 from robocomp_yaml.addresses.interface_comparison import Implementers
-from robocomp_yaml.addresses.own import OwnText, adapters, document, flat_addresses, is_own, of_values
+from robocomp_yaml.addresses.own import OwnAddresses, OwnText, adapters, document, of_flat, of_values
+from robocomp_yaml.addresses.own_configuration import chosen, is_own
 from robocomp_yaml.addresses.port_numbers import RESERVED, USUAL, FreePorts, default_port
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.link.flat_configs import flat_config
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Port
 from robocomp_yaml.model.port_range import PortRange
 from robocomp_yaml.source.disk import Disk
@@ -135,11 +138,14 @@ def assign(
 
 
 def _fixed(linked: LinkedComponent, values: LinkedValues | None, disk: Disk) -> Iterable[tuple[str, IceEndpoint]]:
-    """The fixed endpoints of a component, as a compile writes them: those of its values document, which leaves others
-    as they were."""
-    endpoints = flat_addresses(linked, disk).endpoints | (of_values(values).endpoints if values is not None else {})
-    for name, own in endpoints.items():
-        if endpoint := parse_endpoint(own.text):
+    """The fixed endpoints of a component: those of its own configuration. A compile leaves those that a values document
+    does not set as they were."""
+    own, flat = chosen(linked, values, disk), flat_config(os.path.dirname(linked.component.path), disk)
+    endpoints = (of_flat(flat, linked) if flat is not None else OwnAddresses()).endpoints
+    if own.values is not None:
+        endpoints |= of_values(own.values).endpoints
+    for name, text in endpoints.items():
+        if endpoint := parse_endpoint(text.text):
             yield name, endpoint
 
 

@@ -19,7 +19,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING
 
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, WARNING, Diagnostic, Related
-from robocomp_yaml.diag.errors import Faulty, Refused
+from robocomp_yaml.diag.errors import Faulty, NotRenamed, Refused
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.registry import lazy_attributes
 
@@ -45,8 +45,8 @@ if TYPE_CHECKING:
 __all__ = [
     "ERROR", "NOTE", "WARNING", "Attached", "Built", "Change", "Compilation", "Deployment", "Diagnostic",
     "DocumentEditor", "EditConflict", "Faulty", "File", "Fixing", "Line", "LivingWorkspace", "Migration", "Network",
-    "Outcome", "Plan", "Refused", "Related", "Result", "Revision", "Span", "Status", "Value", "Values", "Workspace",
-    "change", "edit", "follow", "load", "migrate",
+    "NotRenamed", "Outcome", "Plan", "Refused", "Related", "Result", "Revision", "Span", "Status", "Value", "Values",
+    "Workspace", "change", "edit", "follow", "load", "migrate",
 ]  # fmt: skip
 
 _HOMES = {

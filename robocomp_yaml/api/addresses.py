@@ -3,6 +3,7 @@ and any HOST:PORT."""
 
 from __future__ import annotations
 
+import functools
 import os
 from collections.abc import Iterator, Sequence
 
@@ -11,6 +12,7 @@ import msgspec
 from robocomp_yaml.addresses.port_numbers import COMMON_BEHAVIOR
 from robocomp_yaml.api import which
 from robocomp_yaml.api.refusals import meant
+from robocomp_yaml.deploy import interfaces
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.diag.listing import some
@@ -62,13 +64,16 @@ class Peer(msgspec.Struct, frozen=True, eq=False):
 
 class Addresses:
     """The documents that are around, and who can be called by them. `deployment` is a document or a folder with one; by
-    default, it is the only one below the working folder, else of the workspace."""
+    default, it is the only one below the working folder, else of the workspace. `analysis` is that of the workspace, if
+    it is there already."""
 
-    def __init__(self, deployment: str = "", include: Sequence[str] = ()) -> None:
+    def __init__(
+        self, deployment: str = "", include: Sequence[str] = (), analysis: Analysis | None = None
+    ) -> None:  # fmt: skip
         self._include = tuple(include)
         self._root = root_above("") or "."
         chosen = os.path.normpath(which.deployment(deployment, self._include)) if deployment else ""
-        self.analysis: Analysis = analyse([self._root, *([chosen] if chosen else [])], include)
+        self.analysis: Analysis = analysis or analyse([self._root, *([chosen] if chosen else [])], include)
         self.program = self.analysis.program
         found = [chosen] if chosen else which.deployments_of(".", self._include, self.analysis)
         found = found or which.deployments_of(self._root, self._include, self.analysis)
@@ -76,10 +81,11 @@ class Addresses:
         if chosen and os.path.realpath(chosen) not in self.analysis.networks:
             raise Faulty(self.analysis.diagnostics, self.program.documents)
 
-    @property
+    @functools.cached_property
     def network(self) -> Network | None:
         """The network of the deployment; None if there is none, or more than one."""
-        return self.analysis.networks.get(os.path.realpath(next(iter(self._deployments)))) if self._is_one else None
+        found = self.analysis.networks.get(os.path.realpath(next(iter(self._deployments)))) if self._is_one else None
+        return interfaces.resolved(found) if found else None
 
     @property
     def linked(self) -> LinkedDeployment | None:
@@ -242,7 +248,21 @@ class Addresses:
         name, path = linked.component.name, os.path.relpath(linked.component.path)
         program = linked.component.language.target.program.format(name=name)
         hint = f"start it with {os.path.join(os.path.dirname(path), program)}"
+        if entries := self._entries_of(linked):
+            listed = " or ".join(f"'{one}'" for one in entries)
+            hint = f"its own address is meant here, and {self.path} runs it as {listed}: use that name, or {hint}"
         return Peer(name, rest, tuple(doors), Span(path), hint, linked)
+
+    def _entries_of(self, linked: LinkedComponent) -> list[str]:
+        """The processes of the deployment that are this component."""
+        if self.network is None or self.linked is None:
+            return []
+        own = os.path.realpath(linked.component.path)
+        found = ((name, self.linked.instances.get(name)) for name in self.network.processes)
+        return [
+            name for name, one in found
+            if one is not None and one.component is not None and os.path.realpath(one.component.component.path) == own
+        ]  # fmt: skip
 
     def _at_port(self, name: str, endpoint: str, rest: str) -> Peer:
         """Whatever listens at a port: any interface of the workspace may be there."""
@@ -336,7 +356,7 @@ class Addresses:
         names = [f"{peer.name}.{door.name}.{one.name}" for door in own or peer.doors for one in door.interface.methods]
         if not names:
             return "; it serves no interface of these documents"
-        return f"; there is {some(names, _MOST)}"
+        return f"; known are {some(names, _MOST)}"
 
     def _refuse_errors(self, files: set[str]) -> None:
         """Raises Faulty if one of these documents has errors."""

@@ -13,7 +13,7 @@ from msgspec.structs import replace
 
 from robocomp_yaml.api.refusals import meant, require
 from robocomp_yaml.building.job import RELEASE
-from robocomp_yaml.deploy import folder, history, limits, operations, registered
+from robocomp_yaml.deploy import folder, history, limits, operations, registered, renamed
 from robocomp_yaml.deploy.attached import Attached, attached
 from robocomp_yaml.deploy.carry_out import Report
 from robocomp_yaml.deploy.differences import shown_path
@@ -159,6 +159,7 @@ class Deployment:
         chosen = self.chosen(names)
         self._diagnostics += limits.ignored(self.network, chosen or self.enabled)
         forced = (chosen or self.enabled) if restart else set[str]()
+        renamed.refuse(self.network)
         self._report_stale(names)
 
         async def work() -> Plan:
@@ -205,7 +206,7 @@ class Deployment:
                 return await changed()
             except BaseException:
                 with suppress(Exception):  # no supervisor stays without a process
-                    await operations.end_if_idle(self._engine)
+                    await operations.end_if_idle(self._engine, self.network.folder)
                 raise
 
         async def changed() -> Result:
@@ -216,22 +217,19 @@ class Deployment:
                 )  # fmt: skip
                 self._diagnostics += result.diagnostics
                 if stays and not result.diagnostics:
-                    self._lock.close()  # another process may change the running network
+                    self._lock.close()  # another process may change what runs
                     self._diagnostics += await follow()
-            if not has_errors(result.diagnostics) and not stays and not (result.plan.is_empty and self._has_history):
+            is_known = result.plan.is_empty and history.is_there(self.network.folder)
+            if not has_errors(result.diagnostics) and not stays and not is_known:
                 with suppress(OSError):  # a full disk
                     history.keep(self.network.folder, (await self._engine.observe()).values())
             if result.diagnostics or stays:
-                await operations.end_if_idle(self._engine)
+                await operations.end_if_idle(self._engine, self.network.folder, is_down=stays is not None)
             else:
                 await self._engine.close()
             return result
 
         return self._run(work(), change=True)
-
-    @property
-    def _has_history(self) -> bool:
-        return history.is_there(self.network.folder)
 
     def rollback(
         self, *, on_failure: str | Choose = STOP_THEM, timeout: float | None = None, report: Report | None = None
@@ -248,7 +246,8 @@ class Deployment:
             entries = history.before(own, (await self._engine.observe()).values() if is_running else ())
             await self._engine.close()
             if not entries:
-                why = "only what runs now" if self._has_history else "no `up` that was all ready since the last `down`"
+                nothing = "no `up` that was all ready since the last `down`"
+                why = "only what runs now" if history.is_there(own) else nothing
                 raise Refused(f"{self.network.name} cannot go back: rcyaml knows {why}")
             target = history.network_of(self.network.name, self.network.path, own, entries[-1], self.network)
             self._engine = make_engine(self.engine, target)
@@ -260,7 +259,7 @@ class Deployment:
             self._diagnostics += result.diagnostics
             if not has_errors(result.diagnostics):
                 history.cut(own, entries)
-            await operations.end_if_idle(self._engine)
+            await operations.end_if_idle(self._engine, own)
             return result
 
         return self._run(work(), change=True)
@@ -328,12 +327,10 @@ class Deployment:
         chosen = self.chosen(names)
 
         async def work() -> list[str]:
-            if not await self._engine.open(self.network, create=False):
-                return []
-            stopped = await operations.down(self._engine, chosen, report or _ignore)
-            if not chosen:
-                history.remove(self.network.folder)
-            return stopped
+            if await self._engine.open(self.network, create=False):
+                return await operations.down(self._engine, chosen, report or _ignore, self.network.folder)
+            await operations.clear_up(self._engine, chosen, self.network.folder)
+            return []
 
         return self._run(work(), change=True)
 
@@ -375,8 +372,10 @@ class Deployment:
     def _run(self, work: Coroutine[Any, Any, T], *, change: bool = False) -> T:
         """Runs a call; `change` takes the lock of the deployment. Raises Faulty."""
         try:
+            folder.require_own(self.network.folder)
             if not change:
                 return asyncio.run(work)
+            renamed.refuse(self.network)
             if self._lock.enter_context(folder.locked(self.network.folder)):
                 return asyncio.run(work)
             reason = "another rcyaml is changing this deployment"
@@ -387,7 +386,8 @@ class Deployment:
         except BrokenPipeError:
             raise  # the reader of standard output closed the pipe
         except OSError as error:
-            reason = (error.strerror or str(error)).lower()
+            reason = error.strerror or str(error)
+            reason = reason[:1].lower() + reason[1:]
         finally:
             work.close()
             self._lock.close()

@@ -9,9 +9,9 @@ from msgspec.structs import replace
 
 from robocomp_yaml import secrets
 from robocomp_yaml.addresses.flat_values import flat_values
-from robocomp_yaml.addresses.own import is_own, replaces_values
+from robocomp_yaml.addresses.own_configuration import own_configuration
 from robocomp_yaml.addresses.workspaces import Addresses
-from robocomp_yaml.link.flat_configs import flat_at, flat_config
+from robocomp_yaml.link.flat_configs import flat_at
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Program
 from robocomp_yaml.parameters.editing.settings import (
     DEFAULT,
@@ -39,12 +39,12 @@ def flat_layer(path: str, program: Program) -> LinkedValues | None:
 def replacing(values: LinkedValues, program: Program) -> LinkedValues | None:
     """The flat config that replaces a values document, because the user changed it."""
     component = values.parameters.component if values.parameters else None
-    if component is None or values.parameters is None or not is_own(values):
+    if component is None or values.parameters is None:
         return None
-    flat = flat_config(os.path.dirname(component.component.path), program.disk)
-    if flat is None or not replaces_values(flat, values):
+    own = own_configuration(component, program)
+    if own.replaced is not values or own.flat is None:
         return None
-    return flat_values(flat, values.parameters, component).layer
+    return flat_values(own.flat, values.parameters, component).layer
 
 
 def overriding(rows: Iterable[Value], others: Iterable[Value]) -> list[Value]:

@@ -9,9 +9,9 @@ import msgspec
 
 from robocomp_yaml.addresses.interface_comparison import HasInterface
 from robocomp_yaml.addresses.table import PortTable
-from robocomp_yaml.deploy.alone import own_configuration
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.here import is_local
+from robocomp_yaml.emit.value_files import own_properties
 from robocomp_yaml.link.program import LinkedComponent, Port
 from robocomp_yaml.network.assigned_ports import STORM_PORT
 from robocomp_yaml.network.draft import MANAGER, STORM_INSTANCE
@@ -50,7 +50,7 @@ class Expectations:
         """Through which IceStorm, and by which name, components subscribe to a topic."""
         found: dict[Topic, None] = {}
         for linked in self._components():
-            own = own_configuration(linked, self._analysis.program, self._ports())
+            own = own_properties(linked, self._analysis.program, self._ports())
             for port in _of(linked.subscribes, module, interface):
                 prefix, name = own.first((connections.prefix(port.name),)), own.first((port.name,))
                 topic = connections.topic(prefix, name, interface)
@@ -67,7 +67,7 @@ class Expectations:
         """The proxies of those who require an interface, each with who that is."""
         for linked in self._components():
             ports = _of(linked.requires, module, interface)
-            own = own_configuration(linked, self._analysis.program, self._ports()) if ports else None
+            own = own_properties(linked, self._analysis.program, self._ports()) if ports else None
             for port in ports:
                 if own is not None and own.proxy(port):
                     yield own.proxy(port), linked.component.name

@@ -12,7 +12,9 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 
 from robocomp_yaml.api.workspace import Workspace
+from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.memory import Memory
+from robocomp_yaml.pipeline import alone
 from robocomp_yaml.source.disk import Disk, KeptFiles
 
 
@@ -39,7 +41,11 @@ class LivingWorkspace:
             self._unsaved[real] = path, text.encode() if isinstance(text, str) else text
 
     def refresh(self) -> None:
-        """Files may have changed on the disk: `look` will read them again."""
+        """Files may have changed on the disk: they are read again, and `look` notices what has changed."""
+        self._files.renew()
+
+    def forget(self) -> None:
+        """The next `load` reads all files, so that its result depends on nothing that was read before."""
         self._files.forget()
 
     def look(self, *paths: str, on_read: Callable[[str], None] | None = None) -> Workspace:
@@ -48,10 +54,22 @@ class LivingWorkspace:
         with _uncollected():
             return Workspace(paths, self.include, self.unsaved, on_read, self._memory, self._files)
 
-    def load(self, on_read: Callable[[str], None] | None = None) -> Workspace:
-        """All documents, as `api.load` reads them."""
-        self.refresh()
-        workspace = self.look(*self.paths, on_read=on_read)
+    def glance(self, path: str) -> list[Diagnostic]:
+        """The diagnostics of a document by itself, of its syntax and shape. Nothing else is read."""
+        with _uncollected():
+            return alone(path, self.unsaved, self._memory, self._files)
+
+    def load(
+        self, on_read: Callable[[str], None] | None = None, on_make: Callable[[], None] | None = None
+    ) -> Workspace:
+        """All documents, as `api.load` reads them. `on_make` is called again and again, and may raise an exception to
+        give up."""
+        self._memory.on_make = on_make or self._memory.on_make
+        try:
+            self.refresh()
+            workspace = self.look(*self.paths, on_read=on_read)
+        finally:
+            self._memory.on_make = lambda: None
         self._memory.forget_unused()
         return workspace
 

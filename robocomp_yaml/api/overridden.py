@@ -60,7 +60,9 @@ def in_values(
         raise Refused(f"{path} does not exist, so that --set cannot change it; `-- {pairs}` passes it to the program")
     overlay: dict[str, bytes] = {}
     for name, value in settings.items():
-        overlay = {os.path.realpath(path): Values(path, include, overlay).set(name, value).after}
+        overlay = {
+            os.path.realpath(path): Values(path, include, overlay).set(name, value, replaces_references=True).after
+        }
     read = analysis.documents
     requested = [read[real].path for real in analysis.program.requested if real in read]
     return analyse(requested, include, overlay=overlay)

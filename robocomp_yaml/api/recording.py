@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
+from collections.abc import Callable, Collection, Generator, Iterator, Mapping, Sequence
+from contextlib import ExitStack, closing, contextmanager
 from typing import TYPE_CHECKING, Any
 
 import msgspec
@@ -227,9 +227,8 @@ def info(path: str) -> RecordingInfo:
 
 @contextmanager
 def _reading(path: str) -> Iterator[Any]:
-    """An MCAP reader of a file. Raises Refused if the file is not a whole MCAP file."""
+    """An MCAP reader of a file. Raises Refused if the file is not a whole MCAP file, also while it is read."""
     _require()
-    from mcap.exceptions import McapError
     from mcap.reader import make_reader
 
     try:
@@ -237,8 +236,16 @@ def _reading(path: str) -> Iterator[Any]:
             yield make_reader(file)
     except OSError as error:
         raise Refused(f"cannot read {path}: {(error.strerror or str(error)).lower()}") from None
-    except McapError as error:
-        raise Refused(f"{path} is not an MCAP file, or not a whole one ({type(error).__name__})") from None
+    except (Refused, GeneratorExit):
+        raise
+    except Exception:  # noqa: BLE001 - the library has another exception for each kind of damage
+        raise Refused(f"{path} is not an MCAP file, or not a whole one") from None
+
+
+def _messages(path: str) -> Generator[tuple[Any, Any, Any]]:
+    """The messages of a file, in their order in time. Raises Refused if it is damaged."""
+    with _reading(path) as reader:
+        yield from reader.iter_messages(log_time_order=True)
 
 
 class Player:
@@ -260,10 +267,10 @@ class Player:
     def play(self, rate: float, on_message: Callable[[int], None] = lambda number: None) -> int:
         """Publishes in the recorded times, `rate` times as fast; 0 as fast as possible. Returns the number of messages.
         Raises NoAnswer."""
-        with ExitStack() as stack, _reading(self.path) as reader:
+        with ExitStack() as stack, closing(_messages(self.path)) as messages:
             senders: dict[int, tuple[Publisher, MessageType]] = {}
             began, first, sent = time.monotonic(), 0, 0
-            for schema, channel, message in reader.iter_messages(log_time_order=True):
+            for schema, channel, message in messages:
                 if channel.metadata.get("topic") not in self._chosen:
                     continue
                 if channel.id not in senders:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from robocomp_yaml.api.edited import EditedDocument, write
-from robocomp_yaml.diag.errors import Refused
+from robocomp_yaml.api.refusals import meant
+from robocomp_yaml.diag.errors import NotRenamed, Refused
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.naming.analysis import names_of
 from robocomp_yaml.naming.names import DefinedName, Names
@@ -15,6 +17,7 @@ from robocomp_yaml.transactions.changes import unified
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.workspace import Workspace
+    from robocomp_yaml.pipeline import Analysis
 
 
 class Renaming:
@@ -50,11 +53,11 @@ class Renaming:
             yield hidden.without(unified(before, after, f"a/{one.path}", f"b/{one.path}"))
 
     def apply(self) -> None:
-        """Writes the files. Raises Refused if one of them cannot be written, or has changed meanwhile: then none
+        """Writes the files. Raises NotRenamed if one of them cannot be written, or has changed meanwhile: then none
         is."""
         for one in self._write(look_only=True):
             if one.reason:
-                raise Refused(f"{one.path}: {one.reason}")
+                raise NotRenamed(f"{one.path}: {one.reason}")
         self.written = self._write(look_only=False)
 
     def _write(self, *, look_only: bool) -> tuple[EditedDocument, ...]:
@@ -62,9 +65,10 @@ class Renaming:
         return tuple(write(self._paths, changed, look_only=look_only))
 
 
-def name_at(names: Names, path: str, line: int, column: int) -> DefinedName:
+def name_at(names: Names, analysis: Analysis, path: str, line: int, column: int) -> DefinedName:
     """The name at a location. Raises Refused if there is none."""
-    found = names.at(path, line, column)
+    document = analysis.documents.get(os.path.realpath(path))
+    found = names.at(document.path if document is not None else path, line, column)
     if found is None:
         raise Refused(f"{path}:{line}:{column} is not a name of the documents")
     return found[1]
@@ -82,7 +86,8 @@ def name_called(names: Names, text: str) -> DefinedName:
     if len(found) == 1:
         return found[0]
     if not found:
-        raise Refused(f"unknown name '{text}'")
+        known = {one.name for one in names.defined.values()}
+        raise Refused(f"unknown name '{text}'{meant(steps[-1], sorted(known))}")
     which = ", ".join(
         f"{one.kind.replace(' ', '-')} in {one.span.file}:{one.span.line}:{one.span.column}" for one in found[:8]
     )

@@ -146,7 +146,7 @@ class Run:
         self._check_programs(needed)
         for process in (self.process, *needed.values()):
             await self._warn_of_absent(process)
-        beside = moved(self.network, self._folder, needed) if needed else None
+        beside = moved(self.network, self._folder, needed, self.process.name) if needed else None
         return await self._single(beside).run(report, on_start)
 
     @contextmanager
@@ -179,7 +179,8 @@ class Run:
             process = pending.pop()
             for name in _needs(self.network, process):
                 other = self.network.processes.get(name)
-                if other is None or name in found or name in running or await _answers(other):
+                is_known = name in found or name in running or name == self.process.name
+                if other is None or is_known or await _answers(other):
                     continue
                 if diagnostic := elsewhere(moved(self.network, self._folder, [name])):
                     raise DeployFailed(diagnostic)
@@ -237,9 +238,10 @@ class Run:
 
 
 def _needs(network: Network, process: Process) -> list[str]:
-    """The names of the processes that must be ready before this one. A disabled process is in no order."""
+    """The names of the processes that must be ready before this one, and of those that it waits for while it runs. A
+    disabled process is in no order."""
     targets = (one.target for one in network.connections if one.source == process.name and one.target)
-    return list(dict.fromkeys((*process.after, *(() if process.enabled else targets))))
+    return list(dict.fromkeys((*process.after, *process.awaits, *(() if process.enabled else targets))))
 
 
 def _closure(network: Network, process: Process) -> Iterator[str]:

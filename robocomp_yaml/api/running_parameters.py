@@ -12,9 +12,10 @@ import msgspec
 from robocomp_yaml.api.addresses import Addresses
 from robocomp_yaml.api.calling import TIMEOUT, MethodCalls, RemoteMethod, Reply
 from robocomp_yaml.api.refusals import meant
-from robocomp_yaml.api.values import Change, Values, judged, spells_text
-from robocomp_yaml.diag.errors import Faulty, NoAnswer, Refused
+from robocomp_yaml.api.values import VALUE, Change, Values, accepted, spells_text
+from robocomp_yaml.diag.errors import NoAnswer, Refused
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.network.configuration_base import base_of, base_of_component
 from robocomp_yaml.parameters.editing import show
 from robocomp_yaml.parameters.types import (
     BasicType,
@@ -32,9 +33,6 @@ from robocomp_yaml.semantics.secrecy import HIDDEN
 from robocomp_yaml.source.tree import Mapping as Tree
 from robocomp_yaml.source.tree import Node, mapping_at, scalar_at, text_at
 from robocomp_yaml.source.yaml_text import flow
-
-VALUE = "value"
-"""What locations name instead of a file."""
 
 _LOGGED = "(see the log of the component) "
 _ROUNDING = 1e-6  # relative: what a `float` changes in a number
@@ -102,10 +100,15 @@ class RunningParameters:
         if settings is not None and (node := _set_in(settings, paths.parse(path))) is not None:
             where = f"{node.span.file}:{node.span.line}"
             raise Refused(f"{where} sets {path} for {self.name}: change it there, or leave --save out")
-        if instance is not None and instance.flat:
-            raise Refused(f"{self.name} starts with {instance.flat}, which is not a values document: change it there")
-        own = instance.values.document.path if instance is not None and instance.values is not None else ""
-        return Values(own or which.values(component.component.path)).set(path, value)
+        program = self.addresses.program
+        base = base_of(instance, program.disk) if instance is not None else base_of_component(component, program)
+        if base.flat is not None:
+            raise Refused(f"{self.name} starts with {base.flat.path}, which is not a values document: change it there")
+        own = base.values.document.path if base.values is not None else which.values(component.component.path)
+        document = Values(own)
+        if kept := document.kept_reference(path, value):
+            raise Refused(f"{kept}: change it there, or leave --save out")
+        return document.set(path, value)
 
 
 class Session:
@@ -164,11 +167,7 @@ class Session:
         if value == "null":
             raise Refused("`null` returns to the default in a document; a running component needs the value itself")
         typed = tuple(show.typed(root, steps))
-        span = Span(VALUE, 1, 1, 1, len(value) + 1)
-        node, faults = judged(type_, typed, value, span, is_text=spells_text(type_, value), complete=True)
-        if faults:
-            raise Faulty(faults, None, {} if is_secret(type_) else {VALUE: value})
-        assert node is not None
+        node = accepted(type_, typed, value, is_text=spells_text(type_, value), complete=True)
         return dict(_flat(type_, node.data, typed))
 
     def _verify(self, path: str, changes: Mapping[str, str], after: Mapping[str, Listed]) -> None:

@@ -186,7 +186,7 @@ class Topics:
         known = [one.name for one in self.documented]
         of_modules = [one.name for scope in self.addresses.program.modules.values() for one in scope.module.topics]
         listed = (
-            f"there is {', '.join(known or of_modules)}" if known or of_modules else "these documents have no topic"
+            f"known are {', '.join(known or of_modules)}" if known or of_modules else "these documents have no topic"
         )
         raise Refused(f"unknown topic '{text}'{meant(text.partition('.')[0], [*known, *of_modules], listed)}")
 

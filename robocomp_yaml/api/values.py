@@ -6,7 +6,7 @@ import copy
 import json
 import os
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import msgspec
@@ -19,6 +19,7 @@ from robocomp_yaml.diag.codes import files as file_codes
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors, in_order
 from robocomp_yaml.diag.errors import Faulty, Refused
+from robocomp_yaml.diag.listing import some
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues
@@ -30,21 +31,25 @@ from robocomp_yaml.parameters.editing.show import Value
 from robocomp_yaml.parameters.examples.new import lines_above
 from robocomp_yaml.parameters.hidden import hidden
 from robocomp_yaml.parameters.layers.effective import Effective
-from robocomp_yaml.parameters.types import BasicType, EnumType, RecordType, Type, is_secret, leaves
+from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, RecordType, Type, is_secret, leaves
 from robocomp_yaml.parameters.verdict.judge import judge
 from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.secrets import HIDDEN, hidden_lines
 from robocomp_yaml.semantics import paths
 from robocomp_yaml.semantics.paths import Step
+from robocomp_yaml.semantics.references import is_reference
 from robocomp_yaml.source import text as source_text
 from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.regular import whole
 from robocomp_yaml.source.tree import Mapping as Tree
-from robocomp_yaml.source.tree import Node, Scalar, parse
+from robocomp_yaml.source.tree import Node, parse
 from robocomp_yaml.source.tree import Sequence as List
+from robocomp_yaml.source.yaml_text import flow
 from robocomp_yaml.transactions import whole_file
 from robocomp_yaml.transactions.changes import unified
 
+VALUE = "value"
+"""Of locations in a value that was typed on a command line."""
 # A reference as `rcyaml config get` prints it. One that cannot be resolved is rejected, not read as a text.
 _REFERENCE = re.compile(r"\{ *(?:env|file) *:.*\}", re.DOTALL)
 
@@ -198,10 +203,30 @@ class Values:
             sections = [replace(one, properties=[made.hidden() for made in one.properties]) for one in sections]
         return property_text(sections, name, os.path.basename(self.file))
 
-    def set(self, path: str, value: str) -> Change:
+    def kept_reference(self, path: str, value: str) -> str:
+        """Why a change of the value at a path would lose a reference, such as {env: NAME}: `FILE:LINE reads PATH from
+        {env: NAME}`; '' if the document has none there, or the new value has it, too. `null` and another reference
+        replace it on purpose."""
+        steps, type_ = parameter_at(path, self._parameters.parameters.root)
+        if self._linked is None or value == "null" or _REFERENCE.fullmatch(value):
+            return ""
+        node = _node_at(
+            self._linked.document.root, ["parameters", *show.typed(self._parameters.parameters.root, steps)]
+        )
+        if node is None:
+            return ""
+        new, _ = parse(path, json.dumps(value) if spells_text(type_, value) else value)
+        kept = dict(references(type_, new.data, path)) if new is not None else {}
+        for where, reference in references(type_, node.data, path):
+            if kept.get(where) != reference:
+                return f"{self.file}:{node.span.line} reads {where} from {flow(reference)}"
+        return ""
+
+    def set(self, path: str, value: str, *, replaces_references: bool = False) -> Change:
         """The change of the value at a path. Everything else in the document stays, byte for byte. Text needs no
         quotes; `null` returns to the default. Raises Refused if the parameter is unknown or cannot be set in this
-        document, and Faulty if its type or limits reject the value, or the document would have new errors."""
+        document, or a reference would be replaced by a plain value, and Faulty if its type or limits reject the value,
+        or the document would have new errors."""
         if self._is_flat:
             folder = os.path.dirname(which.component_near(self.file))
             new = typed("rcyaml", "config", "new", folder or os.curdir)
@@ -217,7 +242,10 @@ class Values:
         text = source_text.decode(self.file, raw)[0]
         assert text is not None  # the analysis has read it
         root = self._linked.document.root
-        self._reject_value(type_, steps, value, _location(root, ["parameters", *steps]), is_text=is_text)
+        if value != "null":
+            accepted(type_, steps, value, is_text=is_text)
+        if not replaces_references and (kept := self.kept_reference(path, value)):
+            raise Refused(f"{kept}: change it there, or set another reference")
         try:
             change = edit(
                 self.file, text, root, ["parameters", *steps], value, is_text=is_text and value != "null",
@@ -238,14 +266,6 @@ class Values:
         if new:
             raise Faulty(new, after.documents_read)
 
-    def _reject_value(self, type_: Type, steps: Sequence[Step], value: str, span: Span, *, is_text: bool) -> None:
-        """Raises Faulty if the type or the limits reject a value, with the location where it would be written."""
-        if value == "null":
-            return
-        _, found = judged(type_, steps, value, span, is_text=is_text)
-        if found:
-            raise Faulty(self._analysis.redacted(found), 1)
-
 
 def _is_flat(file: str) -> bool:
     return os.path.basename(file) == "config" and os.path.basename(os.path.dirname(os.path.abspath(file))) == "etc"
@@ -257,11 +277,35 @@ def spells_text(type_: Type, value: str) -> bool:
     return is_text and not _REFERENCE.fullmatch(value)
 
 
-def judged(
-    type_: Type, steps: Sequence[Step], value: str, span: Span, *, is_text: bool, complete: bool = False
+def accepted(type_: Type, steps: Sequence[Step], value: str, *, is_text: bool, complete: bool = False) -> Node:
+    """The node of a value from a command line. Raises Faulty if its type or its limits reject it; the locations are in
+    the value as it was typed, which is not shown if it is secret. `complete` as for the judge."""
+    node, faults = _judged(
+        type_, steps, value, Span(VALUE, 1, 1, 1, len(value) + 1), is_text=is_text, complete=complete
+    )
+    if faults or node is None:
+        raise Faulty(faults, None, {} if is_secret(type_) else {VALUE: value})
+    return node
+
+
+def references(type_: Type, data: object, path: str) -> Iterator[tuple[str, dict[str, str]]]:
+    """The references in the value of a parameter, with their paths."""
+    if isinstance(type_, ListType):
+        for number, one in enumerate(data if isinstance(data, list) else ()):
+            yield from references(type_.element, one, f"{path}[{number}]")
+    elif isinstance(type_, MapType | RecordType):
+        for key, one in (data if isinstance(data, dict) else {}).items():
+            of = {member.name: member.type for member in type_.members} if isinstance(type_, RecordType) else {}
+            inner = type_.element if isinstance(type_, MapType) else of.get(key)
+            if inner is not None:
+                yield from references(inner, one, f"{path}.{key}")
+    elif isinstance(data, dict) and is_reference(data):
+        yield path, data
+
+
+def _judged(
+    type_: Type, steps: Sequence[Step], value: str, span: Span, *, is_text: bool, complete: bool
 ) -> tuple[Node | None, list[Diagnostic]]:
-    """The node of a value from a command line, and why its type or its limits reject it, at the location `span`.
-    `complete` as for the judge."""
     shown = f"'{value}'" if not is_secret(type_) else HIDDEN
     if any("\ud800" <= char <= "\udfff" for char in value):  # bytes of the command line
         return None, [file_codes.WRONG_SHAPE.at(span, problem=f"{shown} is not UTF-8")]
@@ -304,21 +348,19 @@ def parameter_at(path: str, root: RecordType) -> tuple[list[str], Type]:
     steps = paths.parse(path)
     type_ = show.type_at(root, steps) if steps else None
     if steps is None or type_ is None:
-        raise Refused(f"unknown parameter '{path}'{meant(path, (name for name, _ in leaves(root)))}")
+        known = [name for name, _ in leaves(root)]
+        listed = f"known are {some(known, 8)}" if known else ""
+        raise Refused(f"unknown parameter '{path}'{meant(path, known, listed)}")
     return steps, type_
 
 
-def _location(root: Tree, steps: Sequence[Step]) -> Span:
-    """The location of a value, or of the nearest node that contains it."""
+def _node_at(root: Tree, steps: Sequence[Step]) -> Node | None:
     node: Node = root
-    span = root.span
     for step in steps:
         if isinstance(node, Tree) and isinstance(step, str) and step in node.entries:
-            key, node = node.entries[step]
-            span = node.span if isinstance(node, Scalar) and node.lexeme else key.span
+            node = node.entries[step][1]
         elif isinstance(node, List) and isinstance(step, int) and step < len(node.items):
             node = node.items[step]
-            span = node.span
         else:
-            break
-    return span
+            return None
+    return node

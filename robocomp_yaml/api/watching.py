@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 from robocomp_yaml.api.workspace import Workspace
 from robocomp_yaml.diag.listing import some
-from robocomp_yaml.source.discover import documents_below, is_skipped
+from robocomp_yaml.source.discover import finds_again, is_skipped
 from robocomp_yaml.source.disk import Disk, documents_in, names_in, state_of
 from robocomp_yaml.source.text import read_bytes
 
@@ -80,7 +80,7 @@ def is_current(disk: Disk, concern: Concern) -> bool:
         and all(state_of(path) == state or is_own(path) for path, state in disk.states.items())
         and all(documents_in(names_in(folder)) == listed for folder, listed in disk.listed.items())
         and all(names_in(folder) == names for folder, names in disk.seen.items())
-        and all(list(documents_below(folder)) == found for folder, found in disk.walked.items())
+        and finds_again(disk.walked)
         and not disk.unreadable
     )
 

@@ -56,8 +56,13 @@ def _of_folder(folder: str) -> str:
     beside = References(Disk()).beside
     nearest = (beside(folder, "cdsl"), beside(folder, "pdsl"), of_kind(folder, "cdsl"), of_kind(folder, "pdsl"))
     several = f"'{folder}' has several components" if folder else "this folder has several components"
-    missing = f"'{folder}' has no component" if folder else "this folder has no component"
-    return _only(nearest, several) or _refuse(f"{missing}; `rcyaml new component NAME` writes one")
+    return _only(nearest, several) or _refuse(no_component("" if os.path.normpath(folder) == "." else folder))
+
+
+def no_component(folder: str = "") -> str:
+    """The message that a folder has no component; '' is the working folder."""
+    where = f"'{folder}'" if folder else "this folder"
+    return f"{where} has no component; `rcyaml new component NAME` writes one"
 
 
 def _only(nearest: Iterable[list[str]], several: str) -> str | None:
@@ -86,8 +91,12 @@ def _named(name: str) -> str:
     alike = [path for path, known in names.items() if name.lower() in map(str.lower, known)]
     components = [called for called, *_ in names.values() if called]
     return _only((same, alike), f"several components have the name '{name}'") or _refuse(
-        f"unknown component '{name}'{meant(name, components)}"
+        f"unknown component '{name}'{meant(name, components, _others(components))}"
     )
+
+
+def _others(components: list[str]) -> str:
+    return f"known are {some(sorted(components), 8)}" if components else no_component()
 
 
 def component_near(values_document: str) -> str:
@@ -102,11 +111,14 @@ def component_near(values_document: str) -> str:
 
 def deployment(path: str, include: tuple[str, ...]) -> str:
     """The document of the deployment that a path means."""
-    if not os.path.isdir(path):
+    from robocomp_yaml.deploy import registered
+
+    if not os.path.isdir(path) or registered.of_folder(path):
         return path
     found = deployments_of(path, include)
     if not found:
-        raise Refused(f"'{path}' has no deployment document: `rcyaml new deployment NAME` writes one")
+        what = "this folder" if os.path.normpath(path) == "." else f"'{path}'"
+        raise Refused(f"{what} has no deployment document: `rcyaml new deployment NAME` writes one")
     return only_deployment(found)
 
 

@@ -96,15 +96,15 @@ class Workspace:
     def rename(self, what: str, name: str) -> Renaming:
         """Renames a name everywhere: in documents, configurations and the user's code. `what` is its location
         (`FILE:LINE:COLUMN`) or the name itself: `Speech`, `Speech.say`, `host:left`. Nothing is written before the
-        `apply` of the result. Raises Refused if the name is unknown, the new one is taken, or something would not mean
-        the same any more; Faulty if documents have errors that hide what they mean."""
+        `apply` of the result. Raises Refused if the name is unknown, NotRenamed, a Refused, if the new one is taken or
+        something would not mean the same any more; Faulty if documents have errors that hide what they mean."""
         from robocomp_yaml.api.renaming import Renaming, name_at, name_called
         from robocomp_yaml.naming.analysis import names_of
 
         names = names_of(self.analysis)
         path, *place = what.rsplit(":", 2)
         is_place = len(place) == 2 and all(one.isdigit() for one in place)
-        defined = name_at(names, path, int(place[0]), int(place[1])) if is_place else name_called(names, what)
+        defined = name_at(names, self.analysis, path, *map(int, place)) if is_place else name_called(names, what)
         return Renaming(self, self.with_texts, self._paths, defined, name, names)
 
     def with_texts(self, changed: Mapping[str, bytes]) -> Workspace:
@@ -154,21 +154,30 @@ class Workspace:
         """The content of a picture, for rcyaml itself. None if the document, or everything in the folder, has too many
         errors."""
         from robocomp_yaml.api.which import deployments_of, only_deployment
-        from robocomp_yaml.emit.graphs import of_components, of_network
+        from robocomp_yaml.emit.graphs import of_components
 
         networks, program = self.analysis.networks, self.analysis.program
         if not os.path.isdir(path):
             network = networks.get(os.path.realpath(path))
             if network is None and kind_of(path) != "ddsl":
                 raise Refused(f"'{path}' is neither a deployment document (NAME.ddsl.yaml) nor a folder")
-            return of_network.picture_of(network, self.analysis.diagnostics) if network is not None else None
+            return self._with_positions(network, path) if network is not None else None
         readable = [one for one in deployments_of(path, analysis=self.analysis) if os.path.realpath(one) in networks]
         if readable:
-            network = networks[os.path.realpath(only_deployment(readable))]
-            return of_network.picture_of(network, self.analysis.diagnostics)
+            chosen = only_deployment(readable)
+            return self._with_positions(networks[os.path.realpath(chosen)], chosen)
         if program.deployments or not program.components:
             return None
         return of_components.picture_of(os.path.basename(os.path.abspath(path)), program.components.values())
+
+    def _with_positions(self, network: Network, document: str) -> Picture:
+        """The picture of a network, with the positions that a person chose for its nodes."""
+        from robocomp_yaml.api.editing import layout
+        from robocomp_yaml.emit.graphs import of_network
+
+        picture = of_network.picture_of(network, self.analysis.diagnostics)
+        picture.positions = layout.read(document)
+        return picture
 
     def _deployment_at(self, path: str) -> str:
         """The path of the deployment that is meant, if errors leave a network."""
@@ -204,8 +213,14 @@ class Workspace:
             from robocomp_yaml.check.cdsl.flat_configs import replaced
             from robocomp_yaml.emit.specific import existing_code
 
-            yield from clashes.clashes(analysis.program.components.values(), analysis.disk)
-            yield from replaced(analysis.program, analysis.program.components.values())
+            program = analysis.program
+
+            def of_flat_configs() -> list[Diagnostic]:
+                components = program.components.values()
+                return [*clashes.clashes(components, program.disk), *replaced(program, components)]
+
+            part = "flat configs", analysis.discovered.documents
+            yield from program.memory.result(part, (analysis.undeployed,), of_flat_configs)
             if existing_code.has_code(analysis.program):
                 from robocomp_yaml.api import compile_stamps
 

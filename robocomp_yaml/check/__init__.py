@@ -36,19 +36,37 @@ def repeated(items: Iterable[_Item], key: Callable[[_Item], Hashable]) -> Iterat
             yield other, item
 
 
-def checks(program: Program, plugins: Iterable[Plugins] = ()) -> list[Check]:
-    """The checks for the documents of a program; `plugins` are those of its workspaces."""
-    kinds = {
+def check_documents(program: Program) -> Iterator[Diagnostic]:
+    """The diagnostics of rcyaml's own checks of documents other than deployments."""
+    for kind, documents in _kinds(program).items():
+        for check in checks_of(kind) if documents else ():
+            yield from check(program)
+    if program.modules:
+        used = _languages(program)
+        for language in languages.table().values():
+            if language.has_checks and (language.name in used or language.warns_others):
+                yield from language.part("checks").check(program)
+
+
+def _kinds(program: Program) -> dict[str, object]:
+    return {
         "idsl": program.modules,
         "cdsl": program.components,
         "machine": any(linked.machine for linked in program.components.values()),
         "pdsl": program.parameters or program.values,
     }
-    found = [check for kind, documents in kinds.items() if documents for check in checks_of(kind)]
-    used = {linked.component.language.name for linked in program.components.values()}
-    if program.modules:
-        relevant = (one for one in languages.table().values() if one.name in used or one.warns_others)
-        found += [one.part("checks").check for one in relevant if one.has_checks]
+
+
+def _languages(program: Program) -> set[str]:
+    return {linked.component.language.name for linked in program.components.values()}
+
+
+def checks_of_plugins(program: Program, plugins: Iterable[Plugins]) -> list[Check]:
+    """The checks that the plug-ins of a program's workspaces add for its documents."""
+    found: list[Check] = []
+    if not any(one.active for one in plugins):
+        return found
+    kinds, used = _kinds(program), _languages(program)
     for plugin in {one.name: one for each in plugins for one in each.active}.values():
         for name, check in plugin_checks(plugin, kinds, used):
             found.append(_in_its_workspaces(plugin, name, check))

@@ -33,11 +33,11 @@ class Allowances(msgspec.Struct, frozen=True):
     texts: Mapping[str, DocumentText] = {}
 
     @classmethod
-    def of(cls, texts: DocumentTexts, plugins_of: Callable[[str], Plugins]) -> Allowances:
-        """The allowances in the YAML documents of these files; `plugins_of` returns the plug-ins of a workspace."""
+    def of(cls, texts: DocumentTexts, paths: Iterable[str], plugins_of: Callable[[str], Plugins]) -> Allowances:
+        """The allowances in the YAML documents at these paths; `plugins_of` returns the plug-ins of a workspace."""
         by_file, faults, with_comments = {}, [], {}
-        for path, raw in texts.contents.items():
-            if path.endswith(".yaml") and OURS.search(raw) and (text := texts.get(path)) is not None:
+        for path in paths:
+            if (text := texts.get(path)) is not None:
                 plugins = plugins_of(path)
                 found, wrong = allowances(text, plugins.codes, whole=plugins.whole)
                 by_file[path], with_comments[path] = tuple(found), text
@@ -72,6 +72,11 @@ class Allowances(msgspec.Struct, frozen=True):
                     yield codes.ALLOW_UNUSED.at(
                         one.span, code=one.code, hint="remove it", fixes=[one.removal(self.texts[file])]
                     )
+
+
+def commented_in(contents: Mapping[str, bytes]) -> list[str]:
+    """The paths of the YAML documents that may have such comments."""
+    return [path for path, raw in contents.items() if path.endswith(".yaml") and OURS.search(raw)]
 
 
 def _of_errors(errors: Iterable[Allowance]) -> Iterator[Diagnostic]:

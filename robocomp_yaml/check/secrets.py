@@ -21,8 +21,9 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.link.documents import Document, read_tree
 from robocomp_yaml.link.program import LinkedParameters, Program
-from robocomp_yaml.parameters.hidden import named_nodes, nodes, plain_below, secret_names
+from robocomp_yaml.parameters.hidden import is_named, named_nodes, nodes, plain_below, secrets_of
 from robocomp_yaml.parameters.types import RecordType
+from robocomp_yaml.semantics.references import is_sound
 from robocomp_yaml.source import properties
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, found_in, pairs_below
@@ -39,13 +40,25 @@ class Secret(msgspec.Struct, frozen=True):
     is_sure: bool = True
 
 
-def check(program: Program, documents: Iterable[Document]) -> Iterator[Diagnostic]:
-    """Warns about secrets in files that other users can read."""
+Held = tuple[Document, tuple[Secret, ...]]
+"""A document with the secrets that it surely contains."""
+
+
+def held(program: Program, documents: Iterable[Document]) -> Iterator[Held]:
+    """The documents with secrets."""
     finder = _SecretFinder(program)
     for document in documents:
         if document.kind in _KINDS and document.model is not None and finder.may_hold(document):
-            if _others_can_read(document.path):
-                yield from (_warning(document, secret) for secret in finder.secrets(document) if secret.is_sure)
+            found = tuple(secret for secret in finder.secrets(document) if secret.is_sure)
+            if found:
+                yield document, found
+
+
+def check(program: Program, found: Iterable[Held]) -> Iterator[Diagnostic]:
+    """Warns about secrets in files that other users can read."""
+    for document, secrets_ in found:
+        if _others_can_read(document.path):
+            yield from (_warning(document, secret) for secret in secrets_)
     yield from _of_configurations(program)
 
 
@@ -61,7 +74,7 @@ def _of_configurations(program: Program) -> Iterator[Diagnostic]:
             if path not in program.disk.contents or not _others_can_read(path):
                 continue
             reported.add(location)
-            names = set(secret_names(component.parameters.parameters.root)) if component is not None else set()
+            names = secrets_of(component.parameters) if component is not None else ()
             line = _line_of_secret(program.disk.contents[path].decode("utf-8", "replace"), names)
             if line:
                 file, hint = os.path.relpath(path), f"`{typed('chmod', '600', os.path.relpath(path))}`"
@@ -127,7 +140,7 @@ class _SecretFinder:
     def __init__(self, program: Program) -> None:
         self.program = program
         linked = [*program.parameters.values(), *(one.parameters for one in program.components.values())]
-        self.names = {name for one in linked for name in secret_names(one.parameters.root)}
+        self.names = {name for one in linked for name in secrets_of(one)}
 
     def may_hold(self, document: Document) -> bool:
         """Whether a document may contain a secret; a quick test, which is False for most documents."""
@@ -195,20 +208,34 @@ class _SecretFinder:
 
     def _of_deployment(self, document: Document, tree: Mapping) -> Iterator[Secret]:
         linked = self.program.deployments.get(document.real)
-        owners: dict[str, LinkedParameters] = {}
+        owners: dict[tuple[int, int], LinkedParameters] = {}
         for instance in linked.instances.values() if linked is not None else ():
             if instance.component is not None and instance.entry.settings is not None:
-                owners[str(instance.entry.settings.span)] = instance.component.parameters
+                span = instance.entry.settings.span
+                if span.file == document.path:
+                    owners[span.line, span.column] = instance.component.parameters
         components = tree.get("components")
         for entry in components.children() if components is not None else ():
             yield from found_in(_of_entry, components, entry, self.names) if components is not None else ()
             settings = entry.get("set")
-            owner = owners.get(str(settings.span)) if settings is not None else None
-            if settings is not None and owner is not None:
-                yield from map(Secret, nodes(owner.parameters.root, settings))
-            elif settings is not None:
-                yield from map(Secret, named_nodes(settings, self.names))
-                yield from _doubtful(settings) if isinstance(entry, Mapping) and "component" in entry.entries else ()
+            owner = owners.get((settings.span.line, settings.span.column)) if settings is not None else None
+            if settings is not None and owner is not None and components is not None:
+                yield from found_in(_of_settings, components, entry, owner.parameters.root)
+            elif settings is not None and components is not None:
+                yield from found_in(_of_unknown_settings, components, entry, self.names)
+
+
+def _of_settings(entry: Node, root: RecordType) -> Iterator[Secret]:
+    """The secrets in the settings of an entry, for a component with these parameters."""
+    settings = entry.get("set")
+    return map(Secret, nodes(root, settings) if settings is not None else ())
+
+
+def _of_unknown_settings(entry: Node, names: Collection[str]) -> Iterator[Secret]:
+    """The secrets in the settings of an entry, if the parameters of its component are unknown."""
+    if (settings := entry.get("set")) is not None:
+        yield from map(Secret, named_nodes(settings, names))
+        yield from _doubtful(settings) if entry.get("component") is not None else ()
 
 
 def _of_entry(entry: Node, names: Collection[str]) -> Iterator[Secret]:
@@ -222,10 +249,13 @@ def _of_entry(entry: Node, names: Collection[str]) -> Iterator[Secret]:
 def _anywhere(node: Node, names: Collection[str]) -> Iterator[Secret]:
     if isinstance(node, Sequence):
         yield from _words(node, names)
-    for child in node.children():
-        yield from _anywhere(child, names)
-    if isinstance(node, Mapping):
-        yield from map(Secret, named_nodes(node, names))
+        for item in node.items:
+            yield from _anywhere(item, names)
+    elif isinstance(node, Mapping) and not is_sound(node.data):
+        for key, value in node.items():
+            if is_named(key, names):
+                yield from map(Secret, plain_below(value))
+            yield from found_in(_anywhere, node, value, names)
 
 
 def _of_defaults(tree: Node) -> Iterator[Secret]:

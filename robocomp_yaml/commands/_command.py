@@ -32,6 +32,9 @@ class CommandGroup(click.Group):
 
     command_class = LibraryCommand
 
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return list(self.commands)  # in the order in which they are used, not by name
+
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
@@ -41,8 +44,10 @@ class CommandGroup(click.Group):
             if args[0].startswith("-"):  # an unknown option
                 raise
             meant = " or ".join(f"'{one}'" for one in self._suggestions(ctx, args[0]))
-            message = f"unknown command '{' '.join([*ctx.command_path.split()[1:], args[0]])}'"
-            raise click.UsageError(message + (f"; did you mean {meant}?" if meant else ""), ctx) from error
+            path = ctx.command_path.split()[1:]
+            known = f"; known are {', '.join(self.list_commands(ctx))}" if path else ""  # not all of rcyaml's
+            message = f"unknown command '{' '.join([*path, args[0]])}'"
+            raise click.UsageError(message + (f"; did you mean {meant}?" if meant else known), ctx) from error
 
     def _suggestions(self, ctx: click.Context, word: str) -> list[str]:
         """The commands that were probably meant: a similar name of this group, or the same name in a subgroup."""

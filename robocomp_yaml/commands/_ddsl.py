@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import os
 import re
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from robocomp_yaml.source.discover import of_kind
+
+if TYPE_CHECKING:
+    from robocomp_yaml.deploy.registered import RegisteredDeployment
 
 
 class DocumentAnd(click.Argument):
@@ -47,8 +50,8 @@ class DocumentAnd(click.Argument):
         if is_document:
             return first, words[1:]
         is_path = "/" in first or first.endswith((".yaml", ".yml"))
-        if running := _running(first, is_path=is_path):
-            return running, words[1:]
+        if found := _running(first, is_path=is_path) or ("" if is_path else _of_name(first)):
+            return found, words[1:]
         if self._limit == 0 or is_path or not of_kind(".", "ddsl"):
             if is_path or not self._running:
                 raise click.BadParameter(f"Path '{first}' does not exist.", ctx, self, "'[DDSL]'")
@@ -77,14 +80,18 @@ def default_document() -> str:
     if len(found) > 1:
         raise Refused(f"several deployments run: {', '.join(found)}; name one of them")
     if not found and not is_here:
-        raise Refused("there is no deployment document here, and no deployment runs")
+        raise Refused(
+            "this folder has no deployment document, and no deployment runs: `rcyaml new deployment NAME` writes one"
+        )
     return os.path.relpath(found[0]) if found else "."
 
 
 def _running(word: str, *, is_path: bool) -> str:
     """The document of the running deployment of this name, or at this path, which may be gone; '' if none runs. In a
-    folder with a document, the name of one of its processes or groups goes first. Raises Refused if several run."""
+    folder with a document, the name of one of its processes or groups goes first. If the document describes another
+    deployment now, the own folder of the running one. Raises Refused if several run."""
     from robocomp_yaml.deploy import registered
+    from robocomp_yaml.deploy.folder import deployment_in
     from robocomp_yaml.deploy.install import installing
     from robocomp_yaml.diag.errors import Refused
 
@@ -96,7 +103,26 @@ def _running(word: str, *, is_path: bool) -> str:
     if len(found) > 1:
         documents = ", ".join(one.document for one in found)
         raise Refused(f"several deployments '{word}' run: name one of the documents {documents}")
-    return os.path.relpath(found[0].document)
+    (one,) = found
+    is_another = deployment_in(one.document) not in ("", one.name)  # its own folder still means it
+    return os.path.relpath(one.folder if is_another or _shares(one) else one.document)
+
+
+def _shares(one: RegisteredDeployment) -> bool:
+    """Whether another running deployment had the same document."""
+    from robocomp_yaml.deploy import registered
+
+    return any(other.document == one.document and other.folder != one.folder for other in registered.every())
+
+
+def _of_name(word: str) -> str:
+    """The only document below this folder of the deployment of this name, which need not run; '' if there is none, or
+    if the word can also be the name of a process."""
+    from robocomp_yaml.deploy.folder import deployment_in
+
+    documents = of_kind(".", "ddsl")
+    found = [document for document in documents if deployment_in(document) == word]
+    return found[0] if len(found) == 1 and not any(_may_name(one, word) for one in documents) else ""
 
 
 def _documents_here() -> list[str]:

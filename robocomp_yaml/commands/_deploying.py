@@ -18,7 +18,8 @@ from robocomp_yaml.api import which
 from robocomp_yaml.commands import _deploy_views as views
 from robocomp_yaml.commands import _options, _signals
 from robocomp_yaml.commands._progress import Progress
-from robocomp_yaml.deploy import json_data
+from robocomp_yaml.deploy import json_data, renamed
+from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import Line
 from robocomp_yaml.deploy.listing import listed
 from robocomp_yaml.deploy.operations import Choose, Result
@@ -47,7 +48,11 @@ def open_session(
         _options.report(ctx, format_, faulty.diagnostics, faulty.documents or 0)
     if deployment.unread:
         why = "cannot be read (see `rcyaml check`)" if os.path.exists(path) else "is gone"
+        if os.path.isdir(path):  # the own folder of a running deployment
+            path, why = shown_path(deployment.network.path), "describes another deployment now"
         terminal.say(f"{path} {why}: the running processes are used instead", err=True)
+    if found := renamed.at_another_path(deployment.network):
+        terminal.say(found, err=True)
     return DeploySession(ctx, deployment, format_)
 
 
@@ -173,6 +178,8 @@ class DeploySession(msgspec.Struct):
         return api.Attached(on_up, on_line if self.format_ == "text" else None)
 
     def status(self, names: Names) -> None:
+        if running := renamed.under_another_name(self.network):
+            terminal.say(running, err=True)
         found = self.run(lambda: self.deployment.status(*names))
         code = 0 if all(one.is_as_desired for one in found) else 1
         if self.format_ == "json":

@@ -18,7 +18,7 @@ from robocomp_yaml.diag.render import FORMATS, tell
 
 MANY = 300  # documents: fewer are read too fast for a progress bar
 
-paths = click.argument("paths", nargs=-1, type=click.Path(exists=True))
+paths = click.argument("paths", metavar="[PATH]...", nargs=-1, type=click.Path(exists=True))
 include = click.option(
     "-I", "--include", multiple=True, metavar="DIR", type=click.Path(exists=True, file_okay=False),
     help="Also search DIR for imports; may be repeated.",

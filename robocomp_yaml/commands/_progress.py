@@ -82,6 +82,8 @@ class Progress(LiveLines):
                 self._draw_busy()
 
     def _draw_busy(self) -> None:
+        if not self.is_live:
+            return
         room = max(1, shutil.get_terminal_size().lines - 2)
         now = time.monotonic()
         lines = [self._line(name, kind, now - since) for name, (kind, since) in list(self._busy.items())[:room]]

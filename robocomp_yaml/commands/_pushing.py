@@ -5,6 +5,7 @@ from __future__ import annotations
 from robocomp_yaml.api import pushing
 from robocomp_yaml.commands._deploying import DeploySession
 from robocomp_yaml.commands._progress import LiveLines
+from robocomp_yaml.deploy.json_data import push_data
 from robocomp_yaml.deploy.push.planned import HostPush
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.diagnostic import has_errors
@@ -26,7 +27,7 @@ def push(session: DeploySession, names: tuple[str, ...], *, dry_run: bool) -> No
 
     done = session.run(work, "interrupted: the next push continues")
     if session.format_ == "json":
-        session.end({"dry_run": dry_run, "hosts": [_data(one) for one in done]})
+        session.end({"dry_run": dry_run, "hosts": [push_data(one) for one in done]})
     if session.prints_progress or dry_run:
         terminal.say(*(line for one in done for line in _lines(one, dry_run, len(max(done, key=_width).host.name))))
         if not done and not has_errors(session.deployment.diagnostics):
@@ -36,14 +37,6 @@ def push(session: DeploySession, names: tuple[str, ...], *, dry_run: bool) -> No
 
 def _width(one: HostPush) -> int:
     return len(one.host.name)
-
-
-def _data(one: HostPush) -> dict[str, object]:
-    return {
-        "host": one.host.name, "address": one.host.address, "sent": sorted(one.send), "bytes": one.size,
-        "deleted": sorted(one.delete), "replaced": sorted(one.replaced), "changed": sorted(one.changed),
-        "built_there": sorted(one.built), "unchanged": one.unchanged,
-    }  # fmt: skip
 
 
 def _lines(one: HostPush, dry_run: bool, width: int) -> list[str]:

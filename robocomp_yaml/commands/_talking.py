@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import sys
 import threading
 import time
@@ -24,7 +23,7 @@ deployment = click.option(
 )  # fmt: skip
 timeout = click.option("--timeout", type=Duration(), default="10s", metavar="TIME", show_default=True,
                        help="The longest time that a call may take.")  # fmt: skip
-every = click.option("--every", type=Duration(), metavar="TIME", help="Again after this time, until Ctrl-C.")
+every = click.option("--every", type=Duration(), metavar="TIME", help="Call again after this time, until Ctrl-C.")
 ice_config = click.option(
     "--ice-config", metavar="FILE", type=click.Path(exists=True, dir_okay=False),
     help="Properties of Ice, such as those of TLS.",
@@ -82,19 +81,9 @@ def as_text(data: Mapping[str, Any], format_: str, *, line: bool = False) -> str
 def as_json(data: object, *, line: bool = True) -> str:
     """Values as JSON with a line end. JSON has no numbers that are infinite or none: they are texts, as in Protobuf's
     JSON."""
-    from robocomp_yaml.diag.render.json import dumps
+    from robocomp_yaml.diag.render.json import dumps, plain
 
-    return dumps(_finite(data), indent=None if line else 2)
-
-
-def _finite(data: object) -> object:
-    if isinstance(data, dict):
-        return {key: _finite(value) for key, value in data.items()}
-    if isinstance(data, list):
-        return [_finite(item) for item in data]
-    if isinstance(data, float) and not math.isfinite(data):
-        return "NaN" if math.isnan(data) else "Infinity" if data > 0 else "-Infinity"
-    return data
+    return dumps(plain(data), indent=None if line else 2)
 
 
 def standard_input() -> str:

@@ -111,6 +111,7 @@ class _Loop:
         self.written, self.failed = (), False
         try:
             os.chdir(self.home)  # if it was deleted and made again, it is another folder
+            self.living.forget()  # its result has a stamp
             self.workspace = self.living.load()
             self.written = self.run(self.workspace)
         except Faulty as faulty:

@@ -9,7 +9,7 @@ from typing import TypeVar
 import click
 import msgspec
 
-from robocomp_yaml.api import building
+from robocomp_yaml.api import building, which
 from robocomp_yaml.building.job import BUILT, CURRENT, FAILED, RELEASE, TYPES, BuildEvent, BuildResult, BuildStep
 from robocomp_yaml.commands import _options, _signals
 from robocomp_yaml.commands._command import LibraryCommand
@@ -78,7 +78,7 @@ def _summary(built: building.Built) -> str:
     counts = Counter(one.state for one in built.components)
     states = ", ".join(f"{counts[state]} {state}" for state in (BUILT, CURRENT, FAILED) if counts[state])
     total = len(built.components)
-    return f"{total} component{'' if total == 1 else 's'}: {states}" if total else "no components"
+    return f"{total} component{'' if total == 1 else 's'}: {states}" if total else which.no_component()
 
 
 class _View(LiveLines):

@@ -21,7 +21,12 @@ if TYPE_CHECKING:
 @_talking.timeout
 @click.option("--repeat", type=click.IntRange(1), metavar="N", help="Call N times.")
 @_talking.every
-@click.option("--identity", default="", help="Ice's identity of the object; by default, the interface in lower case.")
+@click.option(
+    "--identity",
+    default="",
+    metavar="NAME",
+    help="Ice's identity of the object; by default, the interface in lower case.",
+)
 @_talking.ice_config
 @_options.include
 @_talking.yaml_or_json

@@ -36,7 +36,7 @@ def command(
     ctx: click.Context, paths: tuple[str, ...], environment: bool, code: bool, fix: bool, unsafe_fixes: bool,
     diff: bool, watch: bool, fail_on: _options.FailOn, include: tuple[str, ...], format_: str,
 ) -> None:  # fmt: skip
-    """Report everything that is wrong with the documents at PATHS (by default, below this folder).
+    """Report everything that is wrong with the documents at PATHs (by default, below this folder).
 
     A folder means all documents below it. Documents that they import are checked too.
     """

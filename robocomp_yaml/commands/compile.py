@@ -59,7 +59,7 @@ def command(
     dry_run: bool, diff: bool, check: bool, adopt: bool, merge: bool, watch: bool, fail_on: _options.FailOn,
     include: tuple[str, ...], format_: str,
 ) -> None:  # fmt: skip
-    """Compile the documents at PATHS (by default, below this folder).
+    """Compile the documents at PATHs (by default, below this folder).
 
     An interface is compiled to Slice, in the slice folder of the workspace. A component is compiled to a program in its
     own folder: generated/ is always rewritten; src/ is yours, and is written only once. If an interface changes, rcyaml
@@ -143,7 +143,9 @@ def _tell(
         if diagnostics:
             tell("text", diagnostics, outcome.documents, color)
         if ctx.obj.verbosity >= 0 and not diff:
-            terminal.say(*_skipped(outcome), _summary(outcome), *_to_build(outcome))
+            # without documents, the summary of the diagnostics says it
+            summary = [_summary(outcome)] if outcome.asked or not diagnostics else []
+            terminal.say(*_skipped(outcome), *summary, *_to_build(outcome))
         fail_on.explain(diagnostics)
 
 

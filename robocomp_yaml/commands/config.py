@@ -163,7 +163,7 @@ def set_(
 
 @command.command(short_help="Print the values as Ice properties or TOML.")
 @read_only
-@click.option("--as", "form", type=click.Choice(["ice", "toml"]), default="ice", help="The format.")
+@click.option("--as", "form", type=click.Choice(["ice", "toml"]), default="ice", show_default=True, help="The format.")
 @reveal
 @_options.include
 @click.pass_context

@@ -24,6 +24,7 @@ _diff = click.option("--diff", "only_diff", is_flag=True, help="Show the change,
 _force = click.option("--force", is_flag=True, help="Write it even if it causes errors.")
 _LISTS = {"implement": "implements", "require": "requires", "publish": "publishes", "subscribe": "subscribes"}
 _SAID = {"subscribes": "subscribes to"}
+_CARRIED = {"publishes": "TOPIC", "subscribes": "TOPIC"}
 
 
 @click.group(cls=CommandGroup, short_help="Change a deployment or a component; comments and layout stay.")
@@ -106,12 +107,19 @@ def _(entry: str, host: str) -> DocumentChange:
 
 
 @_changing("add-host", "Add a host.", click.argument("name"), click.argument("address"),
-           click.option("--user", default="", help="The user for ssh."))  # fmt: skip
-def _(name: str, address: str, user: str) -> DocumentChange:
+           click.option("--user", default="", metavar="NAME", help="The user for ssh."),
+           click.option("--path", default="", metavar="FOLDER", help="The folder of the deployment there."),
+           click.option("--ssh-port", "port", type=click.IntRange(1, 65535), metavar="PORT", help="The port of ssh."),
+           click.option("--identity", default="", metavar="FILE", help="The private key for ssh."),
+           click.option("--known-hosts", default="", metavar="FILE", help="A file of keys of hosts for ssh."),
+           click.option("--jump", default="", metavar="HOST", help="The host that ssh goes through."))  # fmt: skip
+def _(
+    name: str, address: str, user: str, path: str, port: int | None, identity: str, known_hosts: str, jump: str
+) -> DocumentChange:  # fmt: skip
     """Add the host NAME with its ADDRESS. If it is the second one, all entries without a host get the first one."""
     from robocomp_yaml.api.editing.changes import AddHost
 
-    return AddHost(name, address, user)
+    return AddHost(name, address, user, path, port, identity, known_hosts, jump)
 
 
 @_changing("remove-host", "Remove a host on which nothing runs.", click.argument("name"))
@@ -139,17 +147,33 @@ def _(group: str, names: tuple[str, ...]) -> DocumentChange:
     return UngroupEntries(group, names)
 
 
+def _used(key: str) -> Callable[..., Any]:
+    return click.option(f"--{key}", multiple=True, metavar="INTERFACE", help=f"With --new: what it {key}; repeatable.")
+
+
 @_changing("add", "Add a component or a program.",
            _entry, click.argument("what", metavar="COMPONENT|PROGRAM"), click.argument("args", nargs=-1),
            click.option("--program", "is_program", is_flag=True, help="It is a program with arguments."),
-           click.option("--host", default="", help="The host."))  # fmt: skip
-def _(entry: str, what: str, args: tuple[str, ...], is_program: bool, host: str) -> DocumentChange:
-    """Add ENTRY: the component with this document or folder, or with --program any program. Arguments of a program that
-    begin with - follow after --."""
-    from robocomp_yaml.api.editing.changes import AddEntry
+           click.option("--new", "is_new", is_flag=True, help="Write a new component with this name, and add it."),
+           click.option("--language", default="", help="With --new: the language of its code."),
+           *map(_used, _LISTS.values()),
+           click.option("--host", default="", metavar="NAME", help="The host that it runs on."))  # fmt: skip
+def _(
+    entry: str, what: str, args: tuple[str, ...], is_program: bool, is_new: bool, language: str, host: str,
+    **uses: tuple[str, ...],
+) -> DocumentChange:  # fmt: skip
+    """Add ENTRY: the component with this document or folder, with --new a new component, as `rcyaml new component`
+    writes it, or with --program any program. Arguments of a program that begin with - follow after --."""
+    from robocomp_yaml.api.editing.changes import AddEntry, AddNew
 
     if args and not is_program:
         raise click.UsageError("only a program has arguments here: add --program")
+    if is_program and is_new:
+        raise click.UsageError("--program and --new exclude each other")
+    if not is_new and (language or any(uses.values())):
+        raise click.UsageError("only a new component gets these options: add --new")
+    if is_new:
+        return AddNew(entry, what, language, host=host, **uses)
     if is_program:
         return AddEntry(entry, program=what, args=args, host=host)
     return AddEntry(entry, component=what, host=host)
@@ -187,7 +211,8 @@ def _(entry: str, parameter: str) -> DocumentChange:
 
 
 @_changing("port", "Set a TCP port.", _entry, click.argument("number", metavar="NUMBER|none"),
-           click.option("--interface", default="", help="The interface; by default, the first one."))  # fmt: skip
+           click.option("--interface", default="", metavar="NAME",
+                        help="The interface; by default, the first one."))  # fmt: skip
 def _(entry: str, number: str, interface: str) -> DocumentChange:
     """Set the TCP port of ENTRY; none: a derived one."""
     from robocomp_yaml.api.editing.changes import SetPort
@@ -221,31 +246,60 @@ def _(entry: str, names: tuple[str, ...]) -> DocumentChange:
     return StartIndependently(entry, names)
 
 
-def _ports(name: str, key: str) -> None:
-    @command.command(name, short_help=f"Change what a component {_SAID.get(key, key)}.")
+def _ports(name: str, key: str, *, adds: bool) -> None:
+    what = _CARRIED.get(key, "INTERFACE")
+    verb = f"Add {what.lower()}s to" if adds else f"Remove {what.lower()}s from"
+
+    @command.command(name, short_help=f"{verb} what a component {_SAID.get(key, key)}.")
     @click.argument("component")
-    @click.argument("interfaces", metavar="INTERFACE...", nargs=-1, required=True)
-    @click.option("--remove", is_flag=True, help="Remove them.")
+    @click.argument("interfaces", metavar=f"{what}...", nargs=-1, required=True)
     @_writing
     @click.pass_context
-    def run(ctx: click.Context, component: str, interfaces: tuple[str, ...], remove: bool, include: tuple[str, ...],
+    def run(ctx: click.Context, component: str, interfaces: tuple[str, ...], include: tuple[str, ...],
             only_diff: bool, force: bool, format_: str) -> None:  # fmt: skip
         from robocomp_yaml.api import which
-        from robocomp_yaml.api.editing.changes import AddPorts, RemovePorts
+        from robocomp_yaml.api.editing.changes import from_json
 
         document = which.component(component)
         editor = _editor(document, include)
-        change: DocumentChange = RemovePorts(key, interfaces) if remove else AddPorts(key, interfaces)
-        _show(ctx, editor, editor.revise(document, change), only_diff=only_diff, force=force, format_=format_)
+        revision = editor.revise(document, from_json({"change": name, "interface": interfaces}))
+        _show(ctx, editor, revision, only_diff=only_diff, force=force, format_=format_)
 
     run.help = (
-        f"Add interfaces to what COMPONENT {_SAID.get(key, key)}, with the imports that they need; with --remove, "
-        "remove them. COMPONENT is the document, folder or name of a component."
+        f"{verb} what COMPONENT {_SAID.get(key, key)}{', with the imports that they need' if adds else ''}. COMPONENT "
+        "is the document, folder or name of a component."
     )
 
 
 for _name, _key in _LISTS.items():
-    _ports(_name, _key)
+    _ports(_name, _key, adds=True)
+    _ports(f"un{_name}", _key, adds=False)
+
+
+@command.command(short_help="Put a node of the picture at a position.")
+@click.argument("name")
+@click.argument("position", metavar="[X Y]", nargs=-1, type=click.FloatRange(0))
+@_deployment
+@_options.include
+@click.pass_context
+def place(
+    ctx: click.Context, name: str, position: tuple[float, ...], deployment: str | None, include: tuple[str, ...]
+) -> None:
+    """Put NAME, a process or a topic, at X and Y of the picture of `rcyaml manager` and `rcyaml graph --as json`:
+    pixels from its upper left corner. Without X and Y, the picture decides."""
+    from robocomp_yaml.api import load
+    from robocomp_yaml.api.editing import layout
+    from robocomp_yaml.api.refusals import require
+
+    if len(position) not in (0, 2):
+        raise click.UsageError("a position is two numbers: X Y", ctx)
+    document = _document(deployment, include)
+    picture = load(document, include=include).picture(document)
+    if position and picture is not None:
+        require("node", name, picture.nodes, document)
+    layout.move(document, {name: (position[0], position[1]) if position else None})
+    if ctx.obj.verbosity >= 0:
+        terminal.say(f"wrote {os.path.relpath(layout.path_of(document))}: place {name}")
 
 
 @command.command(short_help="Undo the last change of a document.")

@@ -25,7 +25,7 @@ def command(ctx: click.Context, code: str | None, format_: str) -> None:
     rows = _codes()
     if code is None:
         chosen = list(rows.values())
-    elif (row := rows.get(code.upper())) is None:
+    elif (row := rows.get(code.upper()) or rows.get(f"RC{code}")) is None:
         _plugin_choices.plugins_at()  # raises Faulty if it may be that of a missing plug-in
         raise click.UsageError(f"unknown diagnostic {code}{_hint(code.upper(), rows)}")
     else:
@@ -42,8 +42,10 @@ def _hint(code: str, known: Iterable[str]) -> str:
     alike = [one for one in known if one[:2] == code[:2]]
     if not alike and _OF_A_PLUGIN.fullmatch(code):
         return ": a diagnostic of a plug-in is explained in a workspace that names the plug-in under `plugins:`"
+    if len(code) < 5:  # is like too many
+        return ": a code consists of RC and four digits; `rcyaml explain` lists all"
     meant = suggest(code, alike or known)
-    return f"; did you mean {meant}?" if meant else ""
+    return f"; did you mean {meant}?" if meant else ": `rcyaml explain` lists all"
 
 
 def _codes() -> dict[str, Code]:

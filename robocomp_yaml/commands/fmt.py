@@ -17,14 +17,14 @@ if TYPE_CHECKING:
 STDIN = "-"
 
 
-@click.command(cls=LibraryCommand, short_help="Lay documents out in the usual way; nothing of them changes.")
-@click.argument("paths", nargs=-1, metavar="[PATH]...")
+@click.command(cls=LibraryCommand, short_help="Format documents; what they mean does not change.")
+@click.argument("paths", nargs=-1, metavar="[PATH]...", type=click.Path(exists=True, allow_dash=True))
 @click.option("--check", is_flag=True, help="Write nothing; end with 1 if a document would change.")
 @click.option("--diff", is_flag=True, help="Show what would change, and write nothing.")
-@click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text", help="How to print it.")
+@click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text", help="The output format.")
 @click.pass_context
 def command(ctx: click.Context, paths: tuple[str, ...], check: bool, diff: bool, format_: str) -> None:
-    """Lay out the documents at PATHS (by default, below this folder): indentation, blanks, quotes, blank lines.
+    """Lay out the documents at PATHs (by default, below this folder): indentation, blanks, quotes, blank lines.
 
     Comments, the order of keys, line breaks and the spelling of numbers stay, and so does what the documents mean.
     With "-", a document is read from standard input, and printed.
@@ -80,7 +80,7 @@ def _report(ctx: click.Context, formatting: Formatting, format_: str, *, check: 
         terminal.say(*_lines(formatting, ctx.obj.verbosity, would=check, listed=not diff))
         if told:
             tell("text", told, count, _options.colored(ctx))
-        if ctx.obj.verbosity >= 0:
+        if ctx.obj.verbosity >= 0 and (count or not told):
             words = ("would be formatted" if check or diff else "formatted", "as they were")
             rest = count - len(formatting.written)
             terminal.say(f"{_documents(len(changed))} {words[0]}, {rest} {words[1]}", err=diff)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 
 import click
+from click.core import ParameterSource
 
 from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._command import LibraryCommand
@@ -33,6 +34,8 @@ def command(
     from robocomp_yaml.diag.diagnostic import has_errors
     from robocomp_yaml.diag.render import tell
 
+    if format_ == "json" and ctx.get_parameter_source("form") is ParameterSource.DEFAULT:
+        form = "json"  # all that is printed
     workspace = api.load(path, include=include)
     diagnostics = workspace.analysis.diagnostics
     try:

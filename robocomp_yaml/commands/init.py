@@ -20,10 +20,15 @@ def command(ctx: click.Context, folder: str, bare: bool) -> None:
     Existing files are kept. A folder without documents gets an example interface and component.
     """
     from robocomp_yaml.api.new import workspace
+    from robocomp_yaml.source.discover import documents_below
 
     with _options.writing():
         workspace.init(folder, _options.report_file, bare=bare)
     if ctx.obj.verbosity >= 0:
         is_here = os.path.realpath(folder) == os.getcwd()
         there = "" if is_here else f"{terminal.typed('cd', os.path.normpath(folder))}, then "
-        terminal.say(f"next: {there}rcyaml check, rcyaml compile, or rcyaml new interface NAME")
+        if list(documents_below(folder)):
+            then = "rcyaml check, rcyaml compile and rcyaml run; to start several together, rcyaml new deployment NAME"
+        else:
+            then = "rcyaml new interface NAME, rcyaml new component NAME, and rcyaml new deployment NAME"
+        terminal.say(f"next: {there}{then}")

@@ -15,7 +15,7 @@ from robocomp_yaml.commands._command import LibraryCommand
 def command(ctx: click.Context, stdio: bool, include: tuple[str, ...]) -> None:
     """Serve an editor by the language server protocol, on standard input and output.
 
-    Editors start it by themselves: docs/editor.md shows how to configure them. It needs pygls: pip install
+    Editors start it by themselves: the page "In the editor" of the documentation shows how. It needs pygls: pip install
     'rcyaml[lsp]'.
     """
     try:

@@ -66,8 +66,12 @@ def command(
     from robocomp_yaml.api import which
     from robocomp_yaml.manager.managed import ManagedDeployment
     from robocomp_yaml.manager.watching import Watcher
+    from robocomp_yaml.source.discover import kind_of
 
     documents = list(dict.fromkeys(os.path.normpath(which.deployment(one, include)) for one in ddsl or (".",)))
+    for path in documents:
+        if kind_of(path) != "ddsl":
+            raise click.UsageError(f"'{path}' is neither a deployment document (NAME.ddsl.yaml) nor a folder", ctx)
     rights = (READ,) if read_only else (READ, OPERATE) if operate else (READ, OPERATE, EDIT)
     where = Listening(listen or LOOPBACK, port or 0, unix or "", cert or "", key or "")
     watchers = {
@@ -119,7 +123,12 @@ def _print(rules: AccessRules, where: Listening, documents: list[str]) -> None:
     from robocomp_yaml.manager.serving import address
 
     if where.path:
-        terminal.say(f"{', '.join(documents)}: on {where.path}", f"token: {rules.token}")
+        path, port = os.path.abspath(where.path), 7410
+        terminal.say(
+            f"{', '.join(documents)}: on {where.path}", f"token: {rules.token}",
+            f"from your machine: ssh -L {port}:{terminal.typed(path)} HOST, and open "
+            f"http://localhost:{port}/?token={rules.token}",
+        )  # fmt: skip
     else:
         terminal.say(f"{', '.join(documents)}: {address(rules, where)}")
         if "SSH_CONNECTION" in os.environ and _is_own(where.address):

@@ -25,7 +25,7 @@ LONG = 50
 
 
 @click.command(cls=LibraryCommand, short_help="Convert legacy files to YAML documents, without loss.")
-@click.argument("paths", nargs=-1, required=True, type=click.Path(exists=True))
+@click.argument("paths", metavar="PATH...", nargs=-1, type=click.Path(exists=True))
 @click.option("-o", "--output", metavar="DIR", type=click.Path(file_okay=False),
               help="Write below DIR, in the folders of the sources; by default, beside each source.")  # fmt: skip
 @click.option("--dry-run", is_flag=True, help="Print what would be written; write nothing.")
@@ -47,11 +47,13 @@ def command(
     report: str | None, strict: bool, force: bool, exact: bool, names: tuple[str, ...], rules: str | None,
     include: tuple[str, ...], format_: str,
 ) -> None:  # fmt: skip
-    """Write documents for the legacy files at PATHS: interfaces, components, their configs, and networks of them.
+    """Write documents for the legacy files at PATHs: interfaces, components, their configs, and networks of them.
 
     A folder means all legacy files below it, and becomes a workspace. Comments are kept. Files that you wrote or edited
     are not overwritten, and the sources are not changed.
     """
+    if not paths:
+        raise click.UsageError("name legacy files or folders: `rcyaml migrate .` converts all below this folder", ctx)
     from robocomp_yaml.api.migrating import Migration
     from robocomp_yaml.legacy.ledger import as_json
     from robocomp_yaml.legacy.settings.corrections import CorrectionError, read_corrections

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import threading
 import time
 from collections.abc import Mapping
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
     from robocomp_yaml.wire.stand_ins import Call, Serving
 
 
-@click.command(cls=LibraryCommand, short_help="Stand in for components: serve interfaces, publish topics.")
+@click.command(cls=LibraryCommand, short_help="Serve interfaces and publish topics in place of components.")
 @click.argument("interfaces", nargs=-1, metavar="[INTERFACE]...")
 @click.option("--script", type=click.Path(dir_okay=False, exists=True), help="What they answer and publish, in YAML.")
 @click.option("--endpoint", "endpoints", multiple=True, metavar="NAME=ENDPOINT", help="Where an interface is served.")
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
 )
 @click.option("--check", is_flag=True, help="Check the script, and serve nothing.")
 @_options.include
-@click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text", help="How to print it.")
+@click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text", help="The output format.")
 @click.pass_context
 def command(
     ctx: click.Context, interfaces: tuple[str, ...], script: str | None, endpoints: tuple[str, ...], storm: str,
@@ -43,6 +44,9 @@ def command(
     """
     from robocomp_yaml.api.mocking import Mock
 
+    for name in interfaces:
+        if os.path.isfile(name):
+            raise click.UsageError(f"'{name}' is a file: --script {name} reads a script", ctx)
     mock = Mock(interfaces, script or "", include)
     if check or mock.diagnostics:
         _options.report(ctx, format_, mock.diagnostics, 1)
@@ -88,17 +92,25 @@ def _served(one: Serving) -> str:
     return f"serving  {one.proxy}" + (f"  for {', '.join(one.users)}" if one.users else "")
 
 
+_LONGEST = 200  # characters of a value: an image is not to be read
+
+
 def _line(call: Call) -> str:
     from robocomp_yaml.source.yaml_text import flow
 
     at = time.strftime("%H:%M:%S", time.localtime(call.time))
-    arguments = ", ".join(f"{name}: {flow(value)}" for name, value in call.arguments.items())
+
+    def shown(value: Any) -> str:
+        text = flow(value)
+        return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}… ({len(text)} characters)"
+
+    arguments = ", ".join(f"{name}: {shown(value)}" for name, value in call.arguments.items())
     if call.is_published:
         end = ""
     elif call.raises:
         end = f" raises {call.raises}"
     else:
-        end = f" returns {flow(_results(call.results))}" if call.results else ""
+        end = f" returns {shown(_results(call.results))}" if call.results else ""
     return f"{at} {'published ' if call.is_published else ''}{call.interface}.{call.method}({arguments}){end}"
 
 

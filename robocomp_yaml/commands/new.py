@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from robocomp_yaml.plugins import Plugins
 
 
-@click.group(cls=CommandGroup, short_help="Write a new interface, component, parameters or deployment document.")
+@click.group(cls=CommandGroup, short_help="Write a new document of any kind.")
 def command() -> None:
     """Write a new document that checks and compiles, with comments that explain it.
 
@@ -50,19 +50,20 @@ def _languages(plugins: Plugins) -> list[str]:
     return [*languages.table(), *(one.name for one in plugins.languages)]
 
 
-def _uses(name: str, meaning: str) -> Callable[[Any], Any]:
+def _uses(name: str, meaning: str, metavar: str = "INTERFACE") -> Callable[[Any], Any]:
     return click.option(
-        f"--{name}", multiple=True, metavar="INTERFACE", shell_complete=_names, help=f"The {meaning}; may be repeated."
+        f"--{name}", multiple=True, metavar=metavar, shell_complete=_names, help=f"The {meaning}; may be repeated."
     )
 
 
 @command.command(short_help="Write a new component document.")
 @click.argument("name")
-@click.option("--language", type=PluginChoice(_languages), default=languages.DEFAULT, help="The language of its code.")
+@click.option("--language", type=PluginChoice(_languages), default=languages.DEFAULT, show_default=True,
+              help="The language of its code.")  # fmt: skip
 @_uses("implements", "interfaces that it serves")
 @_uses("requires", "interfaces of others that it calls")
-@_uses("publishes", "topics that it publishes")
-@_uses("subscribes", "topics that it receives")
+@_uses("publishes", "topics that it publishes", "TOPIC")
+@_uses("subscribes", "topics that it receives", "TOPIC")
 @_options.include
 @click.pass_context
 def component(
@@ -70,8 +71,8 @@ def component(
 ) -> None:
     """Write components/NAME/NAME.cdsl.yaml (in lower case): a component NAME.
 
-    INTERFACE is the name of an interface or topic that a document of the workspace defines, or Module.Interface if
-    several documents define it.
+    INTERFACE and TOPIC are names that a document of the workspace defines, or Module.NAME if several documents define
+    NAME.
     """
     from robocomp_yaml.api.new.documents import component_document
 

@@ -37,7 +37,7 @@ class _RunCommand(LibraryCommand):
 _ARGUMENTS = "robocomp_yaml.run.arguments"
 
 
-@click.command(cls=_RunCommand, short_help="Run one component in the foreground.")
+@click.command(cls=_RunCommand, short_help="Run one component in the foreground, with what it needs.")
 @click.argument("words", nargs=-1, metavar="[NAME]")
 @click.option("--with-needed", is_flag=True, help="Start what it needs beside it, and stop that at the end.")
 @click.option("--deployment", default="", metavar="DDSL", help="The deployment; by default, the one that has it.")

@@ -38,7 +38,7 @@ type_option = click.option(
     help="The topic of the documents that it carries, if its name does not say it.",
 )  # fmt: skip
 _text_or_json = click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text",
-                             help="How to print it.")  # fmt: skip
+                             help="The output format.")  # fmt: skip
 _for = click.option("--for", "duration", type=Duration(), metavar="TIME", help="End after this time.")
 _count = click.option("--count", type=click.IntRange(1), metavar="N", help="End after N messages.")
 

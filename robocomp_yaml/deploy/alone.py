@@ -7,13 +7,12 @@ from collections.abc import Iterator, Mapping
 
 import msgspec
 
-from robocomp_yaml.addresses.own import adapters, is_own, replaces_values
+from robocomp_yaml.addresses.own import adapters
 from robocomp_yaml.addresses.port_numbers import COMMON_BEHAVIOR
 from robocomp_yaml.addresses.table import PortTable
 from robocomp_yaml.deploy.here import is_local
-from robocomp_yaml.emit import value_files
 from robocomp_yaml.emit.layout import CONFIG
-from robocomp_yaml.link.flat_configs import flat_config
+from robocomp_yaml.emit.value_files import OwnProperties, own_properties
 from robocomp_yaml.link.program import LinkedComponent, Port, Program
 from robocomp_yaml.model.deployment import CONFIG as CONFIG_PATH
 from robocomp_yaml.network import icestorm
@@ -30,41 +29,13 @@ from robocomp_yaml.network.network import (
     Readiness,
 )
 from robocomp_yaml.network.processes import how_to_build, own_program
-from robocomp_yaml.parameters.hidden import secret_names
+from robocomp_yaml.parameters.hidden import secrets_of
 from robocomp_yaml.semantics import connections
-from robocomp_yaml.source import properties
 from robocomp_yaml.source.ice_endpoint import parse_endpoint
 from robocomp_yaml.source.ice_proxy import proxy_at
 
 STORM = "IceStorm"
 """The name of the IceStorm that is started for components whose configuration names one on this machine."""
-
-
-class OwnConfiguration(msgspec.Struct, frozen=True):
-    """A component's own configuration: what `compile` writes from its values document, else its `etc/config`, which is
-    also used if the user changed it."""
-
-    text: str
-    values: Mapping[str, str]
-    is_derived: bool = False
-    secrets: tuple[str, ...] = ()
-
-    def first(self, keys: tuple[str, ...]) -> str:
-        """The value of the first of these properties that has one."""
-        return connections.first(self.values.get, *keys)
-
-    def proxy(self, port: Port) -> str:
-        return self.first(connections.proxy(port.name))
-
-
-def own_configuration(linked: LinkedComponent, program: Program, table: PortTable) -> OwnConfiguration:
-    flat = flat_config(os.path.dirname(linked.component.path), program.disk)
-    own = next((values for values in value_files.documents_of(linked, program) if is_own(values)), None)
-    if own is not None and not replaces_values(flat, own):
-        for plan in value_files.configs(linked, program, lambda: table):
-            if plan.path == CONFIG:
-                return OwnConfiguration(plan.text, properties.read(plan.text).values, True, plan.secrets)
-    return OwnConfiguration(flat.text, flat.properties) if flat is not None else OwnConfiguration("", {})
 
 
 class Alone(msgspec.Struct):
@@ -75,7 +46,7 @@ class Alone(msgspec.Struct):
     root: str
     program: Program
     table: PortTable
-    configurations: dict[str, OwnConfiguration] = {}
+    configurations: dict[str, OwnProperties] = {}
 
     def network(self) -> Network:
         path, name = os.path.abspath(self.first.component.path), self.first.component.name
@@ -83,7 +54,7 @@ class Alone(msgspec.Struct):
         linked = {self._name(one): one for one in [self.first, *self.program.components.values()]}
         made: dict[str, Process] = {}
         for each, component in linked.items():
-            own = self.configurations[each] = own_configuration(component, self.program, self.table)
+            own = self.configurations[each] = own_properties(component, self.program, self.table)
             made[each] = self._process(each, component, own)
         connections_ = [one for each, it in linked.items() for one in self._connections(made, folder, each, it)]
         for each in linked:
@@ -101,7 +72,7 @@ class Alone(msgspec.Struct):
             return name
         return f"{name}-{os.path.basename(os.path.dirname(os.path.abspath(linked.component.path)))}"
 
-    def _process(self, name: str, linked: LinkedComponent, own: OwnConfiguration) -> Process:
+    def _process(self, name: str, linked: LinkedComponent, own: OwnProperties) -> Process:
         folder = os.path.abspath(os.path.dirname(linked.component.path))
         served = tuple(self._served(linked, own))
         return Process(
@@ -112,13 +83,13 @@ class Alone(msgspec.Struct):
             config=ConfigFile(f"config/{name}", own.text, own.secrets) if own.is_derived else None,
             endpoints=served,
             ready=Readiness(pings=tuple(f"{one.identity}:{_reached(one)}" for one in served)),
-            secrets=tuple(sorted(set(secret_names(linked.parameters.parameters.root)))),
+            secrets=secrets_of(linked.parameters),
             component=linked.component.name,
             build=how_to_build(linked),
             span=linked.component.span,
         )
 
-    def _served(self, linked: LinkedComponent, own: OwnConfiguration) -> Iterator[Endpoint]:
+    def _served(self, linked: LinkedComponent, own: OwnProperties) -> Iterator[Endpoint]:
         ports = {port.name: port for port in linked.implements}
         for adapter in adapters(linked):
             text = own.first(connections.endpoints(adapter))

@@ -39,7 +39,7 @@ async def attached(engine: Engine, network: Network, stays: Attached | None) -> 
     except asyncio.CancelledError:
         if stays:  # cancelled while the network came up
             await _take_down(engine)
-            await operations.end_if_idle(engine)
+            await operations.end_if_idle(engine, network.folder, is_down=True)
         raise
     finally:
         if printer:

@@ -31,7 +31,7 @@ def beside(network: Network) -> Iterator[None]:
 
     async def stop() -> None:
         with suppress(DeployFailed):
-            await operations.down(engine, (), lambda event: None)
+            await operations.down(engine, (), lambda event: None, network.folder)
 
     with asyncio.Runner() as runner:
         runner.run(start())

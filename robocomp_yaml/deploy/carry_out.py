@@ -6,16 +6,17 @@ from __future__ import annotations
 import asyncio
 import math
 import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from contextlib import aclosing
 from typing import Any
 
 import msgspec
 
+from robocomp_yaml.deploy.circles import Circles, circles_in
 from robocomp_yaml.deploy.engine import DeployFailed, Engine, Running
 from robocomp_yaml.deploy.levels import in_the_way, levels
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, PlanStep, in_order
-from robocomp_yaml.deploy.readiness import RECENT, State, holds, until_ready, why_not
+from robocomp_yaml.deploy.readiness import RECENT, State, holds, until_it_serves, until_ready, why_not
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.deploy.states import ALIVE, RUNNING, SILENT, fault, is_done, is_unstable
 from robocomp_yaml.deploy.time_limit import TimeLimit
@@ -136,7 +137,8 @@ async def stop_all(engine: Engine, running: Iterable[Running], report: Report) -
 
 class _Starts(msgspec.Struct):
     """The starts of one plan. `_levels` are the steps whose old process still runs. `_before` has for each process the
-    ones that it waits for, and `_since` the time at which the wait for each pending process began."""
+    ones that it waits for, and `_since` the time at which the wait for each pending process began. `_serving` ends with
+    whether a process that starts first in a circle serves."""
 
     _engine: Engine
     _watch: Watch
@@ -151,11 +153,14 @@ class _Starts(msgspec.Struct):
     _tasks: dict[str, asyncio.Task[bool]] = {}
     _turns: dict[str, asyncio.Task[set[str]]] = {}
     _before: dict[str, list[str]] = {}
+    _circles: Circles = msgspec.field(default_factory=Circles)
+    _serving: dict[str, asyncio.Task[bool]] = {}
     _stopped: set[str] = set()
 
     async def run(self) -> StartOutcome:
         starting = {step.name for step in self._plan.of(START, RESTART)}
         order = in_order({step.name: _after(step) for step in self._plan.of(START, RESTART, CHANGE, KEEP)})
+        self._circles = circles_in(self._plan)
         for steps in self._levels:
             turn = asyncio.create_task(self._turn(steps))
             self._turns |= {step.name: turn for step in steps}
@@ -167,6 +172,8 @@ class _Starts(msgspec.Struct):
                     self._tasks[step.name] = asyncio.create_task(self._start(step))
                 else:  # it already runs, and is usually ready
                     self._tasks[step.name] = asyncio.create_task(self._ends_ready(step, is_new=False))
+                if step.name in self._circles.awaited:
+                    self._serving[step.name] = asyncio.create_task(self._serves(step, step.name in starting))
             pending = set(self._tasks.values())
             while pending:
                 if self._limit.is_over:
@@ -185,7 +192,7 @@ class _Starts(msgspec.Struct):
                 ready = [step for step in every if self._tasks[step.name].result()]
                 await asyncio.gather(*(self._lasts(step, step.name in starting) for step in ready))
         finally:
-            await _cancel(self._tasks.values())
+            await _cancel([*self._serving.values(), *self._tasks.values()])
             await _cancel([turn for name, turn in self._turns.items() if name not in self._stopped])
             await asyncio.gather(*self._turns.values(), return_exceptions=True)  # a stop that has begun goes on
         if self._outcome.is_late:
@@ -204,12 +211,15 @@ class _Starts(msgspec.Struct):
         """Stops and prepares one level of restarts, when all earlier levels are ready. A process that is after one
         which failed goes on as it was. Returns the names of those that stopped."""
         await asyncio.sleep(0)  # until all tasks are there
-        earlier = {step.name for level in self._levels[: self._levels.index(steps)] for step in level}
-        if tasks := [self._tasks[name] for name in earlier.union(*(self._before[step.name] for step in steps))]:
+        here = {step.name for step in steps}
+        earlier = {self._tasks[step.name] for level in self._levels[: self._levels.index(steps)] for step in level}
+        if tasks := earlier.union(*(self._waits_for(step, here).values() for step in steps)):
             await asyncio.wait(tasks)
         if self._is_over():
             return set()
-        going = [step for step in steps if self._may_start(step)]
+        of = self._circles.of
+        stay = {of.get(step.name, step.name) for step in steps if not self._may_start(step, here)}
+        going = [step for step in steps if of.get(step.name, step.name) not in stay]
         self._stopped.update(step.name for step in going)
         await stop_all(self._engine, [step.running for step in going if step.running], self._report)
         if going:
@@ -221,10 +231,33 @@ class _Starts(msgspec.Struct):
         started = (self._plan.steps[name].action in (START, RESTART) for name in self._outcome.failed)
         return not self._keep_going and any(started)
 
-    def _may_start(self, step: PlanStep) -> bool:
+    def _waits_for(self, step: PlanStep, ignored: Collection[str] = ()) -> dict[str, asyncio.Task[bool]]:
+        """What a process waits for before it starts, by the name of the other process: that this one is ready; that it
+        serves, if it waits for this process itself."""
+        return {
+            name: self._serving[name] if self._circles.need_not_be_ready(name, step.name) else self._tasks[name]
+            for name in self._before[step.name]
+            if name not in ignored
+        }
+
+    async def _serves(self, step: PlanStep, is_new: bool) -> bool:
+        """Whether a process that starts first in a circle comes to serve in time, ready or not."""
+        assert step.spec
+        whole = self._tasks[step.name]
+        while is_new and step.name not in self._outcome.began and not whole.done():
+            await asyncio.sleep(_AGAIN)
+        serves = asyncio.create_task(until_it_serves(step.spec))
+        try:
+            within = step.spec.process.ready.within
+            await asyncio.wait((whole, serves), timeout=within, return_when=asyncio.FIRST_COMPLETED)
+            return whole.result() if whole.done() else serves.done()
+        finally:
+            serves.cancel()
+
+    def _may_start(self, step: PlanStep, ignored: Collection[str] = ()) -> bool:
         """Whether all that the process waited for are ready, or optional."""
         optional = step.spec.process.optional if step.spec else ()
-        return all(self._tasks[name].result() or name in optional for name in self._before[step.name])
+        return all(task.result() or name in optional for name, task in self._waits_for(step, ignored).items())
 
     async def _start(self, step: PlanStep) -> bool:
         """Starts a process when all that it is after are ready, or are optional and have failed. Returns whether it
@@ -233,8 +266,8 @@ class _Starts(msgspec.Struct):
             self._since[step.name] = time.monotonic()
             self._fail(step.name, self._blocked[step.name])
             return False
-        if before := [self._tasks[name] for name in self._before[step.name]]:
-            await asyncio.wait(before)
+        if before := self._waits_for(step):
+            await asyncio.wait(before.values())
         if not self._may_start(step):
             return False
         if step.name in self._turns and step.name not in await asyncio.shield(self._turns[step.name]):
@@ -252,7 +285,8 @@ class _Starts(msgspec.Struct):
                     self._outcome.began.append(step.name)
                     await self._engine.start(step.name)
                 if is_new or not (step.running and await self._is_ready(step.spec, step.running)):
-                    await until_ready(self._engine, step.spec, lines, self._watch.of(step.name))
+                    others = [self._tasks[one] for one in self._circles.awaited.get(step.name, ())]
+                    await until_ready(self._engine, step.spec, lines, self._watch.of(step.name), others)
         except DeployFailed as error:
             self._fail(step.name, error.diagnostic)
             return False
@@ -294,7 +328,7 @@ class _Starts(msgspec.Struct):
             self._fail(step.name, deploying.ENDED_EARLY.at(where, name=step.name, how=how, hint=""))
         else:
             within = f"{step.spec.process.ready.within:g}"
-            reason = why_not(step.spec, running)
+            reason = await why_not(step.spec, running)
             self._fail(step.name, deploying.NOT_READY.at(where, name=step.name, within=within, why=reason))
 
     async def _report_late(self, step: PlanStep) -> None:

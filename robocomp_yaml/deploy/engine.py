@@ -38,8 +38,9 @@ class Running(msgspec.Struct, frozen=True):
     current run began, or since the last run ended, by a monotonic clock. `restarts` counts the engine's own restarts.
     `last_exit` is how the last run ended ('exit code 3', 'SIGSEGV', '' if none has). `spread` are the seconds from the
     third last end by itself to the last one, None if it has not ended so often. `memory` are bytes and `cpu` seconds,
-    of the process and all its descendants, None if they are unknown: on another host. `lost_lines` are lines that could
-    not be written to its log, because the disk is full. `not_alive` is why it runs and is not alive, '' if it is.
+    of the process and all its descendants; None if they are unknown, as on another host that was not asked for them.
+    `lost_lines` are lines that could not be written to its log, because the disk is full. `not_alive` is why it runs
+    and is not alive, '' if it is.
     """
 
     name: str
@@ -95,8 +96,9 @@ class Engine(Protocol):
         """Connects to what runs the network; with `create`, starts that if it is absent. Returns whether it is
         connected: if not, no process of the network runs, and only `close` may be called."""
 
-    async def observe(self) -> dict[str, Running]:
-        """The actual state of all processes that were passed to `prepare` and not to `forget`."""
+    async def observe(self, *, use: bool = False) -> dict[str, Running]:
+        """The actual state of all processes that were passed to `prepare` and not to `forget`. With `use`, memory and
+        CPU are known, also on other hosts, which takes a moment; without it, they may be unknown."""
 
     async def obstacles(self, specs: Sequence[ProcessSpec], leaving: Collection[str]) -> list[Diagnostic]:
         """What would prevent these processes from starting on their hosts, checked before anything is started: a port
@@ -131,4 +133,4 @@ class Engine(Protocol):
 
     async def close(self, *, end: bool = False) -> None:
         """Disconnects; running processes go on. With `end`, what the engine itself runs ends, too: then no process may
-        run."""
+        run. Also without a connection, `end` removes the network from the user's list."""

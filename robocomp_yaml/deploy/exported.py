@@ -10,7 +10,7 @@ from typing import Any
 from msgspec.structs import replace
 
 from robocomp_yaml import secrets
-from robocomp_yaml.deploy import folder
+from robocomp_yaml.deploy import folder, interfaces
 from robocomp_yaml.diag.codes import emitting
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
@@ -23,7 +23,10 @@ from robocomp_yaml.source.properties import without_secret
 from robocomp_yaml.source.regular import regular
 
 RECORD = ".rcyaml/exports.json"
-_NO_CERTIFICATES = "only `rcyaml deploy up` makes the certificates that `security: tls` needs"
+_NO_CERTIFICATES = (
+    "only `rcyaml deploy up` makes and renews the certificates that `security: tls` needs; with `rcyaml deploy "
+    "install`, systemd calls it at boot"
+)
 
 
 def files(
@@ -36,6 +39,7 @@ def files(
         return {}, [_diagnostic(refused, form).as_severity(ERROR)]
     try:
         with exports.noted() as notes:
+            network = interfaces.resolved(network)
             made = exports.export(network if reveal else hidden(network), form, plugins)
     except exports.Unwritable as error:
         return {}, [_diagnostic(error, form).as_severity(ERROR)]

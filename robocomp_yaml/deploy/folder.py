@@ -6,6 +6,7 @@ import contextlib
 import errno
 import fcntl
 import os
+import pwd
 import re
 import shutil
 from collections.abc import Iterator, Mapping
@@ -31,6 +32,18 @@ def make(folder: str) -> None:
         with contextlib.suppress(FileExistsError):
             os.mkdir(path)
         os.chmod(path, 0o700)
+
+
+def require_own(folder: str) -> None:
+    """Raises OSError if another user started the deployment in this folder: what runs there cannot be seen."""
+    with contextlib.suppress(FileNotFoundError, NotADirectoryError):
+        owner = os.stat(folder).st_uid
+        if not os.access(folder, os.R_OK | os.W_OK | os.X_OK) and owner != os.getuid():
+            try:
+                name = pwd.getpwuid(owner).pw_name
+            except KeyError:
+                name = str(owner)
+            raise PermissionError(errno.EACCES, f"it is of the user '{name}', who alone sees and changes what runs")
 
 
 def write(folder: str, path: str, text: str) -> None:
@@ -79,6 +92,20 @@ def _bytes(text: str) -> bytes:
 def remove(folder: str, path: str) -> None:
     with contextlib.suppress(OSError):
         os.unlink(f"{folder}/{path}")
+
+
+def sweep(folder: str) -> None:
+    """Removes all configurations, and what an ended supervisor left. Logs and databases stay."""
+    for where, _, names in os.walk(f"{folder}/config"):
+        for name in names:
+            with contextlib.suppress(OSError):
+                os.unlink(os.path.join(where, name))
+    drop_staged(folder)
+    for name in ("control", "supervisor"):
+        remove(folder, f"state/{name}")
+    with contextlib.suppress(OSError):
+        if not os.path.getsize(f"{folder}/state/supervisor.log"):
+            remove(folder, "state/supervisor.log")
 
 
 @contextlib.contextmanager

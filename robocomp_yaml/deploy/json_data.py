@@ -10,6 +10,7 @@ import msgspec
 from robocomp_yaml.deploy.engine import Line, Running
 from robocomp_yaml.deploy.operations import Result, Status
 from robocomp_yaml.deploy.plan import Plan, PlanStep
+from robocomp_yaml.deploy.push.planned import HostPush
 from robocomp_yaml.network.network import Network
 
 PRESENT = "another one is present"
@@ -46,7 +47,9 @@ def state_in_words(one: Status) -> str:
             return "ready"
         if one.running.not_alive:
             return f"not alive: {one.running.not_alive}"
-        return one.own.words if one.own and not one.own.is_running else "running, not ready"
+        if one.own and not one.own.is_running:
+            return one.own.words
+        return f"running, not ready: {one.unmet}" if one.unmet else "running, not ready"
     return f"{one.state}: {one.running.last_exit}" if one.running.last_exit else one.state
 
 
@@ -63,6 +66,7 @@ def _status(network: Network, one: Status, running: Running | None) -> dict[str,
         "pid": running.pid if running else 0, "uptime": round(running.uptime, 3) if running else 0,
         "restarts": running.restarts if running else 0, "last_exit": running.last_exit if running else "",
         "not_alive": running.not_alive if running else "", "own": msgspec.to_builtins(one.own),
+        "unmet": one.unmet,
         "memory": running.memory if running else 0, "cpu": running.cpu if running else 0,
         "lost_lines": running.lost_lines if running else 0,
         "endpoints": [
@@ -77,3 +81,11 @@ def _status(network: Network, one: Status, running: Running | None) -> dict[str,
 
 def line_data(logged: Line) -> dict[str, str]:
     return {"name": logged.name, "time": logged.time, "text": logged.text}
+
+
+def push_data(one: HostPush) -> dict[str, object]:
+    return {
+        "host": one.host.name, "address": one.host.address, "sent": sorted(one.send), "bytes": one.size,
+        "deleted": sorted(one.delete), "replaced": sorted(one.replaced), "changed": sorted(one.changed),
+        "built_there": sorted(one.built), "unchanged": one.unchanged,
+    }  # fmt: skip

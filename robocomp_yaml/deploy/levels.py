@@ -7,17 +7,30 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from robocomp_yaml.deploy.plan import RESTART, START, Plan, PlanStep, in_order
+from robocomp_yaml.deploy.circles import circles_in
+from robocomp_yaml.deploy.plan import RESTART, START, Plan, PlanStep
 from robocomp_yaml.deploy.spec import ProcessSpec
+from robocomp_yaml.digraph import postorder
 
 
 def levels(plan: Plan, skipped: Collection[str]) -> list[list[PlanStep]]:
     """The steps that restart a running process, by level: each step is in a later level than all steps that it is
-    after. In a circle, the step that closes it counts as after none."""
-    after = {step.name: step.spec.process.after for step in plan.steps.values() if step.spec}
+    after. The steps of a circle are in one level, because none of them is ready alone."""
+    of = circles_in(plan).of
+    groups: dict[str | int, list[str]] = {}
+    for step in plan.steps.values():
+        if step.spec:
+            groups.setdefault(of.get(step.name, step.name), []).append(step.name)
+    specs = {step.name: step.spec for step in plan.steps.values() if step.spec}
+    after = {
+        group: [of.get(other, other) for name in names for other in specs[name].process.after if other in specs]
+        for group, names in groups.items()
+    }
     depth: dict[str, int] = {}
-    for name in in_order(after):
-        depth[name] = 1 + max((depth[other] for other in after[name] if other in depth), default=0)
+    above: dict[str | int, int] = {}
+    for group in postorder(after, lambda group: after[group]):
+        above[group] = 1 + max((above[other] for other in after[group] if other != group and other in above), default=0)
+        depth |= dict.fromkeys(groups[group], above[group])
     found: dict[int, list[PlanStep]] = {}
     for step in plan.of(RESTART):
         if step.name not in skipped:

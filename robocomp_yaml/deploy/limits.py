@@ -7,11 +7,11 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import msgspec
 
-from robocomp_yaml.deploy.local import limits
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.model.deployment import ResourceLimits
+from robocomp_yaml.network import limit_words
 from robocomp_yaml.network.network import Network
 
 _RIGHTS = {"nice": "nice", "realtime": "rtprio", "core": "core", "files": "nofile"}
@@ -20,7 +20,7 @@ _WITHIN = 5.0
 
 def tests(own: ResourceLimits) -> list[tuple[str, list[str]]]:
     """The commands that fail where a limit is denied, by the limit's key."""
-    return [(key, [*words, "true"]) for key, words in limits.by_key(msgspec.to_builtins(own))]
+    return [(key, [*words, "true"]) for key, words in limit_words.by_key(msgspec.to_builtins(own))]
 
 
 def denied(specs: Sequence[ProcessSpec]) -> list[Diagnostic]:

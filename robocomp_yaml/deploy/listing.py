@@ -57,8 +57,12 @@ def has_document(one: RegisteredDeployment) -> bool:
 def _state(one: RegisteredDeployment) -> str:
     if one.pending:
         return f"ending: {', '.join(one.pending)}"
-    runs = one.is_supervised or _has_supervisor(one) if one.engine == LOCAL else _answers(one)
-    return "running" if runs else "not running"
+    return "running" if runs(one) else "not running"
+
+
+def runs(one: RegisteredDeployment) -> bool:
+    """Whether its supervisor or its registry runs."""
+    return (one.is_supervised or _has_supervisor(one)) if one.engine == LOCAL else _answers(one)
 
 
 def _has_supervisor(one: RegisteredDeployment) -> bool:

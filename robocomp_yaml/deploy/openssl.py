@@ -8,11 +8,15 @@ from __future__ import annotations
 
 import contextlib
 import os
+import shutil
 import subprocess
 import tempfile
 from collections.abc import Iterator
 
+from robocomp_yaml.deploy.local import procfs
+
 FOR_EVER = "99991231235959Z"
+_UNFINISHED = "making-"
 _SETTINGS = """\
 [ca]
 default_ca = own
@@ -39,7 +43,8 @@ def certificate(folder: str, name: str, extensions: str, *, end: str = FOR_EVER,
     `extensions` are lines as openssl's settings have them, `signer` is the path without ending of the key (.key) and
     the certificate (.crt) that sign; by default it signs itself. Raises OSError if openssl is missing or fails."""
     signing = ("-keyfile", f"{signer}.key", "-cert", f"{signer}.crt") if signer else ("-selfsign", "-keyfile", "key")
-    with tempfile.TemporaryDirectory(dir=folder) as work:
+    remove_unfinished(folder)
+    with tempfile.TemporaryDirectory(prefix=f"{_UNFINISHED}{os.getpid()}-", dir=folder) as work:
         for file, text in (("settings", _SETTINGS.format(end=end, extensions=extensions)), ("database", "")):
             with open(f"{work}/{file}", "w", encoding="ascii") as opened:
                 opened.write(text)
@@ -47,6 +52,15 @@ def certificate(folder: str, name: str, extensions: str, *, end: str = FOR_EVER,
              "-subj", f"/CN={name}", "-keyout", "key", "-out", "request")  # fmt: skip
         _run(work, "ca", "-batch", "-notext", "-config", "settings", *signing, "-in", "request", "-out", "certificate")
         yield work
+
+
+def remove_unfinished(folder: str) -> None:
+    """Removes what a process left that was killed while it made a certificate in this folder."""
+    with contextlib.suppress(OSError):
+        for name in os.listdir(folder):
+            pid = name.removeprefix(_UNFINISHED).partition("-")[0]
+            if name.startswith(_UNFINISHED) and not (pid.isdigit() and procfs.entry(int(pid))):
+                shutil.rmtree(os.path.join(folder, name), ignore_errors=True)
 
 
 def _run(folder: str, *words: str) -> None:

@@ -9,12 +9,12 @@ from contextlib import aclosing
 import msgspec
 from msgspec.structs import replace
 
-from robocomp_yaml.deploy import ice_ping
+from robocomp_yaml.deploy import ice_ping, remains
 from robocomp_yaml.deploy.carry_out import Report, StartOutcome, carry_out, stop_all, undo
 from robocomp_yaml.deploy.engine import LOST, STOPPED, Engine, Running
 from robocomp_yaml.deploy.introspection import OwnState
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, plan, with_dependents
-from robocomp_yaml.deploy.readiness import holds, own_state
+from robocomp_yaml.deploy.readiness import holds, own_state, unmet
 from robocomp_yaml.deploy.states import RUNNING, fault, state_of
 from robocomp_yaml.deploy.time_limit import TimeLimit
 from robocomp_yaml.diag.codes import deploying
@@ -53,6 +53,8 @@ class Status(msgspec.Struct, frozen=True):
     is_server: bool = False
     own: OwnState | None = None
     """What a component says of itself, if it is not ready."""
+    unmet: str = ""
+    """Which part of the condition of a process that runs and is alive does not hold."""
 
     @property
     def state(self) -> str:
@@ -165,7 +167,7 @@ async def _last_lines(engine: Engine, name: str) -> list[str]:
 async def status(engine: Engine, network: Network, names: Collection[str], reached: bool) -> list[Status]:
     """The status of processes: those of the network first, in its order. `reached` is what `Engine.open` returned.
     Without `names`, all processes. Raises DeployFailed."""
-    running = await engine.observe() if reached else {}
+    running = await engine.observe(use=True) if reached else {}
 
     async def status_of(name: str) -> Status:
         one, process = running.get(name), network.processes.get(name)
@@ -179,23 +181,33 @@ async def status(engine: Engine, network: Network, names: Collection[str], reach
         if one.state != RUNNING:
             return Status(name, host, await holds(engine, one.spec, one), one, is_server)
         is_ready, own = await asyncio.gather(holds(engine, one.spec, one), own_state(one.spec))
-        return Status(name, host, is_ready, one, is_server, own)
+        says_why = is_ready or one.not_alive or (own is not None and not own.is_running)
+        return Status(name, host, is_ready, one, is_server, own, "" if says_why else await unmet(one.spec))
 
     known = [process.name for process in network.enabled()]
     every = [*known, *(name for name in running if name not in known)]
     return await asyncio.gather(*(status_of(name) for name in every if not names or name in names))
 
 
-async def down(engine: Engine, names: Collection[str], report: Report) -> list[str]:
+async def down(engine: Engine, names: Collection[str], report: Report, folder: str) -> list[str]:
     """Stops all processes, or these and all that are after them. Returns those that ran. The engine ends with its last
-    process. Raises DeployFailed."""
+    process. Without `names`, nothing of the network is left in its folder. Raises DeployFailed."""
     running = await engine.observe()
     stopped = leaving(running, names)
     alive = [one.name for one in running.values() if one.name in stopped and one.is_alive]
     await stop_all(engine, [running[name] for name in stopped], report)
     await engine.forget(stopped)
     await engine.close(end=len(stopped) == len(running))
+    if not names:
+        remains.after_down(folder)
     return alive
+
+
+async def clear_up(engine: Engine, names: Collection[str], folder: str) -> None:
+    """Removes what is left of a network whose engine was killed, and whose processes with it."""
+    await engine.close(end=not names)
+    if not names:
+        remains.after_down(folder)
 
 
 def leaving(running: Mapping[str, Running], names: Collection[str]) -> set[str]:
@@ -204,7 +216,11 @@ def leaving(running: Mapping[str, Running], names: Collection[str]) -> set[str]:
     return with_dependents(after, names) & set(running) if names else set(running)
 
 
-async def end_if_idle(engine: Engine) -> None:
-    """Closes an engine, and ends it if no process runs."""
+async def end_if_idle(engine: Engine, folder: str, *, is_down: bool = False) -> None:
+    """Closes an engine, and ends it if no process runs. Then nothing of the network is left in its folder, but what a
+    rollback needs, unless the user took it down."""
     running = await engine.observe()
-    await engine.close(end=not any(one.is_alive or one.state == LOST for one in running.values()))
+    is_idle = not any(one.is_alive or one.state == LOST for one in running.values())
+    await engine.close(end=is_idle)
+    if is_idle:
+        (remains.after_down if is_down else remains.after_failure)(folder)

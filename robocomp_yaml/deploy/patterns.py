@@ -1,20 +1,12 @@
-"""Regular expressions of users, matched within a time limit: some take exponential time, such as `(a+)+$`.
+"""Regular expressions of users, matched within a time limit: some take exponential time, such as `(a|aa)+b?\\1c`.
 
-Python's engine handles signals while it matches, so that a timer can end it. This works in the main thread only, where
-commands run; in another thread, a line that is long is not matched at all.
+Python's own engine has no time limit. `regex` has one in every thread, and reads Python's patterns as Python does.
 """
 
 from __future__ import annotations
 
-import re
-import signal
-import threading
-from types import FrameType
-
 WITHIN = 0.25
 """Seconds for one line."""
-
-_SHORT = 20  # characters that even an exponential pattern matches in milliseconds
 
 
 class PatternTooSlow(Exception):
@@ -22,23 +14,10 @@ class PatternTooSlow(Exception):
 
 
 def search(pattern: str, text: str) -> bool:
-    """Whether a line contains a match. Raises PatternTooSlow."""
-    compiled = re.compile(pattern)
-    if threading.current_thread() is not threading.main_thread():
-        return compiled.search(text[:_SHORT]) is not None if _is_nested(pattern) else compiled.search(text) is not None
+    """Whether a line contains a match of a pattern that `re` accepts. Raises PatternTooSlow."""
+    import regex  # only deployments with such a pattern need it
 
-    def stop(number: int, frame: FrameType | None) -> None:
-        raise PatternTooSlow
-
-    before = signal.signal(signal.SIGALRM, stop)
-    signal.setitimer(signal.ITIMER_REAL, WITHIN)
     try:
-        return compiled.search(text) is not None
-    finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, before)
-
-
-def _is_nested(pattern: str) -> bool:
-    """Whether a pattern repeats a group, which is what takes exponential time."""
-    return re.search(r"\)[*+{]", pattern) is not None
+        return regex.search(pattern, text, timeout=WITHIN, concurrent=True) is not None
+    except TimeoutError as error:
+        raise PatternTooSlow from error

@@ -86,12 +86,13 @@ def unstable(plan: Plan) -> list[Diagnostic]:
 
 
 def with_dependences(network: Network, names: Iterable[str]) -> set[str]:
-    """The enabled ones of these processes, and of all that they are after, directly or not."""
+    """The enabled ones of these processes, and of all that they are after or wait for, directly or not."""
 
-    def after(name: str) -> Iterable[str]:
-        return network.processes[name].after if name in network.processes else ()
+    def needed(name: str) -> Iterable[str]:
+        process = network.processes.get(name)
+        return (*process.after, *process.awaits) if process else ()
 
-    return {name for name in reachable(names, after) if name in network.processes and network.processes[name].enabled}
+    return {name for name in reachable(names, needed) if name in network.processes and network.processes[name].enabled}
 
 
 def with_dependents(after: Mapping[str, Iterable[str]], names: Iterable[str]) -> set[str]:

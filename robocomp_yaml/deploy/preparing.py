@@ -7,7 +7,7 @@ import os
 
 from msgspec.structs import replace
 
-from robocomp_yaml.deploy import protection
+from robocomp_yaml.deploy import interfaces, protection
 from robocomp_yaml.deploy.authority import Authority, names_at, properties
 from robocomp_yaml.deploy.here import folder_on
 from robocomp_yaml.deploy.own_address import is_name, own_address
@@ -32,7 +32,7 @@ def prepared_for_run(network: Network, folder: str) -> Network:
 
 
 def _reachable(network: Network, folder: str, *, create: bool) -> Network:
-    found = _bound(network)
+    found = interfaces.resolved(_bound(network))
     return _secured(found, folder, create=create) if network.is_tls else found
 
 

@@ -6,6 +6,7 @@ list of deployments, from which commands read it. It ends with `down`.
 
 from __future__ import annotations
 
+import os
 import secrets
 from contextlib import suppress
 
@@ -25,10 +26,22 @@ _NEW = "new"  # what a plan shows, before the token exists
 
 def token_of(folder: str) -> str:
     """The token of the deployment in this folder, '' if it has none, or if it is not this user's."""
-    for path in (f"{registered.private(folder)}/{_FILE}", f"{folder}/{_BESIDE}"):
+    for path in _paths(folder):
         with suppress(OSError), open(path, encoding="ascii") as file:
             return file.read().strip()
     return ""
+
+
+def forget_token(folder: str) -> None:
+    """Removes the token of the deployment in this folder."""
+    for path in _paths(folder):
+        with suppress(OSError):
+            os.unlink(path)
+    registered.forget(folder)
+
+
+def _paths(folder: str) -> tuple[str, str]:
+    return f"{registered.private(folder)}/{_FILE}", f"{folder}/{_BESIDE}"
 
 
 def made_token(folder: str) -> str:

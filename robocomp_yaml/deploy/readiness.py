@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import AsyncIterator, Awaitable, Callable
+from collections.abc import AsyncIterator, Awaitable, Callable, Collection
 from contextlib import aclosing, suppress
 
 from robocomp_yaml.deploy import ice_ping, introspection
@@ -64,13 +64,20 @@ def _hint_for_127(spec: ProcessSpec) -> str:
     return f"exit code 127 means that a program is missing: `{probe}` shows the programs of host '{spec.process.host}'"
 
 
-async def until_ready(engine: Engine, spec: ProcessSpec, lines: AsyncIterator[Line], state: State) -> None:
+async def until_ready(
+    engine: Engine, spec: ProcessSpec, lines: AsyncIterator[Line], state: State,
+    others: Collection[asyncio.Task[bool]] = (),
+) -> None:  # fmt: skip
     """Waits until a process that was just started is ready. Raises DeployFailed if it ends before, or takes too long.
-    `lines` are its output from the start."""
+    `lines` are its output from the start. Its time begins when the `others` are done, for which it waits."""
     end = asyncio.create_task(_until_it_ends(spec, state))
     ready = asyncio.create_task(_until_it_holds(engine, spec, lines, state))
     try:
         limit = spec.process.ready.within + (0 if spec.process.ready.has_condition else _settled(spec))
+        while pending := [other for other in others if not other.done()]:
+            done, _ = await asyncio.wait((end, ready, *pending), return_when=asyncio.FIRST_COMPLETED)
+            if done & {end, ready}:
+                break
         done, _ = await asyncio.wait((end, ready), timeout=limit, return_when=asyncio.FIRST_COMPLETED)
         if ready in done:
             return ready.result()
@@ -141,6 +148,13 @@ async def _check(engine: Engine, spec: ProcessSpec, within: float) -> bool:
     return True
 
 
+async def until_it_serves(spec: ProcessSpec) -> None:
+    """Waits until everything that a component serves answers a ping, also if the component waits for others."""
+    for proxy in spec.process.ready.pings:
+        while not await ice_ping.answers(proxy, _ONE_TRY, spec.process.pem):
+            await asyncio.sleep(_LONGEST)
+
+
 async def _serves(spec: ProcessSpec, within: float) -> bool:
     """Whether a component runs, as it says itself, and everything that it serves answers a ping."""
     pings, own = spec.process.ready.pings, spec.process.introspection
@@ -180,17 +194,24 @@ def _matches(pattern: str, text: str) -> bool:
 
 
 async def why_not(spec: ProcessSpec, running: Running | None) -> str:
-    """Why a process is not ready."""
-    ready = spec.process.ready
+    """Why a process that was started is not ready."""
     if running and running.restarts:
         return f"it ended in the meantime: {running.end}"
-    own = await own_state(spec) if ready.pings else None
+    own = await own_state(spec) if spec.process.ready.pings else None
     if own is not None and not own.is_running:
         return f"it is {own.words}" + (f" ({own.why})" if own.state == WAITING and own.why else "")
+    return await unmet(spec) or "it does not keep running"
+
+
+async def unmet(spec: ProcessSpec) -> str:
+    """Which part of the condition of a running process does not hold, '' without a condition."""
+    ready = spec.process.ready
     if ready.pings:
-        return "no answer from " + ", ".join(proxy.partition(":")[0].split()[0] for proxy in ready.pings)
+        checks = (ice_ping.answers(proxy, _ONE_TRY, spec.process.pem) for proxy in ready.pings)
+        silent = [proxy for proxy, is_it in zip(ready.pings, await asyncio.gather(*checks), strict=True) if not is_it]
+        return "no answer from " + ", ".join(one.partition(":")[0].split()[0] for one in silent or ready.pings)
     if ready.port:
         return f"nothing listens on port {ready.port}"
     if ready.command:
         return f"`{' '.join(ready.command)}` did not succeed"
-    return f"no line of its log matches '{ready.log}'" if ready.log else "it does not keep running"
+    return f"no line of its log matches '{ready.log}'" if ready.log else ""

@@ -135,8 +135,13 @@ def restore(folder: str) -> bool:
 
 
 def forget(folder: str) -> None:
-    """Removes the entry of the deployment in this folder."""
-    shutil.rmtree(_folder(folder), ignore_errors=True)
+    """Removes the entry of the deployment in this folder, and the copies of its files."""
+    own = _folder(folder)
+    shutil.rmtree(f"{own}/{_COPIES}", ignore_errors=True)
+    with contextlib.suppress(OSError):
+        os.unlink(f"{own}/{_ENTRY}")
+    with contextlib.suppress(OSError):
+        os.rmdir(own)
 
 
 def of_folder(folder: str) -> RegisteredDeployment | None:

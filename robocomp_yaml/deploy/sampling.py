@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import AsyncGenerator, Callable, Collection, Mapping
+from collections.abc import AsyncGenerator, Callable, Collection, Mapping, Sequence
 from contextlib import suppress
 from typing import TypeVar
 
@@ -19,7 +19,7 @@ from robocomp_yaml.deploy.engine import DeployFailed, Engine, Running
 from robocomp_yaml.deploy.ice_call import PLAIN, SECURE
 from robocomp_yaml.deploy.introspection import NoFacet, OwnState
 from robocomp_yaml.deploy.states import RUNNING, fault, state_of
-from robocomp_yaml.network.network import Network, Process
+from robocomp_yaml.network.network import TOPIC, Network, Process
 from robocomp_yaml.wire import introspection as wire
 from robocomp_yaml.wire import protocol, tls
 from robocomp_yaml.wire.introspection import Facts, Sections
@@ -132,7 +132,7 @@ async def samples(
     """A sample each so many seconds, for ever; without `names`, of all processes. The first one has no rates, and the
     second one follows after at most a second. If the engine does not answer, it is
     opened again each time, and components are still asked."""
-    session, asked, before = _Session(engine_of, network), _Asked(), dict[str, _Reading]()
+    session, asked, before = _Session(engine_of, network), _Asked(_SECTIONS), dict[str, _Reading]()
     pause = min(every, FIRST)
     try:
         while True:
@@ -182,13 +182,13 @@ class _Session:
         """The states, and why they are unknown."""
         if self._engine is not None:
             with suppress(DeployFailed):
-                return await self._engine.observe(), ""
+                return await self._engine.observe(use=True), ""
             await self.close()
             await asyncio.sleep(_MOMENT)  # it may just be ending, because somebody takes the deployment down
         try:
             self._engine = self._engine_of()
             if await self._engine.open(self._network, create=False):
-                return await self._engine.observe(), ""
+                return await self._engine.observe(use=True), ""
             notes = [note.message for note in self._engine.notes]
             await self.close()
             return {}, " ".join(notes)
@@ -206,7 +206,8 @@ class _Session:
 class _Asked:
     """The components, over connections that stay open: to open one for each answer would cost more than the answer."""
 
-    def __init__(self) -> None:
+    def __init__(self, sections: Sequence[str]) -> None:
+        self._sections = sections
         self._open: dict[str, Connection] = {}
         self._without: set[str] = set()
 
@@ -229,14 +230,14 @@ class _Asked:
         try:
             address = ice_call.address_of(proxy, SECURE if pem else PLAIN)
             if address is None:
-                return await introspection.report(proxy, _SECTIONS, within, pem)
+                return await introspection.report(proxy, self._sections, within, pem)
             return introspection.sections_in(await self._reply(proxy, *address, pem, within))
         except NoFacet:
             self._without.add(proxy)
             return None
 
     async def _reply(self, proxy: str, identity: str, host: str, port: int, pem: str, within: float) -> Reply | None:
-        message = protocol.request(identity, wire.REPORT, wire.FACET, wire.names(_SECTIONS))
+        message = protocol.request(identity, wire.REPORT, wire.FACET, wire.names(self._sections))
         is_new = proxy not in self._open
         try:
             async with asyncio.timeout(within):
@@ -259,6 +260,37 @@ class _Asked:
         for connection in self._open.values():
             connection.close()
         self._open.clear()
+
+
+class PublishedTopics:
+    """What publishers count of their topics, whoever listens."""
+
+    def __init__(self) -> None:
+        self._asked = _Asked((wire.STATE, wire.TOPICS))
+        self._before: dict[str, _Reading] = {}
+
+    async def rates(self, network: Network, running: Mapping[str, Running]) -> dict[str, float]:
+        """The messages per second of each topic since the last call, of all its publishers that run and answer."""
+        publishers = {one.source for one in network.connections if one.kind == TOPIC and one.is_out}
+        processes = {name: _process(network, running.get(name), name) for name in publishers}
+        targets = {
+            name: (process.introspection, process.pem)
+            for name, process in processes.items()
+            if process and process.introspection and _runs(running.get(name))
+        }
+        told = await self._asked.sections(targets, _LONGEST)
+        now = {name: _Reading(time.monotonic(), running.get(name), told.get(name)) for name in targets}
+        found: dict[str, float] = {}
+        for name, reading in now.items():
+            _, topics = _uses(reading, self._before.get(name))
+            for one in topics or ():
+                if one.direction == "out" and one.rate is not None:
+                    found[one.topic] = found.get(one.topic, 0.0) + one.rate
+        self._before = now
+        return {topic: round(rate, 1) for topic, rate in found.items()}
+
+    def close(self) -> None:
+        self._asked.close()
 
 
 def _sample(

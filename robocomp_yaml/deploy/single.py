@@ -19,10 +19,11 @@ from robocomp_yaml.deploy.engine import GIVEN_UP, DeployFailed, Running
 from robocomp_yaml.deploy.foreground import Foreground, Interruptions
 from robocomp_yaml.deploy.local.engine import LocalEngine
 from robocomp_yaml.deploy.local.obstacles import obstacles, whole_environment_of
+from robocomp_yaml.deploy.plan import with_dependents
 from robocomp_yaml.deploy.spec import ProcessSpec, spec_of
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.network.network import Network, Process
+from robocomp_yaml.network.network import Network, Process, Readiness
 
 _PERIOD = 0.3  # seconds between two looks at the processes beside
 
@@ -36,14 +37,19 @@ class SingleResult(msgspec.Struct):
     diagnostics: list[Diagnostic] = []
 
 
-def moved(network: Network, folder: str, names: Collection[str]) -> Network:
+def moved(network: Network, folder: str, names: Collection[str], foreground: str = "") -> Network:
     """The network of only these processes, with another folder of its own. What they are after is left out if it is not
-    among them: it is ready."""
+    among them: it is ready. Those that need the process of the `foreground`, which starts last, need not be ready."""
+    after = {one.name: (*one.after, *one.awaits) for one in network.processes.values()}
+    early = with_dependents(after, [foreground]) if foreground else set[str]()
     chosen = [process for process in network.processes.values() if process.name in names]
     return replace(
         network, folder=folder,
         processes={
-            one.name: replace(one, enabled=True, after=tuple(name for name in one.after if name in names))
+            one.name: replace(
+                one, enabled=True, after=tuple(name for name in one.after if name in names),
+                ready=Readiness() if one.name in early else one.ready,
+            )
             for one in chosen
         },
         order=[tuple(name for name in wave if name in names) for wave in _waves(network, names)],

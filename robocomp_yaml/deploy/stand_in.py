@@ -15,10 +15,12 @@ from robocomp_yaml.network.network import FOLDER, Network, NetworkHost
 
 def stand_in(path: str) -> tuple[Network, str] | None:
     """The network of the running processes of the document at a path, as they were started, and its engine; without
-    one, that of the last `up` that was all ready. None if there was none, or neither the document nor the user's list
-    of deployments has the name."""
+    one, that of the last `up` that was all ready. The path can also be the deployment's own folder. None if there was
+    none, or neither the document nor the user's list of deployments has the name."""
+    one = registered.of_folder(path) or registered.of_document(path)
     document, name = os.path.abspath(path), own_folder.deployment_in(path)
-    one = registered.of_document(path)
+    if one and one.folder == document:
+        document, name = one.document, one.name
     if one and name in ("", one.name):
         hosts = {known.name: known.host for known in one.hosts}
         network, engine = Network(one.name, document, one.folder, hosts), one.engine

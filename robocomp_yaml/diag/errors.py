@@ -12,6 +12,10 @@ class Refused(Exception):
     be written. The message is for users."""
 
 
+class NotRenamed(Refused):
+    """A name is not renamed, because something would be wrong, or would mean something else."""
+
+
 class Faulty(Exception):
     """Documents have errors that leave no result. `diagnostics` are all diagnostics, `documents` is the number of
     documents that were read, None if the errors are not about documents. `texts` are those of locations that are in no

@@ -46,6 +46,13 @@ def meaning(word: str, meant: str, *, more: str = "", safe: bool = False) -> Hin
     return Hint(f"did you mean '{meant}'{more}?", word, meant, safe)
 
 
+def likeness(one: str, other: str) -> float:
+    """How similar two words are, from 0 to 1, whatever their case."""
+    from difflib import SequenceMatcher  # needed only for errors
+
+    return SequenceMatcher(None, one.lower(), other.lower()).ratio()
+
+
 def hint_for_key(word: str, known: Iterable[str], present: Container[str]) -> Hint:
     """The hint for an unknown key: a similar known key, or all keys that are allowed and not present."""
     if word == "<<":

@@ -59,11 +59,14 @@ def component_plan(
     if options.emits("config"):
         if options.only is None:
             files += schemas(linked)
+        configured: list[FilePlan] = []
         if program.values:
             from robocomp_yaml.emit.value_files import configs  # most components have no values
 
-            files += configs(linked, program, lambda: options.ports(linked))
-        if all(file.path != CONFIG for file in files):
+            configured = list(configs(linked, program, lambda: options.ports(linked), root))
+        files += configured
+        # Beside other configurations, a first one with defaults would be started by mistake.
+        if all(file.path != CONFIG for file in configured) and (not configured or _has_config(root)):
             table = assign([linked], program.disk) if _is_complete(root, linked) else options.ports(linked)
             files.append(config.plan(linked, table))
     if options.emits("docs"):
@@ -108,6 +111,10 @@ def values_of(linked: LinkedComponent, program: Program) -> list[ValuesDocument]
     from robocomp_yaml.emit.value_files import documents_of
 
     return [layer.document for values in documents_of(linked, program) for layer in values.layers()]
+
+
+def _has_config(root: str) -> bool:
+    return os.path.lexists(os.path.join(root, CONFIG))
 
 
 def _is_complete(root: str, linked: LinkedComponent) -> bool:

@@ -66,6 +66,8 @@ def connections(linked: LinkedComponent, table: PortTable, existing: Mapping[str
 
 def stated(properties: Mapping[str, str], key: str) -> str | None:
     """The value of a key in a configuration, under any of its spellings; None if it is not set."""
+    if not properties:
+        return None
     return next((unquoted(properties[each]) for each in names(key) if properties.get(each)), None)
 
 

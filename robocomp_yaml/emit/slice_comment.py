@@ -10,11 +10,13 @@ import re
 import textwrap
 from collections.abc import Iterable
 
+from robocomp_yaml.patterns import pattern
+
 WIDTH = 110
 LONGEST_WORD = 8_000  # characters; the preprocessor's buffer has 65,536 bytes
 
-_HANG = re.compile(r" *(?:[-*+] +|[0-9]+[.)] +)?")  # the hanging indent of a paragraph or list item
-_HARMFUL = re.compile('[\x00-\x09\x0b-\x1f\x7f-\x9f\ud800-\udfff]|\\*/|/\\*|\\\\|"""')
+_HANG = pattern(r" *(?:[-*+] +|[0-9]+[.)] +)?")  # the hanging indent of a paragraph or list item
+_HARMFUL = pattern('[\x00-\x09\x0b-\x1f\x7f-\x9f\ud800-\udfff]|\\*/|/\\*|\\\\|"""')
 _CONTROL = "[\x00-\x08\x0b-\x1f\x7f\ud800-\udfff]"
 
 

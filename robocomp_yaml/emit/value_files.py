@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 
+import msgspec
+
+from robocomp_yaml.addresses.own_configuration import own_configuration, own_values, stated_in, users_keys
 from robocomp_yaml.addresses.table import PortTable
 from robocomp_yaml.emit import config
 from robocomp_yaml.emit.layout import CONFIG
-from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Program
+from robocomp_yaml.link.flat_configs import flat_at, flat_config
+from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Port, Program
 from robocomp_yaml.parameters.writing.properties import (
     CLASSIC,
     Section,
@@ -17,8 +21,12 @@ from robocomp_yaml.parameters.writing.properties import (
     properties,
     property_text,
     secret_keys,
+    section_text,
 )
 from robocomp_yaml.parameters.writing.write import Property
+from robocomp_yaml.semantics import connections, toml_lines
+from robocomp_yaml.source.properties import read as properties_of
+from robocomp_yaml.transactions import settings
 from robocomp_yaml.transactions.plan import FilePlan
 
 
@@ -26,47 +34,102 @@ def documents_of(linked: LinkedComponent, program: Program) -> list[LinkedValues
     """The values documents that configure a component: `etc/config.yaml`, and those beside it with a legacy file of
     their own."""
     folder = os.path.realpath(os.path.join(os.path.dirname(linked.component.path), "etc"))
+    own = own_values(linked, program)
     documents = [
         values
         for real, values in sorted(program.values.items())
-        if os.path.dirname(real) == folder
-        and values.parameters is not None
-        and values.parameters.component is linked
-        and (os.path.basename(real) == "config.yaml" or legacy_file(values))
+        if values is own
+        or (
+            os.path.dirname(real) == folder
+            and values.parameters is not None
+            and values.parameters.component is linked
+            and legacy_file(values)
+        )
     ]
     joined = {str(layer.value) for values in documents for layer in values.document.extends}
     # The first document of a pair is part of the file of the second one.
     return [values for values in documents if os.path.basename(values.document.path) not in joined]
 
 
-def configs(linked: LinkedComponent, program: Program, table: Callable[[], PortTable]) -> Iterator[FilePlan]:
+def configs(
+    linked: LinkedComponent, program: Program, table: Callable[[], PortTable], root: str = ""
+) -> Iterator[FilePlan]:
     """The property files of a component, whose documents have no errors. `table` returns the ports of the workspace,
-    and is called only if a document does not set all of them."""
+    and is called only if a document does not set all of them. `root` is the folder of the files, if it is not that of
+    the component."""
     for values in documents_of(linked, program):
         effective, _ = program.effective(values)
         if effective is None:
             continue
         sections, _ = properties(values, effective, beside=True)
+        defaults: list[Section] = []
         if not legacy_file(values) and dialect(values) == CLASSIC:
-            sections = _with_connections(sections, linked, table)
+            defaults = _connections(sections, linked, table)
         path = f"etc/{os.path.basename(legacy_file(values))}" if legacy_file(values) else CONFIG
-        source = os.path.basename(values.document.path)
+        source, folder = os.path.basename(values.document.path), root or os.path.dirname(linked.component.path)
+        stated = stated_in(sections)
+        sections = [*defaults, *sections]
+        text = property_text(sections, linked.component.name, source)
+        if path.endswith(toml_lines.SUFFIX):
+            from robocomp_yaml.parameters.writing.toml_text import toml_text  # few configurations are TOML
+
+            text = f"{text.splitlines()[0]}\n\n{toml_text(values, effective)}"
+            stated = settings.read(path, text)
+        flat = flat_at(os.path.normpath(os.path.join(folder, path)), program.disk)
+        beside = _read_before(values, program)
         yield FilePlan(
-            path, property_text(sections, linked.component.name, source), secrets=secret_keys(sections),
+            path, text, secrets=secret_keys(sections),
             sources=tuple(layer.document.path for layer in values.layers()),
-            stated_in=f"etc/{source}",
+            stated_in=f"etc/{source}", base=section_text(defaults), beside=beside,
+            users=tuple(users_keys(flat, stated, settings.read(path, beside))),
         )  # fmt: skip
 
 
-def _with_connections(
-    sections: list[Section], linked: LinkedComponent, table: Callable[[], PortTable]
-) -> list[Section]:
-    """Adds the endpoints and proxies that the document does not set, with the values of a first `etc/config`: without
+def _read_before(values: LinkedValues, program: Program) -> str:
+    """The legacy files of the layers below a document, as they are: RoboComp's programs read `generic_config` before
+    `specific_config`."""
+    read = ""
+    for layer in values.layers()[:-1]:
+        name = legacy_file(layer)
+        path = os.path.join(os.path.dirname(layer.document.path), name)
+        raw = program.disk.read(path)[0] if name and program.disk.has_file(path) else None
+        read += f"{(raw or b'').decode('utf-8', 'replace')}\n"
+    return read
+
+
+def _connections(sections: list[Section], linked: LinkedComponent, table: Callable[[], PortTable]) -> list[Section]:
+    """The endpoints and proxies that the document does not set, with the values of a first `etc/config`: without
     them the component does not start."""
     keys = {made.key for section in sections for made in section.properties}
     if keys >= set(config.needed(linked)):
-        return sections
+        return []
     existing = config.existing(os.path.dirname(linked.component.path))
     defaults = config.connections(linked, table(), existing)
     missing = [Property(key, value) for key, value in defaults.items() if key not in keys]
-    return [Section("Endpoints and proxies, by default", missing), *sections]
+    return [Section("Endpoints and proxies, by default", missing)]
+
+
+class OwnProperties(msgspec.Struct, frozen=True):
+    """A component's own configuration as it starts with it: what `compile` writes from its values document, or its
+    `etc/config`. `is_derived`: the file can be missing, or be older."""
+
+    text: str = ""
+    values: Mapping[str, str] = {}
+    is_derived: bool = False
+    secrets: tuple[str, ...] = ()
+
+    def first(self, keys: tuple[str, ...]) -> str:
+        """The value of the first of these properties that has one."""
+        return connections.first(self.values.get, *keys)
+
+    def proxy(self, port: Port) -> str:
+        return self.first(connections.proxy(port.name))
+
+
+def own_properties(linked: LinkedComponent, program: Program, table: PortTable) -> OwnProperties:
+    own = own_configuration(linked, program)
+    for plan in configs(linked, program, lambda: table) if own.values is not None else ():
+        if plan.path == CONFIG:
+            return OwnProperties(plan.text, properties_of(plan.text).values, True, plan.secrets)
+    flat = own.flat or flat_config(os.path.dirname(linked.component.path), program.disk)
+    return OwnProperties(flat.text, flat.properties) if flat is not None else OwnProperties()

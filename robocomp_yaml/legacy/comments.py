@@ -140,10 +140,11 @@ class _Comment:
     def __init__(self, token: Token, source: SourceText) -> None:
         text = str(token)
         self.start, self.end = token.start_pos or 0, token.end_pos or 0
-        self.block = text.startswith(("/*", "<!--"))
+        is_metadata = token.type == "METADATA"
+        self.block = is_metadata or text.startswith(("/*", "<!--"))
         self.doc = bool(_DOC.match(text))
         self.is_trailing = bool(_BEHIND.match(text))
-        texts = _block_lines(text) if self.block else [_one_line(text)]
+        texts = [" ".join(text.split())] if is_metadata else _block_lines(text) if self.block else [_one_line(text)]
         pairs = [escaped(line) for line in texts]
         self.lines, self.has_controls = [line for line, _ in pairs], any(bad for _, bad in pairs)
         self.first, self.last = source.line(self.start), source.line(self.end)

@@ -23,6 +23,7 @@ from robocomp_yaml.legacy.rules import Formats
 from robocomp_yaml.legacy.sources import LegacyFile
 from robocomp_yaml.legacy.workspaces import Workspaces
 from robocomp_yaml.link.workspace import ImportSearch
+from robocomp_yaml.source.disk import names_in
 
 
 def from_search_path(
@@ -40,7 +41,8 @@ def from_search_path(
             is_beside = not importer.legacy.is_pulled and stem.lower() in interfaces.beside(importer.file)
             if stem in interfaces.by_stem or is_beside or (match and not other_case):
                 continue
-            if path := _in_folders(stem, search.extra):
+            is_otherwise = match or any(stem.lower() == known.lower() for known in interfaces.by_stem)
+            if path := _in_folders(stem, search.extra, exactly=bool(is_otherwise)):
                 root = importer.legacy.root
                 entry = LedgerEntry(LegacyFile(path, root, _home(homes, root), is_pulled=True), convert(path, known))
                 entry.diagnostics = [
@@ -52,8 +54,15 @@ def from_search_path(
                 yield entry
 
 
-def _in_folders(stem: str, folders: Iterable[str]) -> str | None:
-    paths = (os.path.join(folder, stem + suffix) for folder in folders for suffix in (".idsl", ".ice"))
+def _in_folders(stem: str, folders: Iterable[str], *, exactly: bool) -> str | None:
+    """The legacy interface of this name in one of the folders; unless `exactly`, also in another case."""
+    names = [(folder, stem + suffix) for folder in folders for suffix in (".idsl", ".ice")]
+    paths = [os.path.join(folder, name) for folder, name in names]
+    if not exactly:
+        paths += [
+            os.path.join(folder, known) for folder, name in names for known in sorted(names_in(folder))
+            if known.lower() == name.lower()
+        ]  # fmt: skip
     return next((path for path in paths if os.path.isfile(path)), None)
 
 

@@ -8,6 +8,7 @@ from itertools import zip_longest
 
 from lark import Token
 
+from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.legacy.draft import Reader
 
 _WORD = re.compile(r"#\s*(\w*)\s*(.*)", re.DOTALL)
@@ -40,7 +41,7 @@ def review(trivia: Sequence[Token], reader: Reader) -> None:
 
 
 def _metadata(trivia: Sequence[Token], reader: Reader) -> None:
-    """Report adjacent metadata as one loss."""
+    """Report adjacent metadata as one. They become comments."""
     groups: list[list[Token]] = []
     for token in trivia:
         if token.type == "METADATA":
@@ -50,7 +51,8 @@ def _metadata(trivia: Sequence[Token], reader: Reader) -> None:
             else:
                 groups.append([token])
     for first, *rest in groups:
-        reader.lost("METADATA", first, _flat(first) + (f" (and {len(rest)} more)" if rest else ""))
+        text = _flat(first) + (f" (and {len(rest)} more)" if rest else "")
+        reader.report(codes.METADATA, first, text=text)
 
 
 def _parts(token: Token) -> tuple[str, str]:

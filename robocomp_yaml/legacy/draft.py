@@ -22,14 +22,17 @@ from robocomp_yaml.legacy.networks.node import NetworkDraft, NetworkNode, safe_n
 from robocomp_yaml.legacy.reading import SourceText
 from robocomp_yaml.legacy.rules import Rules
 from robocomp_yaml.legacy.settings.entries import ConfigSettings
+from robocomp_yaml.link.options import meanings
 
 
 class ImportDraft(msgspec.Struct, frozen=True):
-    """An import as the file spells it. `entry` is the document's entry that gets the resolved name."""
+    """An import as the file spells it. `entry` is the document's entry that gets the resolved name. `is_added`: an
+    option of the component adds it, so that the document states it only under another name."""
 
     path: str
     span: Span
     entry: DocumentEntry
+    is_added: bool = False
 
     @property
     def stem(self) -> str:
@@ -228,14 +231,14 @@ class Reader(msgspec.Struct, eq=False):
 def named_node(
     reader: Reader, network: NetworkDraft, name: str, at: Tree[Token] | Token, notes: Notes, whole: Tree[Token]
 ) -> NetworkNode:
-    """Add a node to a network. `at` is the location of its name, `whole` that of its definition."""
+    """Add a node to a network. `at` is the location of its name, `whole` that of its definition. Managers
+    accept several nodes of one name: a later one gets a name of its own, and dependences mean the first one."""
     node = NetworkNode(name, safe_name(name, [known.name for known in network.nodes]), reader.span(at), notes=notes)
     if not name.strip():
         reader.refused("unnamed", whole)
-    if any(name == known.alias for known in network.nodes):
-        reader.report(codes.DUPLICATE, at, name=name)
-    elif node.name != name and name.strip():
-        reader.repaired("name", at, name, name=node.name)
+    elif node.name != name:
+        is_taken = safe_name(name) == name or any(name == known.alias for known in network.nodes)
+        reader.repaired("same_name" if is_taken else "name", at, name, name=node.name)
     network.nodes.append(node)
     return node
 
@@ -247,6 +250,13 @@ class ComponentBuilder:
         self.reader = reader
         self.entries: dict[str, DocumentEntry] = {}
         self.machine: NamedMachine | None = None
+        self.added: list[ImportDraft] = []
+
+    def add_option(self, name: str, at: Tree[Token] | Token) -> None:
+        """Import what an option adds to the component."""
+        meaning = meanings().get(name)
+        for stem in meaning.imports if meaning is not None else ():
+            self.added.append(ImportDraft(stem, self.reader.span(at), DocumentEntry("", stem), is_added=True))
 
     def put(self, key: str, value: Value, notes: Notes | None = None) -> DocumentEntry:
         self.entries[key] = DocumentEntry(key, value, notes or Notes())
@@ -263,7 +273,11 @@ class ComponentBuilder:
         if "language" not in self.entries:
             self.reader.report(codes.NO_LANGUAGE, at, name=self.entries["component"].value)
         entries = {key: self.entries[key] for key in self.reader.rules.order if key in self.entries} | self.entries
-        return ComponentDraft(Map([*entries.values()], block=True), around, tuple(imports), self.machine)
+        written = tuple(imports)
+        known = {each.stem.lower() for each in written}
+        added = {each.stem: each for each in self.added if each.stem.lower() not in known}
+        every = (*written, *added.values())
+        return ComponentDraft(Map([*entries.values()], block=True), around, every, self.machine)
 
 
 def plain(name: Token) -> str:

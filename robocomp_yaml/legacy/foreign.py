@@ -10,6 +10,7 @@ import os
 import re
 from collections.abc import Sequence
 
+from robocomp_yaml.diag.codes import files as file_codes
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import NOTE, Diagnostic
 from robocomp_yaml.diag.listing import some
@@ -23,23 +24,31 @@ _OF_COMPONENTS = re.compile(r"(?mi)^[ \t]*(?:[\w.]*\bEndpoints\b[\w.]*|\w*Proxy|
 
 
 def skip_foreign(entries: Sequence[LedgerEntry], known: Formats) -> list[Diagnostic]:
-    """Mark files as skipped: empty ones and templates, each with a note, and those of other programs. Return one note
-    for all of the latter."""
+    """Mark files as skipped: empty ones, broken links and templates, each with a note, and those of other programs.
+    Return one note for all of the latter."""
     foreign = []
     for entry in entries:
         if entry.skipped or entry.legacy.is_named or not entry.file.refused:
             continue
-        if any(diagnostic.code == codes.EMPTY.id for diagnostic in entry.diagnostics):
+        if any(diagnostic.code == codes.EMPTY.id for diagnostic in entry.diagnostics) or _is_broken(entry.file.path):
             entry.skipped = True
             entry.diagnostics = [diagnostic.as_severity(NOTE) for diagnostic in entry.diagnostics]
         elif entry.file.source is None:
-            continue
+            rules = by_name(entry.file.path, known)
+            if (rules is None or rules.weak) and any(one.code == file_codes.BINARY.id for one in entry.diagnostics):
+                foreign.append(entry.file.path)
+                entry.skipped, entry.diagnostics = True, []
         elif _TEMPLATE.search(entry.file.source.text):
             entry.skipped, entry.diagnostics = True, [codes.TEMPLATE.at(Span(entry.file.path))]
         elif not _is_ours(entry, known):
             foreign.append(entry.file.path)
             entry.skipped, entry.diagnostics = True, []
     return [codes.FOREIGN.at(Span(foreign[0]), count=len(foreign), files=some(foreign))] if foreign else []
+
+
+def _is_broken(path: str) -> bool:
+    """Whether a file is a link to a missing one, such as a file of a submodule that was not cloned."""
+    return os.path.islink(path) and not os.path.exists(path)
 
 
 def _is_ours(entry: LedgerEntry, known: Formats) -> bool:

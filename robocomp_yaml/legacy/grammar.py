@@ -26,7 +26,7 @@ MAX_ERRORS = 20
 MAX_DEPTH = 150
 """At most this deep may constructs be nested. Real files have less than a quarter of it."""
 
-COMMENTS = ("LINE_COMMENT", "BLOCK_COMMENT")
+COMMENTS = ("LINE_COMMENT", "BLOCK_COMMENT", "METADATA")
 _IGNORED = re.compile(r"^%ignore (?!BLANK)(\w+)", re.MULTILINE)
 
 

@@ -59,13 +59,10 @@ class LedgerEntry(msgspec.Struct):
         classes = []
         for number, text in enumerate("".join(bare).split("\n")[: source.lines], 1):
             classes.append("converted" if text.strip() else "comment" if number in commented else "blank")
-        changed = [(source.line(t.start_pos or 0), source.line(t.end_pos or 0), "lost") for t in parsed.trivia
-                   if t.type == "METADATA"]  # fmt: skip
-        changed += [(d.span.line, d.span.line, _REPAIRS[d.code]) for d in self.diagnostics if d.code in _REPAIRS]
-        for first, last, to in changed:
-            for line in range(first, last + 1):
-                if classes[line - 1] in ("converted", "repaired"):
-                    classes[line - 1] = to
+        for diagnostic in self.diagnostics:
+            line = diagnostic.span.line - 1
+            if diagnostic.code in _REPAIRS and classes[line] in ("converted", "repaired"):
+                classes[line] = _REPAIRS[diagnostic.code]
         return Counter(classes)
 
 

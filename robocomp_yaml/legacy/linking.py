@@ -1,4 +1,4 @@
-"""Link the files of one run: resolve imports and state machines, and report unknown references."""
+"""Link the files of one run: resolve imports and state machines."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ import msgspec
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.legacy.convert import Converted
-from robocomp_yaml.legacy.draft import ComponentDraft, ImportDraft, ModuleDraft, ModuleNames, Reference, base_name
+from robocomp_yaml.legacy.document import DocumentEntry, List, Map
+from robocomp_yaml.legacy.draft import ComponentDraft, ImportDraft, ModuleDraft, base_name
 from robocomp_yaml.link.workspace import SUFFIX, ImportSearch, WorkspaceSettings
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 from robocomp_yaml.source.disk import names_in
@@ -89,6 +90,12 @@ class InterfaceFiles(msgspec.Struct, frozen=True):
             self._listed[folder] = {stem.lower(): stem for stem in known}
         return self._listed[folder]
 
+    def defining(self, module: str, name: str) -> list[str]:
+        """Return the stems of the files of the run that define a name in a module."""
+        drafts = [(stem, file.draft) for stem, files in self.by_stem.items() for file in files]
+        modules = [(stem, draft.names) for stem, draft in drafts if isinstance(draft, ModuleDraft)]
+        return [stem for stem, names in modules if module and names.name == module and name in names.defined]
+
     def definer_hint(self, name: str) -> str:
         """Return a hint which interface file of the run defines a name, or ''."""
         for stem, files in sorted(self.by_stem.items()):
@@ -125,6 +132,19 @@ def name_imports(
         elif name.lower() == imported.stem.lower() and name != imported.stem:
             yield codes.IMPORT_CASE.at(imported.span, name=imported.stem, found=name)
         imported.entry.value = name or imported.stem
+        if imported.is_added and name and name != imported.stem and isinstance(file.draft, ComponentDraft):
+            add_import(file.draft.document, name)
+
+
+def add_import(document: Map, stem: str) -> None:
+    """Add a name to the imports of a document, once."""
+    listed = document.get("imports")
+    if isinstance(listed, List):
+        if all(item.value != stem for item in listed.items):
+            listed.put(stem)
+        return
+    at = next((n for n, entry in enumerate(document.entries) if entry.key not in ("module", "component", "doc")), None)
+    document.entries.insert(len(document.entries) if at is None else at, DocumentEntry("imports", List.of([stem])))
 
 
 def _where(stem: str) -> str:
@@ -195,45 +215,3 @@ def not_searched(
             inside = os.path.relpath(folder, workspace.root)
             hint = f"add {inside} to `interfaces:` in {os.path.join(workspace.root, WORKSPACE_FILE)}"
             yield folder, codes.NOT_SEARCHED.at(imported.span, name=imported.entry.value, folder=folder, hint=hint)
-
-
-def resolve_references(file: Converted, interfaces: InterfaceFiles) -> Iterable[Diagnostic]:
-    """Report references of a module that no known module defines. Imports from outside of the run may define more
-    names.
-
-    In Slice, several files may contain parts of one module, and need not qualify each other's names. Documents qualify
-    them.
-    """
-    if not isinstance(file.draft, ModuleDraft):
-        return
-    imported: list[tuple[str, ModuleNames]] = []
-    all_known = True
-    for each in file.draft.imports:
-        target = interfaces.imported(file, str(each.entry.value))
-        if target is None or not isinstance(target.draft, ModuleDraft):
-            all_known = False
-        else:
-            imported.append((each.stem, target.draft.names))
-    own = file.draft.names
-    for reference in own.references:
-        if reference.module in ("", own.name) and reference.name in own.defined:
-            continue
-        same = [(stem, m) for stem, m in imported if m.name == (reference.module or own.name)]
-        definer = next((stem for stem, module in same if reference.name in module.defined), None)
-        if definer is not None:
-            if own.name == (reference.module or own.name):
-                reference.written.text = f"{definer}.{reference.name}"
-            continue
-        if not any(stem == reference.module and reference.name in module.defined for stem, module in imported):
-            problem = _problem(reference, own, dict(imported), all_known)
-            if problem:
-                hint = interfaces.definer_hint(reference.name)
-                yield codes.UNKNOWN_TYPE.at(reference.span, problem=problem, name=reference.name, hint=hint)
-
-
-def _problem(reference: Reference, own: ModuleNames, imported: Mapping[str, ModuleNames], all_known: bool) -> str:
-    """Return why a reference is unknown; '' if a module outside of the run may define it."""
-    name, module = reference.name, reference.module or own.name
-    if module == own.name or module in imported or any(names.name == module for names in imported.values()):
-        return f"module {module} defines no '{name}'" if all_known or module != own.name or not imported else ""
-    return f"module {module} is not imported, so '{module}::{name}' is unknown" if all_known else ""

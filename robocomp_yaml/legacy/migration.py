@@ -25,9 +25,9 @@ from robocomp_yaml.legacy.linking import (
     name_imports,
     name_machine,
     not_searched,
-    resolve_references,
 )
 from robocomp_yaml.legacy.networks.deployment import build_deployments
+from robocomp_yaml.legacy.references import add_imports_of_interfaces, resolve_references
 from robocomp_yaml.legacy.result import MigrationRun
 from robocomp_yaml.legacy.rules import Formats, with_plugins
 from robocomp_yaml.legacy.settings.components import InferredParameters, build_config_documents
@@ -75,7 +75,7 @@ def migrate(
     known.new.extend(
         folder for folder in discovered.workspaces() if not is_empty and workspaces.needs_file(run.root(folder))
     )
-    search = ImportSearch(tuple(extra))
+    search = ImportSearch((*extra, *discovered.interfaces))
     run.entries += from_search_path([*run.entries], search, formats, known)
     interfaces = InterfaceFiles.of((entry.file for entry in run.entries if not entry.skipped), search)
     run.general += skip_copies(run.entries, interfaces, known)
@@ -149,7 +149,9 @@ def _link(
     reported: set[tuple[str, str]] = set()
     for entry in accepted:
         entry.diagnostics += resolve_references(entry.file, interfaces)
-        workspace = known.of(documents[entry.file.path])
+        document = documents[entry.file.path]
+        workspace = known.of(document)
+        entry.diagnostics += add_imports_of_interfaces(entry.file, document, workspace, interfaces)
         if workspace.root in known.new:
             continue
         for folder, diagnostic in not_searched(entry.file, workspace, documents, interfaces):

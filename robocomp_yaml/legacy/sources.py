@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections import deque
 from collections.abc import Iterator, Sequence
 
 import msgspec
@@ -49,6 +50,9 @@ class LegacyFiles(msgspec.Struct, frozen=True):
     files: list[LegacyFile] = []
     folders: list[str] = []
     """The output roots of the folders that were passed: each becomes a workspace."""
+    interfaces: list[str] = []
+    """Folders outside of the output roots, to which links in the folders lead: nothing is written there, so that they
+    are part of the search path only."""
     diagnostics: list[Diagnostic] = []
 
     def workspaces(self) -> list[str]:
@@ -68,7 +72,8 @@ def discover(paths: Sequence[str], output: str | None, known: Formats) -> Legacy
         is_folder = os.path.isdir(path)
         if not is_folder and kind_of(path) is not None and os.path.isfile(path):
             continue  # a document, possibly of an earlier version
-        below = list(_below(path, discovered.diagnostics, known)) if is_folder else [os.path.normpath(path)]
+        outside = None if output else discovered.interfaces
+        below = list(_below(path, discovered.diagnostics, known, outside)) if is_folder else [os.path.normpath(path)]
         root = output or (os.path.normpath(path) if is_folder else root_for(path))
         if is_folder:
             if root not in discovered.folders:
@@ -94,29 +99,46 @@ def root_for(path: str) -> str:
     return root_above(folder) or folder or "."
 
 
-def _below(folder: str, diagnostics: list[Diagnostic], known: Formats) -> Iterator[str]:
-    """Yield the legacy files below a folder. Links to folders are followed, but no folder is entered twice. Files that
-    `compile` generated are skipped."""
+def _below(
+    folder: str, diagnostics: list[Diagnostic], known: Formats, outside: list[str] | None = None
+) -> Iterator[str]:
+    """Yield the legacy files below a folder. Links are followed last, so that a document is written beside the file
+    itself and not beside a link to it, and no folder is entered twice. Files that `compile` generated are skipped. What
+    links lead to outside of the folder is added to `outside`, unless that is None."""
 
     def report(error: OSError) -> None:
         diagnostics.append(file_codes.UNREADABLE.at(Span(str(error.filename)), reason=reason_of(error)))
 
     entered: set[tuple[int, int]] = set()
     compiled: set[str] = set()
-    for where, folders, names in os.walk(folder, followlinks=True, onerror=report):
-        status = os.stat(where)
-        if (status.st_dev, status.st_ino) in entered:
-            folders.clear()
-            continue
-        entered.add((status.st_dev, status.st_ino))
-        compiled |= _compiled(where)
-        folders[:] = sorted(name for name in folders if name not in _SKIPPED and not name.startswith("."))
-        for name in sorted(names):
-            path = os.path.normpath(os.path.join(where, name))
-            # A config that was migrated remains a source, though `compile` now generates it.
-            is_generated = path in compiled and (by_name(name, known) is not None or not os.path.exists(f"{path}.yaml"))
-            if not name.startswith(".") and not is_generated and is_legacy_file(path, known):
-                yield path
+    linked: list[str] = []
+    inside = os.path.join(os.path.realpath(folder), "")
+    todo = deque([folder])
+    while todo:
+        start = todo.popleft()
+        is_outside = outside is not None and not os.path.join(os.path.realpath(start), "").startswith(inside)
+        for where, folders, names in os.walk(start, onerror=report):
+            status = os.stat(where)
+            if (status.st_dev, status.st_ino) in entered:
+                folders.clear()
+                continue
+            entered.add((status.st_dev, status.st_ino))
+            compiled |= _compiled(where)
+            folders[:] = sorted(name for name in folders if name not in _SKIPPED and not name.startswith("."))
+            todo += [path for name in folders if os.path.islink(path := os.path.join(where, name))]
+            if outside is not None and is_outside:
+                outside.append(os.path.normpath(where))
+                continue
+            for name in sorted(names):
+                path = os.path.normpath(os.path.join(where, name))
+                # A config that was migrated remains a source, though `compile` now generates it.
+                is_config = by_name(name, known) is None and os.path.exists(f"{path}.yaml")
+                if not name.startswith(".") and (path not in compiled or is_config) and is_legacy_file(path, known):
+                    if os.path.islink(path):
+                        linked.append(path)
+                    else:
+                        yield path
+    yield from linked
 
 
 def _compiled(folder: str) -> set[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 import msgspec
 
@@ -19,102 +19,43 @@ from robocomp_yaml.link.deployments import LinkedDeployment
 from robocomp_yaml.link.documents import Document, Documents
 from robocomp_yaml.link.expand_deployments import Expansion
 from robocomp_yaml.link.knot import tie
-from robocomp_yaml.link.program import Tables
+from robocomp_yaml.link.program import NamedDocument, Tables, UsedValues
 from robocomp_yaml.model.deployment import COMPONENT, INDEX, PROCESS, Deployment, Entry
 from robocomp_yaml.model.located import Text
 from robocomp_yaml.source.disk import Disk
 
 
 class DeploymentDocuments(msgspec.Struct):
-    """Resolves the paths in deployments, and reports paths without a document."""
+    """Follows deployments to the documents that they name, and links them."""
 
     documents: Documents
     tables: Tables
     diagnostics: list[Diagnostic] = []
-    _deployments: dict[str, Deployment] = {}
+    used: dict[UsedValues, None] = {}
+    models: dict[str, Deployment] = {}
 
-    def follow(self, document: Document) -> Iterator[Document]:
-        """Yields the documents that a deployment names."""
-        model = document.model
+    def follow(self, document: Document) -> Sequence[NamedDocument]:
+        """The documents that a deployment names."""
+        model, disk, memory = document.model, self.documents.disk, self.documents.memory
         assert isinstance(model, Deployment)
-        self._deployments[document.real] = model
-        for entry in model.entries:
-            if entry.kind != PROCESS:
-                yield from self._follow_entry(model, entry)
-        for include in model.all_includes:
-            yield from self._follow_include(model, include)
-        for group in model.groups:
-            if group.facade is not None:
-                component = self._component(model, group.facade)
-                if component is not None:
-                    yield self.documents.get(component)
+        self.models[document.real] = model
 
-    def _follow_entry(self, model: Deployment, entry: Entry) -> Iterator[Document]:
-        """The component and configuration of each instance; the configuration is relative to the component."""
-        components: dict[str, str] = {}
-        for target, config in _of_instances(entry):
-            if entry.kind == COMPONENT and target.text not in components:
-                component = self._component(model, target)
-                if component is None:
-                    return
-                components[target.text] = component
-                yield self.documents.get(component)
-            if config is not None:
-                folder = paths.entry_folder(model, entry, components.get(target.text, ""))
-                path = self._config(model, folder, config)
-                if path is None:
-                    return
-                if entry.kind == COMPONENT and paths.is_values(path):
-                    yield self.documents.get(path, "config")
+        def make() -> tuple[list[NamedDocument], dict[UsedValues, None], list[Diagnostic]]:
+            found = _NamedByDeployment(model, disk)  # not of this run: other deployments may name the same
+            return list(found.run()), found.used, found.diagnostics
 
-    def _component(self, model: Deployment, target: Text) -> str | None:
-        components = paths.component_paths(model, target.text, self.documents.disk)
-        if len(components) > 1:
-            names = " or ".join(os.path.join(target.text, os.path.basename(path)) for path in components)
-            self.diagnostics.append(codes.SEVERAL_COMPONENTS.at(target.span, path=target.text, hint=f"name {names}"))
-        elif not components:
-            path = paths.joined(paths.document_folder(model), target.text)
-            hint = self._nearby(path, ".cdsl.yaml", "cdsl.yaml")
-            self.diagnostics.append(codes.NO_COMPONENT.at(target.span, path=target.text, hint=hint))
-        return components[0] if len(components) == 1 else None
-
-    def _config(self, model: Deployment, folder: str, config: Text) -> str | None:
-        candidates = paths.config_paths(model, folder, config.text)
-        for path in candidates:
-            if self.documents.disk.has_file(path):
-                return path
-        hint = self._nearby(candidates[0]) or self._nearby(candidates[1])
-        listed = " and no ".join(dict.fromkeys(candidates))
-        self.diagnostics.append(codes.NO_CONFIG.at(config.span, path=config.text, places=listed, hint=hint))
-        return None
-
-    def _follow_include(self, model: Deployment, include: Text) -> Iterator[Document]:
-        path = paths.include_path(model, include.text, self.documents.disk)
-        if path is not None:
-            yield self.documents.get(path)
-            return
-        path = paths.joined(paths.document_folder(model), include.text)
-        hint = self._nearby(path, ".ddsl.yaml", without=model.path)
-        self.diagnostics.append(codes.NO_INCLUDE.at(include.span, path=include.text, hint=hint))
-
-    def _nearby(self, path: str, *suffixes: str, without: str = "") -> Hint:
-        """A hint at a similar name in the same folder, other than `without`."""
-        folder, name = os.path.split(path)
-        disk = self.documents.disk
-        if not disk.has_folder(folder or "."):
-            return Hint(f"the folder '{folder}' does not exist")
-        names = disk.names(folder)
-        if suffixes:
-            names = [n for n in names if n.endswith(suffixes) or disk.has_folder(os.path.join(folder, n))]
-        own = os.path.basename(without) if os.path.dirname(without) == folder else ""
-        return did_you_mean(name, [n for n in names if n != own], open_=True)
+        causes = model, disk.version, disk.added
+        named, used, diagnostics = memory.result(("named", document.real), causes, make)
+        self.used |= used
+        self.diagnostics += diagnostics
+        return named
 
     def join(self) -> None:
         """Links each deployment with what it includes, after all other documents are linked."""
         disk = self.documents.disk
-        large = too_large(self._deployments, disk)
+        large = too_large(self.models, disk)
         self.diagnostics += [fault for fault in large.values() if fault is not None]
-        usable = {real: model for real, model in self._deployments.items() if real not in large}
+        usable = {real: model for real, model in self.models.items() if real not in large}
         for real, model in usable.items():
             linked = self.tables.deployments[real] = LinkedDeployment(model, real)
             expansion = Expansion(linked, self.tables, usable, disk)
@@ -127,6 +68,95 @@ class DeploymentDocuments(msgspec.Struct):
             for real in _included(model, disk):
                 if real in usable:
                     tie(self.tables.deployments[real], is_included=True)
+
+
+class _NamedByDeployment(msgspec.Struct):
+    """Resolves the paths in one deployment, whatever other deployments name: how it uses values, and paths without a
+    document."""
+
+    model: Deployment
+    disk: Disk
+    used: dict[UsedValues, None] = {}
+    diagnostics: list[Diagnostic] = []
+
+    def run(self) -> Iterator[NamedDocument]:
+        """The documents that it names."""
+        for entry in self.model.entries:
+            if entry.kind != PROCESS:
+                yield from self._follow_entry(entry)
+        for include in self.model.all_includes:
+            yield from self._follow_include(include)
+        for group in self.model.groups:
+            if group.facade is not None:
+                component = self._component(group.facade)
+                if component is not None:
+                    yield NamedDocument(component)
+
+    def _follow_entry(self, entry: Entry) -> Iterator[NamedDocument]:
+        """The component and configuration of each instance; the configuration is relative to the component."""
+        components: dict[str, str] = {}
+        is_completed = entry.settings is not None
+        for target, config in _of_instances(entry):
+            if entry.kind == COMPONENT and target.text not in components:
+                component = self._component(target)
+                if component is None:
+                    return
+                components[target.text] = component
+                yield NamedDocument(component)
+            if config is not None:
+                folder = paths.entry_folder(self.model, entry, components.get(target.text, ""))
+                path = self._config(folder, config)
+                if path is None:
+                    return
+                if entry.kind == COMPONENT and paths.is_values(path):
+                    yield NamedDocument(path, "config")
+                    self.used[UsedValues(path, components[target.text], is_completed)] = None
+            elif entry.kind == COMPONENT:
+                component = components[target.text]
+                path = paths.default_config(os.path.dirname(component))
+                self.used[UsedValues(path, component, is_completed)] = None
+
+    def _component(self, target: Text) -> str | None:
+        components = paths.component_paths(self.model, target.text, self.disk)
+        if len(components) > 1:
+            names = " or ".join(os.path.join(target.text, os.path.basename(path)) for path in components)
+            self.diagnostics.append(codes.SEVERAL_COMPONENTS.at(target.span, path=target.text, hint=f"name {names}"))
+        elif not components:
+            path = paths.joined(paths.document_folder(self.model), target.text)
+            hint = self._nearby(path, ".cdsl.yaml", "cdsl.yaml")
+            self.diagnostics.append(codes.NO_COMPONENT.at(target.span, path=target.text, hint=hint))
+        return components[0] if len(components) == 1 else None
+
+    def _config(self, folder: str, config: Text) -> str | None:
+        candidates = paths.config_paths(self.model, folder, config.text)
+        for path in candidates:
+            if self.disk.has_file(path):
+                return path
+        hint = self._nearby(candidates[0]) or self._nearby(candidates[1])
+        listed = " and no ".join(dict.fromkeys(candidates))
+        self.diagnostics.append(codes.NO_CONFIG.at(config.span, path=config.text, places=listed, hint=hint))
+        return None
+
+    def _follow_include(self, include: Text) -> Iterator[NamedDocument]:
+        path = paths.include_path(self.model, include.text, self.disk)
+        if path is not None:
+            yield NamedDocument(path)
+            return
+        path = paths.joined(paths.document_folder(self.model), include.text)
+        hint = self._nearby(path, ".ddsl.yaml", without=self.model.path)
+        self.diagnostics.append(codes.NO_INCLUDE.at(include.span, path=include.text, hint=hint))
+
+    def _nearby(self, path: str, *suffixes: str, without: str = "") -> Hint:
+        """A hint at a similar name in the same folder, other than `without`."""
+        folder, name = os.path.split(path)
+        disk = self.disk
+        if not disk.has_folder(folder or "."):
+            return Hint(f"the folder '{folder}' does not exist")
+        names = disk.names(folder)
+        if suffixes:
+            names = [n for n in names if n.endswith(suffixes) or disk.has_folder(os.path.join(folder, n))]
+        own = os.path.basename(without) if os.path.dirname(without) == folder else ""
+        return did_you_mean(name, [n for n in names if n != own], open_=True)
 
 
 def _of_instances(entry: Entry) -> Iterator[tuple[Text, Text | None]]:

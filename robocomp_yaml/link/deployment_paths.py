@@ -6,6 +6,7 @@ import os
 
 from robocomp_yaml.model.deployment import COMPONENT, Deployment, Entry
 from robocomp_yaml.source.disk import Disk
+from robocomp_yaml.source.file_names import is_deployment
 
 COMPONENT_SUFFIXES = (".cdsl.yaml", os.sep + "cdsl.yaml")
 
@@ -22,6 +23,10 @@ def document_folder(deployment: Deployment) -> str:
 def component_paths(deployment: Deployment, text: str, disk: Disk) -> list[str]:
     """The component document at a path, or all component documents in a folder; none if there is none."""
     path = joined(document_folder(deployment), text)
+    return disk.once(("component", path), lambda: _components_at(path, disk))
+
+
+def _components_at(path: str, disk: Disk) -> list[str]:
     if disk.has_folder(path):
         names = (name for name in disk.documents(path) if name == "cdsl.yaml" or name.endswith(".cdsl.yaml"))
         return [os.path.join(path, name) for name in names]
@@ -41,6 +46,11 @@ def config_paths(deployment: Deployment, folder: str, text: str) -> tuple[str, s
     return joined(folder, text), joined(document_folder(deployment), text)
 
 
+def default_config(folder: str) -> str:
+    """The values document of a component in a folder, which its entries use if they name no other configuration."""
+    return joined(folder, os.path.join("etc", "config.yaml"))
+
+
 def is_values(path: str) -> bool:
     """Whether a configuration is a values document, not a flat config."""
     name = os.path.basename(path)
@@ -50,6 +60,4 @@ def is_values(path: str) -> bool:
 def include_path(deployment: Deployment, text: str, disk: Disk) -> str | None:
     """The path of an included deployment; None if it is not a deployment document."""
     path = joined(document_folder(deployment), text)
-    name = os.path.basename(path)
-    is_deployment = name == "ddsl.yaml" or name.endswith(".ddsl.yaml")
-    return path if disk.has_file(path) and is_deployment else None
+    return path if disk.has_file(path) and is_deployment(path) else None

@@ -6,7 +6,7 @@ import importlib
 from collections.abc import Callable, Iterator
 from collections.abc import Mapping as Map
 from functools import cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import msgspec
 
@@ -21,6 +21,7 @@ from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.heading import COMPONENT, text_at_top
 from robocomp_yaml.source.parts import Parts, parse_in_parts
 from robocomp_yaml.source.schema_text import MARKED
+from robocomp_yaml.source.syntax import SyntaxFault
 from robocomp_yaml.source.text import decode
 from robocomp_yaml.source.tree import Mapping, Node, parse
 
@@ -59,7 +60,10 @@ def _tree_of(path: str, raw: bytes, parts: Parts | None = None) -> tuple[Node | 
     text, diagnostics = decode(path, raw)
     if text is None:
         return None, diagnostics
-    tree = parse_in_parts(path, text, parts) if parts is not None else None
+    try:
+        tree = parse_in_parts(path, text, parts) if parts is not None else None
+    except SyntaxFault as fault:
+        return None, [fault.diagnostic]
     return (tree, []) if tree is not None else parse(path, text)
 
 
@@ -121,21 +125,23 @@ class Documents(msgspec.Struct):
         return self.memory.result(
             ("document", path, real, kind),
             causes,
-            lambda: _made(Document(path, real, kind), raw, plugins, self.memory.parts(path)),
+            lambda: _made(Document(path, real, kind), raw, plugins, self.memory),
         )
 
 
-def _made(document: Document, raw: bytes, plugins: Plugins, parts: Parts) -> tuple[Document, list[Diagnostic]]:
+def _made(document: Document, raw: bytes, plugins: Plugins, memory: Memory) -> tuple[Document, list[Diagnostic]]:
     """Decodes, parses, validates and builds, until a pass reports an error."""
     path, kind = document.path, document.kind
-    tree, diagnostics = _tree_of(path, raw, parts)
+    tree, diagnostics = _tree_of(path, raw, memory.parts(path))
     if tree is None:
         return document, diagnostics
     misfits = _misfits(kind, tree, plugins)
     model = None
     if not has_errors(misfits):
         assert isinstance(tree, Mapping)
-        model = builder(kind)(tree, path)
+        model = made = builder(kind)(tree, path)
+        if kind == "ddsl":  # an edit of a comment makes the same
+            model = memory.result(("model", document.real), cast("Deployment", made).causes(), lambda: made)
     module, component = text_at_top(tree, "module"), text_at_top(tree, COMPONENT)
     diagnostics += (misfit for misfit in misfits if not _is_of_a_plugin(kind, tree, misfit, plugins))
     return Document(path, document.real, kind, model, module, component, tree), diagnostics

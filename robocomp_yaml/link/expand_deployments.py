@@ -157,7 +157,7 @@ class Expansion(msgspec.Struct):
 
     def _config(self, document: Deployment, linked: LinkedInstance) -> str:
         if linked.entry.config is None:
-            default = paths.joined(linked.folder, os.path.join("etc", "config.yaml"))
+            default = paths.default_config(linked.folder)
             return default if linked.component is not None and self.disk.real(default) in self.tables.values else ""
         candidates = paths.config_paths(document, linked.folder, linked.entry.config.text)
         config = next((path for path in candidates if self.disk.has_file(path)), "")
@@ -172,11 +172,7 @@ class Expansion(msgspec.Struct):
         if values is None:
             tie(linked, broken=True)
             return
-        if linked.entry.settings is not None:
-            tie(values, is_extended=True)  # `set:` has the missing values
-        if values.parameters is None:  # values without a component belong to the component that uses them
-            tie(values, parameters=component.parameters)
-        elif values.parameters is component.parameters:
+        if values.parameters is None or values.parameters is component.parameters:
             pass
         elif _is_for(values, component):
             own = LinkedValues(values.document, values.extends, component.parameters, values.is_extended, values.broken)

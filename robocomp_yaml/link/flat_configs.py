@@ -14,7 +14,7 @@ from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.properties import FIRST_HEAD, VALUES_HEAD, IceProperty
 from robocomp_yaml.source.text import MAX_DOCUMENT
-from robocomp_yaml.transactions import manifest
+from robocomp_yaml.transactions import manifest, settings
 
 FLAT = os.path.join("etc", "config")
 
@@ -28,8 +28,8 @@ _HEAD = pattern(rf"# Configuration of [^\n]*({re.escape(FIRST_HEAD)}|{re.escape(
 
 class FlatConfig(msgspec.Struct, frozen=True):
     """A flat config as Ice reads it: its effective `entries`, and their values, `properties`. `is_written`: rcyaml
-    wrote the file, and the user may have changed it; `is_unchanged`: nobody did. `base` are the properties of a first
-    `etc/config` as rcyaml wrote it, empty if they are unknown, or come from a values document."""
+    wrote the file, and the user may have changed it; `is_unchanged`: nobody did. `base` are the properties as rcyaml
+    wrote them, without those that a values document states; empty if they are unknown."""
 
     path: str
     text: str
@@ -65,15 +65,15 @@ def _read(path: str, raw: bytes, disk: Disk) -> FlatConfig:
     is_from_values = head is not None and head[1] == VALUES_HEAD
     is_unchanged = any(entry.hash == digest(raw) for entry in entries) if entries else is_from_values
     last = properties.read(text).last
-    values = {key: entry.value for key, entry in last.items()}
-    before = {} if is_from_values else values if is_unchanged else _base(path, disk)
+    values = settings.read(path, text)
+    first = {} if is_from_values else values
+    before = first if is_unchanged else _base(path, disk, is_first=not is_from_values)
     return FlatConfig(path, text, last, values, before, bool(entries) or head is not None, is_unchanged)
 
 
-def _base(path: str, disk: Disk) -> Mapping[str, str]:
-    """The properties of a first `etc/config` as rcyaml wrote it."""
+def _base(path: str, disk: Disk, *, is_first: bool) -> Mapping[str, str]:
+    """The properties of an `etc/config` as rcyaml wrote it, without those that a values document states."""
     root = os.path.dirname(os.path.dirname(path))
-    if os.path.relpath(path, root) != FLAT:
-        return {}
-    raw = disk.peek(os.path.join(root, manifest.BASE, FLAT), MAX_DOCUMENT)
-    return {**EARLIER, **properties.read(raw.decode("utf-8", "replace")).values}
+    relative = os.path.relpath(path, root)
+    raw = disk.peek(os.path.join(root, manifest.BASE, relative), MAX_DOCUMENT)
+    return {**(EARLIER if is_first and relative == FLAT else {}), **settings.read(path, raw.decode("utf-8", "replace"))}

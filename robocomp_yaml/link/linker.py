@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
 from itertools import pairwise
 from types import ModuleType
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import msgspec
 
@@ -18,14 +18,25 @@ from robocomp_yaml.diag.fix import Hint, removal
 from robocomp_yaml.diag.suggest import did_you_mean, meaning, suggest
 from robocomp_yaml.link.documents import Document, Documents
 from robocomp_yaml.link.knot import tie
-from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port, Program, Tables
+from robocomp_yaml.link.program import (
+    LinkedComponent,
+    LinkedModule,
+    NamedDocument,
+    NamedDocuments,
+    Port,
+    Program,
+    Tables,
+    UsedValues,
+)
 from robocomp_yaml.link.workspace import SUFFIX, ImportSearch, Workspaces, WorkspaceSettings
 from robocomp_yaml.model.interface import Import, Interface, Module
+from robocomp_yaml.source.file_names import is_deployment
 
 if TYPE_CHECKING:
     from robocomp_yaml.link.attachments import Attachments
     from robocomp_yaml.link.deployment_documents import DeploymentDocuments
     from robocomp_yaml.model.component import Component, Use
+    from robocomp_yaml.model.deployment import Deployment
 
 _ADD_FOLDER = (
     "put its document beside this one, or list its folder under `interfaces:` in rcyaml.yaml, or pass it with -I"
@@ -40,15 +51,51 @@ class Linker(msgspec.Struct):
     workspaces: Workspaces
     tables: Tables = msgspec.field(default_factory=Tables)
     diagnostics: list[Diagnostic] = []
+    effective: dict[Any, Any] = {}  # the effective values of documents, as far as they are known
+    _requested: set[str] = set()
+    _deployments: DeploymentDocuments | None = None
     _imported: dict[str, list[str]] = {}  # by real path: the real paths of the imported modules
 
     def link(self, paths: Iterable[str]) -> Program:
         """Returns the program of these documents and of all documents to which they refer."""
-        todo = [self.documents.get(path) for path in paths]
-        requested = frozenset(document.real for document in todo)
+        self.link_named(self.follow(paths))
+        self.link_deployments()
+        return self.linked()
+
+    def follow(self, paths: Iterable[str]) -> NamedDocuments:
+        """Reads the deployments at these paths, and those that they include. Returns the other documents at these
+        paths, and those that the deployments name."""
+        named: dict[NamedDocument, None] = {}
+        deployments: list[Document] = []
+        for path in paths:
+            self._requested.add(self.documents.disk.real(path))
+            if is_deployment(path):
+                deployments.append(self.documents.get(path))
+            else:
+                named[NamedDocument(path)] = None
+        seen: set[str] = set()
+        while deployments:
+            document = deployments.pop()
+            if document.real in seen or document.model is None:
+                continue
+            seen.add(document.real)
+            if self._deployments is None:
+                from robocomp_yaml.link.deployment_documents import DeploymentDocuments  # most runs have none
+
+                self._deployments = DeploymentDocuments(self.documents, self.tables, self.diagnostics)
+            for one in self._deployments.follow(document):
+                if is_deployment(one.path):
+                    deployments.append(self.documents.get(one.path))
+                else:
+                    named[one] = None
+        used = self._deployments.used if self._deployments is not None else ()
+        return NamedDocuments(tuple(named), tuple(used))
+
+    def link_named(self, named: NamedDocuments) -> None:
+        """Links documents other than deployments, and all documents to which they refer."""
+        todo = [self.documents.get(one.path, one.kind) for one in named.documents]
         components: list[tuple[Document, LinkedComponent]] = []
         attachments: Attachments | None = None
-        deployments: DeploymentDocuments | None = None
         seen: set[str] = set()
         while todo:
             document = todo.pop()
@@ -60,13 +107,6 @@ class Linker(msgspec.Struct):
                 unresolved: set[str] = set()
                 todo += self._imports(document, document.model.imports, unresolved, idsl)
                 tie(linked, unresolved=frozenset(unresolved))
-                continue
-            if document.kind == "ddsl" and document.model is not None:
-                if deployments is None:
-                    from robocomp_yaml.link.deployment_documents import DeploymentDocuments  # most runs have none
-
-                    deployments = DeploymentDocuments(self.documents, self.tables, self.diagnostics)
-                todo += deployments.follow(document)
                 continue
             if document.kind == "cdsl" and document.model is not None:
                 component = self.tables.components[document.real] = self._expanded(cast("Component", document.model))
@@ -82,19 +122,44 @@ class Linker(msgspec.Struct):
         self._join()
         if attachments is not None:
             attachments.join()
+        for used in named.values:
+            self._use(used)
         for document, component in sorted(components, key=lambda pair: pair[0].path):
             self.diagnostics += _link_ports(component, partial(self._importable, document))
             self._read_machine(component)
-        if deployments is not None:
-            deployments.join()
+
+    def _use(self, used: UsedValues) -> None:
+        """Links values as an entry of a deployment uses them."""
+        real = self.documents.disk.real
+        values, component = self.tables.values.get(real(used.values)), self.tables.components.get(real(used.component))
+        if values is None or component is None:
+            return
+        if used.is_completed:
+            tie(values, is_extended=True)  # `set:` has the missing values
+        if values.parameters is None:  # values without a component belong to the component that uses them
+            tie(values, parameters=component.parameters)
+
+    def linked(self) -> Program:
+        """The program as far as it is linked."""
         return Program(
             **msgspec.structs.asdict(self.tables),
-            requested=requested,
+            requested=frozenset(self._requested),
             documents=len(self.documents.read),
             disk=self.documents.disk,
             memory=self.documents.memory,
             plugins_of=self.workspaces.plugins_of,
+            _effective=self.effective,
         )
+
+    @property
+    def deployments(self) -> Mapping[str, Deployment]:
+        """The deployments that were followed, by real path."""
+        return self._deployments.models if self._deployments is not None else {}
+
+    def link_deployments(self) -> None:
+        """Links the deployments, after all other documents are linked."""
+        if self._deployments is not None:
+            self._deployments.join()
 
     def _expanded(self, component: Component) -> LinkedComponent:
         """The component with the interfaces that its options add."""

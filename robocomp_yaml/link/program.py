@@ -123,6 +123,31 @@ class LinkedComponent(msgspec.Struct, frozen=True, eq=False):
         return list(dict.fromkeys(needed for scope in self.imports for needed in scope.closure()))
 
 
+class NamedDocument(msgspec.Struct, frozen=True):
+    """The path of a document that is requested, or that a deployment names. `kind` is for a name that does not have
+    the kind."""
+
+    path: str
+    kind: str = ""
+
+
+class UsedValues(msgspec.Struct, frozen=True):
+    """A values document that an entry of a deployment uses for a component, by their paths. `is_completed`: the entry
+    has values, too, so that some may be missing in the document."""
+
+    values: str
+    component: str
+    is_completed: bool
+
+
+class NamedDocuments(msgspec.Struct, frozen=True):
+    """What a program consists of beside its deployments: the documents that are requested or that a deployment names,
+    and how deployments use values."""
+
+    documents: tuple[NamedDocument, ...]
+    values: tuple[UsedValues, ...] = ()
+
+
 class Tables(msgspec.Struct):
     """The tables of a program that is being linked. Keys are real paths."""
 

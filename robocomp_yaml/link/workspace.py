@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from collections.abc import Mapping as Map
+from typing import Any
 
 import msgspec
 
@@ -135,6 +136,11 @@ class Workspaces(msgspec.Struct, frozen=True):
     _read: dict[str, tuple[WorkspaceSettings, list[Diagnostic]]] = {}  # by the real path of the root
     _by_folder: dict[str, WorkspaceSettings] = {}
 
+    @property
+    def caches(self) -> tuple[dict[str, Any], ...]:
+        """What was read until now."""
+        return self._read, self._by_folder
+
     def of(self, path: str) -> WorkspaceSettings:
         """The settings of a document's workspace; without a declared workspace, its root is the document's folder."""
         folder = os.path.dirname(path)
@@ -170,6 +176,11 @@ class ImportSearch(msgspec.Struct, frozen=True):
     extra: tuple[str, ...] = ()
     disk: Disk = msgspec.field(default_factory=Disk)
     _names: dict[str, tuple[frozenset[str], dict[str, str]]] = {}
+
+    @property
+    def cache(self) -> dict[str, Any]:
+        """The names in the folders that were searched until now."""
+        return self._names
 
     def find(self, name: str, document: str, workspace: WorkspaceSettings) -> tuple[str | None, bool]:
         """Returns the path of an imported document, or None, and whether only its case differs from the import."""

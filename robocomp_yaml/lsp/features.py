@@ -9,7 +9,7 @@ from lsprotocol import types
 from robocomp_yaml.lsp import commands, completion, navigation, notes, rename
 from robocomp_yaml.lsp.messages import real_path
 from robocomp_yaml.lsp.more_fixes import MORE, with_more
-from robocomp_yaml.lsp.server import Server, folders_of, watchers
+from robocomp_yaml.lsp.server import Server, folders_of, of_code, watchers
 from robocomp_yaml.lsp.session import EditedText
 
 
@@ -30,6 +30,8 @@ def make(include: Iterable[str] = ()) -> Server:
             method = types.WORKSPACE_DID_CHANGE_WATCHED_FILES
             registration = types.Registration("rcyaml-files", method, watchers())
             await server.client_register_capability_async(types.RegistrationParams([registration]))
+        if made := list(of_code(server.client_capabilities)):
+            await server.client_register_capability_async(types.RegistrationParams(made))
 
     @server.feature(types.TEXT_DOCUMENT_DID_OPEN)
     async def opened(params: types.DidOpenTextDocumentParams) -> None:
@@ -56,7 +58,7 @@ def make(include: Iterable[str] = ()) -> Server:
     async def files_changed(params: types.DidChangeWatchedFilesParams) -> None:
         await server.saved()
 
-    @server.feature(types.WORKSPACE_DID_RENAME_FILES)
+    @server.feature(types.WORKSPACE_DID_RENAME_FILES, rename.FILES)
     async def files_renamed(params: types.RenameFilesParams) -> None:
         await server.saved()
 

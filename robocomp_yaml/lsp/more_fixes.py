@@ -7,11 +7,11 @@ from collections.abc import Iterable, Iterator
 
 from msgspec.structs import replace
 
+from robocomp_yaml.api.completing import values
 from robocomp_yaml.diag.codes import networks
 from robocomp_yaml.diag.codes import values as value_codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import Edit, Fix
-from robocomp_yaml.lsp import values
 from robocomp_yaml.lsp.session import KnownNames
 from robocomp_yaml.source.spelled import DocumentText
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, end_of, pairs_below

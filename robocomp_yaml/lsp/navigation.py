@@ -1,20 +1,26 @@
-"""Definition, references, hover and symbols."""
+"""Definition, references, hover and symbols: in documents, and definition, references and hover from code, too."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from typing import TypeVar
 
 from lsprotocol import types
 
+from robocomp_yaml.api.completing import schema_keys
+from robocomp_yaml.api.completing.places import typed_at
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.lsp.from_code import name_in_code
 from robocomp_yaml.lsp.messages import Messages, real_path
 from robocomp_yaml.lsp.server import Server
 from robocomp_yaml.lsp.session import KnownNames
 from robocomp_yaml.lsp.users import described
 from robocomp_yaml.naming import names
+from robocomp_yaml.naming.in_generated import places_in_generated
 from robocomp_yaml.naming.names import DefinedName, Key
 from robocomp_yaml.naming.places_in_code import places_in_code
+from robocomp_yaml.source.discover import kind_of
+from robocomp_yaml.source.disk import Disk
 
 _Answer = TypeVar("_Answer")
 _SYMBOLS = {
@@ -32,19 +38,26 @@ _MANY = 500  # symbols of a workspace
 
 def add(server: Server) -> None:
     async def asked(
-        params: types.DefinitionParams | types.ReferenceParams | types.HoverParams | types.ImplementationParams,
+        params: types.DefinitionParams
+        | types.ReferenceParams
+        | types.HoverParams
+        | types.ImplementationParams
+        | types.DeclarationParams,
         answer: Callable[[DefinedName, types.Range, KnownNames, Messages], _Answer],
     ) -> _Answer | None:
         """The answer about the name at a position; None if there is none."""
         path = real_path(params.text_document.uri)
 
         def job() -> _Answer | None:
-            document = server.session.open.get(path or "")
-            known = server.session.names_around(document.path) if document is not None else None
-            if document is None or known is None:
+            if path is None:
                 return None
-            lines = server.lines(document.text)
-            found = known.names.at(document.path, *lines.place(params.position))
+            is_document = server.session.is_document(path)
+            if is_document and path not in server.session.open:
+                return None
+            known = server.session.names_around(path)
+            lines = server.lines(server.session.text_of(path))  # code need not be open
+            place = lines.place(params.position)
+            found = known.names.at(path, *place) if is_document else name_in_code(server.session, path, *place)
             if found is None:
                 return None
             return answer(found[1], lines.range(found[0]), known, server.messages(known.texts))
@@ -61,9 +74,21 @@ def add(server: Server) -> None:
             own = [one.span] if params.context.include_declaration else []
             spans = sorted({*own, *known.names.uses.get(one.key, ())})
             in_code = sorted(span for span, _ in _in_code(one, known))
-            return [messages.location(span) for span in (*spans, *in_code)]
+            return [messages.location(span) for span in (*spans, *in_code, *_in_generated(one, known))]
 
         return await asked(params, answer)
+
+    @server.feature(types.TEXT_DOCUMENT_DECLARATION)
+    async def declaration(params: types.DeclarationParams) -> list[types.Location] | None:
+        """What was generated from a name."""
+
+        def answer(one: DefinedName, _: types.Range, known: KnownNames, messages: Messages) -> list[types.Location]:
+            return [messages.location(span) for span in _in_generated(one, known)]
+
+        return await asked(params, answer)
+
+    def _in_generated(one: DefinedName, known: KnownNames) -> Iterator[Span]:
+        return places_in_generated(known.program, known.names, one)
 
     @server.feature(types.TEXT_DOCUMENT_IMPLEMENTATION)
     async def implementation(params: types.ImplementationParams) -> list[types.Location] | None:
@@ -82,13 +107,34 @@ def add(server: Server) -> None:
     @server.feature(types.TEXT_DOCUMENT_HOVER)
     async def hover(params: types.HoverParams) -> types.Hover | None:
         def answer(one: DefinedName, where: types.Range, known: KnownNames, messages: Messages) -> types.Hover:
+            told = _of_schema(params)
             count = len(set(known.names.uses.get(one.key, ())))
             uses = "not used" if not count else "used once" if count == 1 else f"used {count} times"
             parts = [f"```\n{one.says}\n```", one.doc, *described(known.analysis, one), uses]
             text = "\n\n".join(part for part in parts if part)
-            return types.Hover(types.MarkupContent(types.MarkupKind.Markdown, text), where)
+            return _markdown(f"{text}\n\n---\n\n{told[0]}" if told is not None else text, where)
 
-        return await asked(params, answer)
+        def of_schema() -> types.Hover | None:
+            told = _of_schema(params)
+            return _markdown(*told) if told is not None else None
+
+        return await asked(params, answer) or await server.run(of_schema)
+
+    def _of_schema(params: types.HoverParams) -> tuple[str, types.Range] | None:
+        """What the schema says of the key or value at a position, unless a server of schemas says it."""
+        path = real_path(params.text_document.uri) or ""
+        document = server.session.open.get(path)
+        if document is None or not server.session.is_document(path) or server.has_schema_server(path):
+            return None
+        lines = server.lines(document.text)
+        place = typed_at(document.text, *lines.place(params.position))
+        kind = kind_of(path, Disk({path: document.raw})) or "workspace"
+        if place is None or place.column == place.end_column:
+            return None
+        word = lines.line(place.line)[place.column - 1 : place.end_column - 1]
+        text = schema_keys.about(kind, (*place.keys, word) if place.is_key else place.keys)
+        where = lines.range(Span(path, place.line, place.column, place.line, place.end_column))
+        return (text, where) if text else None
 
     @server.feature(types.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
     async def symbols(params: types.DocumentSymbolParams) -> list[types.DocumentSymbol]:
@@ -116,6 +162,10 @@ def add(server: Server) -> None:
         return await server.run(job)
 
 
+def _markdown(text: str, where: types.Range) -> types.Hover:
+    return types.Hover(types.MarkupContent(types.MarkupKind.Markdown, text), where)
+
+
 def _matches(query: str, name: str) -> bool:
     """Whether the letters of the query are in the name, in this order."""
     rest = iter(name.lower())
@@ -126,6 +176,8 @@ def _tree(defined: Iterable[DefinedName], messages: Messages) -> list[types.Docu
     made: dict[Key, types.DocumentSymbol] = {}
     top: list[types.DocumentSymbol] = []
     for one in defined:
+        if one.kind == names.ARGUMENT:
+            continue  # it is in what its method says
         where = messages.location(one.span).range
         kind = _SYMBOLS.get(one.kind, types.SymbolKind.Key)
         made[one.key] = symbol = types.DocumentSymbol(one.name, kind, where, where, one.says, children=[])

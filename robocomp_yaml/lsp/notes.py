@@ -140,7 +140,8 @@ def _ports(known: KnownNames, path: str) -> Iterator[Note]:
 def _defaults(known: KnownNames, path: str) -> Iterator[Note]:
     """In a values document: the defaults of parameters that it does not set."""
     for linked in known.program.values.values():
-        found = known.program.effective(linked)[0] if linked.document.path == path else None
+        is_here = linked.document.path == path and linked.parameters is not None  # its component may be unknown
+        found = known.program.effective(linked)[0] if is_here else None
         section = linked.document.root.entries.get("parameters")
         if found is None or section is None:
             continue

@@ -10,7 +10,7 @@ from __future__ import annotations
 import asyncio
 import gc
 import traceback
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, TypeVar
 
@@ -28,6 +28,7 @@ from robocomp_yaml.source.spelled import DocumentTexts
 AUTO, YES, NO = "auto", "yes", "no"
 AT_ONCE, AT_REST = 0.02, 0.25  # seconds after the last key
 MANY_JOBS = 300  # after so many, garbage is collected
+_CODE = "**/{src,generated}/**/*.{py,pyi,cpp,h,hpp,java}"
 _WATCHED = "**/*"
 SHAPE = frozenset(
     code.id for code in (codes.UNKNOWN_KEY, codes.MISSING_KEY, codes.WRONG_SHAPE, codes.NOT_A_MAPPING, codes.WRONG_NAME)
@@ -215,3 +216,17 @@ def folders_of(params: types.InitializeParams) -> list[str]:
     """The folders that the editor has opened."""
     named = [folder.uri for folder in params.workspace_folders or ()] or [params.root_uri or ""]
     return [path for uri in named if (path := path_of(uri))]
+
+
+def of_code(capabilities: types.ClientCapabilities) -> Iterator[types.Registration]:
+    """What is answered in code, too, which editors otherwise do not send to this server."""
+    known = capabilities.text_document
+    selector = [types.TextDocumentFilterPattern(pattern=_CODE, scheme="file")]
+    if known is None:
+        return
+    if known.definition is not None and known.definition.dynamic_registration:
+        options = types.DefinitionRegistrationOptions(selector)
+        yield types.Registration("rcyaml-definition", types.TEXT_DOCUMENT_DEFINITION, options)
+    if known.references is not None and known.references.dynamic_registration:
+        more = types.ReferenceRegistrationOptions(selector)
+        yield types.Registration("rcyaml-references", types.TEXT_DOCUMENT_REFERENCES, more)

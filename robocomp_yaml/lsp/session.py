@@ -3,14 +3,16 @@
 Documents belong to workspaces: the folder of the next `rcyaml.yaml` above, or the folder that the editor has opened. A
 document outside of any is a workspace of its own. Each workspace has a living analysis, which sees the texts of all
 open documents. The diagnostics of one document are those of the document and all that it names; whether others
-contradict it, only the diagnostics of the workspace say.
+contradict it, only the diagnostics of the workspace say. In a document for which this takes long, such as a deployment
+of a thousand processes, a key shows what is wrong with the document by itself; the rest follows when typing rests.
 """
 
 from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterable
+import time
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 
 import msgspec
@@ -19,6 +21,7 @@ from robocomp_yaml.api.living import LivingWorkspace
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.link.workspace import ImportSearch, above, root_above
+from robocomp_yaml.lsp.moved import moved
 from robocomp_yaml.naming.analysis import names_of
 from robocomp_yaml.naming.names import Names
 from robocomp_yaml.pipeline import Analysis
@@ -29,6 +32,9 @@ from robocomp_yaml.source.spelled import DocumentTexts
 _MODELINE = re.compile(r"^#\s*yaml-language-server\s*:.*\$schema", re.MULTILINE)
 _HEAD = 10_000  # characters that editors search
 _SETTINGS = (".vscode/settings.json", ".yamlls.json", ".helix/languages.toml")
+LONG = 0.06  # seconds of CPU that a key may take
+MANY = 500  # lines of a deployment that probably takes longer
+_ALONE = ("RC01", "RC02")  # codes of syntax and shape
 Found = dict[str, list[Diagnostic]]
 """Diagnostics by the paths of their documents."""
 
@@ -69,19 +75,30 @@ class KnownNames(msgspec.Struct, frozen=True):
         return self.analysis.program
 
 
+class Look(msgspec.Struct, frozen=True):
+    """The diagnostics in a document of the last look at it and what it names, with the texts that they refer to.
+    `is_long`: such a look takes too long for a key."""
+
+    is_long: bool
+    found: Sequence[Diagnostic]
+    texts: DocumentTexts
+
+
 class OpenWorkspace:
     """A workspace with open documents. `root` is its folder, or the document itself if it belongs to none. `found` are
     its last diagnostics, and `texts` the texts that they refer to. `beyond` are those of open documents that only the
-    whole workspace shows, with the lines that they are about."""
+    whole workspace shows, with the lines that they are about. `whole` is the last analysis of all documents."""
 
     def __init__(self, root: str, include: Iterable[str]) -> None:
         self.root, self.living = root, LivingWorkspace((root,), include)
         self.is_known = False  # whether it was analysed as a whole
         self.found: Found = {}
+        self.whole: Analysis | None = None
         self.names: KnownNames | None = None
         self.last_names: KnownNames | None = None  # of the texts before the last edits
         self.texts = DocumentTexts({}, {})
         self.beyond: dict[str, list[tuple[Diagnostic, str]]] = {}
+        self.looks: dict[str, Look] = {}
 
 
 class Session:
@@ -106,6 +123,7 @@ class Session:
         self._forget_names()
         self.open.pop(path, None)
         for workspace in self.workspaces.values():
+            workspace.looks.pop(path, None)
             workspace.living.edit(path, None)
         return self._drop_unused()
 
@@ -151,17 +169,48 @@ class Session:
         overlay = {one.path: one.raw for one in self.open.values()}
         return kind_of(path, Disk(overlay)) is not None or os.path.basename(path) == WORKSPACE_FILE
 
-    def of_document(self, path: str) -> tuple[list[Diagnostic], DocumentTexts]:
+    def of_document(self, path: str, *, at_rest: bool = False) -> tuple[list[Diagnostic], DocumentTexts]:
         """The diagnostics of an open document and of what it names, at once, with those that only its whole workspace
-        shows, as far as their lines are the same."""
+        shows, as far as their lines are the same. If this took long the last time, those of the document by itself,
+        unless nothing is typed."""
         workspace = self.workspace_of(path)
         if kind_of(path, Disk(workspace.living.unsaved)) is None:
             return workspace.found.get(path, []), workspace.texts
-        analysis = workspace.living.look(path).analysis
+        known = workspace.looks.get(path) or self._first(workspace, path)
+        if known is not None and known.is_long and not at_rest:
+            return self._at_a_glance(workspace, path, known)
+        analysis = self._look(workspace, path)
         own = [one for one in analysis.diagnostics if one.span.file == path]
         line_of = _lines(analysis.texts, path)
         beyond = [one for one, line in workspace.beyond.get(path, []) if line_of(one) == line and one not in own]
         return [*own, *beyond], analysis.texts
+
+    def _first(self, workspace: OpenWorkspace, path: str) -> Look | None:
+        """What is known of a document before the first look at it, if that probably takes long."""
+        if kind_of(path) != "ddsl" or self.open[path].text.count("\n") < MANY:
+            return None
+        return Look(True, workspace.found.get(path, ()), workspace.texts)
+
+    def _look(self, workspace: OpenWorkspace, path: str) -> Analysis:
+        began = time.thread_time()
+        analysis = workspace.living.look(path).analysis
+        took = time.thread_time() - began
+        own = [one for one in analysis.diagnostics if one.span.file == path]
+        workspace.looks[path] = Look(took > LONG, own, analysis.texts)
+        return analysis
+
+    def _at_a_glance(self, workspace: OpenWorkspace, path: str, known: Look) -> tuple[list[Diagnostic], DocumentTexts]:
+        """The diagnostics of a document by itself; all others are those of the last look, where the lines are the
+        same."""
+        texts = DocumentTexts({path: self.open[path].raw}, {})
+        before, after = known.texts.get(path), texts.get(path)
+        own = workspace.living.glance(path)
+        if before is None or after is None:
+            return own, texts
+        beyond = (one for one, line in workspace.beyond.get(path, ()) if _lines(known.texts, path)(one) == line)
+        kept = dict.fromkeys(moved((*known.found, *beyond), path, before.lines, after.lines))
+        workspace.looks[path] = Look(True, list(kept), texts)
+        return [*own, *(one for one in kept if not one.code.startswith(_ALONE))], texts
 
     def _forget_names(self) -> None:
         for workspace in self.workspaces.values():
@@ -171,8 +220,11 @@ class Session:
         """The names of the workspace of a document, which are collected when they are asked for. Those before the last
         edits are good enough for what is typed in the document now."""
         workspace = self.workspace_of(path)
-        if workspace.names is None and may_be_old and workspace.last_names is not None:
-            return workspace.last_names
+        if workspace.names is None and may_be_old:
+            if workspace.last_names is None and workspace.whole is not None:
+                workspace.last_names = KnownNames(names_of(workspace.whole), workspace.whole)
+            if workspace.last_names is not None:
+                return workspace.last_names
         if workspace.names is None:
             return self._collect_names(workspace, workspace.living.look(workspace.root).analysis)
         return workspace.names
@@ -215,27 +267,33 @@ class Session:
 
         workspace = self.workspaces[root]
         if workspace.root in self.open:  # a document of no workspace
-            found, workspace.texts = self.of_document(root)
+            found, workspace.texts = self.of_document(root, at_rest=True)
             workspace.found, workspace.is_known = {root: found}, True
             return workspace.found
-        whole = workspace.living.load(go_on)
+        whole = workspace.living.load(go_on, lambda: go_on(root))
         before, workspace.found = workspace.found, {}
         for one in whole.check():
             workspace.found.setdefault(one.span.file, []).append(one)
-        workspace.texts, workspace.is_known = whole.analysis.texts, True
+        workspace.texts, workspace.is_known, workspace.whole = whole.analysis.texts, True, whole.analysis
         if workspace.last_names is not None:  # they are asked for
             self._collect_names(workspace, whole.analysis)
-        workspace.beyond = {path: self._beyond(workspace, path) for path in self.open if path in workspace.found}
+        workspace.beyond = {path: self._beyond(workspace, path) for path in self._in(root)}
         return {**{path: [] for path in (*before, *self._in(root))}, **workspace.found}
 
     def _in(self, root: str) -> list[str]:
         return [path for path in self.open if self.is_document(path) and self.root_of(path) == root]
 
     def _beyond(self, workspace: OpenWorkspace, path: str) -> list[tuple[Diagnostic, str]]:
+        known = workspace.looks.get(path) or self._first(workspace, path)
+        if known is not None and known.is_long:  # until the whole is analysed again, what it says is kept
+            workspace.looks[path] = Look(True, workspace.found.get(path, ()), workspace.texts)
+            return []
+        if path not in workspace.found:
+            return []
         line_of = _lines(workspace.texts, path)
         own = set[Diagnostic]()
         with suppress(KeyError):
-            own = set(workspace.living.look(path).analysis.diagnostics)
+            own = set(self._look(workspace, path).diagnostics)
         return [(one, line_of(one)) for one in workspace.found[path] if one not in own]
 
 

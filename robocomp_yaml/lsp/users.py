@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 
+from robocomp_yaml.api.completing import values
 from robocomp_yaml.diag.listing import some
 from robocomp_yaml.link.program import LinkedComponent, Program
-from robocomp_yaml.lsp import values
 from robocomp_yaml.model.component import LISTS
 from robocomp_yaml.naming import names as kinds
 from robocomp_yaml.naming.names import DefinedName, Key

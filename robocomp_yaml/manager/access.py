@@ -10,17 +10,19 @@ from __future__ import annotations
 import hmac
 import ipaddress
 from collections.abc import Collection
+from html import escape
 from http.cookies import CookieError, SimpleCookie
 from urllib.parse import parse_qsl, quote, urlencode, urlsplit
 
 import msgspec
 from starlette.datastructures import Headers
-from starlette.responses import PlainTextResponse, RedirectResponse, Response
+from starlette.responses import HTMLResponse, PlainTextResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 READ, OPERATE, EDIT = "read", "operate", "edit"
 """What a request does: it looks, it changes what runs, or it changes documents."""
 
+API = "/api"
 SAFE_METHODS = ("GET", "HEAD")
 TOKEN = "token"
 _POLICY = (
@@ -52,8 +54,9 @@ class AccessRules(msgspec.Struct, frozen=True):
     def cookie(self) -> str:
         return f"rcyaml-{self.port}"
 
-    def knows(self, host: str) -> bool:
-        """Whether a request for this `Host` is meant for this server."""
+    def knows(self, host: str, own: str = "") -> bool:
+        """Whether a request for this `Host` is meant for this server. `own` is the address at which it arrived, which
+        is no name that others can make mean this machine."""
         try:
             name = urlsplit(f"//{host}").hostname or ""
         except ValueError:
@@ -61,7 +64,8 @@ class AccessRules(msgspec.Struct, frozen=True):
         if name == "localhost" or name in self.hosts:
             return True
         try:
-            return ipaddress.ip_address(name).is_loopback
+            address = ipaddress.ip_address(name)
+            return address.is_loopback or address == ipaddress.ip_address(own or "::1")
         except ValueError:
             return False
 
@@ -94,7 +98,8 @@ class Guard:
     def _refusal(self, scope: Scope) -> Response | None:
         """The answer to a request that is not let through, None for all others."""
         headers, rules = Headers(scope=scope), self.rules
-        if not rules.knows(headers.get("host", "")):
+        own, _ = scope.get("server") or ("", None)
+        if not rules.knows(headers.get("host", ""), own if rules.is_secure else ""):
             return PlainTextResponse("this host name does not mean this server", 421)
         if not _is_from_here(headers, scope):
             return PlainTextResponse("a page of another site may not ask this server", 403)
@@ -115,8 +120,14 @@ class Guard:
     def _with_cookie(self, scope: Scope, token: str, query: list[tuple[str, str]]) -> Response:
         if not self.rules.is_right(token):
             return PlainTextResponse("wrong token", 403)
-        path = quote("/" + scope["path"].lstrip("/"))
-        response = RedirectResponse(path + (f"?{urlencode(query)}" if query else ""), 303)
+        target = quote("/" + scope["path"].lstrip("/")) + (f"?{urlencode(query)}" if query else "")
+        response: Response = RedirectResponse(target, 303)
+        if Headers(scope=scope).get("sec-fetch-site", "none") != "none":
+            # A browser that follows a link of another site sends no strict cookie after a redirect, but from a page.
+            content = (
+                f'<!doctype html><meta http-equiv="refresh" content="0;url={escape(target)}"><title>rcyaml</title>'
+            )
+            response = HTMLResponse(content)
         response.set_cookie(
             self.rules.cookie, token, path="/", httponly=True, samesite="strict", secure=self.rules.is_secure
         )
@@ -127,7 +138,8 @@ def _is_from_here(headers: Headers, scope: Scope) -> bool:
     """Whether a browser sent the request for a page of this server, or for its address bar, or no browser sent it."""
     if headers.get("sec-fetch-site", "none") not in ("same-origin", "none"):
         is_navigation = headers.get("sec-fetch-mode") == "navigate" and scope["method"] in SAFE_METHODS
-        if not is_navigation:  # a link leads here: the cookie is not sent then, but the token may be
+        if not is_navigation or scope["path"].startswith(f"{API}/"):
+            # Only a link may lead here: the cookie is not sent then, but the token may be.
             return False
     origin = headers.get("origin")
     return origin is None or origin == f"{scope['scheme']}://{headers.get('host', '')}"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import math
 from collections.abc import AsyncIterator, Awaitable, Callable, Collection, Mapping
 from contextlib import asynccontextmanager
 from typing import Any
@@ -16,16 +15,16 @@ from starlette.routing import Route
 from robocomp_yaml import __version__
 from robocomp_yaml.api.editing.editor import EditConflict
 from robocomp_yaml.diag.errors import Faulty, NoAnswer, Refused
-from robocomp_yaml.diag.render.json import as_data
+from robocomp_yaml.diag.render.json import as_data, plain
 from robocomp_yaml.manager import commands
-from robocomp_yaml.manager.access import READ, SAFE_METHODS, AccessRules, Guard
+from robocomp_yaml.manager.access import API, READ, SAFE_METHODS, AccessRules, Guard
 from robocomp_yaml.manager.commands import Command, Served
 from robocomp_yaml.manager.description import described
 from robocomp_yaml.manager.events import ServerEvent
+from robocomp_yaml.manager.table import COMMANDS
 from robocomp_yaml.manager.watching import Watcher
 
-API = "/api"
-_CONFLICT, _WRONG, _FAULTY, _SILENT = 409, 400, 422, 502
+_CONFLICT, _WRONG, _FAULTY, _LARGE, _SILENT = 409, 400, 422, 413, 502
 
 
 def application(watchers: Mapping[str, Watcher], rules: AccessRules, page: Mapping[str, str] | None = None) -> Guard:
@@ -45,7 +44,7 @@ def application(watchers: Mapping[str, Watcher], rules: AccessRules, page: Mappi
                 task.cancel()
             await asyncio.gather(*tasks, return_exceptions=True)
 
-    description = described(commands.COMMANDS, API, __version__)
+    description = described(COMMANDS, API, __version__)
 
     async def openapi(request: Request) -> Response:
         return JSONResponse(description)
@@ -59,12 +58,10 @@ def application(watchers: Mapping[str, Watcher], rules: AccessRules, page: Mappi
         return FileResponse(path) if path is not None else PlainTextResponse("there is no such file\n", 404)
 
     routes = [
-        *(
-            Route(API + one.path, _handler(one, served, rules.rights), methods=[one.method])
-            for one in commands.COMMANDS
-        ),
+        *(Route(API + one.path, _handler(one, served, rules.rights), methods=[one.method]) for one in COMMANDS),
         Route(f"{API}/deployments/{{deployment}}/events", _events(served), methods=["GET"]),
         Route(f"{API}/deployments/{{deployment}}/log-events", _log_events(served), methods=["GET"]),
+        Route(f"{API}/deployments/{{deployment}}/topic", _topic(served), methods=["GET"]),
         Route(f"{API}/openapi.json", openapi, methods=["GET"]),
         Route("/{name:path}", files, methods=["GET"]),
     ]
@@ -79,34 +76,29 @@ def _handler(
             return _error(403, f"this manager may only {' and '.join(rights)}")
         assert command.right == READ or request.method not in SAFE_METHODS
         try:
-            return JSONResponse(_plain(await command.run(served, request)))
+            return JSONResponse(plain(await command.run(served, request)))
         except EditConflict as conflict:
             return _error(_CONFLICT, str(conflict), theirs=conflict.theirs, ours=conflict.ours)
-        except Refused as refused:
-            return _error(404 if isinstance(refused, commands.Unknown) else _WRONG, str(refused))
-        except Faulty as faulty:
-            return _error(_FAULTY, str(faulty), diagnostics=[as_data(one) for one in faulty.diagnostics])
-        except NoAnswer as error:
-            return _error(_SILENT, error.message, hint=error.hint)
+        except (Refused, Faulty, NoAnswer) as error:
+            return _failed(error)
+        except RecursionError:
+            return _error(_WRONG, "the request, or a document, is nested too deeply")
 
     return handle
 
 
+def _failed(error: Refused | Faulty | NoAnswer) -> JSONResponse:
+    if isinstance(error, Faulty):
+        return _error(_FAULTY, str(error), diagnostics=[as_data(one) for one in error.diagnostics])
+    if isinstance(error, NoAnswer):
+        return _error(_SILENT, error.message, hint=error.hint)
+    if isinstance(error, commands.TooLarge):
+        return _error(_LARGE, str(error))
+    return _error(404 if isinstance(error, commands.Unknown) else _WRONG, str(error))
+
+
 def _error(status: int, text: str, **more: Any) -> JSONResponse:
-    return JSONResponse(_plain({"error": text, **more}), status)
-
-
-def _plain(data: Any) -> Any:
-    """Data that JSON can spell: bytes of names that are not UTF-8, and numbers that are none, are texts."""
-    if isinstance(data, str):
-        return data.encode("utf-8", "backslashreplace").decode()
-    if isinstance(data, Mapping):
-        return {_plain(key): _plain(value) for key, value in data.items()}
-    if isinstance(data, (list, tuple)):
-        return [_plain(item) for item in data]
-    if isinstance(data, float) and not math.isfinite(data):
-        return str(data)
-    return data
+    return JSONResponse(plain({"error": text, **more}), status)
 
 
 def _events(served: Served) -> Callable[[Request], Awaitable[Response]]:
@@ -133,6 +125,18 @@ def _log_events(served: Served) -> Callable[[Request], Awaitable[Response]]:
                 yield ServerEvent("line", line).text
 
         return _stream(texts())
+
+    return handle
+
+
+def _topic(served: Served) -> Callable[[Request], Awaitable[Response]]:
+    async def handle(request: Request) -> Response:
+        try:
+            feeds = served.watcher(request).topics
+            found = await feeds.find(request.query_params.get("topic", ""))
+            return _stream(feeds.texts(*await feeds.open(*found)))
+        except (Refused, Faulty, NoAnswer) as error:
+            return _failed(error)
 
     return handle
 

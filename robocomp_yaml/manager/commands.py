@@ -30,10 +30,15 @@ from robocomp_yaml.manager.requests import (
 from robocomp_yaml.manager.watching import Watcher
 
 _LARGEST = 1 << 20  # bytes of a body
+_MOST_LINES = 10_000
 
 
 class Unknown(Refused):
     """The address names something that is not there."""
+
+
+class TooLarge(Refused):
+    """A body is larger than any request."""
 
 
 class Served:
@@ -62,19 +67,27 @@ class Command(msgspec.Struct, frozen=True):
     query: tuple[tuple[str, str], ...] = ()
 
 
+def number_in(text: str) -> int:
+    """The number that a text spells, 0 if it spells none."""
+    return int(text) if text.isascii() and text.isdigit() and len(text) < 19 else 0
+
+
 def number(request: Request, name: str, default: int) -> int:
     text = request.query_params.get(name, "")
     if text and not (text.isascii() and text.isdigit() and len(text) < 9):
         raise Refused(f"{name} is '{text}', and must be a number")
-    return int(text) if text else default
+    return min(int(text), _MOST_LINES) if text else default
 
 
-async def _body(request: Request, type_: type[requests.T]) -> requests.T:
+async def body_of(request: Request, type_: type[requests.T]) -> requests.T:
+    """The request in the body. It is refused before it is read, if it says that it is too large."""
+    if number_in(request.headers.get("content-length", "0")) > _LARGEST:
+        raise TooLarge("the request is too large")
     content = b""
     async for part in request.stream():
         content += part
         if len(content) > _LARGEST:
-            raise Refused("the request is too large")
+            raise TooLarge("the request is too large")
     return requests.read(content, type_)
 
 
@@ -89,7 +102,8 @@ async def _list(served: Served, request: Request) -> Any:
 
 
 async def _graph(served: Served, request: Request) -> Any:
-    return await asyncio.to_thread(served.watcher(request).managed.graph)
+    shut = frozenset(request.query_params.getlist("closed"))
+    return await asyncio.to_thread(served.watcher(request).managed.graph, shut)
 
 
 async def _status(served: Served, request: Request) -> Any:
@@ -111,7 +125,7 @@ async def _plan(served: Served, request: Request) -> Any:
 
 def _operation(action: str) -> Callable[[Served, Request], Awaitable[Any]]:
     async def run(served: Served, request: Request) -> Any:
-        wanted, watcher = await _body(request, OperationRequest), served.watcher(request)
+        wanted, watcher = await body_of(request, OperationRequest), served.watcher(request)
         events, loop = watcher.events, asyncio.get_running_loop()
 
         def report(event: Any) -> None:
@@ -145,26 +159,26 @@ async def _document(served: Served, request: Request) -> Any:
 
 
 async def _edit(served: Served, request: Request) -> Any:
-    wanted, watcher = await _body(request, EditRequest), served.watcher(request)
+    wanted, watcher = await body_of(request, EditRequest), served.watcher(request)
     revision = await asyncio.to_thread(
         watcher.managed.revise, wanted.change, wanted.document, wanted.based_on, write=wanted.write, force=wanted.force
     )
     if wanted.write and not revision.is_empty:
         watcher.events.happened("", revision.what)
-    return {**_revised(revision), "written": wanted.write and not revision.is_empty}
+    return {**revised(revision), "written": wanted.write and not revision.is_empty}
 
 
 def _back(*, again: bool) -> Callable[[Served, Request], Awaitable[Any]]:
     async def run(served: Served, request: Request) -> Any:
-        wanted, watcher = await _body(request, UndoRequest), served.watcher(request)
+        wanted, watcher = await body_of(request, UndoRequest), served.watcher(request)
         revision = await asyncio.to_thread(watcher.managed.undo, wanted.document, again=again)
         watcher.events.happened("", revision.what)
-        return {**_revised(revision), "written": True}
+        return {**revised(revision), "written": True}
 
     return run
 
 
-def _revised(revision: Revision) -> dict[str, Any]:
+def revised(revision: Revision) -> dict[str, Any]:
     return {
         "document": revision.path, "change": revision.what, "version": revision.version, "diff": revision.diff,
         "text": revision.after.decode("utf-8-sig", "replace"),
@@ -174,39 +188,36 @@ def _revised(revision: Revision) -> dict[str, Any]:
 
 
 async def _call(served: Served, request: Request) -> Any:
-    wanted, path = await _body(request, CallRequest), served.watcher(request).managed.path
+    wanted, managed = await body_of(request, CallRequest), served.watcher(request).managed
 
     def work() -> Any:
-        from robocomp_yaml.api.addresses import Addresses
         from robocomp_yaml.api.calling import RemoteMethod
 
         words = [json.dumps(wanted.arguments)] if wanted.arguments else []
-        return RemoteMethod(Addresses(path), wanted.method).call(words, timeout=wanted.timeout).data
+        return RemoteMethod(managed.addresses(), wanted.method).call(words, timeout=wanted.timeout).data
 
     return await asyncio.to_thread(work)
 
 
 async def _parameters(served: Served, request: Request) -> Any:
-    path, process = served.watcher(request).managed.path, request.query_params.get("process", "")
+    managed, process = served.watcher(request).managed, request.query_params.get("process", "")
 
     def work() -> Any:
-        from robocomp_yaml.api.addresses import Addresses
         from robocomp_yaml.api.running_parameters import RunningParameters
 
-        with RunningParameters(Addresses(path), process).connected() as session:
+        with RunningParameters(managed.addresses(), process).connected() as session:
             return {"parameters": [msgspec.to_builtins(row) for row in session.values()]}
 
     return await asyncio.to_thread(work)
 
 
 async def _set_parameter(served: Served, request: Request) -> Any:
-    wanted, watcher = await _body(request, ParameterRequest), served.watcher(request)
+    wanted, watcher = await body_of(request, ParameterRequest), served.watcher(request)
 
     def work() -> Any:
-        from robocomp_yaml.api.addresses import Addresses
         from robocomp_yaml.api.running_parameters import RunningParameters
 
-        with RunningParameters(Addresses(watcher.managed.path), wanted.process).connected() as session:
+        with RunningParameters(watcher.managed.addresses(), wanted.process).connected() as session:
             was, now = session.set(wanted.parameter, wanted.value)
             return {"path": wanted.parameter, "value": now, "was": was}
 
@@ -215,35 +226,36 @@ async def _set_parameter(served: Served, request: Request) -> Any:
     return done
 
 
-_ONE = "/deployments/{deployment}"
+ONE = "/deployments/{deployment}"
 _NAMES = ("name", "A process or group; may be repeated. Without it, all.")
 COMMANDS = (
     Command("GET", "/deployments", READ, "The deployments that are served, and what this manager may do.", _list),
-    Command("GET", f"{_ONE}/graph", READ, "The picture of the network, with its geometry.", _graph),
-    Command("GET", f"{_ONE}/status", READ, "The state of each process.", _status),
-    Command("GET", f"{_ONE}/history", READ, "What happened since the manager runs, whoever caused it.", _history),
-    Command("GET", f"{_ONE}/plan", READ, "What an operation would do, and why.", _plan,
+    Command("GET", f"{ONE}/graph", READ, "The picture of the network, with its geometry.", _graph,
+            query=(("closed", "A box that is drawn as one node: `host NAME` or `group NAME`; may be repeated."),)),
+    Command("GET", f"{ONE}/status", READ, "The state of each process.", _status),
+    Command("GET", f"{ONE}/history", READ, "What happened since the manager runs, whoever caused it.", _history),
+    Command("GET", f"{ONE}/plan", READ, "What an operation would do, and why.", _plan,
             query=(_NAMES, ("action", "up, restart or down; by default up."))),
-    Command("GET", f"{_ONE}/logs", READ, "The last lines of the logs.", _logs,
+    Command("GET", f"{ONE}/logs", READ, "The last lines of the logs.", _logs,
             query=(_NAMES, ("last", "The number of lines of each process; by default 20."),
                    ("since", "A time in UTC, as lines have it."), ("grep", "A regular expression."))),
-    Command("GET", f"{_ONE}/documents", READ, "The documents of the workspace.", _documents),
-    Command("GET", f"{_ONE}/document", READ, "The text of a document, its version and its diagnostics.", _document,
+    Command("GET", f"{ONE}/documents", READ, "The documents of the workspace.", _documents),
+    Command("GET", f"{ONE}/document", READ, "The text of a document, its version and its diagnostics.", _document,
             query=(("path", "The document; by default, that of the deployment."),)),
-    Command("GET", f"{_ONE}/parameters", READ, "The values that a running component has now.", _parameters,
+    Command("GET", f"{ONE}/parameters", READ, "The values that a running component has now.", _parameters,
             query=(("process", "The process."),)),
-    Command("POST", f"{_ONE}/up", OPERATE, "Start the network, and apply changes to it.", _operation("up"),
+    Command("POST", f"{ONE}/up", OPERATE, "Start the network, and apply changes to it.", _operation("up"),
             OperationRequest),
-    Command("POST", f"{_ONE}/restart", OPERATE, "Stop processes, and start them again.", _operation("restart"),
+    Command("POST", f"{ONE}/restart", OPERATE, "Stop processes, and start them again.", _operation("restart"),
             OperationRequest),
-    Command("POST", f"{_ONE}/down", OPERATE, "Stop processes, with all that depend on them.", _operation("down"),
+    Command("POST", f"{ONE}/down", OPERATE, "Stop processes, with all that depend on them.", _operation("down"),
             OperationRequest),
-    Command("POST", f"{_ONE}/rollback", OPERATE, "Go back to the last up that was all ready.",
+    Command("POST", f"{ONE}/rollback", OPERATE, "Go back to the last up that was all ready.",
             _operation("rollback"), OperationRequest),
-    Command("POST", f"{_ONE}/call", OPERATE, "Call a method of a running component.", _call, CallRequest),
-    Command("POST", f"{_ONE}/parameters", OPERATE, "Change a value of a running component, for now.", _set_parameter,
+    Command("POST", f"{ONE}/call", OPERATE, "Call a method of a running component.", _call, CallRequest),
+    Command("POST", f"{ONE}/parameters", OPERATE, "Change a value of a running component, for now.", _set_parameter,
             ParameterRequest),
-    Command("POST", f"{_ONE}/edit", EDIT, "Make a change in a document.", _edit, EditRequest),
-    Command("POST", f"{_ONE}/undo", EDIT, "Undo the last change of a document.", _back(again=False), UndoRequest),
-    Command("POST", f"{_ONE}/redo", EDIT, "Make a change again that was undone.", _back(again=True), UndoRequest),
+    Command("POST", f"{ONE}/edit", EDIT, "Make a change in a document.", _edit, EditRequest),
+    Command("POST", f"{ONE}/undo", EDIT, "Undo the last change of a document.", _back(again=False), UndoRequest),
+    Command("POST", f"{ONE}/redo", EDIT, "Make a change again that was undone.", _back(again=True), UndoRequest),
 )  # fmt: skip

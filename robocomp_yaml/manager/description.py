@@ -15,15 +15,19 @@ _ERRORS = {
     "400": "The request is wrong, or not possible.",
     "403": "The token is missing, or the manager was started without this right.",
     "404": "There is no such deployment.",
+    "413": "The request is too large.",
     "409": "The document was changed by somebody else: `theirs` is its text, `ours` what the change would have made.",
     "422": "The documents have errors, or an operation failed: see `diagnostics`.",
     "502": "A component does not answer.",
 }
 _EVENTS = (
-    ("events", "Server-sent events: `states`, `documents`, `progress` and `happened`.", ()),
+    ("events", "Server-sent events: `states`, with the rates of topics to which somebody listens, "
+     "`documents`, `progress` and `happened`.", ()),
     ("log-events", "Server-sent events: the last lines of the logs, and all that follow, as `line`.",
      (("name", "A process or group; may be repeated. Without it, all."),
       ("last", "The number of lines of each process; by default 20."))),
+    ("topic", "Server-sent events: each message of a topic as it comes, as `message`; if they come too fast, not all.",
+     (("topic", "The topic, or one of its messages after a dot, as for `rcyaml topic echo`."),)),
 )  # fmt: skip
 
 
@@ -53,7 +57,7 @@ def described(commands: Sequence[Command], prefix: str, version: str) -> dict[st
 
 
 def _operation(command: Command, schemas: dict[type[msgspec.Struct], Any]) -> dict[str, Any]:
-    """One command. Its name is that of its method and of the end of its path."""
+    """One command. Its name is that of the end of its path, and of the method if it changes something."""
     end = command.path.rpartition("/")[2]
     content = {"application/json": {"schema": {"type": "object"}}}
     made: dict[str, Any] = {

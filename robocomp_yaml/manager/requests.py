@@ -60,9 +60,52 @@ class ParameterRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     value: str
 
 
+class PositionsRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """`positions` are pixels from the upper left corner of the picture, by the names of its nodes; null forgets one."""
+
+    positions: dict[str, tuple[float, float] | None]
+
+
+class PushRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """`hosts` are names of hosts, processes or groups, as for `rcyaml deploy push`; without one, all other hosts."""
+
+    hosts: tuple[str, ...] = ()
+
+
+class CompletionRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """`text` is the unsaved text of the document. `line` and `column` count characters from 1."""
+
+    path: str
+    text: str
+    line: int
+    column: int
+
+
+class DiagnoseRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """`text` is the unsaved text of the document. With `graph`, the picture that the network would have is returned,
+    too; `closed` are its closed boxes."""
+
+    path: str
+    text: str
+    graph: bool = False
+    closed: tuple[str, ...] = ()
+
+
+class WriteRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """`text` replaces that of the document. The other keys are those of an edit."""
+
+    path: str
+    text: str
+    based_on: str = ""
+    write: bool = True
+    force: bool = False
+
+
 def read(body: bytes, type_: type[T]) -> T:
     """The request in a body. Raises Refused."""
     try:
         return msgspec.json.decode(body or b"{}", type=type_)
     except (msgspec.MsgspecError, UnicodeDecodeError) as error:
         raise Refused(str(error)) from None
+    except RecursionError:
+        raise Refused("the request is nested too deeply") from None

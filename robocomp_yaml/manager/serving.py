@@ -23,6 +23,8 @@ from robocomp_yaml.manager.watching import Watcher
 PORT = 7410
 """The TCP port, unless it is in use."""
 LOOPBACK = "127.0.0.1"
+_EVERYWHERE = ("0.0.0.0", "::")
+_MOST = 300  # connections, of which a page has three
 _PATIENCE = 1  # seconds that open connections have at the end
 
 
@@ -95,13 +97,15 @@ def _is_left(path: str) -> bool:
 
 def rules_for(made: socket.socket, where: Listening, rights: Sequence[str]) -> AccessRules:
     port = made.getsockname()[1] if not where.path else 0
-    hosts = () if where.path else (where.address, *((socket.gethostname(), socket.getfqdn()) if where.key else ()))
+    own = socket.gethostname()
+    hosts = () if where.path else (where.address, *((own, f"{own}.local", socket.getfqdn()) if where.key else ()))
     return AccessRules(secrets.token_urlsafe(24), tuple(rights), hosts, port, bool(where.key))
 
 
 def address(rules: AccessRules, where: Listening) -> str:
     """The address to open, with the token."""
-    host = f"[{where.address}]" if ":" in where.address else where.address
+    name = socket.gethostname() if where.address in _EVERYWHERE else where.address
+    host = f"[{name}]" if ":" in name else name
     return f"{'https' if rules.is_secure else 'http'}://{host}:{rules.port}/?{TOKEN}={rules.token}"
 
 
@@ -113,7 +117,7 @@ def serve(
     config = uvicorn.Config(
         application(watchers, rules, page), log_level="error", access_log=False, server_header=False, ws="none",
         ssl_certfile=where.certificate or None, ssl_keyfile=where.key or None,
-        timeout_graceful_shutdown=_PATIENCE, proxy_headers=False,
+        timeout_graceful_shutdown=_PATIENCE, proxy_headers=False, limit_concurrency=_MOST,
     )  # fmt: skip
     try:
         return asyncio.run(_until_signal(_Server(config), watchers, made, on_ready))

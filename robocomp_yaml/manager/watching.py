@@ -18,13 +18,16 @@ from robocomp_yaml.deploy.engine import DeployFailed, Engine, Running
 from robocomp_yaml.deploy.engines import make_engine
 from robocomp_yaml.deploy.log_filter import LogFilter, selected
 from robocomp_yaml.deploy.operations import Status
+from robocomp_yaml.deploy.sampling import PublishedTopics
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.manager.events import DOCUMENTS, STATES, Events, ServerEvent
 from robocomp_yaml.manager.managed import ManagedDeployment
+from robocomp_yaml.manager.topics import TopicFeeds
 from robocomp_yaml.network.network import Network
 
-OBSERVE, ASK, DISK = 0.4, 2.0, 1.0
-"""Seconds between two observations, between two questions whether all are ready, and between two looks at the disk."""
+OBSERVE, ASK, DISK, RATES = 0.4, 2.0, 1.0, 2.0
+"""Seconds between two observations, between two questions whether all are ready, between two looks at the disk, and
+between two looks at what publishers count."""
 
 
 class Watcher:
@@ -32,11 +35,15 @@ class Watcher:
 
     def __init__(self, managed: ManagedDeployment) -> None:
         self.managed, self.events = managed, Events()
+        self.topics = TopicFeeds(managed.topics)
+        self._sent_rates: Mapping[str, Any] = {}
+        self._published: Mapping[str, float] = {}
         self.states: dict[str, dict[str, Any]] = {}
         self.problem = ""
         self._network: Network | None = None
         self._engine: Engine | None = None
         self._engine_name = ""
+        self._running: Mapping[str, Running] = {}
         self._asked, self._seen = 0.0, dict[str, tuple[object, ...]]()
 
     async def begin(self) -> None:
@@ -49,11 +56,20 @@ class Watcher:
         async with asyncio.TaskGroup() as tasks:
             tasks.create_task(self._watch_processes())
             tasks.create_task(self._watch_documents())
+            tasks.create_task(self._watch_topics())
+
+    @property
+    def rates(self) -> dict[str, dict[str, float]]:
+        """Messages per second of topics: what their publishers count, or what listeners of this manager get."""
+        return {**{topic: {"rate": rate} for topic, rate in self._published.items()}, **self.topics.rates}
 
     @property
     def first(self) -> list[ServerEvent]:
         """What a new listener gets before all further events."""
-        return [ServerEvent(STATES, {"all": True, "processes": list(self.states.values()), "problem": self.problem})]
+        processes = list(self.states.values())
+        return [ServerEvent(STATES, {
+            "all": True, "processes": processes, "problem": self.problem, "topics": self.rates,
+        })]  # fmt: skip
 
     def chosen(self, names: Sequence[str]) -> list[str]:
         """The processes that these names and groups mean, all without names. Raises Refused if one is unknown."""
@@ -104,13 +120,32 @@ class Watcher:
         while True:
             await asyncio.sleep(OBSERVE)
             await self._look()
+            if self.rates != self._sent_rates:
+                self._send()
+
+    async def _watch_topics(self) -> None:
+        """While somebody looks."""
+        counts = PublishedTopics()
+        try:
+            while True:
+                await asyncio.sleep(RATES)
+                if self._network is not None and self.events.has_listeners:
+                    self._published = await counts.rates(self._network, self._running)
+        finally:
+            counts.close()
+
+    def _send(self, changed: Sequence[dict[str, Any]] = (), gone: Sequence[str] = ()) -> None:
+        self._sent_rates = self.rates
+        self.events.send(STATES, {
+            "all": False, "processes": changed, "gone": gone, "problem": self.problem, "topics": self._sent_rates,
+        })  # fmt: skip
 
     async def _look(self) -> None:
         network, now = self._network, asyncio.get_running_loop().time()
         if network is None:
             return
         try:
-            running = await self._observe(network)
+            running = self._running = await self._observe(network)
             seen = {name: _gist(one) for name, one in running.items()}
             if seen != self._seen or now - self._asked > ASK:
                 self._asked, self._seen = now, seen
@@ -153,12 +188,12 @@ class Watcher:
                 self.events.happened(one["name"], one["words"])
         self.states = states
         if changed or gone:
-            self.events.send(STATES, {"all": False, "processes": changed, "gone": gone, "problem": self.problem})
+            self._send(changed, gone)
 
     def _note(self, problem: str) -> None:
         if problem != self.problem:
             self.problem = problem
-            self.events.send(STATES, {"all": False, "processes": [], "gone": [], "problem": problem})
+            self._send()
 
     async def _leave(self) -> None:
         engine, self._engine = self._engine, None

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import shlex
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from typing import TypeVar
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model import deployment as model
@@ -15,23 +16,25 @@ from robocomp_yaml.model.located import Text
 from robocomp_yaml.model.port_range import port_range
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, once
 
+_Made = TypeVar("_Made")
+
 
 def build(root: Mapping, path: str) -> model.Deployment:
     """Returns the deployment of a document that fits `ddsl.schema.json`; `path` is the document as opened."""
     return model.Deployment(
         name=text(root, "deployment"),
         path=path,
-        hosts=tuple(host(key, node) for key, node in entries(root, "hosts")),
-        services=tuple(_storm(key, node) for key, node in entries(root, "services")),
+        hosts=tuple(once(host, key, node) for key, node in entries(root, "hosts")),
+        services=tuple(once(_storm, key, node) for key, node in entries(root, "services")),
         entries=tuple(once(_entry, key, node) for key, node in entries(root, "components")),
         groups=(
-            *(_group(key, node) for key, node in entries(root, "groups")),
+            *(once(_group, key, node) for key, node in entries(root, "groups")),
             *(model.Group(key.lexeme, include=as_text(node), span=key.span) for key, node in entries(root, "include")),
         ),
         includes=tuple(texts(root, "include")),
         extra=_extra(root.get("x-rcmanager")),
-        alive=_alive(root.get("alive")),
-        limits=limits(root.get("limits")),
+        alive=_of(root, "alive", _alive),
+        limits=_of(root, "limits", limits),
         doc=doc(root),
         ports=port_range(root),
         control=text(root, "control"),
@@ -40,6 +43,16 @@ def build(root: Mapping, path: str) -> model.Deployment:
         security_span=span_of(root, "security"),
         span=span_of(root, "deployment"),
     )
+
+
+def _of(root: Mapping, name: str, make: Callable[[Node | None], _Made]) -> _Made:
+    """What is made of a node of a document, kept with it."""
+    node = root.get(name)
+    return once(_ignoring_key, root.entries[name][0], node, make) if node is not None else make(None)
+
+
+def _ignoring_key(_: Scalar, node: Node, make: Callable[[Node | None], _Made]) -> _Made:
+    return make(node)
 
 
 def _text(parent: Node, key: str) -> Text | None:

@@ -6,6 +6,7 @@ Names and paths are as written; the texts of an entry with `instances:` still co
 from __future__ import annotations
 
 import msgspec
+from msgspec.structs import astuple
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.located import Spanned, Text
@@ -70,9 +71,9 @@ class SshOptions(Spanned, frozen=True):
 
 class Host(Spanned, frozen=True):
     """An entry of `hosts:`. `user` is for ssh; '' is the operator's own. `listen` says where its processes listen:
-    ADDRESS, ANY, or names and IP addresses of the machine; () if it is not set. `paths` are folders of the operator
-    with the folders on the host in their stead; a single folder is for the workspace, with the name ''. `systemd` is
-    `user` or `system`."""
+    ADDRESS, ANY, or names, IP addresses and interfaces of the machine; () if it is not set. `paths` are folders of the
+    operator with the folders on the host in their stead; a single folder is for the workspace, with the name ''.
+    `systemd` is `user` or `system`."""
 
     name: str
     address: Text
@@ -232,6 +233,12 @@ class Deployment(Spanned, frozen=True):
     security: str = ""
     control_span: Span = Span("")
     security_span: Span = Span("")
+
+    def causes(self) -> tuple[object, ...]:
+        """All that it consists of, with its locations, as causes for a memory. What is built from an unchanged part of
+        a document is the same object after an edit elsewhere."""
+        fields = (getattr(self, name) for name in self.__struct_fields__)
+        return tuple(astuple(field) if isinstance(field, Span) else field for field in fields)
 
     @property
     def all_includes(self) -> tuple[Text, ...]:

@@ -58,6 +58,18 @@ def robocomp_signals(machine: StateMachine) -> list[str]:
     return [event.name for event in events(machine) if re.fullmatch(r"t_\w+_to_\w+", event.name)]
 
 
+def older_signals(machine: StateMachine) -> dict[str, str]:
+    """The names of the signals in an older version of RoboComp's tool: `SOURCEtoTARGET`, each with the newer one."""
+    states = {state.id for state in machine.states}
+    found: dict[str, str] = {}
+    for signal in robocomp_signals(machine):
+        parts = signal.removeprefix("t_").split("_to_")
+        pairs = [("_to_".join(parts[:at]), "_to_".join(parts[at:])) for at in range(1, len(parts))]
+        source, target = next((pair for pair in pairs if states.issuperset(pair)), pairs[0])
+        found.setdefault(f"{source}to{target}", signal)
+    return found
+
+
 def states_with_handlers(machine: StateMachine) -> list[State]:
     """The states with handler methods: those with an id, without histories."""
     return [state for state in machine.states if state.id and state.kind != HISTORY]

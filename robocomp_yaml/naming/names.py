@@ -15,6 +15,7 @@ from robocomp_yaml.link.program import Program
 from robocomp_yaml.source.tree import Node
 
 MODULE, INTERFACE, TOPIC, METHOD, EVENT = "module", "interface", "topic", "method", "event"
+ARGUMENT = "argument"
 TYPE, CONSTANT, EXCEPTION, MEMBER, ENUMERATOR = "type", "constant", "exception", "member", "enumerator"
 COMPONENT, PORT, STATE = "component", "port", "state"
 PARAMETER, PARAMETER_TYPE, PARAMETER_MEMBER = "parameter", "type of parameters", "member of a record"
@@ -43,12 +44,14 @@ class Names:
     """All names of a program. Keys have the path of the document that defines the name, as its span has it. `trees` are
     those of documents and of mock scripts, by path: what the model does not keep is read from them.
 
-    `paths` are the uses that are paths, and not the name itself: `component: arm`."""
+    `paths` are the uses that are paths, and not the name itself: `component: arm`. `identities` are those of objects in
+    proxies, which are in lower case: `speech:tcp -p 10000`."""
 
     def __init__(self, program: Program, trees: Mapping[str, Node | None] | None = None) -> None:
         self.defined: dict[Key, DefinedName] = {}
         self.uses: dict[Key, list[Span]] = {}
         self.paths: set[Span] = set()
+        self.identities: set[Span] = set()
         self._by_file: dict[str, list[tuple[Span, Key]]] = {}
         self._collect(program, trees or {})
 
@@ -79,21 +82,19 @@ class Names:
     def of_kinds(self, *kinds: str) -> Iterator[DefinedName]:
         return (one for one in self.defined.values() if one.kind in kinds)
 
-    def used_in(self, file: str) -> list[tuple[Span, Key]]:
-        """The names in a document with their locations, definitions included."""
-        return sorted(self._by_file.get(file, ()))
-
     def define(self, one: DefinedName) -> None:
         if one.key not in self.defined:
             one = msgspec.structs.replace(one, span=one.span.inside(one.name, 0, len(one.name)))
             self.defined[one.key] = one
             self._by_file.setdefault(one.span.file, []).append((one.span, one.key))
 
-    def use(self, key: Key | None, span: Span, *, is_path: bool = False) -> None:
+    def use(self, key: Key | None, span: Span, *, is_path: bool = False, is_identity: bool = False) -> None:
         if key is None or not span.file:
             return
         if is_path:
             self.paths.add(span)
+        if is_identity:
+            self.identities.add(span)
         spans = self.uses.setdefault(key, [])
         if span not in spans[-64:]:  # all instances of an entry have the same texts
             spans.append(span)

@@ -13,7 +13,8 @@ from robocomp_yaml.naming import names as kinds
 from robocomp_yaml.naming.names import DefinedName, Key, Names
 from robocomp_yaml.naming.of_components import port_key
 from robocomp_yaml.naming.of_interfaces import key_of, method_key
-from robocomp_yaml.naming.of_parameters import ParameterTree
+from robocomp_yaml.naming.of_parameters import ParameterTree, identity
+from robocomp_yaml.network.connections import is_proxy
 
 
 def collect(names: Names, program: Program) -> None:
@@ -93,6 +94,10 @@ class _Uses:
         ):  # fmt: skip
             for key in keys:
                 self._port(component, ports, key.name, key.name_span)
+        for port in component.requires:
+            for pair in entry.connect:
+                if pair.name == port.name and is_proxy(pair.text):
+                    identity(self.names, port, pair.text, pair.span)
         document = component.parameters.document
         if document is not None:
             ParameterTree(self.names, document).values(entry.settings)

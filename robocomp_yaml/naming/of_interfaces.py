@@ -14,6 +14,7 @@ from robocomp_yaml.model.interface import (
     Interface,
     Literal,
     Map,
+    Method,
     Sequence,
     Struct,
     TypeRef,
@@ -83,6 +84,10 @@ def _module(names: Names, linked: LinkedModule) -> None:
                     says = f"{definition.name}.{method.name}({inputs}){returns}"
                     own = method_key(key, method.name)
                     names.define(DefinedName(own, method.name, method.span, says, method.doc, key))
+                    for argument in (*method.inputs, *method.outputs):
+                        says = f"{definition.name}.{method.name}: {argument.name}: {argument.type.text}"
+                        inside = kinds.ARGUMENT, path, definition.name, method.name, argument.name
+                        names.define(DefinedName(inside, argument.name, argument.span, says, argument.doc, own))
                     parts = [one.type for one in (*method.inputs, *method.outputs)]
                     _refer(names, linked, [*parts, *method.throws, *([method.returns] if method.returns else [])])
             case Struct(members=members) | ExceptionType(members=members):
@@ -141,14 +146,29 @@ def _script(names: Names, program: Program, tree: MappingNode) -> None:
                 of = key_of(*found[0])
                 listed = node.get("messages")
                 messages = listed.items if isinstance(listed, SequenceNode) else ()
-                for called, _ in (
+                for called, said in (
                     *_entries(node.get("methods")),
                     *(pair for one in messages for pair in _entries(one)),
                 ):
-                    if any(one.name == called.lexeme for one in found[0][1].methods):
-                        names.use(
-                            method_key(of, called.lexeme), called.span.inside(called.lexeme, 0, len(called.lexeme))
+                    method = next((one for one in found[0][1].methods if one.name == called.lexeme), None)
+                    if method is not None:
+                        names.use(method_key(of, method.name), called.span.inside(method.name, 0, len(method.name)))
+                        _arguments(
+                            names, (kinds.ARGUMENT, *of[1:], method.name), method, said, is_message=section == "topics"
                         )
+
+
+def _arguments(names: Names, outer: Key, method: Method, said: Node, *, is_message: bool) -> None:
+    """The arguments that a message of a topic contains, or those that an answer of a method returns."""
+    answers = said.items if isinstance(said, SequenceNode) else [said]
+    if is_message:
+        given = [pair for one in answers for pair in _entries(one)]
+    else:
+        given = [pair for one in answers for pair in _entries(one.get("out"))]
+    known = {one.name for one in (*method.inputs, *method.outputs)}
+    for key, _ in given:
+        if key.lexeme in known:
+            names.use((*outer, key.lexeme), key.span.inside(key.lexeme, 0, len(key.lexeme)))
 
 
 def _entries(node: Node | None) -> Iterator[tuple[Scalar, Node]]:

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Iterable, Iterator
 
+from robocomp_yaml.addresses.own_configuration import own_configuration
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.link.flat_configs import flat_config
-from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Program
+from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Port, Program
 from robocomp_yaml.naming import names as kinds
 from robocomp_yaml.naming.names import DefinedName, Names
 from robocomp_yaml.naming.of_components import port_key
+from robocomp_yaml.naming.of_interfaces import key_of
 from robocomp_yaml.parameters.specification.document import ConstraintSpec, MemberSpec, ParameterDocument, TypeSpec
 from robocomp_yaml.parameters.specification.expression import (
     Attribute,
@@ -23,7 +23,6 @@ from robocomp_yaml.parameters.specification.expression import (
     parts,
 )
 from robocomp_yaml.semantics import connections
-from robocomp_yaml.source.properties import VALUES_HEAD
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 _STEP = re.compile(r"[^.\[\]]+")
@@ -208,6 +207,11 @@ def _values(names: Names, linked: LinkedValues) -> None:
         for section in ("endpoints", "proxies", "topics"):
             for key, _ in _entries(linked.document.section(section)):
                 _adapter(names, own.component, section, key.lexeme, key.span)
+        required = {port.name: port for port in own.component.requires}
+        for key, node in _entries(linked.document.section("proxies")):
+            text = node.get("proxy") if isinstance(node, Mapping) else node
+            if key.lexeme in required and isinstance(text, Scalar):
+                identity(names, required[key.lexeme], text.lexeme, text.span)
 
 
 def _component(names: Names, linked: LinkedComponent, text: str, span: Span) -> None:
@@ -240,8 +244,8 @@ def _entries(node: Node | None) -> Iterator[tuple[Scalar, Node]]:
 
 def _flat(names: Names, linked: LinkedComponent, program: Program) -> None:
     """The keys of a component's flat `etc/config`, unless the next compile writes it again from a values document."""
-    flat = flat_config(os.path.dirname(linked.component.path), program.disk)
-    if flat is None or (flat.is_unchanged and VALUES_HEAD in flat.text.partition("\n")[0]):
+    flat = own_configuration(linked, program).flat
+    if flat is None:
         return
     keys: dict[str, tuple[kinds.Key, str]] = {}
     for port in linked.ports:
@@ -254,14 +258,28 @@ def _flat(names: Names, linked: LinkedComponent, program: Program) -> None:
             connections.prefix(f"{port.name}Pub"),
         )
         keys |= dict.fromkeys(made, (key, port.name))  # fmt: skip
+    proxies = {name: port for port in linked.requires for name in connections.proxy(port.name)}
     document = linked.parameters.document
     spelled = {one.path for one in document.legacy} if document is not None else set()
     tree = ParameterTree(names, document) if document is not None else None
     for name, entry in flat.entries.items():
         span = Span(flat.path, entry.line, entry.column, entry.line, entry.column + len(name))
+        if name in proxies:
+            first = entry.at - flat.text.rfind("\n", 0, entry.at)
+            proxy = flat.text[entry.at :].split("\n", 1)[0]
+            written = Span(flat.path, entry.line, first, entry.line, first + len(proxy))
+            identity(names, proxies[name], proxy, written)
         if name in keys:
             key, port_name = keys[name]
             at = name.index(port_name)
             names.use(key, span.inside(name, at, at + len(port_name)))
         elif tree is not None and not any(name == path or name.startswith(f"{path}.") for path in spelled):
             tree.path(name, span)
+
+
+def identity(names: Names, port: Port, proxy: str, span: Span) -> None:
+    """The identity of the object that a proxy names: the interface in lower case."""
+    name = port.interface.name.lower()
+    if found := re.match(rf'[ \t]*"?{re.escape(name)}(?![\w/])', proxy):
+        at = span.inside(proxy, found.end() - len(name), found.end())
+        names.use(key_of(port.scope, port.interface), at, is_identity=True)

@@ -12,7 +12,12 @@ from robocomp_yaml.naming.renaming import renamed
 from robocomp_yaml.pipeline import Analysis
 
 _ANOTHER = "Zqx"
-_DEFINES = re.compile(r"\s*(?:async\s+)?def\s+\Z|.*\w::\Z", re.DOTALL)
+_DEFINES = re.compile(
+    r"\s*(?:async\s+)?def\s+\Z"  # Python
+    r"|.*\w::\Z"  # C++
+    r"|\s*(?:(?:@\w+|public|protected|private|final|synchronized)\s+)+[\w.<>\[\], ]+\s\Z",  # Java
+    re.DOTALL,
+)
 
 
 def places_in_code(

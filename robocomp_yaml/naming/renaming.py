@@ -11,7 +11,7 @@ from functools import partial
 import msgspec
 
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, Diagnostic
-from robocomp_yaml.diag.errors import Refused
+from robocomp_yaml.diag.errors import NotRenamed
 from robocomp_yaml.diag.fix import WORD, Edit
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.deployment import INDEX
@@ -24,7 +24,8 @@ from robocomp_yaml.source.spelled import DocumentText
 from robocomp_yaml.source.text import decode
 
 _FAMILIES = (
-    {kinds.INTERFACE, kinds.METHOD}, {kinds.TOPIC, kinds.EVENT}, {kinds.TYPE, kinds.MEMBER, kinds.ENUMERATOR},
+    {kinds.INTERFACE, kinds.METHOD, kinds.ARGUMENT}, {kinds.TOPIC, kinds.EVENT, kinds.ARGUMENT},
+    {kinds.TYPE, kinds.MEMBER, kinds.ENUMERATOR},
     {kinds.EXCEPTION, kinds.MEMBER}, {kinds.PARAMETER}, {kinds.PARAMETER_TYPE, kinds.PARAMETER_MEMBER},
 )  # fmt: skip
 _OF_RECORDS = (kinds.MEMBER, kinds.PARAMETER_MEMBER)
@@ -57,14 +58,14 @@ def renamed(
     name: str,
     analyse: Callable[[Mapping[str, bytes]], Analysis],
 ) -> RenamedTexts:
-    """The renaming of a name. `analyse` returns the analysis with other contents of some files. Raises Refused with the
-    reason, if the name is taken, or the documents would not mean the same."""
+    """The renaming of a name. `analyse` returns the analysis with other contents of some files. Raises NotRenamed
+    with the reason, if the name is taken, or the documents would not mean the same."""
     if not name or name != name.strip() or "\n" in name:
-        raise Refused("a name has at least one character, and no blanks around it")
+        raise NotRenamed("a name has at least one character, and no blanks around it")
     if name == defined.name:
         return RenamedTexts(defined, name, (), {}, {})
     if (INDEX in name) != (INDEX in defined.name):
-        raise Refused(f"the name of an entry with instances contains {INDEX}, that of any other does not")
+        raise NotRenamed(f"the name of an entry with instances contains {INDEX}, that of any other does not")
     edits = _in_documents(analysis, names, defined, name)
     before = {path: _content(analysis, path) for path in {one.span.file for one in edits}}
     after = {path: _applied(before[path], path, edits) for path in before}
@@ -96,7 +97,7 @@ def replaced(span: Span, code: CodeOfComponent) -> Span:
 def _content(analysis: Analysis, path: str) -> bytes:
     raw, _ = analysis.disk.read(path)
     if raw is None:
-        raise Refused(f"{path} cannot be read")
+        raise NotRenamed(f"{path} cannot be read")
     return raw
 
 
@@ -108,7 +109,8 @@ def _in_documents(analysis: Analysis, names: Names, defined: DefinedName, name: 
         if span.file not in texts:
             text = decode(span.file, _content(analysis, span.file))[0]
             texts[span.file] = DocumentText(span.file, text or "")
-        for edit in _spelled(texts[span.file], span, defined.name, name):
+        own = (defined.name.lower(), name.lower()) if span in names.identities else (defined.name, name)
+        for edit in _spelled(texts[span.file], span, *own):
             found[edit.span] = NameEdit(edit.span, edit.text)
     return list(found.values())
 
@@ -123,7 +125,7 @@ def _spelled(text: DocumentText, span: Span, old: str, new: str) -> list[Edit]:
         return [Edit(span, new)] if written == old else []
     edits = text.spelled(Edit(span, new, WORD, old))
     if not edits:
-        raise Refused(f"{span.file}:{span.line}:{span.column}: the name is written in a way that cannot be changed")
+        raise NotRenamed(f"{span.file}:{span.line}:{span.column}: the name is written in a way that cannot be changed")
     return edits
 
 
@@ -153,22 +155,22 @@ def _with(lines: DocumentText, edits: Iterable[tuple[Span, str]]) -> str:
 
 
 def _refuse_new(before: Iterable[Diagnostic], after: Iterable[Diagnostic]) -> None:
-    """Raises Refused if there are diagnostics that there were not before."""
+    """Raises NotRenamed if there are diagnostics that there were not before."""
     known = Counter((one.code, one.span.file) for one in before)
     for one in sorted(after, key=lambda one: (one.severity != ERROR, one.sort_key)):
         if one.severity != NOTE and known[one.code, one.span.file] == 0:
             where = f"{os.path.basename(one.span.file)}:{one.span.line}"
-            raise Refused(f"{where} would be wrong: {one.message} ({one.code})")
+            raise NotRenamed(f"{where} would be wrong: {one.message} ({one.code})")
         known[one.code, one.span.file] -= 1
 
 
 def _refuse_other_meaning(before: Names, after: Names, defined: DefinedName, name: str) -> None:
-    """Raises Refused if a name would mean something else."""
+    """Raises NotRenamed if a name would mean something else."""
     for key, one in before.defined.items():
         now = key_after(key, defined.key, name)
         count = len(before.uses.get(key, ()))
         if now not in after.defined or len(after.uses.get(now, ())) != count:
-            raise Refused(f"'{name}' is taken: {one.kind} '{one.name}' would not be the same any more")
+            raise NotRenamed(f"'{name}' is taken: {one.kind} '{one.name}' would not be the same any more")
 
 
 def key_after(key: Key, of: Key, name: str) -> Key:
@@ -205,14 +207,15 @@ def _moved(code: CodeOfComponent, defined: DefinedName, name: str, path: str) ->
 
 
 def _left(code: CodeOfComponent, defined: DefinedName, edited: set[Span], names: Names) -> Iterator[Span]:
-    """Words like the old name that stay: the members of records in code have no types that could be followed."""
-    if not _concerns(code, defined):
+    """Words like the old name that stay: the members of records in code have no types that could be followed. Code
+    passes arguments by their positions."""
+    if not _concerns(code, defined) or defined.kind == kinds.ARGUMENT:
         return
     for span in code.words(defined.name):
         if span not in edited:
             if defined.kind in _OF_RECORDS:
                 where = f"{code.shown(span.file)}:{span.line}"
-                raise Refused(f"code may use it, which is not followed: {where} has the word '{defined.name}'")
+                raise NotRenamed(f"code may use it, which is not followed: {where} has the word '{defined.name}'")
             yield replaced(span, code)
 
 

@@ -91,8 +91,7 @@ def _unassigned(drafts: Drafts) -> Iterator[tuple[tuple[str, str], Offer | Storm
 def _fix(draft: Draft, offer: Offer) -> None:
     """Sets the port that the document sets. `port:` is for the first interface; instances count all ports up."""
     entry = draft.instance.entry
-    name = offer.adapter.removesuffix("Topic") if offer in draft.subscribers else offer.adapter
-    fixed = next((number for number in entry.ports if number.name == name), None)
+    fixed = next((number for number in entry.ports if number.name == offer.key), None)
     if fixed is None and entry.port is not None and offer is draft.offers[0] and not offer.explicit:
         fixed = entry.port
     if fixed is not None:
@@ -126,8 +125,7 @@ def _fix_by_own(draft: Draft, offer: Offer, addresses: Addresses) -> Iterator[Di
 
 
 def _of_instances(draft: Draft, component: LinkedComponent, offer: Offer, own: OwnText, port: int) -> Diagnostic:
-    name = offer.adapter.removesuffix("Topic") if offer in draft.subscribers else offer.adapter
-    hint = f"`port: {port}`" if offer is draft.offers[0] else f"`ports: {{{name}: {port}}}`"
+    hint = f"`port: {port}`" if offer is draft.offers[0] else f"`ports: {{{offer.key}: {port}}}`"
     return codes.OWN_PORT_OF_INSTANCES.at(
         draft.span, component=component.component.name, adapter=offer.adapter, port=port,
         hint=f"set the port of the first instance, {hint}; the others count up",

@@ -49,6 +49,15 @@ _TITLE = "Where this component and the others are"
 _FILES = "Files, by their absolute paths"
 
 
+class MadeConfiguration(msgspec.Struct, frozen=True):
+    """A configuration that was made. `layers` are its values, None if it has none."""
+
+    text: str | None
+    secrets: tuple[str, ...]
+    diagnostics: tuple[Diagnostic, ...]
+    layers: LinkedValues | None
+
+
 class Configuration(msgspec.Struct):
     """The configuration of one draft. `text` is None after an error, `secrets` are its secret properties.
     `external` are the proxies of servers outside."""
@@ -94,15 +103,19 @@ class Configuration(msgspec.Struct):
             return ()
         return flat.path, flat.text, flat.is_written, flat.is_unchanged, *sorted(flat.base.items())
 
-    def make_once(self, process: tuple[str, str]) -> None:
+    def make_once(self, process: tuple[str, str]) -> MadeConfiguration:
         """As `make`, unless nothing has changed since an earlier analysis. `process` are deployment and name."""
 
-        def result() -> tuple[str | None, tuple[str, ...], list[Diagnostic], LinkedValues | None]:
+        def result() -> MadeConfiguration:
             self.make()
-            return self.text, self.secrets, self.diagnostics, self._layers
+            return MadeConfiguration(self.text, self.secrets, tuple(self.diagnostics), self._layers)
 
-        kept = self.program.memory.result(("configuration", *process), self.causes(), result)
-        self.text, self.secrets, self.diagnostics, self._layers = kept
+        return self.program.memory.result(("configuration", *process), self.causes(), result)
+
+    def use(self, made: MadeConfiguration) -> None:
+        """As if `make` had made this."""
+        self.text, self.secrets, self.diagnostics = made.text, made.secrets, list(made.diagnostics)
+        self._layers = made.layers
 
     def make(self) -> None:
         base, component = self.base, self.draft.instance.component
@@ -280,7 +293,7 @@ class Configuration(msgspec.Struct):
         """All derived properties, in Ice's spelling, which every generated component reads first, followed by those in
         the base's dialect, if that is different."""
         draft, made = self.draft, list[tuple[str, str, LocatedText]]()
-        made += [(*connections.endpoints(name), given) for name, given in self._endpoints()]
+        made += [(*connections.endpoints(name)[:2], given) for name, given in self._endpoints()]
         made += [(*connections.proxy(name), given) for name, given in draft.proxies.items()]
         if draft.manager is not None:
             made.append((*connections.MANAGER, draft.manager))

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 
 import msgspec
 
 from robocomp_yaml.addresses.own import MANAGER as DEFAULT_MANAGER
-from robocomp_yaml.addresses.own import OwnAddresses, is_own, of_flat, of_values, replaces_values
+from robocomp_yaml.addresses.own import OwnAddresses, of_flat, of_values
+from robocomp_yaml.addresses.own_configuration import chosen, own_configuration
 from robocomp_yaml.link.deployments import LinkedInstance
-from robocomp_yaml.link.flat_configs import FlatConfig, flat_at, flat_config
+from robocomp_yaml.link.flat_configs import FlatConfig, flat_at
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Program
 from robocomp_yaml.parameters.writing.properties import CLASSIC, FLAT_TOML, dialect, merged_entries
 from robocomp_yaml.semantics import connections
@@ -81,21 +81,16 @@ class ConfigurationBase(msgspec.Struct):
 
 def base_of_component(linked: LinkedComponent, program: Program) -> ConfigurationBase:
     """What a component without a deployment starts with."""
-    own = (one for one in program.values.values() if is_own(one) and one.parameters is not None)
-    values = next((one for one in own if one.parameters and one.parameters.component is linked), None)
-    flat = flat_config(os.path.dirname(linked.component.path), program.disk)
-    if values is not None and not replaces_values(flat, values):
-        return ConfigurationBase(values, is_own=True)
-    return ConfigurationBase(None, flat, is_own=True)
+    own = own_configuration(linked, program)
+    return ConfigurationBase(own.values, own.flat, is_own=True)
 
 
 def base_of(instance: LinkedInstance, disk: Disk) -> ConfigurationBase:
-    owns = instance.entry.config is None
+    if instance.entry.config is None and instance.component is not None:
+        own = chosen(instance.component, instance.values, disk)
+        return ConfigurationBase(own.values, own.flat, is_own=True)
     flat = flat_at(instance.flat, disk) if instance.flat else None
-    if owns and instance.values is not None and instance.component is not None:
-        own = flat_config(os.path.dirname(instance.component.component.path), disk)
-        flat = own if replaces_values(own, instance.values) else None
-    return ConfigurationBase(instance.values, is_own=owns) if flat is None else ConfigurationBase(None, flat, owns)
+    return ConfigurationBase(instance.values if flat is None else None, flat, instance.entry.config is None)
 
 
 def _text(node: Node | None) -> str:

@@ -19,12 +19,13 @@ from robocomp_yaml.model.deployment import PLAIN, PROGRAM, TOKEN
 from robocomp_yaml.model.located import Text
 from robocomp_yaml.network import liveness, processes, ready_when, security
 from robocomp_yaml.network.assigned_ports import assign_ports
-from robocomp_yaml.network.configuration import Configuration
+from robocomp_yaml.network.configuration import Configuration, MadeConfiguration
 from robocomp_yaml.network.connections import Connections
 from robocomp_yaml.network.draft import Draft, Drafts, drafts_of, text_fault
 from robocomp_yaml.network.gates import Gates
 from robocomp_yaml.network.network import FOLDER, Network, Process
-from robocomp_yaml.network.order import AFTER, Dependence, optional, ordered
+from robocomp_yaml.network.order import AFTER, Dependence, awaited, optional, ordered
+from robocomp_yaml.network.process_causes import causes_of
 from robocomp_yaml.network.topics import TopicConnections
 from robocomp_yaml.source.file_names import LONGEST_NAME, is_too_long, path_fault, shortened, size
 from robocomp_yaml.source.ice_endpoint import fixed_endpoint
@@ -64,22 +65,18 @@ def derive(linked: LinkedDeployment, program: Program, addresses: Addresses) -> 
     settings: dict[str, Callable[[], list[ShownSetting]]] = {}
     for storm in drafts.storms.values():
         made[storm.name] = processes.of_storm(storm, folder, enabled=storm.name in needed)
-    known: dict[str, tuple[str, ...]] = {}
     outside: dict[str, set[str]] = {}
     for one in connections.connections:
         if not one.target:
             outside.setdefault(one.source, set()).add(one.port)
     for draft in drafts.drafts.values():
         if gates.is_gate(draft):
-            text: str | None = gates.program(draft)
-            hidden: tuple[str, ...] = ()
-        else:
-            configuration = Configuration(draft, program, addresses, outside.get(draft.name, set()))
-            configuration.make_once((linked.real, draft.name))
-            settings[draft.name] = configuration.settings
-            diagnostics += configuration.diagnostics
-            text, hidden = configuration.text, configuration.secrets
-        made[draft.name] = processes.of_draft(draft, text, known, hidden)
+            made[draft.name] = processes.of_draft(draft, gates.program(draft), program.disk)
+            continue
+        configuration = Configuration(draft, program, addresses, outside.get(draft.name, set()))
+        made[draft.name] = _with_configuration(configuration, linked.real)
+        settings[draft.name] = configuration.settings
+        diagnostics += configuration.diagnostics
     order, circles = _put_in_order(made, needs)
     network = Network(
         deployment.name,
@@ -95,6 +92,21 @@ def derive(linked: LinkedDeployment, program: Program, addresses: Addresses) -> 
         settings,
     )
     return network, [*diagnostics, *length_faults(linked, drafts, network), *circles]
+
+
+def _with_configuration(configuration: Configuration, deployment: str) -> Process:
+    """The process of a draft, with the configuration that is made here; the same as in the last analysis if nothing
+    has changed for it."""
+    draft, program = configuration.draft, configuration.program
+
+    def make() -> tuple[MadeConfiguration, Process]:
+        own = configuration.make_once((deployment, draft.name))
+        return own, processes.of_draft(draft, own.text, program.disk, own.secrets)
+
+    causes = causes_of(draft, configuration.external, program.disk)
+    made, process = program.memory.result(("process", deployment, draft.name), causes, make)
+    configuration.use(made)
+    return process
 
 
 def _explicit(drafts: Drafts, gates: Gates) -> Iterable[Dependence]:
@@ -119,11 +131,15 @@ def _put_in_order(
 ) -> tuple[list[tuple[str, ...]], list[Diagnostic]]:  # fmt: skip
     """Adds to each process what it is `after`. Returns the waves, and diagnostics about circles."""
     waves, after, diagnostics = ordered((process.name for process in made.values() if process.enabled), needs)
-    can_be_absent = optional(needs)
+    can_be_absent, later = optional(needs), awaited(needs, after)
+    named = {(need.source, need.target) for need in needs if need.port == AFTER}
     for name, targets in after.items():
-        if targets:
+        if targets or name in later:
             without = tuple(target for target in targets if target in can_be_absent[name])
-            made[name] = replace(made[name], after=targets, optional=without)
+            explicit = tuple(target for target in targets if (name, target) in named)
+            made[name] = replace(
+                made[name], after=targets, optional=without, explicit=explicit, awaits=later.get(name, ())
+            )
     return waves, diagnostics
 
 

@@ -47,6 +47,12 @@ class Offer(msgspec.Struct, eq=False):
     number: int = 0
     explicit: str = ""
     own: Span | None = None
+    _endpoint: tuple[tuple[object, ...], IceEndpoint | None] = ((), None)
+
+    @property
+    def key(self) -> str:
+        """As the entry's `ports:` names it."""
+        return Endpoint(self.adapter, self.interface.lower(), self.number, "").key
 
     @property
     def full_name(self) -> str:
@@ -56,6 +62,12 @@ class Offer(msgspec.Struct, eq=False):
     @property
     def endpoint(self) -> IceEndpoint | None:
         """None if the endpoint in the document is not valid."""
+        causes = self.number, self.explicit, self.owner.listening
+        if self._endpoint[0] != causes:
+            self._endpoint = causes, self._made_endpoint()
+        return self._endpoint[1]
+
+    def _made_endpoint(self) -> IceEndpoint | None:
         listens = self.owner.listening
         found = IceEndpoint(self.number, self.owner.protocol)
         if self.explicit:
@@ -127,10 +139,14 @@ class Draft(msgspec.Struct, eq=False):
     base: ConfigurationBase = msgspec.field(default_factory=ConfigurationBase)
     own: OwnAddresses = msgspec.field(default_factory=OwnAddresses)
     protocol: str = TCP
+    _listening: Listening | None = None
 
     @property
     def listening(self) -> Listening:
-        return listening(self.host, tuple(one.text for one in self.instance.entry.listen), self.protocol)
+        if self._listening is None or self._listening.protocol != self.protocol:
+            listen = tuple(one.text for one in self.instance.entry.listen)
+            self._listening = listening(self.host, listen, self.protocol)
+        return self._listening
 
     @property
     def name(self) -> str:
@@ -268,7 +284,7 @@ def _host(host: model.Host) -> NetworkHost:
 
 def _placed(hosts: dict[str, NetworkHost], host: model.Host | None) -> NetworkHost:
     if host is not None:
-        return hosts.setdefault(host.name, _host(host))
+        return hosts.get(host.name) or hosts.setdefault(host.name, _host(host))
     return hosts.setdefault(LOOPBACK, NetworkHost(LOOPBACK))
 
 

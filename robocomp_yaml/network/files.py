@@ -1,4 +1,5 @@
-"""The files that a process needs on its host: its program, its code, and what it shares with others of its workspace.
+"""The files that a process needs on its host: its program with the user's libraries that it loads, its code, and what
+it shares with others of its workspace.
 
 They do not include configurations, which a deployment writes, nor the user's data.
 """
@@ -10,6 +11,7 @@ import re
 from collections.abc import Iterator
 
 from robocomp_yaml.link import workspace
+from robocomp_yaml.network import shared_libraries
 from robocomp_yaml.network.network import COMPONENT, Network, Process
 
 SYSTEM = re.compile(r"/(?:(?:bin|boot|dev|etc|lib|lib32|lib64|proc|run|sbin|sys|usr)(?:/|\Z)|\Z)")
@@ -38,9 +40,14 @@ def shared_folders(home: str) -> list[str]:
 
 
 def needed(process: Process, known: dict[str, tuple[str, ...]]) -> tuple[str, ...]:
-    """The files of a process, as absolute paths. A missing program is one of them. `known` caches folders."""
+    """The files of a process, as absolute paths. A missing program is one of them. `known` caches folders, and the
+    libraries of programs."""
     program = process.command[0]
     own = [program] if os.path.isabs(program) and not SYSTEM.match(program) else []
+    if own and program not in known:
+        searched = next((one.value.split(":") for one in process.env if one.name == "LD_LIBRARY_PATH"), [])
+        known[program] = tuple(shared_libraries.of(program, SYSTEM.match, searched))
+    own += known.get(program, ())
     for folder in shared_folders(home_of(process)):
         if folder not in known:
             known[folder] = tuple(_below(folder))

@@ -108,6 +108,12 @@ class Endpoint(Located, frozen=True):
     span: Span = Span("")
     own_span: Span = Span("")
 
+    @property
+    def key(self) -> str:
+        """As the entry's `ports:` names it. The adapter of a subscribed topic ends in Topic, its identity does not."""
+        is_of_topic = self.identity != self.interface.lower()
+        return self.interface.removesuffix("Topic") if is_of_topic else self.interface
+
 
 class Readiness(msgspec.Struct, frozen=True):
     """When a process is ready: every proxy of `pings` answers, or something listens on `port`, or `command` exits with
@@ -185,12 +191,13 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
 
     `command` is the program and its arguments, without a shell. The program is an absolute path, or a bare name that is
     resolved in PATH. CONFIG in an argument is replaced by the absolute path of `config`. `after` are the processes that
-    must be ready before this one starts; if one of them fails that is also in `optional`, this one starts anyway.
-    `aliases` are further names of the process. When one of the `watched` files changes (executable, code), the process
-    is restarted. `is_ice` is False for a program that does not use Ice. `folders` must exist before it starts. `role`
-    is SERVER or TASK, '' if the document does not set it; it talks over TLS if it `is_secured`. `settled` are the least
-    seconds that a process without a condition must run before it is ready. It does not start if the proxies of `unless`
-    answer before: then another one is present.
+    must be ready before this one starts; if one of them fails that is also in `optional`, this one starts anyway. The
+    document names those in `explicit`; connections imply the others. Those in `awaits` are after it, and it waits for
+    them while it runs: it starts first in a circle. `aliases` are further names of the process. When one of the
+    `watched` files changes (executable, code), the process is restarted. `is_ice` is False for a program that does not
+    use Ice. `folders` must exist before it starts. `role` is SERVER or TASK, '' if the document does not set it; it
+    talks over TLS if it `is_secured`. `settled` are the least seconds that a process without a condition must run
+    before it is ready. It does not start if the proxies of `unless` answer before: then another one is present.
     """
 
     name: str
@@ -203,6 +210,8 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
     endpoints: tuple[Endpoint, ...] = ()
     after: tuple[str, ...] = ()
     optional: tuple[str, ...] = ()
+    awaits: tuple[str, ...] = ()
+    explicit: tuple[str, ...] = ()
     ready: Readiness = Readiness()
     restart: RestartRule = RestartRule()
     alive: Liveness | None = None

@@ -61,6 +61,17 @@ def optional(needs: Iterable[Dependence]) -> dict[str, set[str]]:
     return found
 
 
+def awaited(needs: Iterable[Dependence], after: Mapping[str, Iterable[str]]) -> dict[str, tuple[str, ...]]:
+    """For each process, those that it waits for although they start after it, because it starts first in a circle.
+    `after` is what `ordered` returned."""
+    found: dict[str, dict[str, None]] = {}
+    for need in needs:
+        is_later = need.source in after and need.target in after and need.target not in after[need.source]
+        if is_later and need.absent == WAIT and need.port != AFTER and need.source != need.target:
+            found.setdefault(need.source, {})[need.target] = None
+    return {name: tuple(targets) for name, targets in found.items()}
+
+
 def _without_circles(
     needs: list[Dependence], after: Mapping[str, Iterable[str]], position: Mapping[str, int]
 ) -> tuple[list[Dependence], list[Diagnostic]]:

@@ -24,16 +24,14 @@ from robocomp_yaml.network.network import (
     Process,
     RestartRule,
 )
-from robocomp_yaml.parameters.hidden import secret_names
+from robocomp_yaml.parameters.hidden import secrets_of
+from robocomp_yaml.source.disk import Disk
 
 _DEFAULTS = RestartRule()
 
 
-def of_draft(
-    draft: Draft, text: str | None, known: dict[str, tuple[str, ...]], secrets: tuple[str, ...] = ()
-) -> Process:
-    """The process of a draft. `text` is its configuration, with the names of the `secrets` in it. `known` caches the
-    code of each component's folder."""
+def of_draft(draft: Draft, text: str | None, disk: Disk, secrets: tuple[str, ...] = ()) -> Process:
+    """The process of a draft. `text` is its configuration, with the names of the `secrets` in it."""
     instance, entry = draft.instance, draft.instance.entry
     component = instance.component
     program = program_of(draft)
@@ -57,7 +55,7 @@ def of_draft(
         restart=_restart(entry.restart),
         alive=liveness.of_draft(draft),
         limits=_limits(draft),
-        watched=(program, *_code(instance.folder, component, known)) if os.path.isabs(program) else (),
+        watched=(program, *_code(instance.folder, component, disk)) if os.path.isabs(program) else (),
         aliases=tuple(alias.name for alias in draft.aliases),
         groups=tuple(group.name for group in instance.groups),
         enabled=entry.enabled,
@@ -65,7 +63,7 @@ def of_draft(
         role=entry.role,
         is_secured=draft.protocol == SSL,
         settled=ready_when.settled(entry.ready, ready),
-        secrets=tuple(sorted(set(secret_names(component.parameters.parameters.root)))) if component is not None else (),
+        secrets=secrets_of(component.parameters) if component is not None else (),
         component=component.component.name if component is not None else "",
         build=_build(draft),
         introspection=liveness.introspection(draft),
@@ -166,21 +164,21 @@ def _restart(given: model.Restart | None) -> RestartRule:
     )
 
 
-def _code(folder: str, component: LinkedComponent | None, known: dict[str, tuple[str, ...]]) -> tuple[str, ...]:
+def _code(folder: str, component: LinkedComponent | None, disk: Disk) -> tuple[str, ...]:
     """The files of code that a component loads when it starts."""
     loaded = component.component.language.target.loaded if component is not None else {}
-    if not loaded:
-        return ()
-    if folder not in known:
-        files = (
-            os.path.abspath(os.path.join(where, name))
-            for below, endings in loaded.items()
-            for where, _, names in os.walk(os.path.join(folder, below))
-            for name in names
-            if name.endswith(endings)
-        )
-        known[folder] = tuple(sorted(files))
-    return known[folder]
+    return disk.ask(_files_of, folder, tuple(loaded.items())) if loaded else ()
+
+
+def _files_of(folder: str, loaded: tuple[tuple[str, tuple[str, ...]], ...]) -> tuple[str, ...]:
+    files = (
+        os.path.abspath(os.path.join(where, name))
+        for below, endings in loaded
+        for where, _, names in os.walk(os.path.join(folder, below))
+        for name in names
+        if name.endswith(endings)
+    )
+    return tuple(sorted(files))
 
 
 def of_storm(storm: StormDraft, folder: str, *, enabled: bool) -> Process:

@@ -6,6 +6,7 @@ from collections.abc import Collection, Iterator
 from typing import Any
 
 from robocomp_yaml import secrets
+from robocomp_yaml.parameters.documents import ResolvedParameters
 from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, RecordType, Type, below, nested
 from robocomp_yaml.semantics import paths
 from robocomp_yaml.semantics.references import is_sound
@@ -22,6 +23,11 @@ def secret_names(type_: Type) -> Iterator[str]:
     for record in nested(type_):
         if isinstance(record, RecordType):
             yield from (member.name for member in record.members if member.secret)
+
+
+def secrets_of(linked: ResolvedParameters) -> tuple[str, ...]:
+    """The names of the secret members of a component's parameters, sorted, each once."""
+    return linked.once("secret names", lambda: tuple(sorted(set(secret_names(linked.parameters.root)))))
 
 
 def hidden(type_: Type, data: Any) -> Any:
@@ -101,12 +107,16 @@ def named_nodes(node: Node, names: Collection[str] = ()) -> Iterator[Scalar]:
     """Every plain value below a key that has the name of a secret, or is one of `names`."""
     if isinstance(node, Mapping) and not is_sound(node.data):
         for key, value in node.items():
-            last = (paths.parse(key.lexeme) or [key.lexeme])[-1] if names else ""
-            named = secrets.is_secret(key.lexeme) or last in names
-            yield from plain_below(value) if named else named_nodes(value, names)
+            yield from plain_below(value) if is_named(key, names) else named_nodes(value, names)
     elif isinstance(node, Sequence):
         for item in node.items:
             yield from named_nodes(item, names)
+
+
+def is_named(key: Scalar, names: Collection[str]) -> bool:
+    """Whether a key, or the last step of its path, is the name of a secret."""
+    last = (paths.parse(key.lexeme) or [key.lexeme])[-1] if names else ""
+    return secrets.is_secret(key.lexeme) or last in names
 
 
 def plain_below(node: Node) -> Iterator[Scalar]:

@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-import jsonschema_rs
 import msgspec
 
 from robocomp_yaml.parameters.documents import ResolvedParameters
@@ -30,9 +29,9 @@ from robocomp_yaml.parameters.types import (
     Type,
     json_type,
 )
+from robocomp_yaml.parameters.validators import ValuesValidator
 from robocomp_yaml.parameters.words import elements_in_words, for_editors, in_words, label, prose
 from robocomp_yaml.semantics.limits import LIMITS
-from robocomp_yaml.source.schema import new_schema
 from robocomp_yaml.source.schema_names import with_examples
 from robocomp_yaml.source.yaml_text import flow
 
@@ -91,8 +90,8 @@ _REFERENCE_CHOICE = {
 
 def fits(linked: ResolvedParameters, mode: str, data: object) -> bool:
     """The verdict of the validator on the data under `parameters:`, in one of the modes."""
-    validator = linked.once(mode, lambda: jsonschema_rs.Draft7Validator(values_schema(linked.parameters, mode)))
-    return validator.is_valid(data)
+    validator = linked.once(mode, ValuesValidator)
+    return validator.is_valid(data, lambda: values_schema(linked.parameters, mode))
 
 
 def values_schema(parameters: Parameters, mode: str) -> Schema:
@@ -102,18 +101,18 @@ def values_schema(parameters: Parameters, mode: str) -> Schema:
     return {"$schema": "http://json-schema.org/draft-07/schema#", **made, "definitions": builder.definitions}
 
 
-def gate_of_complete(type_: Type) -> jsonschema_rs.Draft7Validator:
-    """The gate for one complete value of a type."""
+def schema_of_complete(type_: Type) -> Schema:
+    """The schema of the gate for one complete value of a type."""
     builder = _SchemaBuilder(COMPLETE, is_gate=True)
     made = builder.type(type_)
-    return jsonschema_rs.Draft7Validator({**made, "definitions": builder.definitions})
+    return {**made, "definitions": builder.definitions}
 
 
 def document_schema(parameters: Parameters, name: str, ports: Mapping[str, Iterable[str]], mode: str) -> Schema:
     """The self-contained schema of a values document of the component `name`. `ports` has the names that are known
     under `endpoints` and `proxies`."""
     builder = _SchemaBuilder(mode)
-    made = with_examples(new_schema("config"))
+    made = with_examples("config")
     made["$id"] = f"https://rcyaml.invalid/schemas/values/{name}.{mode}.schema.json"
     made["title"] = f"Values of {name}"
     made["description"] = f"The values of {name}'s parameters, its endpoints and its proxies."

@@ -17,10 +17,11 @@ from robocomp_yaml.parameters.types import (
     is_secret,
     unit_of,
 )
+from robocomp_yaml.patterns import pattern
 from robocomp_yaml.semantics.limits import LIST, MAP, WORDS, one_of, record_in_words
 from robocomp_yaml.source.yaml_text import flow
 
-_CODE_OR_TAG = re.compile(r"((`+)(?!`).*?(?<!`)\2(?!`))|(?<!\\)<(?!https?://)", re.DOTALL)
+_CODE_OR_TAG = pattern(r"((`+)(?!`).*?(?<!`)\2(?!`))|(?<!\\)<(?!https?://)", re.DOTALL)
 
 
 def kind_in_words(type_: Type) -> str:

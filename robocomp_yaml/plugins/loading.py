@@ -97,7 +97,7 @@ def _files(package: str) -> Iterator[str]:
         return
     for folder in spec.submodule_search_locations or ():
         if os.path.isdir(folder):
-            yield from sorted(states(folder, len(folder)))
+            yield from states(folder, len(folder))
     if spec.origin and os.path.isfile(spec.origin):
         status = os.stat(spec.origin)
         yield f"{spec.origin} {status.st_size} {status.st_mtime_ns} {status.st_ctime_ns}"

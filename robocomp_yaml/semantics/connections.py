@@ -48,13 +48,17 @@ ELSEWHERE = (
 """Why a call is rejected. The run times of other languages have the same texts."""
 
 
-def endpoints(adapter: str) -> tuple[str, str]:
-    return f"{adapter}.Endpoints", f"Endpoints.{adapter}"
+OLDEST = "Comp"
+"""What the oldest version of RoboComp's tool added to the names of adapters."""
+
+
+def endpoints(adapter: str) -> tuple[str, str, str]:
+    return f"{adapter}.Endpoints", f"Endpoints.{adapter}", f"{adapter}{OLDEST}.Endpoints"
 
 
 def topic_endpoints(port: str) -> tuple[str, str, str]:
     """The endpoints of the adapter with which a component subscribes to a topic."""
-    return (*endpoints(f"{port}Topic"), f"Endpoints.{port}")
+    return (*endpoints(f"{port}Topic")[:2], f"Endpoints.{port}")
 
 
 def proxy(port: str) -> tuple[str, str]:

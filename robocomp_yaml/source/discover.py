@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 
 import msgspec
 
 from robocomp_yaml.diag.codes import files as codes
+from robocomp_yaml.diag.codes.values import MISNAMED
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
@@ -75,7 +76,9 @@ def discover(paths: list[str] | tuple[str, ...], disk: Disk | None = None) -> Di
             folders.append(path)
             unreadable: list[OSError] = []
             before = len(scripts)
-            below = list(documents_below(path, roots, unreadable.append, disk, scripts))
+            misnamed: list[str] = []
+            below = list(documents_below(path, roots, unreadable.append, disk, scripts, misnamed))
+            diagnostics += (_misnamed(name) for name in misnamed)
             diagnostics += [
                 codes.UNREADABLE.at(
                     Span(os.path.normpath(error.filename)), reason=(error.strerror or str(error)).lower()
@@ -90,9 +93,13 @@ def discover(paths: list[str] | tuple[str, ...], disk: Disk | None = None) -> Di
             scripts.append(os.path.normpath(path))
             continue
         elif kind_of(path, disk) is None and disk.state(path) != NOTHING:
-            expected = " or ".join(f".{kind}.yaml" for kind in KINDS)
-            hint = "" if path.endswith(".yaml") else f"`{typed('rcyaml', 'migrate', path)}` converts legacy files"
-            name = os.path.basename(path)
+            suffixes = [f".{kind}.yaml" for kind in KINDS]
+            expected = f"{', '.join(suffixes[:-1])} or {suffixes[-1]}"
+            name, hint = os.path.basename(path), ""
+            if name == "rcyaml.yaml":
+                hint = f"`{typed('rcyaml', 'check', os.path.dirname(path) or '.')}` reads it with the documents"
+            elif not name.endswith(".yaml"):
+                hint = f"`{typed('rcyaml', 'migrate', path)}` converts legacy files"
             diagnostics.append(codes.UNKNOWN_KIND.at(Span(path), name=name, kinds=expected, hint=hint))
             continue
         else:
@@ -101,6 +108,15 @@ def discover(paths: list[str] | tuple[str, ...], disk: Disk | None = None) -> Di
     return DiscoveredDocuments(
         tuple(documents), tuple(folders), tuple(roots), tuple(dict.fromkeys(scripts)), tuple(diagnostics)
     )
+
+
+def _renamed(path: str) -> str:
+    return f"{path.removesuffix('.yml')}.yaml"
+
+
+def _misnamed(path: str) -> Diagnostic:
+    """A warning about a document whose name ends with `.yml`."""
+    return MISNAMED.at(Span(path), path=path, hint=f"rename it: `{typed('mv', path, _renamed(path))}`")
 
 
 def is_skipped(path: str) -> bool:
@@ -114,16 +130,22 @@ def of_kind(folder: str, kind: str, disk: Disk | None = None) -> list[str]:
     return [path for path in documents_below(folder or ".", disk=disk) if kind_of(path, disk) == kind]
 
 
+def finds_again(walked: Mapping[str, list[str]], disk: Disk | None = None) -> bool:
+    """Whether the documents below these folders are still the same."""
+    return all(list(documents_below(folder, disk=disk)) == found for folder, found in walked.items())
+
+
 def documents_below(
     folder: str,
     roots: list[str] | None = None,
     on_error: Callable[[OSError], None] | None = None,
     disk: Disk | None = None,
     scripts: list[str] | None = None,
+    misnamed: list[str] | None = None,
 ) -> Iterator[str]:
     """Every document below a folder, sorted within each folder; links to folders are not followed. Folders that have a
-    manifest are appended to `roots`, mock scripts to `scripts`; `on_error` is called for folders that cannot be
-    read."""
+    manifest are appended to `roots`, mock scripts to `scripts`, documents with the suffix `.yml` to `misnamed`;
+    `on_error` is called for folders that cannot be read."""
     disk = disk or Disk()
     documents: list[str] = []
     for where, folders, names in disk.walk(folder, on_error):
@@ -136,4 +158,9 @@ def documents_below(
                 yield path
             elif scripts is not None and is_script(name):
                 scripts.append(os.path.normpath(os.path.join(where, name)))
+            elif misnamed is not None and name.endswith(".yml"):
+                path = os.path.normpath(os.path.join(where, name))
+                kind = kind_of(_renamed(path), disk)
+                if kind is not None and (kind != "config" or name == "config.yml") and _renamed(name) not in names:
+                    misnamed.append(path)
     disk.walked[folder] = documents

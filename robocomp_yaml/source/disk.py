@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any, TypeVar
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.source.file_names import is_deployment
 from robocomp_yaml.source.regular import regular
 from robocomp_yaml.source.text import MAX_DOCUMENT, read_bytes
 
@@ -46,17 +47,31 @@ def _peek(path: str, size: int) -> bytes:
 
 
 class Files:
-    """The files of the disk, as they are at each request."""
+    """The files of the disk, as they are at each request. `reals` are the real paths that are known."""
+
+    def __init__(self) -> None:
+        self.reals: dict[str, str] = {}
+
+    @property
+    def version(self) -> object:
+        """As long as it is the same, so are the answers, except for the contents of deployments."""
+        return object()
 
     def get(self, request: Callable[..., _Answer], *arguments: Any) -> _Answer:
         return request(*arguments)
 
 
 class KeptFiles(Files):
-    """The files of the disk, as they were at the first request after `forget`."""
+    """The files of the disk, as they were at the first request after `forget`, or at the last `renew`."""
 
     def __init__(self) -> None:
+        super().__init__()
         self._answers: dict[tuple[Any, ...], Any] = {}
+        self._version = object()
+
+    @property
+    def version(self) -> object:
+        return self._version
 
     def get(self, request: Callable[..., _Answer], *arguments: Any) -> _Answer:
         known = request, *arguments
@@ -67,6 +82,16 @@ class KeptFiles(Files):
 
     def forget(self) -> None:
         self._answers.clear()
+        self.reals.clear()
+        self._version = object()
+
+    def renew(self) -> None:
+        """Repeats all requests."""
+        before, self._answers = self._answers, {known: known[0](*known[1:]) for known in self._answers}
+        changed = (known for known, answer in self._answers.items() if answer != before[known])
+        if any(known[0] is not read_bytes or not is_deployment(known[1]) for known in changed):
+            self.reals.clear()
+            self._version = object()
 
 
 class Disk:
@@ -81,7 +106,7 @@ class Disk:
 
     def __init__(self, overlay: Mapping[str, bytes] | None = None, files: Files | None = None) -> None:
         self._files = files or Files()
-        self._real: dict[str, str] = {}
+        self._real = self._files.reals
         self._overlay = {self.real(path): text for path, text in (overlay or {}).items()}
         self._folders = {folder for path in self._overlay for folder in folders_above(path)}
         self._inside: dict[str, set[str]] = {}  # the names that the overlay adds to folders
@@ -95,6 +120,31 @@ class Disk:
         self.walked: dict[str, list[str]] = {}
         self.unreadable = False
         self._made: dict[object, Any] = {}
+
+    @property
+    def version(self) -> object:
+        """As long as it is the same, so are the files of the disk, except for the contents of deployments."""
+        return self._files.version
+
+    @property
+    def unsaved(self) -> Mapping[str, bytes]:
+        """The overlay, by real path."""
+        return self._overlay
+
+    @property
+    def added(self) -> tuple[str, ...]:
+        """The real paths of the overlay that are no files of the disk."""
+        return tuple(sorted(path for path in self._overlay if self._files.get(state_of, path) != FILE))
+
+    def recall(self, contents: Mapping[str, bytes]) -> None:
+        """As if these files had been read from this Disk. What else was requested for them is not recorded, so that no
+        stamp can be made of it."""
+        self.contents = {**contents, **self.contents}
+        self.unreadable = True
+
+    def ask(self, request: Callable[..., _Answer], *arguments: Any) -> _Answer:
+        """What a function returns of the files of the disk. This request is not recorded."""
+        return self._files.get(request, *arguments)
 
     def once(self, name: object, make: Callable[[], _Made]) -> _Made:
         """The result of `make`, cached by name: what follows from the contents that the name contains."""
@@ -152,7 +202,9 @@ class Disk:
 
     def documents(self, folder: str) -> list[str]:
         """The names in a folder that may be documents, sorted. '' is the working folder."""
-        self.listed[folder] = documents_in(self._names(folder))
+        listed = self._files.get(_documents_of, self._on_disk(folder))
+        added = self._added_to(folder)
+        self.listed[folder] = documents_in({*listed, *added}) if added else listed
         return self.listed[folder]
 
     def names(self, folder: str) -> list[str]:
@@ -162,9 +214,11 @@ class Disk:
 
     def _names(self, folder: str) -> set[str]:
         names = set(self._files.get(names_in, self._on_disk(folder)))
-        if self._overlay:
-            names |= self._inside.get(self.real(folder or os.curdir), set())
-        return names
+        return names | self._added_to(folder)
+
+    def _added_to(self, folder: str) -> set[str]:
+        """The names that the overlay adds to a folder."""
+        return self._inside.get(self.real(folder or os.curdir), set()) if self._overlay else set()
 
     def walk(
         self, folder: str, on_error: Callable[[OSError], None] | None = None
@@ -206,6 +260,10 @@ class Disk:
 def documents_in(names: Iterable[str]) -> list[str]:
     """Those of the names that may be documents, in upper or lower case, sorted."""
     return sorted(name for name in names if name.lower().endswith(".yaml"))
+
+
+def _documents_of(folder: str) -> list[str]:
+    return documents_in(names_in(folder))
 
 
 def folders_above(path: str) -> Iterator[str]:

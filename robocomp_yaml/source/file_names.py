@@ -1,9 +1,14 @@
-"""How long the name of a file can be, and its path: in bytes, as Linux counts them."""
+"""What the name of a file says, and how long it and its path can be: in bytes, as Linux counts them."""
 
 from __future__ import annotations
 
 LONGEST_NAME = 255
 LONGEST_PATH = 4095
+
+
+def is_deployment(path: str) -> bool:
+    """Whether a document is a deployment."""
+    return f"/{path}".endswith((".ddsl.yaml", "/ddsl.yaml"))
 
 
 def size(text: str) -> int:

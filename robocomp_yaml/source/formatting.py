@@ -152,7 +152,10 @@ class _Layout:
             case _ if isinstance(token, _CLOSING):
                 self.inner = self.flows.pop()
                 if isinstance(self.before, FlowEntryToken) and not self._is_on_new_line(token):
-                    self.lines[-1].text = self.lines[-1].text.removesuffix(",")
+                    line = self.lines[-1]
+                    line.text = line.text.removesuffix(",")
+                    if not line.text.strip():  # the comma was alone in its line
+                        line.text, self.indent = " " * (self.inner - STEP), self.inner - STEP
                 self._write(token, token_text(self.source, token), self.inner - STEP)
                 self.inner = -1
             case _ if isinstance(token, _MARKERS):
@@ -240,7 +243,10 @@ class _Layout:
         inner = self._inner()
         needs_digit = next((line for line in body if line), "").startswith(" ")
         digit = str(inner - (self.blocks[-1].new if self.blocks else 0)) if needs_digit else ""
-        text = f"{header[1]}{digit}{header[2] or header[4]}"
+        ends = header[2] or header[4]
+        if body and not token.value.endswith("\n"):
+            ends = "-"  # the document has no line break at its end, and gets one
+        text = f"{header[1]}{digit}{ends}"
         self._write(token, text, column)
         if header[5]:
             self._comment_behind(header[5].rstrip(), start + header.start(5))
@@ -330,6 +336,8 @@ def _body(source: str, start: int, value: str, *, keeps: bool) -> tuple[list[str
             last = line_end if lines[-1] else last
         end = line_end
     if keeps:
+        if lines and not lines[-1] and end == len(source) and not source.endswith("\n"):
+            lines.pop()  # blanks at the end of the document are no line
         return lines, min(end, len(source))
     while lines and not lines[-1]:
         lines.pop()

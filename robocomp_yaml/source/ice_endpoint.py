@@ -34,6 +34,7 @@ class IceEndpoint(msgspec.Struct, frozen=True):
         return f"{self.protocol} -h {spelled_host(self.host or address)} -p {self.port}"
 
 
+@lru_cache(1 << 10)
 def spelled_host(address: str) -> str:
     """The address as an option's value: an IPv6 address in quotes, because a colon would end the endpoint."""
     return f'"{address}"' if re.search(f"[{BLANKS}:']", address) else address
@@ -87,6 +88,7 @@ def fixed_endpoint(text: str) -> IceEndpoint:
     return endpoints[0]
 
 
+@lru_cache(1 << 14)
 def parse_endpoint(text: str) -> IceEndpoint | None:
     """The first endpoint in a property's value, which may be in quotes; None if it is invalid or has no fixed port."""
     try:

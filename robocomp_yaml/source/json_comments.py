@@ -6,9 +6,11 @@ import json
 import re
 from collections.abc import Iterator, Mapping
 
-_TOKEN = re.compile(r'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/|,(?=\s*[}\]])', re.DOTALL)
-_BLANK = re.compile(r"[^\n]")
-_SPACE = re.compile(r"\s*")
+from robocomp_yaml.patterns import pattern
+
+_TOKEN = pattern(r'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/|,(?=\s*[}\]])', re.DOTALL)
+_BLANK = pattern(r"[^\n]")
+_SPACE = pattern(r"\s*")
 
 
 class Unreadable(ValueError):

@@ -2,7 +2,8 @@
 
 A document is cut into the entries of its top-level mapping, and those of long blocks below them, by indentation alone.
 Each entry is parsed by itself, followed by the beginning of the next one, so that it ends where it ends in the whole.
-Whatever is not certain (an error, an anchor, an entry that is no single pair) is left to the parser of whole texts.
+If an entry is not YAML, the text from there on is parsed as if it began there: all before it is complete. Whatever else
+is not certain (an anchor, an entry that is no single pair) is left to the parser of whole texts.
 """
 
 from __future__ import annotations
@@ -11,15 +12,20 @@ import re
 from collections.abc import Iterator
 
 import msgspec
+from msgspec.structs import replace
 
-from robocomp_yaml.source.tree import Base, Mapping, Node, Scalar, part, whole
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.patterns import pattern
+from robocomp_yaml.source import syntax
+from robocomp_yaml.source.tree import Base, Mapping, Node, Scalar, parse, part, whole
 
 LONG = 4_000  # characters: shorter documents are parsed as a whole
 FEW = 8  # entries of a block that is not cut
-_UNCERTAIN = re.compile(r"[&*\t\x85\u2028\u2029\ufeff]|\r(?!\n)|^(?:---|\.\.\.|%|\?)", re.MULTILINE)
-_TOP = re.compile(r"^[^\s#\-?:,\[\]{}&*!|>%@`]", re.MULTILINE)
-_HEAD = re.compile(r"[^\s#:'\"\[\]{}]+:[ ]*(?:#[^\n]*)?\r?\n")
-_FIRST = re.compile(r"(?:[ ]*(?:#[^\n]*)?\r?\n)*(?P<indent>[ ]+)[^\s#\-?:,\[\]{}&*!|>%@`]")
+_UNCERTAIN = pattern(r"[&*\t\x85\u2028\u2029\ufeff]|\r(?!\n)|^(?:---|\.\.\.|%|\?)", re.MULTILINE)
+_TOP = pattern(r"^[^\s#\-?:,\[\]{}&*!|>%@`]", re.MULTILINE)
+_HEAD = pattern(r"[^\s#:'\"\[\]{}]+:[ ]*(?:#[^\n]*)?\r?\n")
+_FIRST = pattern(r"(?:[ ]*(?:#[^\n]*)?\r?\n)*(?P<indent>[ ]+)[^\s#\-?:,\[\]{}&*!|>%@`]")
 Entry = tuple[Scalar, Node]
 
 
@@ -39,7 +45,7 @@ Parts = dict[tuple[str, int, int], Part]
 
 def parse_in_parts(path: str, text: str, known: Parts) -> Mapping | None:
     """The tree of a document, with the parts in `known` that are the same; these are replaced by the parts of this
-    text. None if the text has to be parsed as a whole."""
+    text. None if the text has to be parsed as a whole. Raises SyntaxFault if it is not YAML."""
     if len(text) < LONG or not text.endswith("\n") or _UNCERTAIN.search(text):
         return None
     parts = _Parts(path, text, known)
@@ -50,9 +56,25 @@ def parse_in_parts(path: str, text: str, known: Parts) -> Mapping | None:
     return root
 
 
+class PartsParser:
+    """Parses the versions of a document one after the other. A tree may be used until the next version is parsed."""
+
+    def __init__(self) -> None:
+        self._known = Parts()
+
+    def parse(self, path: str, text: str) -> tuple[Node | None, list[Diagnostic]]:
+        """The tree of a document's text, or None with all errors."""
+        try:
+            root = parse_in_parts(path, text, self._known)
+        except syntax.SyntaxFault as fault:
+            return None, [fault.diagnostic]
+        return (root, []) if root is not None else parse(path, text)
+
+
 class _Parts:
     def __init__(self, path: str, text: str, known: Parts) -> None:
         self.path, self.text, self.known, self.used = path, text, known, Parts()
+        self.failed: tuple[int, int, int] | None = None  # the entry below a key that is no part: see `_check`
 
     def root(self) -> Mapping | None:
         starts = [found.start() for found in _TOP.finditer(self.text)]
@@ -63,12 +85,27 @@ class _Parts:
         found: Part | None = None
         for start, end in zip(starts, [*starts[1:], len(self.text)], strict=True):
             follows = 0 if end < len(self.text) else -1
-            found = self._section(start, end, line, follows) or self._entry(start, end, line, 0, follows)
+            self.failed = None
+            found = self._section(start, end, line, follows)
+            if found is None and self.failed is not None:
+                self._check(*self.failed)
+            found = found or self._entry(start, end, line, 0, follows)
+            if found is None and entries:  # before that, it may be no mapping at all
+                self._check(start, line, 0)
             if found is None or found.key.lexeme in entries:
                 return None
             entries[found.key.lexeme] = found.key, found.value
             line += self.text.count("\n", start, end)
         return whole(self.path, entries, found.block) if found is not None else None
+
+    def _check(self, start: int, line: int, indent: int) -> None:
+        """Raises SyntaxFault if the text is not YAML from an entry on that begins in a line (from 0). It is parsed
+        behind another entry."""
+        head = f"{_OUTER}{' ' * indent}{_NEXT}" if indent else _OUTER
+        try:
+            syntax.compose(self.path, head + self.text[start:])
+        except syntax.SyntaxFault as fault:
+            raise syntax.SyntaxFault(_below(fault.diagnostic, line - head.count("\n"))) from None
 
     def _section(self, start: int, end: int, line: int, follows: int) -> Part | None:
         """A top-level entry whose value is a long block of entries, each in lines of its own."""
@@ -89,6 +126,8 @@ class _Parts:
         last = opened
         for begin, stop in zip(starts[1:], [*starts[2:], end], strict=True):
             found = self._entry(begin, stop, line, indent, indent if stop < end else follows)
+            if found is None:
+                self.failed = begin, line, indent
             if found is None or found.key.lexeme in entries:
                 return None
             entries[found.key.lexeme], last = (found.key, found.value), found
@@ -146,6 +185,18 @@ class _Parts:
         if expected == 2 and list(node.entries)[1] != "Z":
             return None
         return Part(*next(iter(node.entries.values())), base, node)
+
+
+def _below(one: Diagnostic, lines: int) -> Diagnostic:
+    """A diagnostic of a text that begins so many lines further down."""
+
+    def moved(span: Span) -> Span:
+        return replace(span, line=span.line + lines, end_line=span.end_line + lines)
+
+    fixes = tuple(
+        replace(fix, edits=tuple(replace(edit, span=moved(edit.span)) for edit in fix.edits)) for fix in one.fixes
+    )
+    return replace(one, span=moved(one.span), fixes=fixes)
 
 
 _OUTER, _NEXT = "P:\n", "Z:\n"

@@ -11,12 +11,13 @@ from collections.abc import Collection, Iterable
 import msgspec
 
 from robocomp_yaml import secrets
+from robocomp_yaml.patterns import pattern
 
 _BLANKS = " \t\r\n"
-_OF_A_KEY = re.compile(r"(?:\\.|[^=#\\]|\\\Z)*", re.DOTALL)
+_OF_A_KEY = pattern(r"(?:\\.|[^=#\\]|\\\Z)*", re.DOTALL)
 _BLANK = r"(?:[ \t\r\n]|\\ )*"
-_OF_A_VALUE = re.compile(rf"({_BLANK})((?:{_BLANK}(?:\\[^ ]|[^ \t\r\n#\\]))*)({_BLANK})(\\\Z)?", re.DOTALL)
-_ESCAPED = re.compile(r"\\([\\#= ])")
+_OF_A_VALUE = pattern(rf"({_BLANK})((?:{_BLANK}(?:\\[^ ]|[^ \t\r\n#\\]))*)({_BLANK})(\\\Z)?", re.DOTALL)
+_ESCAPED = pattern(r"\\([\\#= ])")
 
 FIRST_HEAD = "rcyaml wrote it once; it is yours."
 VALUES_HEAD = "written by rcyaml from"

@@ -6,7 +6,6 @@ which yaml-language-server shows, too, has precedence over a generated message.
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Iterable, Iterator
 from collections.abc import Sequence as Path
@@ -14,6 +13,7 @@ from functools import cache
 from typing import Any
 
 import jsonschema_rs
+import msgspec
 
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -50,16 +50,11 @@ _AT_END = "; `|-` and `>-` drop the last line break"
 _APPLICATORS = frozenset(("allOf", "anyOf", "oneOf", "then", "else", "if"))
 
 
-def new_schema(kind: str, more: tuple[TargetLanguage, ...] = ()) -> dict[str, Any]:
-    """The JSON Schema of a kind of document, for example 'idsl', as a copy that the caller may change."""
-    loaded: dict[str, Any] = json.loads(schema_text(kind, more))
-    return loaded
-
-
 @cache
 def schema(kind: str, more: tuple[TargetLanguage, ...] = ()) -> dict[str, Any]:
     """The JSON Schema of a kind of document, shared by all callers."""
-    return new_schema(kind, more)
+    loaded: dict[str, Any] = msgspec.json.decode(schema_text(kind, more))
+    return loaded
 
 
 @cache

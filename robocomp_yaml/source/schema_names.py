@@ -8,11 +8,10 @@ marked: a name with two letters of a known one exchanged.
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Iterator
 from collections.abc import Mapping as Map
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import Any
 
 import msgspec
@@ -43,14 +42,13 @@ OfferedNames = tuple[tuple[str, tuple[OfferedName, ...]], ...]
 @lru_cache(maxsize=32)
 def schema_with(names: OfferedNames, kind: str, more: tuple[TargetLanguage, ...] = ()) -> str:
     """The JSON Schema of a kind of document as text, with these names; `more` are the languages of plug-ins."""
-    schema = json.loads(schema_text(kind, more))
+    schema = msgspec.json.decode(schema_text(kind, more))
     known = {of: offered for of, offered in names if offered}
     used: set[str] = set()
-    filled = _filled(schema, known, used)
+    _fill(schema, known, used)
     for of in sorted(used):
-        filled["definitions"][f"{MARK}-{of.replace(' ', '-')}"] = _definition(of, known[of])
-    text = json.dumps(filled, ensure_ascii=False)
-    return msgspec.json.format(text.encode(), indent=1).decode() + "\n"
+        schema["definitions"][f"{MARK}-{of.replace(' ', '-')}"] = _definition(of, known[of])
+    return msgspec.json.format(msgspec.json.encode(schema), indent=1).decode() + "\n"
 
 
 def offered_in(schema: Any) -> frozenset[str]:
@@ -60,39 +58,43 @@ def offered_in(schema: Any) -> frozenset[str]:
     return frozenset(snippet["label"] for snippets in lists for snippet in snippets)
 
 
-def with_examples(schema: dict[str, Any]) -> dict[str, Any]:
-    """The JSON Schema of a kind of document, without names; its examples are offered as examples."""
-    filled: dict[str, Any] = _filled(schema, {}, set())
-    return filled
+def with_examples(kind: str) -> dict[str, Any]:
+    """A copy of the JSON Schema of a kind of document, without names; its examples are offered as examples."""
+    schema: dict[str, Any] = msgspec.json.decode(_text_with_examples(kind))
+    return schema
 
 
-def _filled(schema: Any, known: Map[str, object], used: set[str], around: str = "") -> Any:
-    """A subschema as it is written. `around` is the kind of names of the subschema that contains it in `allOf`."""
+@cache
+def _text_with_examples(kind: str) -> bytes:
+    schema = msgspec.json.decode(schema_text(kind))
+    _fill(schema, {}, set())
+    return msgspec.json.encode(schema)
+
+
+def _fill(schema: Any, known: Map[str, object], used: set[str], around: str = "") -> None:
+    """Changes a subschema to what is written. `around` is the kind of names of the subschema that contains it in
+    `allOf`."""
     if isinstance(schema, list):
-        return [_filled(item, known, used, around) for item in schema]
+        for item in schema:
+            _fill(item, known, used, around)
     if not isinstance(schema, dict):
-        return schema
-    kind, examples = schema.get(MARK, ""), schema.get("examples")
-    filled = {
-        key: value
-        if key in ("examples", "enum", "defaultSnippets")
-        else _filled(value, known, used, kind if key == "allOf" else "")
-        for key, value in schema.items()
-        if key != MARK
-    }
+        return
+    kind, examples = schema.pop(MARK, ""), schema.get("examples")
+    for key, value in schema.items():
+        if isinstance(value, (dict, list)) and key not in ("examples", "enum", "defaultSnippets"):
+            _fill(value, known, used, kind if key == "allOf" else "")
     more: list[dict[str, Any]] = []
     if kind in known:
         used.add(kind)
         more.append({"$ref": f"#/definitions/{MARK}-{kind.replace(' ', '-')}"})
     if isinstance(examples, list) and "enum" not in schema and any(isinstance(example, str) for example in examples):
-        del filled["examples"]
+        del schema["examples"]
         only_hovered = {"if": {}, "then": {"examples": examples, "allOf": [{}]}}
         more.append({"title": schema["title"], **only_hovered} if "title" in schema else only_hovered)
         if (kind or around) not in known:
-            filled["defaultSnippets"] = [*_as_examples(examples), *filled.get("defaultSnippets", ())]
+            schema["defaultSnippets"] = [*_as_examples(examples), *schema.get("defaultSnippets", ())]
     if more:
-        filled["allOf"] = [*filled.get("allOf", ()), *more]
-    return filled
+        schema["allOf"] = [*schema.get("allOf", ()), *more]
 
 
 def _as_examples(examples: list[Any]) -> Iterator[dict[str, str]]:

@@ -160,7 +160,9 @@ def _nodes(root: Node | None) -> Iterable[Node]:
 def _compose_as_1_2(text: str) -> Node | None:
     from ruamel.yaml import YAML
 
-    root: Node | None = YAML(typ="safe", pure=True).compose(text)
+    parser = YAML(typ="safe", pure=True)
+    parser.composer.warn_double_anchors = False  # YAML 1.2 allows them, and warnings are for programmers
+    root: Node | None = parser.compose(text)
     for node in _nodes(root):
         if not _has_explicit_tag(text, node.start_mark.index):
             node.ctag = UNTAGGED

@@ -66,6 +66,8 @@ def text_of(text: str, *, in_flow: bool = False) -> str:
 
 def is_plain(text: str, *, in_flow: bool) -> bool:
     """Whether a text without quotes is read as this text."""
+    if text.isascii() and text.isidentifier() and text.lower() not in _NOT_TEXT:
+        return True  # most texts are names, and need no pattern
     bad = not text or _READ_OTHERWISE.fullmatch(text) or _BAD_START.match(text) or _BAD_INSIDE.search(text)
     return not (bad or _UNPRINTABLE.search(text) or (in_flow and _BAD_IN_FLOW.search(text)))
 

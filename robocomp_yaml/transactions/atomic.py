@@ -171,10 +171,8 @@ class _Commit(msgspec.Struct):
 
     def stage(self) -> None:
         self.at = JOURNAL
-        folders: dict[str, None] = {}
-        for step in self.steps:
-            if step.after is not None:
-                folders.update(dict.fromkeys(_missing_folders(self.root, step.path)))
+        above = dict.fromkeys(os.path.dirname(step.path) for step in self.steps if step.after is not None)
+        folders = dict.fromkeys(missing for folder in above for missing in _missing_folders(self.root, f"{folder}/x"))
         marks = tuple(_mark(step, next(_numbers)) for step in self.steps)
         self.journal = Journal(marks, tuple(folders))
         self.under_way = True

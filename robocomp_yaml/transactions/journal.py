@@ -91,11 +91,10 @@ def put_back(root: str, journal: Journal) -> None:
 
 
 def clean_up(root: str, journal: Journal) -> None:
-    """Removes the temporary files of a complete commit, and the folders that it left empty."""
+    """Removes the earlier files of a complete commit, and the folders that it left empty. New files are in place."""
     for mark in journal.marks:
-        for name in (mark.new, mark.old):
-            if name:
-                _drop(os.path.join(root, name))
+        if mark.old:
+            _drop(os.path.join(root, mark.old))
         if not mark.hash:
             _remove_empty_folders(root, mark.path)
     _drop(os.path.join(root, JOURNAL_DONE))

@@ -19,8 +19,10 @@ class FilePlan(msgspec.Struct, frozen=True):
     changes. ONCE: written if it is missing, then the user's. `sources` are the documents that the file is made of: who
     cannot read one of them cannot read the file. `secrets` are the keys of its properties that are never shown.
     `stated_in`, for a property file, is the path of the user's document from which the file is generated. Properties
-    that would be lost have to be moved to that document. `accepted`, for code of the user, is code with signatures that
-    are right, too. `takes_over`: another tool may have written the file, which is overwritten, and kept as `.orig`."""
+    that would be lost, `users`, have to be moved to that document; as long as there are any, the file stays. `base` are
+    those of its properties that no document states, and `beside` is the text of another property file that programs
+    read before it. `accepted`, for code of the user, is code with signatures that are right, too. `takes_over`: another
+    tool may have written the file, which is overwritten, and kept as `.orig`."""
 
     path: str
     text: str
@@ -29,6 +31,9 @@ class FilePlan(msgspec.Struct, frozen=True):
     sources: tuple[str, ...] = ()
     secrets: tuple[str, ...] = ()
     stated_in: str = ""
+    users: tuple[str, ...] = ()
+    base: str = ""
+    beside: str = ""
     accepted: str = ""
     takes_over: bool = False
 

@@ -157,7 +157,7 @@ def tool() -> str:
         tops += (os.path.join(folder, name) for name in _DATA)
     parts = [robocomp_yaml.__version__, *_records(folder)]
     for top in tops:
-        parts += sorted(states(top, len(folder)))
+        parts += states(top, len(folder))
     return digest("\n".join(parts).encode(errors="surrogateescape"))
 
 

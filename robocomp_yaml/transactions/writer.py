@@ -12,9 +12,8 @@ from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
 from robocomp_yaml.diag.listing import some
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
-from robocomp_yaml.source import properties
 from robocomp_yaml.source.digest import digest
-from robocomp_yaml.transactions import atomic, changes, manifest
+from robocomp_yaml.transactions import atomic, changes, manifest, settings
 from robocomp_yaml.transactions.changes import Change, Changes, RootChanges
 from robocomp_yaml.transactions.desired import DesiredRoot, by_root
 from robocomp_yaml.transactions.journal import JOURNAL, JOURNAL_DONE, free_name
@@ -93,7 +92,7 @@ class _RootPlanner:
         self.steps: list[atomic.FileStep] = []
         self.settled: dict[str, bytes] = {}
         self.once: list[str] = []
-        self.users_settings: dict[str, list[tuple[FilePlan, list[str]]]] = {}
+        self.users_settings: dict[str, list[FilePlan]] = {}
 
     def prepare(self) -> RootChanges:
         manifest_status = self.root.status(manifest.PATH)
@@ -181,8 +180,11 @@ class _RootPlanner:
                 self._note(plan.path, changes.UNCHANGED)
         elif self._is_written_inside(plan) or self._is_generated(plan.path, status.data or b"", entry):
             self._write(plan, status, changes.UPDATE)
-        elif not self.adopt and plan.stated_in and not self._loses_nothing(plan, status.data or b"", text):
-            self._users_settings(plan, status.data or b"", text, entry)
+        elif not self.adopt and plan.stated_in and self._has_same_settings(plan, status, text):
+            self._keep_same_settings(plan, text)
+            return
+        elif not self.adopt and plan.users:
+            self._users_settings(plan, entry)
             return
         elif not plan.stated_in and entry and not entry.once:
             change = self._write(plan, status, changes.EDITED)
@@ -198,7 +200,9 @@ class _RootPlanner:
             return
         self.settled[plan.path] = text
         self._enter(plan.path, digest(text))
-        if entry and entry.once:
+        if plan.base:
+            self._keep_base(plan, plan.base.encode())
+        elif entry:
             self._drop_base(plan.path)
 
     def _is_written_inside(self, plan: FilePlan) -> bool:
@@ -210,29 +214,35 @@ class _RootPlanner:
         """Whether rcyaml wrote this content, for this root or for another one."""
         return is_as_put(entry, data) or manifest.any_has(f"{self.root.real}/{path}", digest(data))
 
-    def _loses_nothing(self, plan: FilePlan, data: bytes, text: bytes) -> bool:
-        """Whether the planned text keeps all properties that the user set in a property file."""
-        base = self._base(plan.path)
-        return lost(base, data, text) == [] and (base is not None or lost(None, text, data) == [])
+    def _has_same_settings(self, plan: FilePlan, status: PathStatus, text: bytes) -> bool:
+        """Whether the user's property file has the planned properties, and rights that are not too wide."""
+        data = status.data or b""
+        is_open = bool(status.mode) and status.mode != atomic.limited(status.mode, rights_of(plan.sources))
+        base = self.root.status(f"{manifest.BASE}/{plan.path}").data if plan.path in self.old.files else None
+        # After a change of the document, blanks count: they are part of a text.
+        exactly = base not in (None, text, plan.base.encode())
+        return not is_open and settings.are_alike(plan.path, data, text, plan.beside.encode(), exactly=exactly)
 
-    def _base(self, path: str) -> bytes | None:
-        return self.root.status(f"{manifest.BASE}/{path}").data if path in self.old.files else None
+    def _keep_same_settings(self, plan: FilePlan, text: bytes) -> None:
+        """The user's text stays until the document changes. The planned text is the base: nothing in it is an edit."""
+        self._note(plan.path, changes.KEPT)
+        self._enter(plan.path, digest(text), once=True)
+        self._keep_base(plan, text)
 
-    def _users_settings(self, plan: FilePlan, data: bytes, text: bytes, entry: ManifestEntry | None) -> None:
+    def _users_settings(self, plan: FilePlan, entry: ManifestEntry | None) -> None:
         """A property file that the user wrote or edited stays, because programs read it."""
         self._note(plan.path, changes.KEPT)
         if entry:
             self._enter(plan.path, entry.hash, once=entry.once)
-        keys = lost(self._base(plan.path), data, text) or differing(data, text)
-        self.users_settings.setdefault(os.path.dirname(plan.path), []).append((plan, keys))
+        self.users_settings.setdefault(os.path.dirname(plan.path), []).append(plan)
 
     def _warn_settings(self) -> None:
         """One warning for each folder with property files of the user."""
         for found in self.users_settings.values():
-            plan = found[0][0]
-            files = "; ".join(f"{one.path} ({some(keys) or 'its text'})" for one, keys in found)
+            plan = found[0]
+            files = "; ".join(f"{one.path} ({some(one.users)})" for one in found)
             adopt = typed("rcyaml", "compile", "--adopt", self._owner(plan.path))
-            documents = some([self.root.shown(one.stated_in) for one, _ in found])
+            documents = some([self.root.shown(one.stated_in) for one in found])
             hint = f"set them in {documents} as well; or `{adopt}` overwrites your files, and keeps them as .orig"
             self.diagnostics.append(codes.CHANGED_CONFIG.at(Span(self.root.shown(plan.path)), files=files, hint=hint))
 
@@ -340,24 +350,3 @@ def digest_of_merge(entry: ManifestEntry | None, merge: Merge) -> str:
     """The digest of a merge for the manifest: that of the merged text if the user had not edited the file, else that of
     the skeleton, from which the file differs."""
     return digest(merge.text if is_as_put(entry, merge.before) else merge.base)
-
-
-def lost(base: bytes | None, yours: bytes, new: bytes) -> list[str] | None:
-    """The keys of the properties that the user set, and that the `new` text does not have with the same value. The user
-    set those that differ from `base`, which rcyaml wrote. None if a text is not UTF-8. For Ice a property without a
-    value is not set."""
-    try:
-        before, mine, then = (properties.read((data or b"").decode()).values for data in (base, yours, new))
-    except UnicodeDecodeError:
-        return None
-    return [key for key, value in mine.items() if value not in (before.get(key, ""), then.get(key, ""))]
-
-
-def differing(yours: bytes, new: bytes) -> list[str]:
-    """The keys of the properties that two property files do not have with the same value; none if one is not UTF-8. For
-    Ice a property without a value is not set."""
-    try:
-        mine, then = (properties.read(data.decode()).values for data in (yours, new))
-    except UnicodeDecodeError:
-        return []
-    return [key for key in {**mine, **then} if mine.get(key, "") != then.get(key, "")]

@@ -10,7 +10,6 @@ from robocomp_yaml.model.build_interface import build
 from robocomp_yaml.source.tree import Mapping, parse
 
 MODULE = "RoboCompCommonBehavior"
-IDENTITY = "commonbehavior"
 CONTROLS = frozenset(("setPeriod", "killYourSelf", "setParameterList", "reloadConfig"))
 """The operations that change something, which components accept only from who may control them."""
 

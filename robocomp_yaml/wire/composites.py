@@ -60,7 +60,8 @@ class Members:
                 value = type_.to_ice(tree.scalar_at(node.span, default.lexeme), (*path, name), report)
             else:
                 value = None
-                hint = f"write `{name}: …`, a {type_.name}"
+                article = "an" if type_.name[:1].lower() in "aeiou" else "a"
+                hint = f"write `{name}: …`, {article} {type_.name}"
                 report(Fault(node.span, paths.in_words((*path, name)), "is missing", hint))
             setattr(made, self.attributes[name], value)
 

@@ -6,6 +6,9 @@ Numbers are little-endian, and sizes have one byte, or five: https://doc.zeroc.c
 from __future__ import annotations
 
 import asyncio
+import errno
+import os
+import socket
 import struct
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -70,8 +73,7 @@ class Connection:
     async def open(cls, host: str, port: int, tls: SSLContext | None = None) -> Connection:
         """Raises ConnectionError, or another OSError, if no Ice server listens there, or not one with a certificate
         that is valid for `tls`."""
-        # To resolve a name takes a thread, which costs more than a call.
-        connection = cls(*await asyncio.open_connection("127.0.0.1" if host == "localhost" else host, port, ssl=tls))
+        connection = cls(*await _streams("127.0.0.1" if host == "localhost" else host, port, tls))
         try:
             if await connection._read() != (_VALIDATE, b""):
                 raise ConnectionError("the other end is not Ice")
@@ -94,7 +96,10 @@ class Connection:
     def close(self) -> None:
         if not self._writer.is_closing():
             self._writer.write(_message(_CLOSE))  # Ice expects it before a connection is closed
-            self._writer.close()
+            if self._writer.get_extra_info("sslcontext") is None:
+                self._writer.close()
+            else:  # to close it in order would wait for the other end, which may hang
+                self._writer.transport.abort()
 
     async def _read(self) -> tuple[int, bytes]:
         """The kind and the body of the next message; (-1, b"") if it is not a message of Ice."""
@@ -105,6 +110,27 @@ class Connection:
             return kind, await self._reader.readexactly(length - _HEADER.size)
         except asyncio.IncompleteReadError as error:
             raise ConnectionError("the other end closed the connection") from error
+
+
+async def _streams(host: str, port: int, tls: SSLContext | None) -> tuple[asyncio.StreamReader, asyncio.StreamWriter]:
+    """A connection, by the shortest way to an address of IPv4: it is tried again and again while a process starts. To
+    resolve a name takes a thread, which costs more than a call."""
+    try:
+        socket.inet_aton(host)
+    except OSError:
+        return await asyncio.open_connection(host, port, ssl=tls)
+    peer = socket.socket(socket.AF_INET, socket.SOCK_STREAM | socket.SOCK_NONBLOCK)
+    try:
+        error = peer.connect_ex((host, port))  # an address of this machine answers at once
+        if error == errno.EINPROGRESS:
+            await asyncio.get_running_loop().sock_connect(peer, (host, port))
+        elif error:
+            raise OSError(error, os.strerror(error))
+        peer.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        return await asyncio.open_connection(sock=peer, ssl=tls, server_hostname=host if tls else None)
+    except BaseException:
+        peer.close()
+        raise
 
 
 async def ask(host: str, port: int, message: bytes, within: float, tls: SSLContext | None = None) -> Reply | None:

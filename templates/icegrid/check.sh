@@ -1,7 +1,8 @@
 # Checks, before anything starts, what a host has of the processes that are to run there. The words are: p NUMBER FOLDER
 # PROGRAM starts a process (PROGRAM is '' if it is not checked); each of the following is about that process: v NAME PATH
 # is a variable that is the text of a file, f DIGEST PATH a file with the digest that it has where the command runs, m
-# PYTHON CODE a program in Python, and t KEY N WORD... a test of a limit, with N words. Prints a line for each fault.
+# PYTHON CODE a program in Python, l NAME ONLY an interface or a name on which it listens (ONLY is `only` if others would
+# call it there), and t KEY N WORD... a test of a limit, with N words. Prints a line for each fault.
 base=${XDG_STATE_HOME:-$HOME/.local/state}/rcyaml/pushed
 declare -A pushed=()
 for list in "$base"/*; do
@@ -49,6 +50,15 @@ while (( $# )); do
                 [[ ${words[0]##*/} == env ]] && words=("${words[@]:1}")
                 lacking=$([[ -n $2 ]] && export RCYAML_PYTHON=$2; "${words[@]}" -c "$3" "$program" "$3" </dev/null 2>/dev/null)
                 [[ -z $lacking ]] || say modules "$lacking"
+            fi
+            shift 3 ;;
+        l)  if [[ -d /sys/class/net/$2 ]]; then
+                [[ -n $(ip -o address show dev "$2" scope global 2>/dev/null) || $2 == lo ]] || say interface "$2"
+                [[ $3 == only ]] && say only "$2"
+            elif ! getent ahosts "$2" >/dev/null; then
+                all=(/sys/class/net/*/)
+                all=("${all[@]%/}")
+                say listen "$2 ${all[*]##*/}"
             fi
             shift 3 ;;
         t)  key=$2 count=$3

@@ -99,7 +99,7 @@ class Place:
             engine = LocalEngine()
             if not await engine.open(self.network(), create=False):
                 return []
-            return await operations.down(engine, names, self.events.append)
+            return await operations.down(engine, names, self.events.append, self.folder)
 
         return asyncio.run(main())
 

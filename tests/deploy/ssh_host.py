@@ -38,6 +38,11 @@ class SshHost:
         return self.folder / "state"
 
     @property
+    def command(self) -> list[str]:
+        """The command that runs the server."""
+        return [SSHD, "-D", "-f", f"{self.folder}/sshd_config", "-E", f"{self.folder}/log"]
+
+    @property
     def logins(self) -> int:
         return (self.folder / "log").read_text(encoding="utf-8").count("Accepted publickey")
 
@@ -45,6 +50,19 @@ class SshHost:
 @contextmanager
 def ssh_host(folder: Path, address: str = "127.0.0.1", inside: Sequence[str] = ()) -> Iterator[SshHost]:
     """A running server. `inside` are the words that run a command on the host."""
+    host = prepared(folder, address)
+    os.makedirs("/run/sshd", exist_ok=True)  # where sshd, run by root, wants to be locked in
+    server = subprocess.Popen([*inside, *host.command])
+    try:
+        until(lambda: (folder / "pid").exists(), "sshd runs")
+        yield host
+    finally:
+        server.terminate()
+        server.wait()
+
+
+def prepared(folder: Path, address: str) -> SshHost:
+    """A server that does not run yet."""
     folder.mkdir(parents=True)
     with socket.create_server(("127.0.0.1", 0)) as free:
         host = SshHost(folder, address, free.getsockname()[1])
@@ -58,11 +76,4 @@ def ssh_host(folder: Path, address: str = "127.0.0.1", inside: Sequence[str] = (
             f"SetEnv XDG_STATE_HOME={host.state} XDG_CONFIG_HOME={folder}/config XDG_RUNTIME_DIR={folder}/run\n"
         ),
     })  # fmt: skip
-    os.makedirs("/run/sshd", exist_ok=True)  # where sshd, run by root, wants to be locked in
-    server = subprocess.Popen([*inside, SSHD, "-D", "-f", folder / "sshd_config", "-E", folder / "log"])
-    try:
-        until(lambda: (folder / "pid").exists(), "sshd runs")
-        yield host
-    finally:
-        server.terminate()
-        server.wait()
+    return host

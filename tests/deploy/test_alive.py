@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 from msgspec.structs import replace
 
-from processes import Ports, until
+from processes import Ports, killed_on_failure, until
 from robocomp_yaml.deploy.engine import RUNNING, WAITING
 from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.network.network import AUTO, FOREVER, Endpoint, Liveness, Process, Readiness, RestartRule
@@ -185,7 +185,8 @@ ptrace(17, int(sys.argv[1]), None, None)
 time.sleep(60)
 """
     pid = served.up()
-    with subprocess.Popen([sys.executable, "-c", tracer, str(pid)], stdout=subprocess.PIPE) as debugger:
+    tracing = subprocess.Popen([sys.executable, "-c", tracer, str(pid)], stdout=subprocess.PIPE)
+    with killed_on_failure(tracing) as debugger:
         assert debugger.stdout is not None
         if debugger.stdout.readline() != b"attached\n":
             pytest.skip("this machine does not allow tracing")

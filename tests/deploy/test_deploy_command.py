@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import pty
+import pwd
 import re
 import signal
 import subprocess
@@ -16,7 +17,7 @@ import pytest
 from click.testing import Result
 
 from conftest import write_tree
-from processes import Ports, until
+from processes import Ports, killed_on_failure, read_until, until
 from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.languages import language
 from small_networks import Place
@@ -83,7 +84,7 @@ def test_logs_since_a_time_and_with_a_pattern(robot: Path, rcyaml: Rcyaml) -> No
     last = every.splitlines()[-1].split()[0]
     assert every.splitlines()[-1] in deploy(rcyaml, "logs", "--since", last, "-t").stdout.splitlines()
     command = [sys.executable, "-m", "robocomp_yaml", "deploy", "logs", "-f", "--grep", "arm [12]$"]
-    with subprocess.Popen(command, cwd=robot, stdout=subprocess.PIPE, text=True) as following:
+    with killed_on_failure(subprocess.Popen(command, cwd=robot, stdout=subprocess.PIPE, text=True)) as following:
         assert following.stdout
         assert [following.stdout.readline() for _ in range(2)] == ["arm  | arm 1\n", "arm  | arm 2\n"]
         following.terminate()
@@ -308,9 +309,7 @@ def test_the_supervisor_is_killed_during_up(robot: Path, place: Place) -> None:
 def test_an_attached_up_ends_with_ctrl_c(robot: Path, place: Place) -> None:
     attached = start(robot, "up", "robot.ddsl.yaml", "--attach", stdout=subprocess.PIPE)
     assert attached.stdout
-    seen = b""
-    while b"Ctrl-C stops it" not in seen or b"base | hello" not in seen:
-        seen += os.read(attached.stdout.fileno(), 1000)
+    read_until(attached.stdout.fileno(), b"Ctrl-C stops it", b"base | hello")
     assert start(robot, "restart", ".", "arm").wait(60) == 0  # meanwhile others may work on it
     attached.send_signal(signal.SIGINT)
     with attached.stdout as rest:
@@ -323,9 +322,7 @@ def test_an_attached_up_is_interrupted_while_processes_start(robot: Path, place:
     write_tree(robot, {"robot.ddsl.yaml": ROBOT.replace("ready: {log: hello}", "ready: {log: never, within: 60 s}")})
     attached = start(robot, "up", "robot.ddsl.yaml", "--attach", stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     assert attached.stdout
-    seen = b""
-    while b"base | hello" not in seen:
-        seen += os.read(attached.stdout.fileno(), 1000)
+    read_until(attached.stdout.fileno(), b"base | hello")
     attached.send_signal(signal.SIGINT)
     with attached.stdout as rest:
         assert b"interrupted: all processes were stopped" in rest.read()
@@ -365,9 +362,7 @@ def test_on_a_terminal_the_user_chooses(robot: Path, place: Place) -> None:
     ours, theirs = pty.openpty()
     up = start(robot, "up", "robot.ddsl.yaml", stdin=theirs, stdout=theirs, stderr=theirs)
     os.close(theirs)
-    seen = b""
-    while b"[stop]: " not in seen:
-        seen += os.read(ours, 1000)
+    seen = read_until(ours, b"[stop]: ")
     text = seen.decode()
     assert "hand | oh" in text, "the log is shown before the question"
     assert re.search(r"arm +starting", text)
@@ -402,6 +397,20 @@ def test_an_address_that_does_not_resolve(robot: Path, rcyaml: Rcyaml) -> None:
     result = deploy(rcyaml, "up", "--engine", "local")
     assert result.exit_code == 1
     assert "error[RC7008]: 'base' runs on the host 'moon' (nowhere.invalid)" in result.stderr
+
+
+@pytest.mark.parametrize("command", ["plan", "up", "status", "logs", "down"])
+def test_the_deployment_of_another_user(
+    robot: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch, command: str
+) -> None:
+    """`status` of another user does not say that nothing runs."""
+    (robot / ".rcyaml" / "deployments" / "Robot").mkdir(parents=True)
+    owner, access = os.getuid(), os.access
+    monkeypatch.setattr(os, "getuid", lambda: owner + 1)
+    monkeypatch.setattr(os, "access", lambda path, mode: "/deployments/" not in str(path) and access(path, mode))
+    failed = deploy(rcyaml, command)
+    assert failed.exit_code == 1
+    assert f"it is of the user '{pwd.getpwuid(owner).pw_name}', who alone sees and changes what runs" in failed.stderr
 
 
 def test_only_one_command_changes_a_deployment_at_a_time(robot: Path, rcyaml: Rcyaml, place: Place) -> None:

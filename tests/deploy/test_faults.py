@@ -11,14 +11,15 @@ import socket
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 from msgspec.structs import replace
 
 import robocomp_yaml.deploy
-from processes import Ports, until
+from processes import Ports, killed_on_failure, until
 from robocomp_yaml.deploy import folder as own_folder
-from robocomp_yaml.deploy import operations
+from robocomp_yaml.deploy import json_data, operations
 from robocomp_yaml.deploy.carry_out import SKIPPED
 from robocomp_yaml.deploy.engine import GIVEN_UP, RUNNING, DeployFailed
 from robocomp_yaml.deploy.local import channel, procfs
@@ -77,6 +78,30 @@ def test_a_process_that_is_never_ready(place: Place, free_port: Ports) -> None:
     assert "nothing listens on port" in result.diagnostics[0].message
 
 
+@pytest.mark.parametrize(
+    ("condition", "why"),
+    [
+        ({"port": 1}, "nothing listens on port 1"),
+        ({"command": ("test", "-e", "/no/laser")}, "`test -e /no/laser` did not succeed"),
+        ({"log": "turns$"}, "no line of its log matches 'turns$'"),
+        ({"pings": ("laser:tcp -h 127.0.0.1 -p 1",)}, "no answer from laser"),
+    ],
+)
+def test_status_says_what_a_process_lacks_to_be_ready(place: Place, condition: dict[str, Any], why: str) -> None:
+    never = sleeper("a", ready=Readiness(within=0.3, **condition))
+    place.up(never, on_failure=operations.KEEP_GOING)
+    found = place.status(never)["a"]
+    assert json_data.state_in_words(found) == f"running, not ready: {why}"
+    assert not found.is_as_desired
+
+
+def test_one_that_ends_after_it_was_ready_and_is_not_ready_again(place: Place, tmp_path: Path) -> None:
+    once = f"test -e {tmp_path}/once && exec sleep 600; touch {tmp_path}/once; echo up; exit 1"
+    result = place.up(shell("a", once, ready=Readiness(within=1, log="^up$")))
+    (found,) = result.diagnostics
+    assert found.code == "RC7003" and "it ended in the meantime: exit code 1, after 1 restart" in found.message
+
+
 def test_a_running_process_that_is_not_ready_is_reported_by_each_up(place: Place, free_port: Ports) -> None:
     never = sleeper("a", ready=Readiness(port=free_port(), within=0.3))
     place.up(never, sleeper("b"), on_failure=operations.KEEP_GOING)
@@ -109,10 +134,11 @@ def test_ports_that_another_deployment_uses(place: Place, free_port: Ports, tmp_
         "print('up', flush=True); input()"
     )
     mark = f"{tmp_path}/.rcyaml/deployments/Other:arm"
-    with subprocess.Popen(
+    using = subprocess.Popen(
         [sys.executable, "-c", script.format(ports)], env={**os.environ, procfs.MARK: mark},
         stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-    ) as other:  # fmt: skip
+    )  # fmt: skip
+    with killed_on_failure(using) as other:
         assert other.stdin and other.stdout and other.stdout.readline() == b"up\n"
         served = tuple(Endpoint(f"Laser{port}", "laser", port, f"tcp -p {port}") for port in ports)
         (told,) = place.up(sleeper("a", endpoints=served)).diagnostics  # one for both ports

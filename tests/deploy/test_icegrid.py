@@ -7,12 +7,14 @@ import os
 import re
 import shutil
 import signal
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from processes import until
+from robocomp_yaml.deploy.local import procfs
 from three_hosts import Deployment, talking_head
 
 pytestmark = [
@@ -222,7 +224,7 @@ def test_a_halted_component_is_restarted_without_the_registry(talk: Deployment, 
     os.kill(ready["mouth"], signal.SIGSTOP)
 
     def told() -> list[str]:
-        return (talk.state / "status" / "mouth").read_text().split("|")
+        return (talk.state / "status" / "mouth").read_text().splitlines()[0].split("|")
 
     until(lambda: int(told()[2]) not in (0, ready["mouth"]), lambda: "|".join(told()))
     assert told()[6].strip() == "not alive: it does not answer"
@@ -230,6 +232,19 @@ def test_a_halted_component_is_restarted_without_the_registry(talk: Deployment, 
     assert _without(pids, "mouth") == _without(ready, "mouth")
     assert talk.copies("mouth") == 1
     assert "rcyaml: not alive: it does not answer" in talk.logs("mouth")
+
+
+def test_a_killed_watch_is_started_again_and_works(talk: Deployment, ready: dict[str, int]) -> None:
+    script = str(talk.state / "nodes" / talk.status()["mouth"]["host"] / "watch")
+
+    def watches() -> list[int]:
+        return [pid for pid in procfs.pids() if procfs.command(pid)[:2] == ["perl", script]]
+
+    (old,) = watches()
+    os.kill(old, signal.SIGKILL)
+    until(lambda: len(watches()) == 1 and watches() != [old], "the guard starts it again")
+    time.sleep(5)  # one that has not answered yet may be starting: it is given the time to start
+    test_a_halted_component_is_restarted_without_the_registry(talk, ready)
 
 
 def test_a_killed_keeper_is_restarted_and_works(talk: Deployment, ready: dict[str, int]) -> None:

@@ -1,4 +1,4 @@
-"""`rcyaml top` of a network on three hosts: what another host does not say is unknown, also while it is away."""
+"""`rcyaml top` of a network on three hosts: also what processes use there; while a host is away, that is unknown."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from typing import Any
 
 import pytest
 
-from conftest import write_tree
+from robocomp_yaml.deploy.local import procfs
 from terminals import COMMAND
-from three_hosts import Deployment, three_hosts
+from three_hosts import Deployment, talking
 
 pytestmark = [
     pytest.mark.slow,
@@ -33,23 +33,10 @@ Samples = Callable[[Callable[[dict[str, Any]], object]], dict[str, Any]]
 
 @pytest.fixture
 def talk(tmp_path: Path) -> Iterator[Deployment]:
-    pytest.importorskip("IceGrid", reason="Ice for Python is not installed (Debian: python3-zeroc-ice)")
-    with three_hosts() as hosts:
-        talk = Deployment(hosts, tmp_path, {"XDG_STATE_HOME": f"{tmp_path}/own"})
-        write_tree(tmp_path, {
-            "talk.ddsl.yaml": NETWORK.format(**hosts.addresses),
-            "eye/eye.cdsl.yaml": "component: Eye\nlanguage: python\nperiod: 40 ms\n",
-        })  # fmt: skip
-        try:
-            talk.rcyaml("compile")
-            if hosts.prefix:
-                talk.deploy("up", code=1)
-                talk.start_node("head")
-                talk.start_node("arm")
-            talk.deploy("up")
-            yield talk
-        finally:
-            talk.clean_up()
+    with talking(
+        tmp_path, NETWORK, {"eye/eye.cdsl.yaml": "component: Eye\nlanguage: python\nperiod: 40 ms\n"}
+    ) as deployment:
+        yield deployment
 
 
 @pytest.fixture
@@ -84,11 +71,13 @@ def test_hosts(talk: Deployment, samples: Samples) -> None:
     assert found["near"]["memory"] > 1 << 20 and found["near"]["cpu"] is not None
     assert not found["pan"]["is_component"] and found["pan"]["pid"]
     if talk.hosts.prefix:
-        assert found["far"]["memory"] is found["far"]["cpu"] is found["pan"]["memory"] is None
-
+        found = samples(lambda found: found["far"]["cpu"] and found["pan"]["cpu"] is not None)
+        assert found["far"]["cpu"] < 2 and found["far"]["memory"] > found["pan"]["memory"] > 1 << 16
         talk.hosts.link("head", "down")
         try:
             samples(lambda found: found["far"]["worker"] is None and found["far"]["state"] == "lost")
+            found = samples(lambda found: found["pan"]["memory"])
+            assert found["far"]["memory"] is found["far"]["cpu"] is None, "unknown, not 0"
             found = samples(lambda found: found["near"]["worker"])
             assert found["pan"]["pid"] and found["near"]["state"] == "running", "the others are seen all the same"
         finally:
@@ -100,6 +89,13 @@ def test_hosts(talk: Deployment, samples: Samples) -> None:
     for _ in range(4):
         found = samples(lambda found: found["near"]["worker"] and found["near"]["state"] == "running")
     samples(lambda found: not found["problem"] and found["far"]["pid"])
+
+    status = talk.status()
+    for name, least in (("near", 1 << 20), ("far", 1 << 20), ("pan", 1 << 16)):
+        one = status[name]
+        assert least < one["memory"] < 1 << 30 and 0 <= one["cpu"] < 100
+        measured = procfs.memory(procfs.descendants({one["pid"]}, procfs.table()))
+        assert 0.5 * measured < one["memory"] < 2 * measured
 
     document = talk.root / "talk.ddsl.yaml"
     document.write_text(document.read_text() + '  new: {program: sleep, args: ["600"], host: onboard}\n')

@@ -1,4 +1,5 @@
-"""An installed deployment comes up after a power cut: with a real systemd, which is killed and booted again."""
+"""An installed deployment comes up after a power cut: with a real systemd, which is killed and booted again. With units
+of a user and with those of the machine, whose systemd is then the first of its processes."""
 
 from __future__ import annotations
 
@@ -32,13 +33,24 @@ components:
 
 
 class InstalledRobot:
-    def __init__(self, root: Path) -> None:
-        self.machine, self.folder = Machine(root / "home"), root / "the robot%"
+    def __init__(self, root: Path, manager: str = "user") -> None:
+        self.machine, self.folder = Machine(root / "home", manager=manager), root / "the robot%"
         write_tree(self.folder, {"robot.ddsl.yaml": NETWORK})
         self.machine.environment["ROBOT_TOKEN"] = SECRET
 
     def deploy(self, *words: str, code: int | None = 0) -> str:
         return self.machine.rcyaml(*words, cwd=self.folder, code=code)
+
+    def install(self) -> None:
+        """On the machine while it is off; units of the machine are only written while it runs."""
+        if self.machine.manager == "system":
+            self.machine.boot()
+        told = self.deploy("install", f"--{self.machine.manager}")
+        assert "starts at the next boot" not in told or self.machine.manager == "user", told
+
+    def start(self) -> None:
+        if self.machine.manager == "user":
+            self.machine.boot()
 
     def status(self) -> dict[str, dict[str, object]]:
         told, _ = json.JSONDecoder().raw_decode(self.deploy("status", "--format", "json", code=None))
@@ -57,9 +69,10 @@ class InstalledRobot:
 
 
 @pytest.fixture
-def robot(tmp_path: Path) -> Iterator[InstalledRobot]:
+def robot(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[InstalledRobot]:
+    """With units of a user, or of the `MANAGERS` that a test wants."""
     need_systemd()
-    robot = InstalledRobot(tmp_path)
+    robot = InstalledRobot(tmp_path, getattr(request, "param", "user"))
     try:
         yield robot
     finally:
@@ -67,8 +80,15 @@ def robot(tmp_path: Path) -> Iterator[InstalledRobot]:
         kill_left(f"{robot.folder}/.rcyaml/deployments/Robot")
 
 
+MANAGERS = pytest.mark.parametrize("robot", ["user", "system"], indirect=True)
+
+
+@MANAGERS
 def test_it_comes_up_after_a_power_cut_with_its_secrets(robot: InstalledRobot) -> None:
-    robot.deploy("install")
+    robot.install()
+    if robot.machine.manager == "system":
+        robot.until_ready()
+        robot.machine.cut()
     del robot.machine.environment["ROBOT_TOKEN"]  # only the file has it
     for _ in range(2):
         (robot.folder / "token").unlink(missing_ok=True)
@@ -79,12 +99,13 @@ def test_it_comes_up_after_a_power_cut_with_its_secrets(robot: InstalledRobot) -
         assert not (robot.machine.run("pgrep", "-f", str(robot.folder)).stdout.strip())
     for path in (robot.folder / ".rcyaml/deployments/Robot/state/boot").iterdir():
         assert stat.S_IMODE(path.stat().st_mode) == 0o600
-    assert SECRET not in (robot.machine.home / f"config/systemd/user/{UNIT}").read_text()
+    assert SECRET not in (robot.machine.units / UNIT).read_text()
 
 
+@MANAGERS
 def test_what_was_killed_is_started_again_and_what_was_taken_down_is_not(robot: InstalledRobot) -> None:
-    robot.deploy("install")
-    robot.machine.boot()
+    robot.install()
+    robot.start()
     before = robot.until_ready()
     told = robot.machine.run("pgrep", "-f", "robocomp_yaml.deploy.local.supervisor").stdout.split()
     assert told
@@ -112,9 +133,10 @@ def test_a_broken_document_does_not_keep_the_robot_down(robot: InstalledRobot) -
     assert {name: one["ready"] for name, one in robot.status().items()} == {"base": True, "arm": True}
 
 
+@MANAGERS
 def test_systemd_stops_it_in_order(robot: InstalledRobot) -> None:
-    robot.deploy("install")
-    robot.machine.boot()
+    robot.install()
+    robot.start()
     robot.until_ready()
     robot.machine.systemctl("stop", UNIT)
     stopped = [line.split()[0] for line in robot.deploy("logs").splitlines() if "stopped: SIGTERM" in line]
@@ -122,15 +144,16 @@ def test_systemd_stops_it_in_order(robot: InstalledRobot) -> None:
     assert not any(one["pid"] for one in robot.status().values())
 
 
+@MANAGERS
 def test_uninstall_leaves_nothing(robot: InstalledRobot) -> None:
     home = robot.machine.home
-    robot.deploy("install")
-    robot.machine.boot()
+    robot.install()
+    robot.start()
     robot.until_ready()
     robot.deploy("uninstall")
     assert robot.machine.systemctl("list-unit-files", "rcyaml-*").count("rcyaml") == 0
-    left = [path for path in (home / "config").rglob("*") if path.is_file() or path.is_symlink()]
-    assert not [path for path in left if "rcyaml" in path.name]
+    assert not [path for place in ("config", "units") for path in (home / place).rglob("*") if UNIT in path.name]
+    assert not list((home / "units").iterdir())
     assert not list((home / "state").rglob("*.json"))
     assert not (robot.folder / ".rcyaml/deployments/Robot/state/boot").exists()
     assert robot.deploy("uninstall", code=2).strip().endswith("Robot is not installed")

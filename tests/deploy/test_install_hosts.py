@@ -1,11 +1,12 @@
 """An installed deployment on two hosts, each with a systemd of its own in a network of its own: it heals when a host
-boots late, and after a power cut of all hosts nothing but systemd starts it."""
+boots late, and after a power cut of all hosts nothing but systemd starts it. With units of users, and of the machines."""
 
 from __future__ import annotations
 
 import json
 import shutil
 from collections.abc import Iterator
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
@@ -13,14 +14,14 @@ import pytest
 from booted import Machine, need_systemd
 from conftest import write_tree
 from processes import kill_left, until
-from ssh_host import NEEDS_SSHD, ssh_host
+from ssh_host import NEEDS_SSHD, SshHost, prepared, ssh_host
 from three_hosts import three_hosts
 
 NETWORK = """\
 deployment: Robot
 hosts:
-  onboard: {{address: {onboard}}}
-  arm: {{address: {arm}, path: {there}, ssh: {ssh}}}
+  onboard: {{address: {onboard}, systemd: {manager}}}
+  arm: {{address: {arm}, path: {there}, ssh: {ssh}, systemd: {manager}}}
 components:
   base: {{program: sleep, args: ["600"], host: onboard, role: server}}
   gripper: {{program: sleep, args: ["600"], cwd: ., host: arm, role: server, env: {{TOKEN: {{env: ROBOT_TOKEN}}}}}}
@@ -50,31 +51,57 @@ class Robot:
         ) + self.deploy("status", code=None)
 
 
-@pytest.fixture
-def robot(tmp_path: Path) -> Iterator[Robot]:
+@pytest.fixture(params=["user", "system"])
+def robot(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Robot]:
+    """Not running, and installed."""
     need_systemd()
     pytest.importorskip("IceGrid", reason="Ice for Python is not installed (Debian: python3-zeroc-ice)")
-    with three_hosts() as hosts:
+    manager = request.param
+    with three_hosts() as hosts, ExitStack() as stack:
         hosts.need_a_network("so every host would be this machine")
         # Not by `ip netns exec`, which hides the control groups that systemd needs.
         inside = {name: ["nsenter", f"--net=/run/netns/{hosts.prefix}{name}"] for name in ("onboard", "arm")}
-        with ssh_host(tmp_path / "arm", hosts.addresses["arm"], inside["arm"]) as host:
-            folder, there = tmp_path / "robot", tmp_path / "there"
-            there.mkdir()
-            write_tree(folder, {"robot.ddsl.yaml": NETWORK.format(**hosts.addresses, ssh=host.ssh, there=there)})
-            machines = Machine(tmp_path / "onboard", inside["onboard"]), Machine(tmp_path / "arm", inside["arm"])
-            machines[0].environment["ROBOT_TOKEN"] = "a secret"
-            try:
-                yield Robot(folder, *machines, there)
-            finally:
-                for machine in machines:
-                    machine.cut()
-                for place in (folder, there):
-                    kill_left(f"{place}/.rcyaml/deployments/Robot")
+        place, address = tmp_path / "arm", hosts.addresses["arm"]
+        if manager == "user":
+            host = stack.enter_context(ssh_host(place, address, inside["arm"]))
+        else:
+            host = prepared(place, address)
+        folder, there = tmp_path / "robot", tmp_path / "there"
+        there.mkdir()
+        document = NETWORK.format(**hosts.addresses, ssh=host.ssh, there=there, manager=manager)
+        write_tree(folder, {"robot.ddsl.yaml": document})
+        onboard, arm = Machine(tmp_path / "onboard", inside["onboard"], manager), Machine(place, inside["arm"], manager)
+        onboard.environment["ROBOT_TOKEN"] = "a secret"
+        robot = Robot(folder, onboard, arm, there)
+        try:
+            if manager == "system":  # over ssh, the machine itself is reached, which therefore must run
+                _serve(arm, host)
+                onboard.boot()
+                arm.boot()
+                until((host.folder / "pid").exists, robot.why)
+                robot.deploy("install")
+                until(lambda: robot.ready() == {"base", "gripper"}, robot.why)
+                arm.cut()
+                onboard.cut()
+            else:
+                robot.deploy("install")
+            yield robot
+        finally:
+            for machine in (onboard, arm):
+                machine.cut()
+            for path in (folder, there):
+                kill_left(f"{path}/.rcyaml/deployments/Robot")
+
+
+def _serve(machine: Machine, host: SshHost) -> None:
+    """Lets the machine start its ssh server when it boots."""
+    unit = f"[Service]\nType=exec\nRuntimeDirectory=sshd\nExecStart={' '.join(host.command)}\n"
+    write_tree(machine.units, {"ssh.service": unit})
+    (machine.units / "multi-user.target.wants").mkdir()
+    (machine.units / "multi-user.target.wants" / "ssh.service").symlink_to("../ssh.service")
 
 
 def test_hosts_that_boot_in_any_order(robot: Robot) -> None:
-    robot.deploy("install")
     robot.onboard.boot()
     until(lambda: robot.ready() == {"base"}, robot.why)
     robot.arm.boot()
@@ -96,4 +123,5 @@ def test_hosts_that_boot_in_any_order(robot: Robot) -> None:
     for place in (robot.folder, robot.there):
         assert not list(place.rglob("key.pem"))
         assert not list(place.rglob("environment"))
-    assert not list((robot.arm.home / "config").rglob("rcyaml-*"))
+    for machine in (robot.onboard, robot.arm):
+        assert not list(machine.units.rglob("rcyaml-*"))

@@ -26,6 +26,7 @@ components:
     program: python3
     args: [-c, "bytearray(300_000_000)"]
     limits: {memory: 100 MB}
+    ready: {log: never, within: 60 s}
     restart: "no"
     enabled: false
 """

@@ -91,6 +91,20 @@ def test_a_process_of_the_document_here_goes_first(
     assert len(_status(rcyaml, "../robot.ddsl.yaml")) == 2
 
 
+def test_a_deployment_here_has_its_name_also_when_it_does_not_run(
+    robot: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("One", "Two"):
+        write_tree(robot, {f"other/{name}.ddsl.yaml": DOCUMENT.format(name=name)})
+    monkeypatch.chdir(robot / "other")
+    assert "base     not started" in rcyaml("deploy", "status", "Two", "base").stdout
+    assert rcyaml("deploy", "down", "One").stdout == "One: nothing was running\n"
+    assert rcyaml("deploy", "status", "Three").exit_code == 2
+    write_tree(robot, {"other/three.ddsl.yaml": DOCUMENT.format(name="Two")})
+    refused = rcyaml("deploy", "status", "Two")
+    assert refused.exit_code == 2 and "several deployments" in refused.stderr, refused.stderr
+
+
 def test_two_of_the_same_name(robot: Path, rcyaml: Rcyaml) -> None:
     write_tree(robot, {"copy/robot.ddsl.yaml": DOCUMENT.format(name="Robot")})
     assert rcyaml("deploy", "up", f"{robot}/copy/robot.ddsl.yaml").exit_code == 0

@@ -111,13 +111,15 @@ def robot(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 
 def read_events(response: HTTPResponse, kind: str) -> Iterator[Any]:
-    """The data of the events of a kind."""
-    last = ""
+    """The data of the events of a kind. Fails if the next one takes a minute: others may come all the time."""
+    last, until = "", time.monotonic() + 60
     while line := response.readline().decode():
+        assert time.monotonic() < until, f"no event {kind}"
         if line.startswith("event: "):
             last = line[7:].strip()
         if line.startswith("data: ") and last == kind:
             yield json.loads(line[6:])
+            until = time.monotonic() + 60
 
 
 def test_a_network_is_planned_started_watched_and_stopped(robot: Path) -> None:
@@ -137,8 +139,9 @@ def test_a_network_is_planned_started_watched_and_stopped(robot: Path) -> None:
         os.kill(pid, signal.SIGKILL)
         began = time.monotonic()
         told = next(found for found in happened if found["name"] == "camera" and "SIGKILL" in found["text"])
-        assert "started again" in told["text"]
         assert time.monotonic() - began < 5  # one second on a machine that does nothing else
+        if "started again" not in told["text"]:  # it was seen while it waited
+            next(found for found in happened if found["name"] == "camera" and "started again" in found["text"])
 
         assert one.robot("plan?action=down&name=base")[1]["stop"] == ["base", "arm"]
         restarts = one.robot("plan?action=restart&name=camera")[1]["plan"]
@@ -237,11 +240,11 @@ def test_rights_hold_for_every_command(robot: Path, option: str, rights: tuple[s
     with manager(robot, option) as one:
         paths = one.ask("/api/openapi.json")[1]["paths"]
         changing = [path for path, methods in paths.items() if "post" in methods]
-        assert len(changing) > 8
+        assert len(changing) > 12
         for path in changing:
-            is_operation = paths[path]["post"]["tags"] == ["operate"]
+            (right,) = paths[path]["post"]["tags"]
             status, answer = one.ask(path.replace("{deployment}", "Robot"), {"nonsense": 1})
-            assert status == (400 if is_operation and rights else 403), (path, answer)
+            assert status == (400 if right == "read" or (right == "operate" and rights) else 403), (path, answer)
         assert one.robot("document")[0] == 200
         for right in rights:
             assert one.robot(right, {})[0] == 200

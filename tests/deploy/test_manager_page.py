@@ -3,69 +3,21 @@
 from __future__ import annotations
 
 import os
-import shutil
 import signal
-from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from processes import until
-from test_manager import Manager, manager, robot
+from test_manager import manager, robot
 
-__all__ = ["robot"]
-
-pytest.importorskip("rcyaml_manager", reason="the page is not built: pip install ./web")
 pytest.importorskip("playwright", reason="pip install playwright")
 
-from playwright.sync_api import ConsoleMessage, Page, expect, sync_playwright
+from playwright.sync_api import expect
 
-BROWSER = shutil.which("chromium")
-if BROWSER is None:
-    pytest.skip("Chromium is not installed: apt install chromium", allow_module_level=True)
+from manager_pages import Open, browser, drag, item, middle, page, pixels, under
 
-Open = Callable[[Manager], Page]
-
-
-@pytest.fixture
-def page() -> Iterator[Open]:
-    """Opens the page of a manager. Nothing may be wrong in the browser's console, and nobody else may be asked."""
-    wrong: list[str] = []
-    asked: set[str] = set()
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=BROWSER, args=["--no-sandbox", "--disable-gpu"])
-
-        def is_wrong(message: ConsoleMessage) -> bool:
-            """Not that the manager ended, or refused something: that is shown in the page."""
-            return message.type == "error" and not message.text.startswith("Failed to load resource")
-
-        def opened(one: Manager) -> Page:
-            made = browser.new_page(viewport={"width": 1300, "height": 800})
-            made.on("console", lambda message: wrong.append(message.text) if is_wrong(message) else None)
-            made.on("pageerror", lambda error: wrong.append(str(error)))
-            made.on("request", lambda request: asked.add(request.url.split("/")[2]))
-            made.goto(f"http://127.0.0.1:{one.port}/?token={one.token}")
-            expect(item(made, "base")).to_be_visible()
-            return made
-
-        yield opened
-        browser.close()
-    assert wrong == []
-    assert all(host.startswith("127.0.0.1:") for host in asked)
-
-
-def item(page: Page, name: str) -> Any:
-    return page.get_by_role("treeitem", name=name)
-
-
-def pixels(page: Page) -> list[int]:
-    """The picture as it was drawn: every 97th byte of it."""
-    found: list[int] = page.evaluate(
-        "() => { const c = document.getElementById('picture');"
-        "return [...c.getContext('2d').getImageData(0, 0, c.width, c.height).data].filter((_, at) => at % 97 === 0) }"
-    )
-    return found
+__all__ = ["browser", "page", "robot"]
 
 
 def test_the_network_is_started_and_seen(robot: Path, page: Open) -> None:
@@ -105,7 +57,7 @@ def test_the_keyboard_reaches_everything(robot: Path, page: Open) -> None:
     with manager(robot) as one:
         shown = page(one)
         shown.get_by_role("treeitem", name="this machine").focus()
-        for key in ("ArrowDown", "ArrowDown", "Enter"):
+        for key in ("ArrowDown", "ArrowDown", "ArrowDown", "ArrowDown", "Enter"):
             shown.keyboard.press(key)
         expect(shown.get_by_role("heading", name="camera")).to_be_visible()
         expect(item(shown, "camera")).to_have_attribute("aria-selected", "true")
@@ -116,37 +68,29 @@ def test_the_keyboard_reaches_everything(robot: Path, page: Open) -> None:
         for key in ("ArrowRight", "End", "Escape"):
             shown.keyboard.press(key)
         expect(shown.get_by_role("complementary")).to_be_hidden()
-        assert shown.evaluate("document.activeElement.dataset.name") == "arm"
+        assert shown.evaluate("document.activeElement.dataset.name") == "camera"
 
 
 def test_the_picture_is_moved_and_clicked(robot: Path, page: Open) -> None:
     with manager(robot) as one:
         shown = page(one)
         shown.wait_for_timeout(300)
-        place = shown.locator("canvas").bounding_box()
-        assert place is not None
-
-        def middle(name: str) -> tuple[float, float]:
-            x, y = shown.evaluate(
-                "(name) => { const n = model.nodes.get(name);"
-                "return [scene.x + (n.x + n.width / 2) * scene.zoom, scene.y + (n.y + n.height / 2) * scene.zoom] }",
-                name,
-            )
-            return place["x"] + x, place["y"] + y
-
-        was, before = middle("arm"), pixels(shown)
-        shown.mouse.move(place["x"] + 20, place["y"] + 20)
-        shown.mouse.down()
-        shown.mouse.move(place["x"] + 80, place["y"] + 50, steps=5)
-        shown.mouse.up()
-        now = middle("arm")
+        was, before = middle(shown, "arm"), pixels(shown)
+        assert under(shown, *was) == "arm"
+        corner = shown.locator("canvas").bounding_box()
+        assert corner is not None
+        begin = corner["x"] + 20, corner["y"] + 20
+        assert under(shown, *begin) == ""
+        drag(shown, begin, (begin[0] + 60, begin[1] + 30))
+        now = middle(shown, "arm")
         assert (round(now[0] - was[0]), round(now[1] - was[1])) == (60, 30)
         until(lambda: pixels(shown) != before, "the view moves")
+        assert under(shown, *now) == "arm"
         shown.mouse.move(*now)
         zoom = shown.evaluate("scene.zoom")
         shown.mouse.wheel(0, -300)
         until(lambda: shown.evaluate("scene.zoom") > zoom, "the view grows")
-        shown.mouse.click(*middle("arm"))
+        shown.mouse.click(*middle(shown, "arm"))
         expect(shown.get_by_role("heading", name="arm")).to_be_visible()
 
 

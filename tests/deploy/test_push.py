@@ -15,6 +15,7 @@ import pytest
 
 from conftest import write_tree
 from ssh_host import NEEDS_SSHD, SshHost, ssh_host
+from three_hosts import three_hosts
 
 NETWORK = """\
 deployment: Robot
@@ -185,3 +186,69 @@ def test_hosts_that_ssh_does_not_reach(robot: Robot, change: tuple[str, str], re
         assert code in told
         assert reason in told
         assert hint in told
+
+
+def test_through_a_jump_host(tmp_path: Path) -> None:
+    """Two real servers in network namespaces: only the first one reaches the second one, where the files go."""
+    with three_hosts() as hosts:
+        hosts.need_a_network("so nothing that only another host reaches")
+        prefix, jump_at, target_at = hosts.prefix, hosts.addresses["head"], "10.97.0.3"
+        for host, address in (("head", "10.97.0.2/24"), ("arm", f"{target_at}/24")):
+            assert hosts.run(host, ["ip", "address", "add", address, "dev", "eth0"]).returncode == 0
+        inside = {host: ["ip", "netns", "exec", f"{prefix}{host}"] for host in ("head", "arm")}
+        with (
+            ssh_host(tmp_path / "jump", jump_at, inside["head"]) as jump,
+            ssh_host(tmp_path / "target", target_at, inside["arm"]) as target,
+        ):
+            shutil.copy(target.folder / "key.pub", jump.folder / "key.pub")
+            known = target.folder / "known_hosts"
+            known.write_text(known.read_text() + (jump.folder / "known_hosts").read_text())
+            robot, by_jump = (
+                Robot(tmp_path / "here", target),
+                f"{target.ssh[:-1]}, jump: 'root@{jump_at}:{jump.port}'}}",
+            )
+
+            def rcyaml(*words: str, code: int = 0) -> str:
+                done = hosts.run(
+                    "onboard", [sys.executable, "-m", "robocomp_yaml", "deploy", *words], cwd=robot.root,
+                    env={"XDG_STATE_HOME": str(tmp_path / "state")},
+                )  # fmt: skip
+                assert done.returncode == code, done.stdout + done.stderr
+                return done.stdout + done.stderr
+
+            robot.change("address: 127.0.0.1", f"address: {target_at}", "robot.ddsl.yaml")
+            assert "cannot" in rcyaml("push", code=1), "nobody reaches it directly"
+            robot.change(target.ssh, by_jump)
+            said = rcyaml("push")
+            assert "sent 2 files" in said and robot.files() == {"grip", "tools/see"}, said
+            assert "nothing to send" in rcyaml("push")
+            assert "grip" in rcyaml("probe")
+            assert jump.logins and target.logins
+
+            robot.change(f":{jump.port}'", ":1'")
+            assert "or by the jump host on the way" in rcyaml("push", code=1)
+
+
+@pytest.mark.skipif(shutil.which("cc") is None, reason="there is no C compiler (Debian: gcc)")
+def test_shared_libraries_of_the_workspace_come_along(robot: Robot) -> None:
+    """Also the library of a library; what nothing needs any more is deleted."""
+    write_tree(robot.root, {
+        "lib/inner.c": "int inner(void) { return 4; }\n",
+        "lib/outer.c": "int inner(void); int outer(void) { return inner(); }\n",
+        "main.c": "int outer(void); int main(void) { return outer(); }\n",
+    })  # fmt: skip
+
+    def build(*words: str) -> None:
+        subprocess.run(["cc", *words], cwd=robot.root, check=True)
+
+    build("-shared", "-fPIC", "lib/inner.c", "-o", "lib/libinner.so.1", "-Wl,-soname,libinner.so.1")
+    build("-shared", "-fPIC", "lib/outer.c", "lib/libinner.so.1", "-o", "lib/libouter.so",
+          "-Wl,-soname,libouter.so,-rpath,$ORIGIN")  # fmt: skip
+    build("main.c", "lib/libouter.so", "-o", "grip", "-Wl,-rpath,$ORIGIN/lib", "-Wl,--allow-shlib-undefined")
+    robot.rcyaml("push")
+    assert robot.files() == {"grip", "tools/see", "lib/libouter.so", "lib/libinner.so.1"}
+    assert subprocess.run([robot.there / "grip"], check=False).returncode == 4
+    assert "nothing to send" in robot.rcyaml("push")
+    (robot.root / "grip").write_text(SCRIPT)
+    robot.rcyaml("push")
+    assert robot.files() == {"grip", "tools/see"}

@@ -133,3 +133,26 @@ def test_components_of_an_earlier_version_answer_pings(place: Place, free_port: 
     found = place.status(old)["old"]
     assert found.is_ready and found.own is None
     assert place.down() == ["old"]
+
+
+def test_two_that_wait_for_each_other(tmp_path: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}")
+    (tmp_path / "Talk.idsl.yaml").write_text(
+        "module: RoboCompTalk\ninterfaces: {Ear: {methods: {hear: {}}}, Voice: {methods: {say: {}}}}\n"
+    )
+    for name, serves, needs in (("ear", "Ear", "Voice"), ("voice", "Voice", "Ear")):
+        (tmp_path / name).mkdir()
+        document = f"component: {serves}Comp\nlanguage: python\nimports: [../Talk]\nimplements: [{serves}]\n"
+        (tmp_path / name / f"{name}.cdsl.yaml").write_text(f"{document}requires: [{needs}]\n")
+    (tmp_path / "robot.ddsl.yaml").write_text(
+        "deployment: Robot\ncomponents: {ear: {component: ear, ready: 20 s}, voice: {component: voice, ready: 20 s}}\n"
+    )
+    assert rcyaml("compile", ".").exit_code == 0
+    try:
+        up = rcyaml("deploy", "up", "robot.ddsl.yaml")
+        assert up.exit_code == 0 and "RC4401" in up.output, up.output
+        again = rcyaml("deploy", "restart", "robot.ddsl.yaml")
+        assert again.exit_code == 0, again.output
+        assert rcyaml("deploy", "status", "robot.ddsl.yaml").exit_code == 0
+    finally:
+        rcyaml("deploy", "down", "robot.ddsl.yaml")

@@ -19,11 +19,12 @@ import pytest
 from processes import Ports, until
 from robocomp_yaml import resources
 from robocomp_yaml.deploy.icegrid.descriptors import alive_rule
-from robocomp_yaml.deploy.icegrid.status import RunStatus, of_text
+from robocomp_yaml.deploy.icegrid.status import MeasuredUse, RunStatus, of_text
 from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.network.network import AUTO, FOREVER, Liveness, Process
 
 SCRIPT = Path(resources.folder("templates")) / "icegrid" / "run"
+WATCH = SCRIPT.with_name("watch")
 ONCE = "1 no 10 100 5 60000"
 
 
@@ -65,9 +66,14 @@ class Runner:
     @property
     def told(self) -> tuple[str, str, int]:
         """Its state, how its last run ended, and the number of restarts."""
-        last = of_text((self.folder / "state" / "icegrid" / "status" / "arm").read_text())
+        last = self.status
         assert last
         return last.state, last.last_exit, last.restarts
+
+    @property
+    def status(self) -> RunStatus | None:
+        path = self.folder / "state" / "icegrid" / "status" / "arm"
+        return of_text(path.read_text()) if path.exists() else None
 
 
 @pytest.fixture
@@ -329,7 +335,7 @@ AGAIN = "1 on-failure 10 100 5 60000"
 
 @dataclass
 class Asked:
-    """A server of Ice that `run` asks whether it is alive."""
+    """A server of Ice that `watch` asks whether it is alive."""
 
     runner: Runner
     port: int
@@ -337,14 +343,22 @@ class Asked:
     def start(self, facet: str = "facet", rule: str = AGAIN, **alive: Any) -> int:
         """Starts it; returns its pid."""
         pytest.importorskip("Ice", reason="Ice's Python module is not installed")
-        proxy = f"commonbehavior:tcp -h 127.0.0.1 -p {self.port}"
-        process = Process("arm", "here", (), "", alive=Liveness(proxy, **{"every": 0.3, "within": 0.5, **alive}))
         slice_ = str(SCRIPT.parents[1] / "slice" / "RcYaml.ice")
         words = (f"={sys.executable}", "=-c", f"={SERVER}", f"={self.port}", f"={slice_}", f"={facet}")
-        self.runner.start(*words, rule=rule, RCYAML_ALIVE=alive_rule(process), RCYAML_PORTS=str(self.port))
+        is_asked = alive.pop("is_asked", True)
+        asked = self.rule(**alive) if is_asked else ""
+        self.runner.start(*words, rule=rule, RCYAML_ALIVE=asked, RCYAML_PORTS=str(self.port))
+        watch = ["perl", str(WATCH), str(self.runner.folder), str(os.getpid())]
+        self.runner.started.append(subprocess.Popen(watch))
         pid = self.runner.said_pid()
         time.sleep(1)  # it has answered once
         return pid
+
+    def rule(self, **alive: Any) -> str:
+        proxy = f"commonbehavior:tcp -h 127.0.0.1 -p {self.port}"
+        return alive_rule(
+            Process("arm", "here", (), "", alive=Liveness(proxy, **{"every": 0.3, "within": 0.5, **alive}))
+        )
 
     @property
     def status(self) -> RunStatus:
@@ -433,6 +447,16 @@ def test_a_newer_rule_applies_at_once(asked: Asked) -> None:
     assert not asked.status.not_alive and asked.status.pid == pid
 
 
+def test_a_newer_rule_switches_it_on(asked: Asked) -> None:
+    pid = asked.start(is_asked=False)
+    rules = asked.runner.folder / "state" / "icegrid" / "rules"
+    rules.mkdir(parents=True)
+    (rules / "arm").write_text(f"2{AGAIN[1:]}\n{asked.rule()}\n")
+    time.sleep(6)  # it has answered once
+    os.kill(pid, signal.SIGSTOP)
+    until(lambda: asked.status.restarts == 1, lambda: asked.runner.log)
+
+
 def test_a_restart_waits_for_its_port(asked: Asked) -> None:
     with socket.socket() as thief:
         thief.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
@@ -452,8 +476,45 @@ def test_nothing_of_it_is_left(asked: Asked) -> None:
     runner = asked.runner.started[0]
 
     def scripts() -> list[int]:
-        return [pid for pid in procfs.pids() if str(asked.runner.folder) in procfs.command(pid)]
+        commands = {pid: procfs.command(pid) for pid in procfs.pids()}
+        return [pid for pid, words in commands.items() if {str(SCRIPT), str(asked.runner.folder)} <= set(words)]
 
     assert len(scripts()) > 1
     runner.kill()
     until(lambda: not scripts(), lambda: str([procfs.command(pid) for pid in scripts()]))
+
+
+def test_what_a_process_uses_is_measured_on_request(runner: Runner) -> None:
+    burner = "import os, sys; big = b'x' * (40 << 20); os.fork(); print('it is', os.getpid())\nwhile True: pass"
+    runner.start(f"={sys.executable}", "=-uc", f"={burner}")
+    until(lambda: (last := runner.status) and last.state == "running" and "it is" in runner.log, "it runs")
+    assert runner.status and runner.status.use is None
+    pid = runner.status.pid
+
+    def measured() -> MeasuredUse:
+        before = runner.status and runner.status.use
+        runner.started[0].send_signal(signal.SIGCONT)
+        until(lambda: runner.status and runner.status.use and runner.status.use != before, "it is measured")
+        assert runner.status and runner.status.use
+        return runner.status.use
+
+    first = measured()
+    family = procfs.descendants({pid}, procfs.table())
+    assert len(family) == 2 and first.pid == pid
+    assert 0.8 * procfs.memory(family) < first.memory < 1.2 * procfs.memory(family) and first.memory > 80 << 20
+    until(lambda: measured().cpu > first.cpu + 0.1, "it uses the CPU")
+    alive = procfs.table()
+    assert abs(measured().cpu - sum(alive[one].cpu for one in family)) < 2
+    os.kill(pid, signal.SIGKILL)
+    assert runner.started[0].wait(20) == 0
+    assert runner.told[:2] == ("given up", "SIGKILL")
+
+
+def test_measuring_does_not_change_how_a_process_ends(runner: Runner) -> None:
+    """The signal interrupts the wait for the process."""
+    script = runner.start("=bash", "=-c", "=sleep 0.5; exit 7")
+    until(lambda: runner.status and runner.status.state == "running", "it runs")
+    while script.poll() is None:
+        script.send_signal(signal.SIGCONT)
+        time.sleep(0.002)
+    assert runner.told == ("given up", "exit code 7", 0)

@@ -12,6 +12,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -60,6 +61,14 @@ OTHERS = {
     "words/teller/src/specificworker.py": TELLER,
     "words/hearer/src/specificworker.py": HEARER.replace('os.environ["GREETING"]', '"nothing"'),
 }
+RECORDER = """\
+import socket, sys
+raw = socket.socket(socket.AF_PACKET, socket.SOCK_RAW, socket.htons(3))
+print("recording", flush=True)
+with open(sys.argv[1], "wb", buffering=0) as file:
+    while True:
+        file.write(raw.recv(1 << 16))
+"""
 SLICE = ROOT / "templates" / "slice" / "CommonBehavior.ice"
 NOBODY = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"]
 PORTS = {"mouth": ("arm", 10002), "speech": ("onboard", 10004), "hearer": ("arm", 10006), "teller": ("head", 10007)}
@@ -85,11 +94,12 @@ class Table:
 
     def call(
         self, process: str, operation: str, source: str = "", token: str = "", user: list[str] | None = None,
-        tls: dict[str, str] | None = None, protocol: str = "",
+        tls: dict[str, str] | None = None, protocol: str = "", address: str = "",
     ) -> str:  # fmt: skip
-        """What came of a call of CommonBehavior, from a host (its own, without `source`)."""
+        """What came of a call of CommonBehavior, from a host (its own, without `source`), at an address (its own)."""
         host, port = PORTS[process]
-        proxy = f"commonbehavior:{protocol or self.protocol} -h {self.talk.hosts.addresses[host]} -p {port}"
+        at = address or self.talk.hosts.addresses[host]
+        proxy = f'commonbehavior:{protocol or self.protocol} -h "{at}" -p {port}'
         command = [*(user or ()), sys.executable, control_client.__file__, str(SLICE), proxy, operation, token]
         command += [f"{key}={value}" for key, value in (tls or {}).items()]
         done = self.talk.hosts.run(source or host, command)
@@ -223,6 +233,61 @@ def test_tls_what_stays_plain_is_told_by_plan(tls: Table) -> None:
     said = tls.talk.deploy("plan")
     assert "'other' stays plain under `security: tls`: it is a program" in said and "RC4114" in said
     assert "nothing to do" in said
+
+
+# The network: what is sent there, and a second network of the hosts.
+
+
+@contextmanager
+def captured(table: Table, host: str, path: Path) -> Iterator[list[bytes]]:
+    """All that a host sends and receives meanwhile, in one element at the end."""
+    hosts, found = table.talk.hosts, list[bytes]()
+    with hosts.begin(host, [sys.executable, "-c", RECORDER, str(path)]) as recorder:
+        try:
+            assert recorder.stdout is not None and recorder.stdout.readline() == "recording\n"
+            yield found
+            time.sleep(0.3)
+        finally:
+            recorder.terminate()
+    found.append(path.read_bytes())
+
+
+@pytest.mark.parametrize("name", ["plain", "tls"])
+def test_what_is_sent_between_hosts(name: str, request: pytest.FixtureRequest, tmp_path: Path) -> None:
+    """Plain, everybody on the way reads all except the token; with TLS, nothing."""
+    table: Table = request.getfixturevalue(name)
+    talk, own = table.talk, ("--deployment", "talk.ddsl.yaml")
+    rcyaml = [sys.executable, "-m", "robocomp_yaml"]
+    with captured(table, "head", tmp_path / "sent") as sent:
+        words = ["call", *own, "speech.say", "text=a-canary-of-ours", "overwrite=true"]
+        said = talk.hosts.run("head", [*rcyaml, *words], cwd=talk.root, env=talk.environment)
+        assert "returns: true" in said.stdout, said.stderr
+        before = len(talk.logs("hearer"))
+        until(lambda: len(talk.logs("hearer")) > before, lambda: talk.logs("hearer"))
+        for process in ("teller", "speech"):
+            talk.rcyaml("param", "set", *own, process, "period.compute", "90", code=None)
+    readable = [word for word in (b"a-canary-of-ours", b"speech", b"say", b"word") if word in sent[0]]
+    assert readable == ([] if name == "tls" else [b"a-canary-of-ours", b"speech", b"say", b"word"])
+    assert table.token.encode() not in sent[0] and len(sent[0]) > 2000
+
+
+@pytest.mark.parametrize("name", ["plain", "tls"])
+def test_on_another_network_of_a_host_nobody_answers(name: str, request: pytest.FixtureRequest) -> None:
+    table: Table = request.getfixturevalue(name)
+    tls = table.certificate if name == "tls" else None
+    second = {"arm": ["10.98.0.3", "fd98::3"], "head": ["10.98.0.2", "fd98::2"]}
+    hosts = table.talk.hosts
+    for host, addresses in second.items():
+        for address in addresses:
+            length = "64" if ":" in address else "24"
+            words = ["ip", "address", "replace", f"{address}/{length}", "dev", "eth0"]
+            assert hosts.run(host, [*words, *(["nodad"] if ":" in address else [])]).returncode == 0
+    for process in ("mouth", "hearer"):
+        assert table.call(process, "getPeriod", "head", tls=tls).startswith("ok")
+        for address in second["arm"]:
+            for source in ("head", "arm"):
+                said = table.call(process, "getPeriod", source, tls=tls, address=address)
+                assert "ConnectionRefused" in said, (process, address, said)
 
 
 # Files: another user reads nothing, and nothing listens beyond the addresses of the document.

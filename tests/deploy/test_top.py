@@ -173,7 +173,7 @@ def test_wrong_usage(robot: Path, rcyaml: Rcyaml, words: list[str], said: str) -
 def test_nothing_here_and_nothing_runs(tmp_path: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "none"))
     done = rcyaml("top")
-    assert done.exit_code == 2 and "no deployment document here, and no deployment runs" in done.output
+    assert done.exit_code == 2 and "this folder has no deployment document, and no deployment runs" in done.output
 
 
 def test_a_process_dies_another_appears_and_all_end(robot: Path, rcyaml: Rcyaml, place: Place) -> None:

@@ -145,7 +145,9 @@ def sampled(rcyaml: Rcyaml) -> dict[str, Any]:
         pytest.param("python", "none", id="python"),
         pytest.param("python", "tls", id="over TLS"),
         pytest.param("cpp", "none", id="cpp", marks=[pytest.mark.slow, needs_cpp]),
+        pytest.param("cpp", "tls", id="cpp over TLS", marks=[pytest.mark.slow, needs_cpp]),
         pytest.param("java", "none", id="java", marks=[pytest.mark.slow, needs_java]),
+        pytest.param("java", "tls", id="java over TLS", marks=[pytest.mark.slow, needs_java]),
     ],
 )
 def test_what_a_component_says(

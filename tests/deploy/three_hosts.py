@@ -48,7 +48,7 @@ class Hosts:
         """The result of a command on a host."""
         how["env"] = self._environment(how.get("env", {}))
         inside = self._inside(host)
-        return subprocess.run([*inside, *command], capture_output=True, text=True, check=False, timeout=60, **how)
+        return subprocess.run([*inside, *command], capture_output=True, text=True, check=False, timeout=240, **how)
 
     def begin(self, host: str, command: list[str], **how: Any) -> subprocess.Popen[str]:
         """A running command on a host, with its output in a pipe."""
@@ -136,6 +136,27 @@ def talking_head(
             deployment.rcyaml("compile")
             if hosts.prefix:
                 start_nodes(deployment)
+            deployment.deploy("up")
+            yield deployment
+        finally:
+            deployment.clean_up()
+
+
+@contextmanager
+def talking(root: Path, network: str, others: Mapping[str, str]) -> Iterator[Deployment]:
+    """A network of programs, and of the components that the files `others` hold, up on three hosts; it keeps the
+    user's state in its own folder."""
+    pytest.importorskip("IceGrid", reason="Ice for Python is not installed (Debian: python3-zeroc-ice)")
+    with three_hosts() as hosts:
+        deployment = Deployment(hosts, root, {"XDG_STATE_HOME": f"{root}/own"})
+        write_tree(root, {"talk.ddsl.yaml": network.format(**hosts.addresses), **others})
+        try:
+            if any(name.endswith("cdsl.yaml") for name in others):
+                deployment.rcyaml("compile")
+            if hosts.prefix:
+                deployment.deploy("up", code=1)
+                deployment.start_node("head")
+                deployment.start_node("arm")
             deployment.deploy("up")
             yield deployment
         finally:

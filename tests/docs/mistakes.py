@@ -178,6 +178,64 @@ class SpecificWorker(GenericWorker):
     def Camera_getImage(self, width: int, height: int) -> str:
         return " " * width * height
 """,
+    "ear/ear.cdsl.yaml": """\
+component: EarComp
+language: java
+imports: [Speech, Mouth]
+requires: [Speech]
+publishes: [MouthEvents]
+""",
+    "ear/ear.pdsl.yaml": """\
+component: ear.cdsl.yaml
+parameters:
+  loudness: {type: float, range: [0, 1], default: 0.5, editable: true}
+  mode: {type: string, values: [near, far], default: near}
+""",
+    "ear/src/SpecificWorker.java": """\
+import generated.GenericWorker;
+import slice.RoboCompMouth.Pose;
+import slice.RoboCompMouth.Shape;
+
+public class SpecificWorker extends GenericWorker {
+    @Override
+    public void initialize() throws Exception {
+        parameters.setLoudness(0.7f);
+    }
+
+    @Override
+    public void compute() throws Exception {
+        if (parameters.loudness() > 0.6f) {
+            speech_proxy.say("hello", 5);
+        }
+        mouthevents_pubproxy.moved(new Pose(1, 2, Shape.round));
+    }
+}
+""",
+    "nose/nose.cdsl.yaml": """\
+component: NoseComp
+language: java
+imports: [Camera]
+implements: [Camera]
+""",
+    "nose/src/SpecificWorker.java": """\
+import generated.GenericWorker;
+
+public class SpecificWorker extends GenericWorker {
+    @Override
+    public void initialize() throws Exception {
+        log.info("smells");
+    }
+
+    @Override
+    public void compute() throws Exception {
+    }
+
+    @Override
+    public String Camera_getImage(int width, int height) {
+        return " ".repeat(width * height);
+    }
+}
+""",
     "head.ddsl.yaml": """\
 deployment: Head
 components:
@@ -204,6 +262,8 @@ class Mistake:
 
 SPEECH, MOUTH, HEAD = "speech/speech.cdsl.yaml", "mouth/mouth.cdsl.yaml", "head.ddsl.yaml"
 WORKER, HEADER, SOURCE = "speech/src/specificworker.py", "mouth/src/specificworker.h", "mouth/src/specificworker.cpp"
+EAR, EAR_CODE = "ear/ear.cdsl.yaml", "ear/src/SpecificWorker.java"
+NOSE_CODE = "nose/src/SpecificWorker.java"
 I_MOUTH, I_SPEECH = "interfaces/Mouth.idsl.yaml", "interfaces/Speech.idsl.yaml"
 PROGRAM = "mouth/bin/MouthComp"
 I_CAMERA = "interfaces/Camera.idsl.yaml"
@@ -231,8 +291,24 @@ MISTAKES = [
     one(CREATING, "a method of the worker whose name has a typing error, in Python", WORKER, "def Speech_stop", "def Speech_stopp", "RC6312", f"{WORKER}:23:9"),
     one(CREATING, "a method of the worker whose name has a typing error, in C++", SOURCE, "SpecificWorker::Mouth_close", "SpecificWorker::Mouth_clsoe", "RC6312", f"{SOURCE}:21:22"),
     one(CREATING, "an attribute of the worker that does not exist", WORKER, "self.log.info(\"%s\"", "self.logger.info(\"%s\"", "RC6316", f"{WORKER}:27:14"),
+    one(CREATING, "a method of the worker whose name has a typing error, in Java", NOSE_CODE, "Camera_getImage", "Camera_getImgae", "RC6312", f"{NOSE_CODE}:14:19"),
+    one(CREATING, "a worker without its base class, in Python", WORKER, "class SpecificWorker(GenericWorker)", "class SpecificWorker", "RC6208", f"{WORKER}:7:7"),
+    one(CREATING, "a worker without its base class, in C++", HEADER, "class SpecificWorker : public GenericWorker", "class SpecificWorker", "RC6208", f"{HEADER}:5:7"),
+    one(CREATING, "a misspelled base class, in Java", EAR_CODE, "extends GenericWorker", "extends GenericWorkr", "RC6208", f"{EAR_CODE}:5:14"),
+    one(CREATING, "a misspelled module of the generated code", WORKER, "generated.genericworker", "generated.genericworkr", "RC6324", f"{WORKER}:3:16"),
+    one(CREATING, "a method without `self`", WORKER, "def Speech_stop(self)", "def Speech_stop()", "RC6322", f"{WORKER}:23:9"),
+    Mistake(CREATING, "a document whose name ends with .yml", (("nose/nose.cdsl.yaml",), ("nose/nose.cdsl.yml", "component: NoseComp\nlanguage: java\n")), "RC3332", "nose/nose.cdsl.yml:1:1"),
     one(CREATING, "a syntax error in the user's code", WORKER, "def compute(self) -> None:", "def compute(self) -> None", "RC6317", f"{WORKER}:11:30"),
-    one(CREATING, "a variable that is not defined", WORKER, "return True", "return sucess", "RC6318", f"{WORKER}:21:16", "check --code"),
+    one(CREATING, "a variable that is not defined", WORKER, "return True", "return sucess", "RC6331", f"{WORKER}:21:16"),
+    one(CREATING, "a forgotten import", WORKER, "from generated.interfaces import RoboCompMouth\n", "", "RC6331", f"{WORKER}:11:16"),
+    one(CREATING, "a misspelled `self`", WORKER, "self.words.clear()", "slef.words.clear()", "RC6331", f"{WORKER}:24:9"),
+    one(CREATING, "a method that is written twice", WORKER, "        self.words.clear()\n", "        self.words.clear()\n\n    def Speech_stop(self) -> None:\n        pass\n", "RC6332", f"{WORKER}:26:9"),
+    one(CREATING, "an `__init__` without that of the base class", WORKER, "    def initialize(self)", "    def __init__(self):\n        self.a = 1\n\n    def initialize(self)", "RC6333", f"{WORKER}:8:9"),
+    one(CREATING, "a method without the result that others expect", WORKER, "        return True\n", "", "RC6329", f"{WORKER}:19:9"),
+    one(CREATING, "`initialise` instead of `initialize`", WORKER, "def initialize", "def initialise", "RC6201", f"{WORKER}:7:7"),
+    one(CREATING, "a name with a blank", SPEECH, "component: SpeechComp", "component: Speech Comp", "RC0205", f"{SPEECH}:1:12"),
+    one(CREATING, "a C++ standard that does not exist", MOUTH, "language: cpp", "language: {name: cpp, standard: 21}", "RC0204", f"{MOUTH}:2:33"),
+    one(CREATING, "a key without a colon", SPEECH, "language: python", "language python", "RC0101", f"{SPEECH}:2:1"),
     #
     one(PROXIES, "a requirement in other letters", SPEECH, "requires: [Mouth]", "requires: [mouth]", "RC2003", f"{SPEECH}:5:12"),
     one(PROXIES, "the plural", SPEECH, "requires: [Mouth]", "requires: [Mouths]", "RC2003", f"{SPEECH}:5:12"),
@@ -248,8 +324,27 @@ MISTAKES = [
     one(PROXIES, "a method that the interface lacks, in C++", SOURCE, "camera_proxy->getImage", "camera_proxy->getPicture", "RC6302", f"{SOURCE}:10:19"),
     one(PROXIES, "an event that the topic lacks", SOURCE, "->moved(pose)", "->move(pose)", "RC6303", f"{SOURCE}:17:27"),
     one(PROXIES, "a subscriber whose method has another name", WORKER, "def MouthEvents_moved", "def MouthEvents_onMoved", "RC6201", f"{WORKER}:7:7"),
-    one(PROXIES, "a wrong type of argument", WORKER, "move(pose, True)", "move(10.0, True)", "RC6318", f"{WORKER}:13:41", "check --code"),
-    one(PROXIES, "a result that is used as another type", WORKER, "reached.opening)", "reached.open)", "RC6318", f"{WORKER}:14:83", "check --code"),
+    one(PROXIES, "code that still uses a removed proxy, in Java", EAR, "requires: [Speech]\n", "", "RC6301", f"{EAR_CODE}:14:13"),
+    one(PROXIES, "code that still publishes to a removed topic, in Java", EAR, "publishes: [MouthEvents]\n", "", "RC6301", f"{EAR_CODE}:16:9"),
+    one(PROXIES, "a proxy in another form, in Java", EAR_CODE, "speech_proxy", "speechProxy", "RC6301", f"{EAR_CODE}:14:13"),
+    one(PROXIES, "a proxy in another form, in C++", SOURCE, "camera_proxy", "cameraPrx", "RC6301", f"{SOURCE}:10:5"),
+    one(PROXIES, "a proxy without `self.`", WORKER, "self.mouth_proxy.close()", "mouth_proxy.close()", "RC6321", f"{WORKER}:15:9"),
+    one(PROXIES, "a method that is named, and not called", WORKER, "self.mouth_proxy.close()", "self.mouth_proxy.close", "RC6323", f"{WORKER}:15:26"),
+    one(PROXIES, "an asynchronous call of a method that the interface lacks", WORKER, "close()", "clseAsync()", "RC6302", f"{WORKER}:15:26"),
+    one(PROXIES, "a method that the interface lacks, in Java", EAR_CODE, "proxy.say(", "proxy.tell(", "RC6302", f"{EAR_CODE}:14:26"),
+    one(PROXIES, "a call with too few arguments, in Java", EAR_CODE, '"hello", 5', '"hello"', "RC6304", f"{EAR_CODE}:14:26"),
+    one(PROXIES, "a wrong type of argument", WORKER, "move(pose, True)", "move(10.0, True)", "RC6328", f"{WORKER}:13:41"),
+    one(PROXIES, "a wrong type of argument, in C++", SOURCE, "getImage(640,", 'getImage("640",', "RC6328", f"{SOURCE}:10:28"),
+    one(PROXIES, "a wrong type of argument, in Java", EAR_CODE, '"hello", 5', "5, 5", "RC6328", f"{EAR_CODE}:14:30"),
+    one(PROXIES, "a variable of a wrong type", WORKER, "move(pose, True)", "move(self.words, True)", "RC6318", f"{WORKER}:13:41", "check --code"),
+    one(PROXIES, "another name of a proxy, and a method that it lacks", WORKER, "self.mouth_proxy.close()", "self.mouth = self.mouth_proxy; self.mouth.clos()", "RC6302", f"{WORKER}:15:51"),
+    one(PROXIES, "another name of a proxy, in C++", SOURCE, "camera_proxy->getImage(", "auto camera{camera_proxy}; camera->getImag(", "RC6302", f"{SOURCE}:10:40"),
+    one(PROXIES, "another name of a proxy, in Java", EAR_CODE, "speech_proxy.say(", "var speech = speech_proxy; speech.sya(", "RC6302", f"{EAR_CODE}:14:47"),
+    one(PROXIES, "a proxy to an object that nobody serves", VALUES, "parameters:", 'proxies: {Mouth: "wrongname:tcp -p 10001"}\nparameters:', "RC3337", f"{VALUES}:1:18"),
+    one(PROXIES, "a proxy without a TCP port", VALUES, "parameters:", 'proxies: {Mouth: "mouth:tcp -h localhost"}\nparameters:', "RC3338", f"{VALUES}:1:18"),
+    one(PROXIES, "a method of the proxy without the proxy", WORKER, "self.mouth_proxy.close()", "self.close()", "RC6316", f"{WORKER}:15:14"),
+    one(PROXIES, "a topic that is published, but only subscribed in the document", WORKER, "self.mouth_proxy.close()", "self.mouthevents_proxy.moved(reached)", "RC6301", f"{WORKER}:15:14"),
+    one(PROXIES, "a result that is used as another type", WORKER, "reached.opening)", "reached.open)", "RC6325", f"{WORKER}:14:91"),
     #
     one(INTERFACES, "a method that is added, and not yet implemented", I_SPEECH, "      stop:\n", "      stop:\n      pause:\n", "RC6201", f"{WORKER}:7:7"),
     one(INTERFACES, "a method that is renamed, and still called in Python", I_MOUTH, "      close:", "      shut:", "RC6302", f"{WORKER}:15:26"),
@@ -260,7 +355,24 @@ MISTAKES = [
     one(INTERFACES, "a new parameter: the method in Python is stale", I_SPEECH, "volume: int}", "volume: int, voice: string}", "RC6202", f"{WORKER}:19:9"),
     one(INTERFACES, "a new parameter: the method in C++ is stale", I_MOUTH, "fast: bool}", "fast: bool, force: float}", "RC6202", f"{HEADER}:10:25"),
     one(INTERFACES, "a parameter of another type: the method in Python is stale", I_SPEECH, "volume: int}", "volume: string}", "RC6202", f"{WORKER}:19:9"),
-    one(INTERFACES, "a parameter of another type: the call in Python is stale", I_MOUTH, "fast: bool}", "fast: string}", "RC6318", f"{WORKER}:13:47", "check --code"),
+    one(INTERFACES, "a parameter of another type: the method in C++ is stale", I_MOUTH, "fast: bool}", "fast: float}", "RC6202", f"{SOURCE}:13:37"),
+    one(INTERFACES, "a result of another type: the method in C++ is stale", I_MOUTH, "fast: bool}, returns: Pose", "fast: bool}, returns: Shape", "RC6202", f"{HEADER}:10:25"),
+    one(INTERFACES, "a result of another type: the method in Java is stale", I_CAMERA, "returns: string", "returns: int", "RC6202", f"{NOSE_CODE}:14:19"),
+    one(INTERFACES, "a method that is renamed, and implemented in Java", I_CAMERA, "      getImage:", "      getPicture:", "RC6201", f"{NOSE_CODE}:3:14"),
+    one(INTERFACES, "an enumerator that is removed, and still used in Java", I_MOUTH, "[round, wide]", "[oval, wide]", "RC6315", f"{EAR_CODE}:16:57"),
+    one(INTERFACES, "a type that is renamed, and still imported in Java", I_MOUTH, "  Shape: {enum: [round, wide]}\n  Pose: {struct: {opening: float, width: float, shape: Shape}}", "  Form: {enum: [round, wide]}\n  Pose: {struct: {opening: float, width: float, shape: Form}}", "RC6314", f"{EAR_CODE}:3:28"),
+    one(INTERFACES, "a module that is renamed, and still imported in Java", I_MOUTH, "module: RoboCompMouth", "module: RoboCompLips", "RC6313", f"{EAR_CODE}:2:14"),
+    one(INTERFACES, "a parameter of another type: the call in Python is stale", I_MOUTH, "fast: bool}", "fast: string}", "RC6328", f"{WORKER}:13:47"),
+    one(INTERFACES, "an `out:` that is added: the use of the result is stale", I_MOUTH, "fast: bool}, returns: Pose}", "fast: bool}, returns: Pose, out: {age: int}}", "RC6326", f"{WORKER}:14:91"),
+    one(INTERFACES, "a result that is removed, and still used", I_MOUTH, "fast: bool}, returns: Pose}", "fast: bool}}", "RC6326", f"{WORKER}:14:91"),
+    one(INTERFACES, "a result that is unpacked to too many variables", WORKER, "reached = self", "reached, more = self", "RC6326", f"{WORKER}:13:42"),
+    one(INTERFACES, "a member that is renamed, and still read in C++", I_MOUTH, "{opening: float, ", "{gap: float, ", "RC6325", f"{SOURCE}:16:10"),
+    one(INTERFACES, "a member that is renamed, and still read by a method in Python", I_MOUTH, "{opening: float, ", "{gap: float, ", "RC6325", f"{WORKER}:27:34"),
+    one(INTERFACES, "a member that is added: the construction in Java is stale", I_MOUTH, "width: float, ", "width: float, depth: float, ", "RC6304", f"{EAR_CODE}:16:40"),
+    one(INTERFACES, "parameters that change places: the call in Java is stale", I_SPEECH, "text: string, volume: int", "volume: int, text: string", "RC6328", f"{EAR_CODE}:14:30"),
+    one(INTERFACES, "an unknown exception", I_SPEECH, "      stop:", "      stop: {throws: [Stuck]}", "RC1011", f"{I_SPEECH}:6:23"),
+    one(INTERFACES, "a word of Slice as a name", I_SPEECH, "      stop:", "      module:", "RC1001", f"{I_SPEECH}:6:7"),
+    one(INTERFACES, "a struct in itself", I_MOUTH, "width: float", "width: Pose", "RC1015", f"{I_MOUTH}:4:35"),
     one(INTERFACES, "a member of a struct that is renamed, and still set", I_MOUTH, "{opening: float, ", "{gap: float, ", "RC6305", f"{WORKER}:12:35"),
     one(INTERFACES, "an enumerator that is removed, and still used", I_MOUTH, "[round, wide]", "[oval, wide]", "RC6315", f"{WORKER}:12:87"),
     one(INTERFACES, "an enumerator that is removed, and still used in C++", I_MOUTH, "[round, wide]", "[round, oval]", "RC6315", f"{SOURCE}:15:60"),
@@ -290,6 +402,22 @@ MISTAKES = [
     one(PARAMETERS, "code that sets a value out of its range, in Python", WORKER, "speed = 200", "speed = 2000", "RC6308", f"{WORKER}:17:37"),
     one(PARAMETERS, "code that sets a value out of its range, in C++", SOURCE, "setWidest(60)", "setWidest(600)", "RC6308", f"{SOURCE}:5:26"),
     one(PARAMETERS, "code that sets a parameter which is not editable", WORKER, "self.parameters.speed = 200", 'self.parameters.device = "pulse"', "RC6307", f"{WORKER}:17:29"),
+    one(PARAMETERS, "a misspelled parameter in Java", EAR_CODE, "parameters.loudness()", "parameters.loudnes()", "RC6306", f"{EAR_CODE}:13:24"),
+    one(PARAMETERS, "code that sets a value out of its range, in Java", EAR_CODE, "setLoudness(0.7f)", "setLoudness(7)", "RC6308", f"{EAR_CODE}:8:32"),
+    one(PARAMETERS, "code that sets a parameter which is not editable, in Java", EAR_CODE, "setLoudness(0.7f)", 'setMode("far")', "RC6307", f"{EAR_CODE}:8:20"),
+    one(PARAMETERS, "a misspelled path in Java", EAR_CODE, "setLoudness(0.7f)", 'set("loudnes", 0.2)', "RC6306", f"{EAR_CODE}:8:25"),
+    one(PARAMETERS, "a parameter that is read as an attribute of the worker", WORKER, "self.parameters.speed, reached", "self.speed, reached", "RC6316", f"{WORKER}:14:65"),
+    one(PARAMETERS, "a malformed endpoint in a flat etc/config", "camera/etc/config", "Camera.Endpoints=tcp", "Camera.Endpoints=tpc", "RC0208", "camera/etc/config:5:18"),
+    one(PARAMETERS, "a line with a colon in a flat etc/config", "camera/etc/config", "period.compute=100", "period.compute: 100", "RC3335", "camera/etc/config:10:1"),
+    one(PARAMETERS, "a property twice in a flat etc/config", "camera/etc/config", "period.compute=100", "period.compute=100\nperiod.compute=50", "RC3336", "camera/etc/config:11:1"),
+    one(PARAMETERS, "an endpoint without a value in a flat etc/config", "camera/etc/config", "Camera.Endpoints=", "Camera.Endpoints=\n#", "RC6209", "camera/etc/config:5:1"),
+    one(PARAMETERS, "a misspelled property of Ice", VALUES, "parameters:", "ice: {MesageSizeMax: 20004}\nparameters:", "RC3333", f"{VALUES}:1:7"),
+    one(PARAMETERS, "an impossible value of a property of Ice", VALUES, "parameters:", 'ice: {Warn.Connections: "yes"}\nparameters:', "RC3334", f"{VALUES}:1:25"),
+    one(PARAMETERS, "two endpoints at one port", VALUES, "parameters:", "endpoints: {Speech: tcp -p 12000, CommonBehavior: tcp -p 12000}\nparameters:", "RC3339", f"{VALUES}:1:51"),
+    one(PARAMETERS, "a comparison with a value that is not allowed", WORKER, "if not self.words:", 'if self.parameters.device == "puls":', "RC6327", f"{WORKER}:16:38"),
+    one(PARAMETERS, "a comparison with a number out of range, in C++", SOURCE, "camera_proxy->", "if (parameters.widest() == 500) camera_proxy->", "RC6327", f"{SOURCE}:10:32"),
+    one(PARAMETERS, "a comparison with a value that is not allowed, in Java", EAR_CODE, "parameters.loudness() > 0.6f", 'parameters.mode().equals("nar")', "RC6327", f"{EAR_CODE}:13:38"),
+    one(PARAMETERS, "a parameter by its key instead of an attribute", WORKER, "self.parameters.speed, reached", 'self.parameters["speed"], reached', "RC6330", f"{WORKER}:14:77"),
     one(PARAMETERS, "a misspelled key of an entry", HEAD, "speech: {component: speech, port: 11001}", "speech: {component: speech, port: 11001, set: {sped: 3}}", "RC3301", f"{HEAD}:3:50"),
     #
     one(DEPLOYING, "nobody serves what a component requires", HEAD, "  mouth: {component: mouth, port: 11002}\n", "", "RC4201", f"{HEAD}:3:3"),
@@ -310,4 +438,6 @@ MISTAKES = [
     Mistake(DEPLOYING, "a component that is not built", ((PROGRAM,),), "RC4403", f"{HEAD}:4:3"),
     Mistake(DEPLOYING, "a component that is older than its code", ((SOURCE, "640", "320"),), "RC7016", f"{HEAD}:4:3", "deploy plan head.ddsl.yaml"),
     Mistake(DEPLOYING, "a program that does not exist", ((HEAD, "component: mouth, port: 11002", "program: bin/mouht"),), "RC4404", f"{HEAD}:4:3"),
+    one(DEPLOYING, "a proxy to an object that the entry does not serve", HEAD, "port: 11001}", 'port: 11001, connect: {Mouth: "mouht:tcp -p 11002"}}', "RC4313", f"{HEAD}:3:61"),
+    one(DEPLOYING, "a proxy without a TCP port", HEAD, "port: 11001}", 'port: 11001, connect: {Mouth: "mouth:tcp"}}', "RC4312", f"{HEAD}:3:61"),
 ]  # fmt: skip

@@ -3,12 +3,13 @@
 In a page, a code block after `<!-- file: PATH -->` is a file (an existing one is replaced), and a `console` block is a
 session: lines that start with `$ ` are commands, the others what they print. A page's blocks are run from top to
 bottom in one empty folder. `<!-- in: FOLDER -->` starts from a copy of a folder of the project. A line `…` stands for
-any lines. `<!-- needs: Ice, mcap -->` is in a page that is
-skipped without these modules. `pytest tests/docs --update-golden` writes what the commands print.
+any lines, and `…` in a line for any text in it. `<!-- needs: Ice, mcap -->` is in a page that is skipped without
+these modules. `pytest tests/docs --update-golden` writes what the commands print.
 """
 
 from __future__ import annotations
 
+import fcntl
 import os
 import re
 import shutil
@@ -66,10 +67,22 @@ def run(command: str, folder: Path) -> str:
 
 
 def matches(shown: str, printed: str) -> bool:
-    parts = [re.escape(part) for part in re.split(r"^…\n", shown, flags=re.MULTILINE)]
+    parts = [re.escape(part).replace("…", ".*") for part in re.split(r"^…\n", shown, flags=re.MULTILINE)]
     return re.fullmatch("(?:.*\n)*?".join(parts), printed) is not None
 
 
+@pytest.fixture
+def turn(page: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Pages that start networks wait for each other: entries of the same name have the same ports."""
+    if "$ rcyaml deploy up" not in page.read_text(encoding="utf-8"):
+        yield
+        return
+    with open(tmp_path_factory.getbasetemp().parent / "networks.lock", "w", encoding="utf-8") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
+
+
+@pytest.mark.usefixtures("turn")
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_page(page: Path, tmp_path: Path, request: pytest.FixtureRequest) -> None:
     text = page.read_text(encoding="utf-8")
@@ -129,3 +142,26 @@ def test_paths_of_the_project_exist(page: Path) -> None:
 def test_pages_name_paths_of_the_project() -> None:
     text = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
     assert len({path for path, _ in _NAMED.findall(text) if path.partition("/")[0] in FOLDERS}) > 20
+
+
+def test_the_example_is_the_tutorials() -> None:
+    """`examples/patrol/` is what the first page of the tutorial ends with."""
+    text = (ROOT / "docs" / "tutorial" / "README.md").read_text(encoding="utf-8")
+    files = {block["name"]: block["body"] for block in _BLOCK.finditer(text) if block["mark"] == "file"}
+    assert len(files) == 3
+    for name, body in files.items():
+        assert (ROOT / "examples" / "patrol" / name).read_text(encoding="utf-8") == body, name
+
+
+def test_pictures_are_small_and_shown() -> None:
+    pictures = [path for path in (ROOT / "docs").rglob("*") if path.suffix in (".svg", ".png")]
+    assert sum(path.stat().st_size for path in pictures) <= 5_000_000
+    text = "".join(page.read_text(encoding="utf-8") for page in PAGES)
+    assert [path.name for path in pictures if f"/{path.name})" not in text] == []
+
+
+def test_the_picture_of_the_architecture_names_classes() -> None:
+    text = (ROOT / "docs" / "pictures" / "architecture.svg").read_text(encoding="utf-8")
+    named = set(re.findall(r'class="type">(\w+)<', text))
+    code = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "robocomp_yaml").rglob("*.py"))
+    assert {"Node", "Program", "Network"} <= named <= set(re.findall(r"^class (\w+)\b", code, re.MULTILINE))

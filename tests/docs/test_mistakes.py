@@ -79,7 +79,7 @@ def reported(robot: Path, tmp_path_factory: pytest.TempPathFactory) -> Reported:
 
 
 def test_nothing_is_wrong_without_a_mistake(robot: Path) -> None:
-    assert run(robot, "check", "--code") == (0, "10 documents: nothing wrong\n")
+    assert run(robot, "check", "--code") == (0, "13 documents: nothing wrong\n")
 
 
 @pytest.mark.parametrize("task", TASKS)
@@ -105,16 +105,16 @@ this page (`tests/docs/mistakes.py`).
 | what | checked by |
 |---|---|
 | documents: shape, names, types, values, networks | `rcyaml check`, `compile`, and the editor (shape) |
-| how code in Python and C++ uses its worker: proxies, methods and their arguments, parameters, events and states, types and enumerators; in Python also imports of modules, members of structs, and attributes of the worker | `rcyaml check` and `compile`, with the documents as they are now |
+| how code uses its worker: proxies, methods and their arguments, parameters, events and states, types and enumerators; in Python also imports of modules, members of structs, attributes of the worker, and slips such as a missing `self` | `rcyaml check` and `compile`, with the documents as they are now |
 | methods that other components call: missing, outdated, never called | the same |
-| types of expressions in Python | `rcyaml check --code`, with [ty](https://docs.astral.sh/ty/) |
+| types of other expressions in Python | `rcyaml check --code`, with [ty](https://docs.astral.sh/ty/) |
 | types of expressions in C++ and Java | the compilers: `rcyaml build` |
 | programs that are missing or stale | `rcyaml check`, `deploy plan` and `deploy up` |
 | libraries, programs on PATH, hosts | `rcyaml check --environment` |
 
 Code is judged only if it is certain. Nothing is said about a name that the code itself sets, declares or contains as a
-text (for `getattr` and `hasattr`), about classes with other bases, about code that catches the error by its name, and,
-in C++, about code in macros, in templates and in conditional parts of the preprocessor. `lint:` in `rcyaml.yaml`
+text (for `getattr` and `hasattr`), about classes with other bases, about code that catches the error by its name, near errors of syntax in C++ and
+Java, and, in C++, about code in macros, in templates and in conditional parts of the preprocessor. `lint:` in `rcyaml.yaml`
 switches a diagnostic off.
 
 `--code` needs `pip install 'rcyaml[code]'`. It checks against the types of the documents as they are now, also before

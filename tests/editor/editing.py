@@ -26,6 +26,7 @@ class Editor:
         self.messages: list[str] = []
         self.versions: dict[str, int] = {}
         self.watched = asyncio.Event()
+        self.registered: list[str] = []
 
         @self.client.feature(types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)
         def publish(params: types.PublishDiagnosticsParams) -> None:
@@ -42,6 +43,7 @@ class Editor:
         @self.client.feature(types.CLIENT_REGISTER_CAPABILITY)
         def register(params: types.RegistrationParams) -> None:
             self.watched.set()
+            self.registered += [one.method for one in params.registrations]
 
     async def start(
         self,
@@ -49,14 +51,20 @@ class Editor:
         command: Sequence[str] = (),
         encodings: Sequence[str] = ("utf-16",),
         schema_server: str = "yes",
+        operations: Sequence[types.ResourceOperationKind] = (),
     ) -> types.InitializeResult:
         await self.client.start_io(*(command or [*COMMAND, "lsp"]), env=environment())
         capabilities = types.ClientCapabilities(
             general=types.GeneralClientCapabilities(position_encodings=[types.PositionEncodingKind(e) for e in encodings]),
+            text_document=types.TextDocumentClientCapabilities(
+                definition=types.DefinitionClientCapabilities(dynamic_registration=True)
+            ),
             workspace=types.WorkspaceClientCapabilities(
+                file_operations=types.FileOperationClientCapabilities(will_rename=True, did_rename=True),
                 did_change_watched_files=types.DidChangeWatchedFilesClientCapabilities(dynamic_registration=True),
                 workspace_edit=types.WorkspaceEditClientCapabilities(
-                    document_changes=True, change_annotation_support=types.ChangeAnnotationsSupportOptions()
+                    document_changes=True, change_annotation_support=types.ChangeAnnotationsSupportOptions(),
+                    resource_operations=operations or None,
                 ),
             ),
         )  # fmt: skip

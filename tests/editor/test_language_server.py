@@ -13,17 +13,13 @@ from lsprotocol import types
 
 from conftest import write_tree
 from editor.editing import Editor, edited
+from editor.speaking import COMPONENT, DOCUMENTS, PARAMETERS, ROBOT, SPEECH, at
 
 pytestmark = pytest.mark.processes
 
-SPEECH = "module: RoboCompSpeech\ninterfaces:\n  Speech: {methods: {say: {in: {text: string}}}}\n"
-COMPONENT = "component: SpeechComp\nlanguage: python\nimports: [Speech]\nimplements: [Speech]\n"
-ROBOT = "\U0001f916"
 PLACE = {
-    "rcyaml.yaml": "interfaces: [interfaces]\n",
-    "interfaces/Speech.idsl.yaml": SPEECH,
-    "speech/speech.cdsl.yaml": COMPONENT,
-    "speech/speech.pdsl.yaml": "component: speech.cdsl.yaml\nparameters: {volume: {type: int, default: 3, range: [0, 9]}}\n",
+    **DOCUMENTS,
+    "speech/speech.pdsl.yaml": PARAMETERS,
     "speech/etc/config.yaml": "component: ../speech.cdsl.yaml\nparameters: {volume: 4}\n",
     "robot.ddsl.yaml": "deployment: Robot\ncomponents: {speech: {component: speech}}\n",
 }
@@ -34,10 +30,6 @@ def ws(tmp_path: Path) -> Path:
     folder = write_tree(tmp_path / "ws", {**PLACE, "speech/bin/SpeechComp": ""})
     (folder / "speech/bin/SpeechComp").chmod(0o755)
     return folder
-
-
-def _at(line: int, start: int, end: int) -> types.Range:
-    return types.Range(types.Position(line, start), types.Position(line, end))
 
 
 def _applied(text: str, edits: list[types.TextEdit]) -> str:
@@ -63,7 +55,7 @@ def test_marks_come_with_the_keys_and_go_again(ws: Path) -> None:
         for _ in range(3):
             editor.change(interface, SPEECH.replace("string", "strng"))
             found = await editor.until_codes(interface, "RC1010")
-            assert found[0].range == _at(2, 38, 43) and found[0].source == "rcyaml"
+            assert found[0].range == at(2, 38, 43) and found[0].source == "rcyaml"
             assert found[0].severity == types.DiagnosticSeverity.Error
             assert found[0].message == "unknown type 'strng'\ndid you mean 'string'?"
             editor.change(interface, SPEECH)
@@ -142,7 +134,7 @@ def test_positions_behind_an_emoji(ws: Path, encoding: str, column: int, end: st
         assert started.capabilities.position_encoding == encoding
         editor.open(interface, text)
         found = (await editor.until_codes(interface, "RC1010"))[0]
-        assert found.range == _at(2, column, column + 5)
+        assert found.range == at(2, column, column + 5)
         action, *_ = await editor.actions(interface, found.range)
         assert action.edit is not None and action.edit.document_changes
         change = action.edit.document_changes[0]
@@ -162,8 +154,8 @@ def test_fixes_are_quick_fixes(ws: Path) -> None:
         await editor.start(ws)
         editor.open(component, text)
         found = (await editor.until_codes(component, "RC2003"))[0]
-        assert await editor.actions(component, _at(0, 0, 0)) == []
-        (action,) = await editor.actions(component, _at(3, 15, 15))
+        assert await editor.actions(component, at(0, 0, 0)) == []
+        (action,) = await editor.actions(component, at(3, 15, 15))
         assert action.title == "Import 'Speech'" and action.kind == types.CodeActionKind.QuickFix
         assert list(action.diagnostics or ()) == [found]
         assert action.edit is not None and action.edit.document_changes
@@ -241,13 +233,12 @@ def test_a_handler_that_fails_says_so_and_the_server_lives_on(ws: Path, tmp_path
     broken = tmp_path / "broken.py"
     broken.write_text(
         "from robocomp_yaml.link import linker\nfrom robocomp_yaml.lsp import features\n"
-        "link = linker.Linker.link\n"
-        "def fails(self, paths):\n"
-        "    program = link(self, paths)\n"
+        "link = linker.Linker.link_named\n"
+        "def fails(self, named):\n"
+        "    link(self, named)\n"
         "    if any(b'explode' in raw for raw in self.documents.disk.contents.values()):\n"
         "        raise ZeroDivisionError('on purpose')\n"
-        "    return program\n"
-        "linker.Linker.link = fails\n"
+        "linker.Linker.link_named = fails\n"
         "features.make().start_io()\n"
     )
 
@@ -291,12 +282,12 @@ def test_names_are_found_across_documents_and_in_unsaved_texts(ws: Path) -> None
         there = types.Position(5, 15)
         (where,) = [await editor.client.text_document_definition_async(types.DefinitionParams(named, there))]
         assert isinstance(where, types.Location)
-        assert where.uri == interface.as_uri() and where.range == _at(3, 2, 8)
+        assert where.uri == interface.as_uri() and where.range == at(3, 2, 8)
         found = await editor.client.text_document_references_async(
             types.ReferenceParams(types.ReferenceContext(True), named, there)
         )
         assert [(one.uri, one.range) for one in found or ()] == [
-            (interface.as_uri(), _at(3, 2, 8)), (component.as_uri(), _at(5, 13, 19)),
+            (interface.as_uri(), at(3, 2, 8)), (component.as_uri(), at(5, 13, 19)),
         ]  # fmt: skip
         shown = await editor.client.text_document_hover_async(types.HoverParams(named, there))
         assert shown is not None and isinstance(shown.contents, types.MarkupContent)
@@ -333,9 +324,9 @@ def test_names_are_completed_with_their_import(ws: Path) -> None:
         assert isinstance(found, (list, tuple))
         (item,) = found
         assert item.label == "Speech" and item.detail == "interface RoboCompSpeech.Speech, imports Speech"
-        assert isinstance(item.text_edit, types.TextEdit) and item.text_edit.range == _at(2, 17, 19)
+        assert isinstance(item.text_edit, types.TextEdit) and item.text_edit.range == at(2, 17, 19)
         (more,) = item.additional_text_edits or ()
-        assert more.new_text == "\nimports: [Speech]" and more.range == _at(1, 16, 16)
+        assert more.new_text == "\nimports: [Speech]" and more.range == at(1, 16, 16)
         assert not editor.messages
 
     edited(test)

@@ -13,30 +13,22 @@ from pygls import uris
 
 from conftest import write_tree
 from editor.editing import Editor, edited
+from editor.speaking import DOCUMENTS, PARAMETERS, ROBOT, at, worker
+from robocomp_yaml import api
 
 pytestmark = pytest.mark.processes
 
-ROBOT = "\U0001f916"
 PLACE = {
-    "rcyaml.yaml": "interfaces: [interfaces]\n",
-    "interfaces/Speech.idsl.yaml": "module: RoboCompSpeech\ninterfaces:\n  Speech: {methods: {say: {in: {text: string}}}}\n",
-    "speech/speech.cdsl.yaml": "component: SpeechComp\nlanguage: python\nimports: [Speech]\nimplements: [Speech]\n",
-    "speech/speech.pdsl.yaml": "component: speech.cdsl.yaml\nparameters: {volume: {type: int, default: 3, range: [0, 9]}}\n",
-    "speech/src/specificworker.py": (
-        "from generated.genericworker import GenericWorker\n\n\nclass SpecificWorker(GenericWorker):\n"
-        f"    def Speech_say(self, text: str) -> None:\n        print('{ROBOT}', self.parameters.volume, self.Speech_say)\n"
-    ),
+    **DOCUMENTS,
+    **worker("Speech_say(self, text: str) -> None:", f"print('{ROBOT}', self.parameters.volume, self.Speech_say)"),
+    "speech/speech.pdsl.yaml": PARAMETERS,
     "robot.ddsl.yaml": "deployment: Robot\ncomponents: {mouth: {component: speech}}\n",
-}  # fmt: skip
+}
 
 
 @pytest.fixture
 def ws(tmp_path: Path) -> Path:
     return write_tree(tmp_path / "ws", PLACE)
-
-
-def _at(line: int, start: int, end: int) -> types.Range:
-    return types.Range(types.Position(line, start), types.Position(line, end))
 
 
 def _places(found: object, ws: Path) -> list[tuple[str, types.Range]]:
@@ -56,9 +48,9 @@ def test_references_lead_into_code(ws: Path) -> None:
             types.ReferenceParams(types.ReferenceContext(False), named, there)
         )
         code = "speech/src/specificworker.py"
-        assert _places(found, ws) == [(code, _at(4, 8, 18)), (code, _at(5, 49, 59))]
+        assert _places(found, ws) == [(code, at(4, 8, 18)), (code, at(5, 49, 59))]
         made = await editor.client.text_document_implementation_async(types.ImplementationParams(named, there))
-        assert _places(made, ws) == [(code, _at(4, 8, 18))]
+        assert _places(made, ws) == [(code, at(4, 8, 18))]
         assert not editor.messages
 
     edited(test)
@@ -75,10 +67,10 @@ def test_lenses_hints_and_hover(ws: Path) -> None:
             types.CodeLensParams(types.TextDocumentIdentifier(interface.as_uri()))
         )
         assert [(one.range, one.command.title) for one in lenses or () if one.command] == [
-            (_at(2, 2, 8), "1 implements it")
+            (at(2, 2, 8), "1 implements it")
         ]
         hints = await editor.client.text_document_inlay_hint_async(
-            types.InlayHintParams(types.TextDocumentIdentifier(robot.as_uri()), _at(0, 0, 0))
+            types.InlayHintParams(types.TextDocumentIdentifier(robot.as_uri()), at(0, 0, 0))
         )
         assert list(hints or ()) == []
         whole = types.Range(types.Position(0, 0), types.Position(9, 0))
@@ -146,6 +138,105 @@ def test_what_a_server_of_schemas_tells_is_not_told_twice(ws: Path, setting: str
             editor.client.workspace_did_change_configuration(settings)
             editor.change(robot, schema + text + "# x\n")
             await editor.until_codes(robot, "RC0202")
+        assert not editor.messages
+
+    edited(test)
+
+
+@pytest.mark.parametrize(
+    ("line", "column", "file", "where"),
+    [
+        (4, 11, "interfaces/Speech.idsl.yaml", at(2, 2, 8)),  # Spe|ech_say
+        (4, 17, "interfaces/Speech.idsl.yaml", at(2, 21, 24)),  # Speech_s|ay
+        (5, 37, "speech/speech.pdsl.yaml", at(1, 13, 19)),  # parameters.vol|ume, behind an emoji
+        (5, 58, "interfaces/Speech.idsl.yaml", at(2, 21, 24)),
+        (4, 27, "", None),  # an argument, which is the code's own name
+        (0, 8, "", None),
+        (3, 8, "", None),
+    ],
+)
+def test_the_users_code_leads_to_the_documents(
+    ws: Path, line: int, column: int, file: str, where: types.Range | None
+) -> None:
+    code = ws / "speech/src/specificworker.py"
+    named, there = types.TextDocumentIdentifier(code.as_uri()), types.Position(line, column)
+
+    async def test(editor: Editor) -> None:
+        await editor.start(ws)
+        editor.open(code)
+        found = await editor.client.text_document_definition_async(types.DefinitionParams(named, there))
+        if where is None:
+            assert found is None
+            return
+        assert _places([found], ws) == [(file, where)]
+        used = await editor.client.text_document_references_async(
+            types.ReferenceParams(types.ReferenceContext(True), named, there)
+        )
+        assert (file, where) in _places(used, ws) and len(used or ()) > 1
+        assert str(code) not in editor.shown and not editor.messages
+
+    edited(test)
+
+
+def test_generated_code_leads_to_the_documents(ws: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(ws)
+    assert not api.load().compile().apply().has_errors
+    code = ws / "speech/generated/genericworker.py"
+    lines = code.read_text().splitlines()
+    line = next(number for number, text in enumerate(lines) if "def Speech_say" in text)
+
+    async def test(editor: Editor) -> None:
+        await editor.start(ws)
+        await editor.until(lambda: types.TEXT_DOCUMENT_DEFINITION in editor.registered, "as an editor of code")
+        there = types.Position(line, lines[line].index("_say") + 2)
+        found = await editor.client.text_document_definition_async(
+            types.DefinitionParams(types.TextDocumentIdentifier(code.as_uri()), there)
+        )
+        assert _places([found], ws) == [("interfaces/Speech.idsl.yaml", at(2, 21, 24))]
+        assert not editor.messages
+
+    edited(test)
+
+
+@pytest.mark.parametrize("language", ["python", "cpp", "java"])
+def test_a_method_leads_to_what_was_generated_from_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, language: str
+) -> None:
+    place = {**DOCUMENTS, "speech/speech.cdsl.yaml": DOCUMENTS["speech/speech.cdsl.yaml"].replace("python", language)}
+    ws = write_tree(tmp_path / "ws", place)
+    monkeypatch.chdir(ws)
+    api.load().compile().apply()
+    interface = ws / "interfaces/Speech.idsl.yaml"
+    named = types.TextDocumentIdentifier(interface.as_uri())
+    there = types.Position(2, 22)
+
+    async def test(editor: Editor) -> None:
+        await editor.start(ws)
+        editor.open(interface)
+        found = await editor.client.text_document_declaration_async(types.DeclarationParams(named, there))
+        assert isinstance(found, (list, tuple)) and found
+        lines = []
+        for one in found:
+            path = Path(str(uris.to_fs_path(one.uri)))
+            assert path.parent == ws / "speech/generated"
+            line = path.read_text().splitlines()[one.range.start.line]
+            word = line[one.range.start.character : one.range.end.character]
+            assert word in ("say", "Speech_say"), line
+            lines.append(line)
+            back = await editor.client.text_document_definition_async(
+                types.DefinitionParams(types.TextDocumentIdentifier(one.uri), one.range.end)
+            )
+            assert isinstance(back, types.Location) and (back.uri, back.range.start) == (
+                interface.as_uri(), types.Position(2, 21),
+            ), line  # fmt: skip
+        head = {"python": "def Speech_say(", "cpp": "virtual void Speech_say(", "java": "abstract void Speech_say("}
+        assert any(head[language] in line for line in lines), lines
+        every = await editor.client.text_document_references_async(
+            types.ReferenceParams(types.ReferenceContext(True), named, there)
+        )
+        assert every is not None and {str(one) for one in found} < {str(one) for one in every}
+        source = await editor.client.text_document_implementation_async(types.ImplementationParams(named, there))
+        assert isinstance(source, (list, tuple)) and source, "the user's method"
         assert not editor.messages
 
     edited(test)

@@ -14,29 +14,20 @@ from pygls.exceptions import JsonRpcException
 
 from conftest import write_tree
 from editor.editing import Editor, edited
+from editor.speaking import DOCUMENTS, ROBOT, at, worker
 
 pytestmark = pytest.mark.processes
 
-ROBOT = "\U0001f916"
 PLACE = {
-    "rcyaml.yaml": "interfaces: [interfaces]\n",
-    "interfaces/Speech.idsl.yaml": "module: RoboCompSpeech\ninterfaces:\n  Speech: {methods: {say: {in: {text: string}}}}\n",
-    "speech/speech.cdsl.yaml": "component: SpeechComp\nlanguage: python\nimports: [Speech]\nimplements: [Speech]\n",
-    "speech/src/specificworker.py": (
-        "from generated.genericworker import GenericWorker\n\n\nclass SpecificWorker(GenericWorker):\n"
-        f"    def Speech_say(self, text: str) -> None:  # {ROBOT}\n        print('{ROBOT}', self.Speech_say)\n"
-    ),
+    **DOCUMENTS,
+    **worker(f"Speech_say(self, text: str) -> None:  # {ROBOT}", f"print('{ROBOT}', self.Speech_say)"),
     "robot.ddsl.yaml": "deployment: Robot\nhosts: {left: 10.0.0.2}\ncomponents: {mouth: {component: speech, host: left}}\ngroups: {all: {components: [mouth]}}\n",
-}  # fmt: skip
+}
 
 
 @pytest.fixture
 def ws(tmp_path: Path) -> Path:
     return write_tree(tmp_path / "ws", PLACE)
-
-
-def _at(line: int, start: int, end: int) -> types.Range:
-    return types.Range(types.Position(line, start), types.Position(line, end))
 
 
 async def _renamed(editor: Editor, path: Path, line: int, column: int, name: str) -> types.WorkspaceEdit:
@@ -72,17 +63,17 @@ def test_a_name_is_renamed_in_documents_and_code(ws: Path) -> None:
         editor.change(component, text)  # unsaved
         there = types.Position(4, 15)
         ready = await editor.client.text_document_prepare_rename_async(types.PrepareRenameParams(named, there))
-        assert ready == types.PrepareRenamePlaceholder(_at(4, 13, 19), "Speech")
+        assert ready == types.PrepareRenamePlaceholder(at(4, 13, 19), "Speech")
         nothing = types.PrepareRenameParams(named, types.Position(3, 12))  # the import is a file
         assert await editor.client.text_document_prepare_rename_async(nothing) is None
 
         made = await _renamed(editor, component, 4, 15, "Talk")
         assert _changes(made, ws) == {
-            "interfaces/Speech.idsl.yaml": [(_at(2, 2, 8), "Talk", "documents")],
-            "speech/speech.cdsl.yaml": [(_at(4, 13, 19), "Talk", "documents")],
+            "interfaces/Speech.idsl.yaml": [(at(2, 2, 8), "Talk", "documents")],
+            "speech/speech.cdsl.yaml": [(at(4, 13, 19), "Talk", "documents")],
             "speech/src/specificworker.py": [
-                (_at(4, 8, 18), "Talk_say", "code"),
-                (_at(5, 25, 35), "Talk_say", "code"),
+                (at(4, 8, 18), "Talk_say", "code"),
+                (at(5, 25, 35), "Talk_say", "code"),
             ],
         }
         assert made.change_annotations is not None and made.change_annotations["code"].needs_confirmation
@@ -90,7 +81,7 @@ def test_a_name_is_renamed_in_documents_and_code(ws: Path) -> None:
         editor.open(robot)
         made = await _renamed(editor, robot, 2, 14, "voice")
         assert _changes(made, ws) == {
-            "robot.ddsl.yaml": [(_at(2, 13, 18), "voice", "documents"), (_at(3, 28, 33), "voice", "documents")]
+            "robot.ddsl.yaml": [(at(2, 13, 18), "voice", "documents"), (at(3, 28, 33), "voice", "documents")]
         }
         assert not editor.messages
 
@@ -113,6 +104,71 @@ def test_a_renaming_is_refused_with_its_reason(ws: Path) -> None:
             with pytest.raises(JsonRpcException, match=reason):
                 await _renamed(editor, path, line, column, name)
         await _renamed(editor, interface, 2, 4, "Talk")  # it lives on
+        assert not editor.messages
+
+    edited(test)
+
+
+def test_paths_follow_files_that_are_renamed(ws: Path) -> None:
+    interface, component = ws / "interfaces/Speech.idsl.yaml", ws / "speech/speech.cdsl.yaml"
+
+    async def test(editor: Editor) -> None:
+        started = await editor.start(ws)
+        files = started.capabilities.workspace and started.capabilities.workspace.file_operations
+        assert files and files.will_rename and files.did_rename
+        editor.open(component)
+        editor.change(component, f"# {ROBOT}\n{PLACE['speech/speech.cdsl.yaml']}")  # unsaved
+        made = await _will_rename(editor, (interface, interface.with_name("Talk.idsl.yaml")))
+        assert made is not None
+        (change,) = made.document_changes or ()
+        assert isinstance(change, types.TextDocumentEdit) and change.text_document.uri == component.as_uri()
+        assert list(change.edits) == [types.TextEdit(at(3, 10, 16), "Talk")]
+        made = await _will_rename(editor, (ws / "speech", ws / "voice"), (interface, ws / "voice/Talk.idsl.yaml"))
+        assert made is not None
+        texts = {}
+        for change in made.document_changes or ():
+            assert isinstance(change, types.TextDocumentEdit)
+            path = Path(str(uris.to_fs_path(change.text_document.uri)))
+            texts[path.name] = [one.new_text for one in change.edits if isinstance(one, types.TextEdit)]
+        assert texts == {"robot.ddsl.yaml": ["voice"], "speech.cdsl.yaml": ["Talk"]}
+        for old, new in (
+            (ws / "notes.txt", ws / "note.txt"),
+            (ws.parent / "far/x.idsl.yaml", ws.parent / "y.idsl.yaml"),
+        ):
+            assert await _will_rename(editor, (old, new)) is None
+        assert not editor.messages
+
+    edited(test)
+
+
+async def _will_rename(editor: Editor, *files: tuple[Path, Path]) -> types.WorkspaceEdit | None:
+    named = [types.FileRename(old.as_uri(), new.as_uri()) for old, new in files]
+    return await editor.client.workspace_will_rename_files_async(types.RenameFilesParams(named))
+
+
+def test_the_renaming_of_a_component_offers_its_file(ws: Path) -> None:
+    component, robot = ws / "speech/speech.cdsl.yaml", ws / "robot.ddsl.yaml"
+    robot.write_text(robot.read_text().replace("component: speech,", "component: speech/speech.cdsl.yaml,"))
+
+    async def test(editor: Editor) -> None:
+        await editor.start(ws, operations=[types.ResourceOperationKind.Rename])
+        editor.open(component)
+        made = await _renamed(editor, component, 0, 15, "VoiceComp")
+        *changes, file = made.document_changes or ()
+        assert file == types.RenameFile(
+            component.as_uri(), component.with_name("voice.cdsl.yaml").as_uri(), annotation_id="file"
+        )
+        (path,) = [
+            one
+            for one in changes
+            if isinstance(one, types.TextDocumentEdit) and one.text_document.uri == robot.as_uri()
+        ]
+        assert [getattr(one, "annotation_id", None) for one in path.edits] == ["file"]
+        assert [getattr(one, "new_text", None) for one in path.edits] == ["speech/voice.cdsl.yaml"]
+        assert made.change_annotations is not None and made.change_annotations["file"].needs_confirmation
+        component.with_name("voice.cdsl.yaml").write_text("# another file\n")
+        made = await _renamed(editor, component, 0, 15, "VoiceComp")
+        assert not any(isinstance(one, types.RenameFile) for one in made.document_changes or ())
         assert not editor.messages
 
     edited(test)

@@ -38,16 +38,20 @@ class LanguageServer:
         self._last_id = 0
         threading.Thread(target=self._read, daemon=True).start()
 
-    def start(self, folder: Path, schemas: Mapping[str, object]) -> None:
-        """Begin a session on a folder, with the `yaml.schemas` of its settings and no catalogue from the network."""
+    def start(self, folder: Path, schemas: Mapping[str, object], options: Mapping[str, object] | None = None) -> None:
+        """Begin a session on a folder, with the `yaml.schemas` of its settings and no catalogue from the network.
+        `options` are for the initialization."""
         wanted = {"validate": True, "hover": True, "completion": True}
         yaml = {**wanted, "schemas": schemas, "schemaStore": {"enable": False}}
         self._settings = {"yaml": yaml, "[yaml]": {"editor.tabSize": 2}}
         root = {"uri": folder.as_uri(), "name": folder.name}
         self.request(
             "initialize",
-            {"processId": None, "rootUri": root["uri"], "workspaceFolders": [root], "capabilities": _CAPABILITIES},
-        )
+            {
+                "processId": None, "rootUri": root["uri"], "workspaceFolders": [root], "capabilities": _CAPABILITIES,
+                "initializationOptions": options,
+            },
+        )  # fmt: skip
         self._notify("initialized", {})
         self._notify("workspace/didChangeConfiguration", {"settings": self._settings})
 
@@ -61,7 +65,7 @@ class LanguageServer:
 
     def open(self, path: Path, text: str) -> None:
         """Open a document; it need not exist on disk."""
-        self._diagnostics.setdefault(path.as_uri(), queue.Queue())
+        self._diagnostics[path.as_uri()] = queue.Queue()  # the server clears the marks of a document that is closed
         self._notify(
             "textDocument/didOpen",
             {"textDocument": {"uri": path.as_uri(), "languageId": "yaml", "version": 1, "text": text}},

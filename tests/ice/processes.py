@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 import random
+import select
 import signal
 import socket
 import subprocess
 import threading
 import time
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -32,6 +33,18 @@ def until(condition: Callable[[], Any], what: str | Callable[[], str], timeout: 
     return value
 
 
+def read_until(stream: int, *texts: bytes) -> bytes:
+    """What a pipe or a terminal gives until all texts were in it; fails at its end, and after PATIENCE."""
+    seen, end = b"", time.monotonic() + PATIENCE
+    while not all(text in seen for text in texts):
+        ready, _, _ = select.select([stream], [], [], max(0.0, end - time.monotonic()))
+        part = os.read(stream, 1000) if ready else b""
+        if not part:
+            pytest.fail(f"{texts} are not all in {seen!r}")
+        seen += part
+    return seen
+
+
 def kill_left(folder: str) -> None:
     """Kills whatever is left of the deployment that runs from a folder."""
     for _ in range(100):
@@ -41,6 +54,17 @@ def kill_left(folder: str) -> None:
                 os.kill(pid, signal.SIGKILL)
         if not left:
             return
+
+
+@contextmanager
+def killed_on_failure(process: subprocess.Popen[Any]) -> Iterator[subprocess.Popen[Any]]:
+    """As `with process`, which alone waits for ever for a process whose end the test no longer comes to."""
+    with process:
+        try:
+            yield process
+        except BaseException:
+            process.kill()
+            raise
 
 
 @dataclass

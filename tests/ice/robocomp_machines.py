@@ -63,7 +63,7 @@ class SpecificWorker(GenericWorker):
     @QtCore.Slot()
     def sm_initialize(self):
         self.say("initialize")
-        self.t_initialize_to_compute.emit()
+        self.initializetocompute.emit()  # the older name
 
     @QtCore.Slot()
     def sm_compute(self):
@@ -178,7 +178,7 @@ int SpecificWorker::startup_check()
 void SpecificWorker::sm_initialize()
 {
 	say("initialize");
-	emit this->t_initialize_to_compute();
+	emit this->initializetocompute(); // the older name
 }
 
 void SpecificWorker::sm_compute()

@@ -142,7 +142,7 @@ def test_wrong_arguments_are_not_sent(tmp_path: Path, rcyaml: Rcyaml, words: lis
         (["arm.Amr.move"], "arm does not serve 'Amr'; did you mean 'Arm'?"),
         (["arm.Arm.moove"], "Arm has no method 'moove'; did you mean 'move'?"),
         (["arm.moove"], "arm has no method 'moove'; did you mean 'move'?"),
-        (["arm"], "name a method of arm; there is arm.Arm.move"),
+        (["arm"], "name a method of arm; known are arm.Arm.move"),
         (["arm.Hand"], "name a method of Hand: arm.Hand.grasp"),
         (["twin.Arm.move"], "robot.ddsl.yaml has no component 'twin'; did you mean 'twin"),
         (["twin{i}.Arm.move"], "'twin{i}' means several processes; name one of twin0, twin1"),

@@ -51,6 +51,24 @@ def test_toml_dialect(server: Program, start: Start, free_port: Ports, ice: Any,
     assert answers(ice, f"arm:tcp -h 127.0.0.1 -p {arm}")
 
 
+def test_tables_of_toml(server: Program, start: Start, free_port: Ports, ice: Any, tmp_path: Path) -> None:
+    """`etc/config.toml` is read if there is no `etc/config`; without both, the others are listed."""
+    arm, copy = free_port(), Program("Server", tmp_path / "copy")
+    for folder in ("bin", "etc"):
+        (copy.root / folder).mkdir(parents=True)
+    shutil.copy(server.path, copy.path)
+    (copy.root / "etc/config_real").write_text("")
+    (copy.root / "etc/config_real.config.yaml").write_text("")
+    told = "No such file or directory; name one that exists: etc/config_real"
+    assert fails(start, copy, copy.root) == f"cannot read the config file etc/config: {told}"
+    (copy.root / "etc/config.toml").write_text(
+        f"[Endpoints]\nArm = 'tcp -h 127.0.0.1 -p {arm}' # of the arm\nHand = \"tcp -h 127.0.0.1 -p {free_port()}\"\n"
+        '[Ice]\nTrace.Network = "1"\n'
+    )
+    running = start([copy.path]).wait_for("Server is running")
+    assert answers(ice, f"arm:tcp -h 127.0.0.1 -p {arm}") and "INFO Ice: Network: " in running.output
+
+
 def test_the_command_line_wins(
     server: Program, start: Start, endpoints: dict[str, str], free_port: Ports, ice: Any, tmp_path: Path
 ) -> None:
@@ -92,6 +110,15 @@ def test_no_config(server: Program, start: Start, tmp_path: Path) -> None:
     (tmp_path / "folder").mkdir()
     for name, why in (("x.cfg", "No such file or directory"), ("folder", "Is a directory")):
         assert fails(start, server, tmp_path, name) == f"cannot read the config file {name}: {why}"
+
+
+def test_the_oldest_name_of_an_endpoint(
+    server: Program, start: Start, free_port: Ports, ice: Any, tmp_path: Path
+) -> None:
+    arm, hand = free_port(), free_port()
+    write(tmp_path, f"ArmComp.Endpoints = tcp -h 127.0.0.1 -p {arm}\nHandComp.Endpoints=tcp -h 127.0.0.1 -p {hand}\n")
+    start([server.path, "my.config"], cwd=tmp_path).wait_for("Server is running")
+    assert answers(ice, f"arm:tcp -h 127.0.0.1 -p {arm}")
 
 
 def test_a_missing_endpoint(server: Program, start: Start, tmp_path: Path) -> None:

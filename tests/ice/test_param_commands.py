@@ -136,6 +136,15 @@ def test_save_changes_the_document_too(python: Built, rcyaml: Rcyaml) -> None:
     assert document.read_text() == before.replace("mode: slow ", "mode: fast ")
 
 
+def test_a_reference_is_not_replaced_by_its_value(python: Built, rcyaml: Rcyaml) -> None:
+    """A secret would be in a document."""
+    before = Path("para/etc/config.yaml").read_text()
+    done = rcyaml("param", "set", "ParaComp", "pin", "8642", "--save")
+    assert done.exit_code == 2 and "reads pin from {env: PIN}: change it there, or leave --save out" in done.output
+    assert Path("para/etc/config.yaml").read_text() == before
+    assert rcyaml("param", "set", "ParaComp", "pin", "8642").exit_code == 0
+
+
 def test_what_the_deployment_sets_is_not_saved_elsewhere(python: Built, rcyaml: Rcyaml, tmp_path: Path) -> None:
     port = Path("para/etc/config.yaml").read_text().rpartition("-p ")[2].strip(" }\n")
     entry = (

@@ -51,6 +51,39 @@ def test_toml_dialect(both: Built, start: Start, free_port: Ports, ice: Any) -> 
     assert answers(ice, f"arm:tcp -h 127.0.0.1 -p {arm}")
 
 
+TABLES = """\
+# The newest generation of RoboComp's tool reads this.
+Speed = 2.5   # m/s
+[Endpoints]
+Arm = "tcp -h 127.0.0.1 -p {}"
+[Period]
+Compute = 20
+[Ice]
+Warn.Connections = "0"
+Trace.Network = '1'
+"""
+
+
+def test_tables_of_toml(arm: Built, start: Start, free_port: Ports, ice: Any) -> None:
+    """`etc/config.toml` is read if there is no `etc/config`."""
+    port = free_port()
+    (arm.root / "etc").mkdir(exist_ok=True)
+    (arm.root / "etc/config").unlink(missing_ok=True)
+    (arm.root / "etc/config.toml").write_text(TABLES.format(port))
+    running = start(arm.command).wait_for("ArmComp is running")
+    assert answers(ice, f"arm:tcp -h 127.0.0.1 -p {port}") and "INFO Ice: Network: " in running.output
+
+
+def test_a_missing_config_lists_the_others(arm: Built, start: Start) -> None:
+    etc = arm.root / "etc"
+    etc.mkdir(exist_ok=True)
+    (etc / "config").unlink(missing_ok=True)
+    for name in ("config_real", "sim.conf", "config_real.config.yaml", "notes.txt", "config.orig"):
+        (etc / name).write_text("")
+    told = "No such file or directory; name one that exists: etc/config_real, etc/sim.conf"
+    assert fails(start, arm) == f"cannot read the config file etc/config: {told}"
+
+
 def test_the_command_line_wins(arm: Built, start: Start, free_port: Ports, ice: Any) -> None:
     arm.configure({"Arm.Endpoints": "tcp -p 1", "Ice.Trace.Network": "0"})
     port = free_port()
@@ -75,6 +108,17 @@ def test_no_config(arm: Built, start: Start) -> None:
     assert fails(start, arm) == "cannot read the config file etc/config: No such file or directory"
     assert fails(start, arm, "x.cfg") == "cannot read the config file x.cfg: No such file or directory"
     assert fails(start, arm, "src") == "cannot read the config file src: Is a directory"
+
+
+def test_the_oldest_name_of_an_endpoint(arm: Built, start: Start, free_port: Ports, ice: Any) -> None:
+    """As the first version of RoboComp's tool had it. A newer name wins."""
+    old, new = free_port(), free_port()
+    arm.configure({"ArmComp.Endpoints": f"tcp -h 127.0.0.1 -p {old}"})
+    start(arm.command).wait_for("ArmComp is running")
+    assert answers(ice, f"arm:tcp -h 127.0.0.1 -p {old}")
+    arm.configure({"ArmComp.Endpoints": "tcp -h 127.0.0.1 -p 1", "Endpoints.Arm": f"tcp -h 127.0.0.1 -p {new}"})
+    start(arm.command).wait_for("ArmComp is running")
+    assert answers(ice, f"arm:tcp -h 127.0.0.1 -p {new}")
 
 
 def test_a_missing_endpoint(arm: Built, start: Start) -> None:

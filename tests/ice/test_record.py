@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import random
 import signal
 import subprocess
 import sys
@@ -285,6 +286,8 @@ def test_a_full_disk(talk: Talk, start: Start, tmp_path: Path) -> None:  # noqa:
         (["--max-size", "big"], "'big' is not a size, such as 500MB or 2GB"),
         (["info", "there.mcap"], "there.mcap is not an MCAP file"),
         (["play", "there.mcap"], "there.mcap is not an MCAP file"),
+        (["info", "short.mcap"], "short.mcap is not an MCAP file"),
+        (["play", "empty.mcap"], "empty.mcap is not an MCAP file"),
         (["info", "nowhere.mcap"], "nowhere.mcap"),
     ],
 )
@@ -292,10 +295,34 @@ def test_what_cannot_be_done(rcyaml: Rcyaml, icestorm: Storm, tmp_path: Path, wo
     cdsl = "component: P\nlanguage: python\nimports: [Types, Arm]\npublishes: [ArmEvents]\n"
     write_tree(
         tmp_path,
-        {**INTERFACES, "p/p.cdsl.yaml": cdsl, "rcyaml.yaml": "interfaces: [.]\n", "there.mcap": "no file of MCAP " * 9},
-    )
+        {**INTERFACES, "p/p.cdsl.yaml": cdsl, "rcyaml.yaml": "interfaces: [.]\n", "there.mcap": "no file of MCAP " * 9,
+         "short.mcap": "MCAP", "empty.mcap": ""},
+    )  # fmt: skip
     recording = words[0] not in ("info", "play")
     done = rcyaml("record", *words, *(["--storm", icestorm.manager, "--for", "1s"] if recording else []))
     assert done.exit_code == 2
     assert said in done.output
     assert (tmp_path / "there.mcap").read_text() == "no file of MCAP " * 9
+
+
+def test_damaged_files(talk: Talk, start: Start, rcyaml: Rcyaml, tmp_path: Path) -> None:  # noqa: F811
+    """Whatever is lost or wrong in a file: it is read, or refused in words."""
+    start(talk.publisher.command).wait_for("Publisher is running")
+    assert rcyaml("record", "-o", "good.mcap", "--count", "20").exit_code == 0
+    good, chance, refused = (tmp_path / "good.mcap").read_bytes(), random.Random(4), 0
+    for number in range(60):
+        data, at = bytearray(good), chance.randrange(len(good))
+        if number % 3 == 0:
+            del data[at:]
+        elif number % 3 == 1:
+            del data[at : at + 7]
+        else:
+            data[at] ^= 0x55
+        (tmp_path / "damaged.mcap").write_bytes(data)
+        for words in (["info", "damaged.mcap"], ["play", "damaged.mcap", "--rate", "0"]):
+            done = rcyaml("record", *words)
+            assert done.exit_code in (0, 2) and (done.exception is None or isinstance(done.exception, SystemExit)), (
+                f"{number} {words}: {done.output} {done.exception!r}"
+            )
+            refused += done.exit_code
+    assert refused > 40

@@ -10,6 +10,7 @@ import pytest
 from click.testing import CliRunner
 
 from conftest import write_tree
+from cpp_programs import needs_cpp
 from robocomp_yaml.cli import group
 
 HEAD = "component: {}\nlanguage: python\ncompatibility: robocomp\n"
@@ -83,6 +84,18 @@ def test_a_missing_part_of_qt_is_named(tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.parametrize(("line", "told"), [
+    ("import no_such_library", "src/specificworker.py, line 2, imports no_such_library, which "),
+    ("from pydsr import *", "imports pydsr (the DSR library of RoboComp's agents, https://github.com/robocomp/cortex), which "),
+    ("import more", "src/more.py, line 1, imports no_such_library, which "),
+])  # fmt: skip
+def test_a_missing_library_is_named(tmp_path: Path, line: str, told: str) -> None:
+    code = f"from genericworker import *\n{line}\nclass SpecificWorker(GenericWorker): pass\n"
+    done = run(tmp_path, code, files={"robot/arm/src/more.py": "import no_such_library\n"})
+    assert done.returncode == 1 and told in done.stderr and "does not have" in done.stderr, done.stderr
+    assert "Traceback" not in done.stderr
+
+
 @pytest.mark.parametrize("line", ["print 'hello'", "try:\n    pass\nexcept (ValueError), error:\n    pass"])
 def test_python_2_is_named(tmp_path: Path, line: str) -> None:
     code = f"from genericworker import *\n{line}\nclass SpecificWorker(GenericWorker):\n{INIT}        pass\n"
@@ -101,3 +114,37 @@ def test_a_constructor_that_does_not_call_the_base(tmp_path: Path) -> None:
     )
     done = run(tmp_path, code)
     assert done.returncode == 0 and "own [] True" in done.stdout, done.stderr
+
+
+AGENT = """\
+#include <genericworker.h>
+#include {}
+class SpecificWorker : public GenericWorker {{
+Q_OBJECT
+public:
+    SpecificWorker(TuplePrx tprx, bool startup_check) : GenericWorker(tprx) {{}}
+public slots:
+    void compute() {{}}
+}};
+"""
+
+
+@needs_cpp
+@pytest.mark.slow
+@pytest.mark.parametrize(("header", "library"), [
+    ("<dsr/api/dsr_api.h>", "the DSR library of RoboComp's agents (https://github.com/robocomp/cortex)"),
+    ('"agm.h"', "AGM (https://github.com/ljmanso/AGM)"),
+])  # fmt: skip
+def test_a_missing_library_of_agents_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, header: str, library: str
+) -> None:
+    write_tree(tmp_path, {
+        "agent.cdsl.yaml": "component: Agent\nlanguage: cpp\ncompatibility: robocomp\noptions: [dsr]\n",
+        "src/specificworker.h": AGENT.format(header), "src/specificworker.cpp": '#include "specificworker.h"\n',
+    })  # fmt: skip
+    monkeypatch.chdir(tmp_path)
+    runner = CliRunner()
+    assert runner.invoke(group, ["compile"]).exit_code == 0
+    built = runner.invoke(group, ["build"])
+    assert built.exit_code == 1 and built.output.count("error[") == 1
+    assert f"Agent needs {library}, which is not installed: src/specificworker.h has #include {header}" in built.output

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from random_modules import Maker
-from robocomp_yaml.check import checks
+from robocomp_yaml.check import check_documents
 from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import ERROR
 from robocomp_yaml.emit import slice as target
@@ -28,7 +28,7 @@ IN_PYTHON_ALONE = {codes.PYTHON_WORD.id}
 
 def _said(pair: list[LinkedModule]) -> set[str]:
     program = Program({linked.module.path: linked for linked in pair})
-    said = [diagnostic for run in checks(program) for diagnostic in run(program)]
+    said = list(check_documents(program))
     return {d.code for d in said if d.severity == ERROR or d.code in IN_PYTHON_ALONE}
 
 

@@ -15,6 +15,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from in_memory import program
+from processes import killed_on_failure
 from robocomp_yaml.emit import slice as target
 from robocomp_yaml.source.tree import Mapping, parse
 from robocomp_yaml.source.yaml_text import flow
@@ -111,7 +112,7 @@ def interface(ice: Any) -> Any:
 def servant(ice: Any, folder: Path) -> Iterator[Any]:
     """A proxy of the peer's servant."""
     command = [sys.executable, PEER, folder]
-    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as peer:
+    with killed_on_failure(subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)) as peer:
         assert peer.stdin is not None and peer.stdout is not None
         yield ice.stringToProxy(peer.stdout.readline().strip())
         peer.stdin.close()

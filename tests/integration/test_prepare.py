@@ -226,3 +226,14 @@ def test_it_parses_with_old_pythons() -> None:
     """An older Python must parse it, to print that it is too old."""
     for path in ("tools/prepare.py", f"{RUNTIME}/interpreter.py", f"{RUNTIME}/main.py"):
         ast.parse((ROOT / path).read_text(encoding="utf-8"), feature_version=(3, 7))
+
+
+def test_a_machine_without_hosts_gets_localhost(
+    prepare: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(prepare, "knows_localhost", lambda: False)
+    monkeypatch.setattr(prepare, "rights", lambda: ["env"])
+    prepare.name_this_machine(tmp_path / "hosts")
+    assert (tmp_path / "hosts").read_text() == "127.0.0.1 localhost\n"
+    with pytest.raises(prepare.Failed, match="adds this line"):
+        prepare.name_this_machine(tmp_path / "hosts")  # nobody's file is changed

@@ -115,3 +115,9 @@ def test_networkx_is_not_imported_by_a_check(tmp_path: Path) -> None:
     )
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, cwd=tmp_path, check=True)
     assert not {"networkx", "jinja2", "lark", "difflib"} & set(done.stderr.split())
+
+
+def test_units_have_no_random_examples() -> None:
+    """`-m unit` leaves out Hypothesis, and with it the settings by which all runs have the same examples."""
+    for path in (ROOT / "tests" / "unit").rglob("*.py"):
+        assert "hypothesis" not in path.read_text(encoding="utf-8"), f"{named(path)}: tests/properties is for that"

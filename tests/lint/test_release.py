@@ -35,10 +35,12 @@ def test_each_section_says_something() -> None:
 
 
 def test_links_lead_to_where_the_project_lives() -> None:
-    """Which is said once for people, and once for the links of the README."""
-    (substitution,) = PROJECT["tool"]["hatch"]["metadata"]["hooks"]["fancy-pypi-readme"]["substitutions"]
+    """Which is said once for people, and once for the pictures and links of the README."""
+    pictures, links = PROJECT["tool"]["hatch"]["metadata"]["hooks"]["fancy-pypi-readme"]["substitutions"]
     home = PROJECT["project"]["urls"]["Homepage"]
-    assert substitution["replacement"].startswith(f"]({home}/blob/v$HFPR_VERSION/")
+    raw = home.replace("https://github.com/", "https://raw.githubusercontent.com/")
+    assert f"]({raw}/v$HFPR_VERSION/" in pictures["replacement"].replace("\\1(", "](")
+    assert links["replacement"].startswith(f"]({home}/blob/v$HFPR_VERSION/")
     assert all(url.startswith(home) for url in PROJECT["project"]["urls"].values())
 
 

@@ -38,7 +38,7 @@ AREAS = (
     "link", "model", "parameters", "network", "legacy/settings", "deploy/plan.py", "deploy/differences.py",
     "deploy/carry_out.py", "deploy/operations.py",
 )  # fmt: skip
-TESTS = "tests/unit"
+TESTS = ("tests/unit", "tests/properties/test_any_text.py", "tests/properties/test_random_graphs.py")
 KEPT = ROOT / ".mutants" / "seen.json"
 LONGEST = 8
 """Seconds of CPU, beside those that the tests take, after which they have noticed a mutant: it has no end."""
@@ -193,7 +193,7 @@ def main() -> int:
     run.say(f"{len(drawn)} of {len(all_of_them)} mutants, seed {given.seed}")
     os.chdir(ROOT)
     arguments = ["-q", "-p", "no:cacheprovider", "-p", "no:rerunfailures", "-p", "no:xdist"]
-    arguments += ["-o", "tmp_path_retention_policy=none", TESTS]
+    arguments += ["-o", "tmp_path_retention_policy=none", *TESTS]
     pytest.main(arguments, plugins=[run])
     fit = len(drawn) - len(run.unfit)
     noticed = fit - len(run.survivors)

@@ -84,7 +84,8 @@ def test_the_package_index_takes_it_and_its_links_lead_somewhere(built: Path) ->
     links = re.findall(r"\]\(([^)\s]+)\)", metadata.description or "")
     assert len(links) > 10
     assert [link for link in links if not link.startswith(("https://", "#"))] == []
-    assert f"/blob/v{metadata.version}/docs/cdsl.md" in (metadata.description or "")
+    assert f"/blob/v{metadata.version}/docs/tutorial/README.md" in (metadata.description or "")
+    assert f"https://raw.githubusercontent.com/robocomp/rcyaml/v{metadata.version}/docs/pictures/flow.svg" in links
 
 
 @pytest.fixture(scope="module")

@@ -13,6 +13,7 @@ import pytest
 
 from conftest import read_tree, write_tree
 from plugins.wheels import ROOT, SAMPLES, Run, build, install
+from processes import killed_on_failure
 from robocomp_yaml.plugins import KINDS
 
 pytestmark = pytest.mark.slow
@@ -169,7 +170,9 @@ def test_a_language_compiles(rcyaml: Run, tmp_path: Path) -> None:
     tree = read_tree(tmp_path)
     assert "sleep 0.05" in tree["bin/ClockComp"] and "compute()" in tree["src/compute.sh"]
     assert {"etc/config", "slice/CommonBehavior.ice"} <= {*tree}
-    with subprocess.Popen([tmp_path / "bin/ClockComp"], stdout=subprocess.PIPE, text=True) as process:
+    with killed_on_failure(
+        subprocess.Popen([tmp_path / "bin/ClockComp"], stdout=subprocess.PIPE, text=True)
+    ) as process:
         assert process.stdout is not None
         assert [process.stdout.readline() for _ in range(2)] == ["ClockComp\n", "ClockComp\n"]
         process.terminate()

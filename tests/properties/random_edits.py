@@ -1,4 +1,4 @@
-"""What users do to a skeleton: random edits of `src/specificworker.*`, in either language."""
+"""What users do to a skeleton: random edits of `src/specificworker.*`, in each language."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def edited(files: Files, random: Random, python: bool) -> Files:
     for _ in range(random.randint(1, 6)):
         path = random.choice(sorted(files))
         lines = files[path].splitlines(keepends=True)
-        random.choice(PYTHON if python else CPP)(lines, user)
+        random.choice(PYTHON if python else JAVA if path.endswith(".java") else CPP)(lines, user)
         files[path] = "".join(lines)
     if not python and random.random() < 0.2:
         _moved_out(files, random)
@@ -171,6 +171,25 @@ def _methods(lines: list[str], user: Writer) -> list[tuple[int, int]]:
     return spans
 
 
+def _java_helper(lines: list[str], user: Writer) -> None:
+    places = [n for n, line in enumerate(lines) if line == "    @Override\n"]
+    if places:
+        at = user.random.choice(places)
+        lines[at:at] = [
+            f"    int {user.name()}(int a) {{\n",
+            user.statement("        "),
+            "        return a;\n    }\n",
+            "\n",
+        ]
+
+
+def _java_delete(lines: list[str], user: Writer) -> None:
+    starts = [n for n, line in enumerate(lines) if re.match(r"    public \S+ \w+_\w+\(.*\{$", line)]
+    if starts:
+        first = user.random.choice(starts)
+        del lines[first - 1 : lines.index("    }\n", first) + 1]
+
+
 def _signature(lines: list[str], user: Writer) -> None:
     """Another name for a parameter, or one uncommented."""
     if user.python:
@@ -194,6 +213,8 @@ def _slip(lines: list[str], user: Writer) -> None:
 def _moved_out(files: Files, random: Random) -> None:
     """A definition goes to a file of its own."""
     path = "src/specificworker.cpp"
+    if path not in files:
+        return
     lines = files[path].splitlines(keepends=True)
     spans = _methods(lines, Writer(random, python=False))
     if spans:
@@ -208,3 +229,4 @@ _BOTH: tuple[Edit, ...] = (
 )  # fmt: skip
 PYTHON: tuple[Edit, ...] = (*_BOTH, _delete, _swap, _signature)
 CPP: tuple[Edit, ...] = (*_BOTH, _delete, _swap, _signature)
+JAVA: tuple[Edit, ...] = (_body, _body, _comment, _blank, _head, _title, _slip, _java_helper, _java_delete)

@@ -57,6 +57,21 @@ WORKSPACE = {
         "groups: {eyes: {components: [eye1, eye2]}}\n"
     ),
     "whole.ddsl.yaml": "deployment: Whole\ninclude: [robot.ddsl.yaml]\ncomponents:\n  more: {program: sleep, args: [9]}\n",
+    "line.ddsl.yaml": (
+        "deployment: Line\nhosts:\n  left: {address: 10.0.0.2, listen: any}\n  right: 10.0.0.3\n"
+        "services: {storm: {icestorm: {host: left}}}\ncomponents:\n"
+        + "".join(
+            f"  arm{n}: {{component: arm, host: {'left' if n % 2 else 'right'}, connect: {{Eye: eye{n % 3}}}, "
+            f"set: {{speed: 0.{n}}}, after: [eye0]}}\n"
+            for n in range(9)
+        )
+        + "  eye0: {component: eye, host: left, port: 12000}\n  eye1:\n    component: eye\n    host: right\n"
+        "  eye2: {component: eye, host: left, config: ../spare/spare.config.yaml}\n"
+        "  'arm-{i}': {component: arm, host: left, connect: {Eye: eye0}, config: ../spare/spare.config.yaml, "
+        "set: {camera.token: {env: TOKEN}}, instances: 3}\n"
+        "groups: {eyes: {components: [eye1, eye2]}, right: {components: [arm0, arm2]}}\nlimits: {memory: 100 MiB}\n"
+    ),
+    "spare/spare.config.yaml": "parameters: {speed: 0.25}\n",
 }  # fmt: skip
 WORDS = (
     "Arm", "Eye", "Pose", "Moved", "ArmComp", "float", "int", "speed", "1.5", "50", "arm", "eye", "left", "token",
@@ -85,7 +100,7 @@ class Edited:
     def step(self) -> str:
         random = self.random
         edits: list[Callable[[str], object]] = [
-            self.shift, self.change, self.change, self.change, self.cut, self.repair, self.repair, self.save, self.remove,
+            self.shift, self.insert, self.insert, self.change, self.change, self.change, self.cut, self.repair, self.repair, self.save, self.remove,
             self.rename, self.close, self.copy,
         ]  # fmt: skip
         edit, name = random.choice(edits), random.choice([*WORKSPACE, *self.unsaved, *self.files()])
@@ -114,6 +129,14 @@ class Edited:
     def change(self, name: str) -> None:
         text, word = self.text(name), self.random.choice([word for word in WORDS if word in self.text(name)] or [""])
         self.put(name, text.replace(word, self.random.choice((*WORDS, *NEW)), 1) if word else text)
+
+    def insert(self, name: str) -> None:
+        lines = self.text(name).splitlines(keepends=True)
+        at = self.random.randrange(len(lines) + 1)
+        line = self.random.choice(
+            ["\n", "# a word\n", "  more: {component: eye, host: left}\n", *lines[at : at + 1], ":\n"]
+        )
+        self.put(name, "".join([*lines[:at], line, *lines[at:]]))
 
     def cut(self, name: str) -> None:
         lines = self.text(name).splitlines(keepends=True)

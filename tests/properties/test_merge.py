@@ -34,7 +34,7 @@ REFUSED = 0.25  # of all merges, at most: what two sides changed can be too much
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("language", ["python", "cpp"])
+@pytest.mark.parametrize("language", ["python", "cpp", "java"])
 @pytest.mark.parametrize("chunk", range(CHUNKS))
 def test_no_line_is_lost(chunk: int, language: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     if chunk % 4 == 3:
@@ -93,6 +93,10 @@ def _assert_whole(result: Files, after: RootPlan) -> None:
         assert {name: names[name] for name in wanted["src/specificworker.py"]} == dict.fromkeys(
             wanted["src/specificworker.py"], 1
         )
+    elif "src/SpecificWorker.java" in result:
+        for name in wanted["src/SpecificWorker.java"]:
+            text = result["src/SpecificWorker.java"]
+            assert len(re.findall(rf"^ +public \w.*\b{name}\(", text, re.MULTILINE)) == 1, name
     else:
         header = result["src/specificworker.h"]
         sources = "\n".join(text for path, text in result.items() if path.endswith(".cpp"))

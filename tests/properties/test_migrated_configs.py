@@ -6,7 +6,7 @@ import os
 import tempfile
 from pathlib import Path
 
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from parameters import as_dict
@@ -55,6 +55,8 @@ def exported(document: str) -> dict[str, str]:
 
 @settings(deadline=None, max_examples=200)
 @given(st.lists(LINE, min_size=1, max_size=12).map("\n".join))
+@example("Endpoints.Laser = tcp -p 1\nLaser0=true,true,true\nLaser1=true,true")  # texts without quotes in flat TOML
+@example('Endpoints.Laser = tcp -p 1\nLaser0="a,b"\nLaser1=true\nLaser2= x , y')
 def test_the_properties_come_back(text: str) -> None:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "etc" / "config"

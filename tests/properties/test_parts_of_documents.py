@@ -7,7 +7,8 @@ from random import Random
 
 import pytest
 
-from robocomp_yaml.source import parts
+from robocomp_yaml.source import parts, syntax
+from robocomp_yaml.source.syntax import SyntaxFault
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
 
 DOCUMENTS = [
@@ -85,7 +86,11 @@ def test_parts_are_the_whole(monkeypatch: pytest.MonkeyPatch, seed: int) -> None
         text, known, in_parts = document, parts.Parts(), 0
         for _ in range(25):
             whole, found = parse("a.yaml", text)
-            made = parts.parse_in_parts("a.yaml", text, known)
+            try:
+                made = parts.parse_in_parts("a.yaml", text, known)
+            except SyntaxFault as fault:
+                assert whole is None and found == [fault.diagnostic], text
+                made = None
             if made is not None:
                 in_parts += 1
                 assert whole is not None and not found, text
@@ -107,3 +112,22 @@ def test_only_what_changed_is_parsed_again(monkeypatch: pytest.MonkeyPatch) -> N
     assert isinstance(before, Mapping) and isinstance(after, Mapping)
     assert after.entries["c300"][1] is before.entries["c300"][1]
     assert after.entries["c7"][1] is not before.entries["c7"][1]
+
+
+@pytest.mark.parametrize("broken", ["  c390: {program: sh, args: [", "  c390: {program: 'sh}", "  c390 x"])
+def test_a_long_document_that_is_broken_near_its_end_is_parsed_from_there(
+    monkeypatch: pytest.MonkeyPatch, broken: str
+) -> None:
+    """The parser of YAML 1.2, which is slow, reads a few lines."""
+    lines = [f"  c{n}: {{program: sh, args: ['{n}']}}" for n in range(400)]
+    read: list[int] = []
+    slow = syntax._compose_as_1_2
+    monkeypatch.setattr(syntax, "_compose_as_1_2", lambda text: read.append(len(text)) or slow(text))
+    known = parts.Parts()
+    assert parts.parse_in_parts("a.yaml", "components:\n" + "\n".join(lines) + "\n", known)
+    lines[390] = broken
+    text = "components:\n" + "\n".join(lines) + "\n"
+    with pytest.raises(SyntaxFault) as caught:
+        parts.parse_in_parts("a.yaml", text, known)
+    assert sum(read) < len(text) / 10
+    assert parse("a.yaml", text) == (None, [caught.value.diagnostic])

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ast
 import builtins
+import dis
 import importlib.util
 import json
 import logging
@@ -18,7 +19,7 @@ import traceback
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
 from pathlib import Path
-from types import ModuleType
+from types import FrameType, ModuleType, SimpleNamespace
 from typing import ClassVar
 from unittest.mock import MagicMock
 
@@ -46,6 +47,21 @@ def undefined_names(folder: Path) -> set[str]:
 UNDEFINED = undefined_names(ROOT / "src")
 
 
+class Value(MagicMock):
+    """Whatever a fake returns. It has as many elements as the code unpacks."""
+
+    def __init__(self, *arguments: object, **more: object) -> None:
+        super().__init__(*arguments, **more)
+        # Each mock has a class of its own.
+        type(self).__iter__ = lambda _: iter([Value() for _ in range(unpacked(sys._getframe(1)))])
+
+
+def unpacked(frame: FrameType) -> int:
+    """How many elements the current instruction of a frame unpacks."""
+    code, at = frame.f_code.co_code, frame.f_lasti
+    return code[at + 1] if dis.opname[code[at]] == "UNPACK_SEQUENCE" else 0
+
+
 class Fake(ModuleType):
     """A module with every name."""
 
@@ -56,7 +72,7 @@ class Fake(ModuleType):
             return sorted(UNDEFINED)
         if name.startswith("__"):
             raise AttributeError(name)
-        value = MagicMock(name=f"{self.__name__}.{name}")
+        value = Value(name=f"{self.__name__}.{name}")
         setattr(self, name, value)
         return value
 
@@ -66,6 +82,8 @@ class Fakes(MetaPathFinder, Loader):
 
     def find_spec(self, name: str, path: object, target: object = None) -> ModuleSpec | None:
         top = name.partition(".")[0]
+        if top == "PySide6" and "PySide6" in sys.modules:
+            return importlib.util.spec_from_loader(name, self, is_package=True)  # an add-on that is not installed
         if top in OURS or top.startswith("_") or top in sys.stdlib_module_names:
             return None
         return importlib.util.spec_from_loader(name, self, is_package=True)
@@ -93,9 +111,14 @@ def main() -> None:
     os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
     sys.path[:0] = [str(ROOT), str(ROOT / "src")]
     sys.meta_path.append(Fakes())
+    sys.modules["gi"] = Fake("gi")  # its parts are packages of their own, and seldom installed
     listener = Listener()
     logging.getLogger().addHandler(listener)
-    stage, wrong = run(listener)
+    report(*run(listener))
+
+
+def report(stage: str, wrong: str) -> None:
+    """Says what happened, and ends."""
     sys.stdout.flush()
     os.write(REPORT, json.dumps({"stage": stage, "wrong": wrong[-3000:]}).encode())
     os._exit(0)
@@ -105,6 +128,7 @@ def run(listener: Listener) -> tuple[str, str]:
     from generated.component import COMPONENT
     from generated.parameters import TABLE, Parameters
     from generated.runtime import application, settings, topics
+    from generated.runtime import stopping as stopping_module
     from generated.runtime.stage import Stage
     from generated.runtime.stopping import Stopping
 
@@ -114,7 +138,15 @@ def run(listener: Listener) -> tuple[str, str]:
     topics.Topics.subscribe = topics.Topics.unsubscribe = lambda self, *_: None
     settings.Settings.endpoints = settings.Settings.topic_endpoints = lambda self, name: "tcp -h 127.0.0.1"
     settings.Settings.first = lambda self, *keys: ""
+    topics.Topics.name = lambda self, port, *_: port.name
     at = "import"
+
+    def by_force(_: int) -> None:
+        """The run time ends a component whose methods do not return."""
+        main = sys._current_frames()[threading.main_thread().ident or 0]
+        report(at, "No end: " + "".join(traceback.format_stack(main)[-3:]))
+
+    stopping_module.os = SimpleNamespace(**{**vars(os), "_exit": by_force})
     try:
         stopping = Stopping()
         config = [path for path in [ROOT / "etc" / "config"] if path.exists()]
@@ -125,7 +157,9 @@ def run(listener: Listener) -> tuple[str, str]:
         original = stage.create
 
         def create(*arguments: object) -> object:
+            nonlocal at
             created.append(original(*arguments))
+            at = "step"
             threading.Timer(SECONDS, stopping.request).start()
             return created[0]
 
@@ -133,11 +167,11 @@ def run(listener: Listener) -> tuple[str, str]:
         app = application.Application(COMPONENT, worker_class, (TABLE, Parameters), stage)
         threading.Timer(30, lambda: os._exit(3)).start()
         app.run()
-        if created:
-            at = "step"
     except BaseException:  # noqa: BLE001 - whatever it is, it is what went wrong
         return at, traceback.format_exc()
-    return (at, "\n".join(listener.heard)) if listener.heard else ("done" if at == "step" else at, "")
+    if listener.heard:
+        return at, "\n".join(listener.heard)
+    return ("done", "") if at == "step" else (at, "SystemExit: the code ended by itself")
 
 
 REPORT = os.dup(1)

@@ -2,17 +2,10 @@
 
 from __future__ import annotations
 
-from hypothesis import given
-from hypothesis import strategies as st
-
 from robocomp_yaml import digraph
 
 LONG = 1_500  # more than the interpreter recurses
 CHAIN = {number: [number + 1] for number in range(LONG)} | {LONG: []}
-
-graphs = st.dictionaries(st.integers(0, 8), st.lists(st.integers(0, 8), max_size=4)).map(
-    lambda graph: graph | {other: [] for others in graph.values() for other in others if other not in graph}
-)
 
 
 def test_breadth_first_order() -> None:
@@ -49,19 +42,3 @@ def test_a_cycle_by_the_first_successor_and_the_shortest_path_back() -> None:
     assert digraph.cycle_through(graph, {"a", "b", "c"}, "a") == ["a", "b"]
     assert digraph.cycle_through(graph, {"a", "b", "c"}, "c") == ["c", "a", "b"]
     assert digraph.cycle_through(graph, {"e"}, "e") == ["e"]
-
-
-@given(graphs)
-def test_generations_and_components_agree_whether_there_is_a_cycle(graph: dict[int, list[int]]) -> None:
-    generations, components = digraph.generations(graph), digraph.cyclic_components(graph)
-    assert (generations is None) == bool(components)
-    for component in components:
-        for start in component:
-            around = digraph.cycle_through(graph, component, start)
-            assert len(set(around)) == len(around) and around[0] == start
-            assert all(after in graph[one] for one, after in zip(around, [*around[1:], start], strict=True))
-    if generations is not None:
-        level = {node: number for number, generation in enumerate(generations) for node in generation}
-        assert all(level[other] < level[node] for node, others in graph.items() for other in others)
-        order = list(digraph.postorder(graph, graph.__getitem__))
-        assert all(order.index(other) < order.index(node) for node, others in graph.items() for other in others)

@@ -7,8 +7,8 @@ import pytest
 pytest.importorskip("pygls")
 
 from in_memory import ROOT, analysed
-from robocomp_yaml.lsp.completion import codes_at, proposals
-from robocomp_yaml.lsp.places import typed_at
+from robocomp_yaml.api.completing.places import typed_at
+from robocomp_yaml.api.completing.proposals import codes_at, proposals
 from robocomp_yaml.naming.analysis import names_of
 
 WORKSPACE = {

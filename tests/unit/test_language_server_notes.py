@@ -97,3 +97,16 @@ def test_hints(known: KnownNames, file: str, expected: dict[str, str]) -> None:
 def test_the_defaults_of_a_values_document_are_listed(known: KnownNames) -> None:
     ((_, label, more),) = list(notes.hints_of(known, f"{ROOT}/arm/etc/config.yaml"))
     assert "size: 3" in more and "speed" not in more and label
+
+
+@pytest.mark.parametrize(
+    "values", ["component: ../leg.cdsl.yaml\nparameters: {speed: 1}\n", "parameters: {speed: 1}\n"]
+)
+def test_values_of_an_unknown_component_have_no_hints(values: str) -> None:
+    place = {
+        "rcyaml.yaml": "",
+        "etc/config.yaml": f"# yaml-language-server: $schema=.rcyaml/schemas/config.schema.json\n{values}",
+    }
+    analysis = analysed(place)
+    assert analysis.program.values
+    assert not list(notes.hints_of(KnownNames(names_of(analysis), analysis), f"{ROOT}/etc/config.yaml"))

@@ -35,6 +35,13 @@ def test_a_result_is_kept_for_the_same_causes(
     assert memory.result("other part", causes, object) is not first
 
 
+def test_a_result_that_says_that_it_holds_no_more_is_made_again() -> None:
+    memory = Memory()
+    first = memory.result("part", ("a",), object)
+    assert memory.result("part", ("a",), object, lambda kept: kept is first) is first
+    assert memory.result("part", ("a",), object, lambda kept: kept is not first) is not first
+
+
 def test_only_the_last_result_of_a_part_is_kept() -> None:
     memory = Memory()
     first = memory.result("part", ("a",), object)

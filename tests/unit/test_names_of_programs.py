@@ -41,7 +41,7 @@ MARKED = {
     ),
     "ear/ear.cdsl.yaml": "component: EarComp\nlanguage: python\nimports: [../interfaces/Speech]\nrequires: [{«Left»27: «Speech»6}]\nsubscribes: [«Heard»8]\n",
     "ear/ear.pdsl.yaml": "component: ear.cdsl.yaml\nparameters: {«gain»28: {type: int, default: 1}}\n",
-    "ear/etc/config": "# of the user\n«Left»27Proxy=speech:tcp -p 10000\n«gain»28 = 3\n«Heard»8Topic.Endpoints = tcp\nother=1\n",
+    "ear/etc/config": "# of the user\n«Left»27Proxy=«speech»6:tcp -p 10000\n«gain»28 = 3\n«Heard»8Topic.Endpoints = tcp\nother=1\n",
     "robot.ddsl.yaml": (
         "deployment: Robot\nhosts: {«left»15: 10.0.0.2}\nservices: {«storm»16: {icestorm: {host: «left»15}}}\ncomponents:\n"
         "  «mouth»17: {component: «speech»10, host: «left»15, topics: {«Mine»20: a/b}, set: {«voice»12: high, «camera»13.«width»14: 2, '«wheels»26[0].«speed»25': 1}, after: [«storm»16]}\n"
@@ -119,5 +119,5 @@ def test_what_is_no_name_is_none(names: Names) -> None:
 
 def test_the_names_of_a_document_are_in_its_order(names: Names) -> None:
     found = names.in_document(f"{ROOT}/interfaces/Speech.idsl.yaml")
-    assert [one.name for one in found] == ["RoboCompSpeech", "Speech", "say", "Heard", "word"]
+    assert [one.name for one in found] == ["RoboCompSpeech", "Speech", "say", "at", "Heard", "word", "at"]
     assert found[2].says == "Speech.say(at: Pose.Pose) → RoboCompPose.Path" and found[2].inside == found[1].key

@@ -1,33 +1,23 @@
-// What is known of the selected process, its log, and what can be done with it.
+// What is known of the selected process or topic, its log or messages, and what can be done with it.
 
-import { Model } from "./model";
-import { ask } from "./server";
+import { button, buttons, element, inWords } from "./dom";
+import { Facts, process } from "./facts";
+import { Model, Node, TOPIC } from "./model";
+import { RunningValues } from "./operate";
+import { Echo, LogLines } from "./streams";
 
-const LONGEST = 2000; // lines of a log
-
-export function element<K extends keyof HTMLElementTagNameMap>(name: K, text = "", attributes: Record<string, string> = {}): HTMLElementTagNameMap[K] {
-  const made = document.createElement(name);
-  if (text) made.textContent = text;
-  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-  return made;
-}
-
-export function button(text: string, act: () => void): HTMLButtonElement {
-  const made = element("button", text, { type: "button" });
-  made.addEventListener("click", act);
-  return made;
-}
+export interface Rights { operate: ((action: string, names: string[]) => void) | null; canSet: boolean; canEcho: boolean; canCall: boolean }
 
 export class Details {
   private shown = "";
-  private following: EventSource | null = null;
+  private stream: LogLines | Echo | null = null;
   private readonly facts = element("dl");
   private readonly faults = element("div");
 
   constructor(
-    private readonly root: HTMLElement, private readonly model: Model,
-    private readonly address: () => string, private readonly operate: ((action: string, names: string[]) => void) | null,
-    private readonly close: () => void,
+    private readonly root: HTMLElement, private readonly model: Model, private readonly known: Facts, private readonly path: () => string,
+    private readonly rights: Rights, private readonly call: (name: string) => void,
+    private readonly ask: (name: string, x: number, y: number) => void, private readonly close: () => void,
   ) {}
 
   show(): void {
@@ -40,58 +30,47 @@ export class Details {
     }
     if (this.shown !== node.name) {
       this.shown = node.name;
-      this.build(node.name);
+      this.build(node);
     }
-    this.update(node.name);
+    this.update(node);
   }
 
-  private build(name: string): void {
+  private build(node: Node): void {
     this.stop();
-    const close = button("✕", () => this.close());
-    close.setAttribute("aria-label", "close the details");
+    const { name } = node, isProcess = this.model.states.has(name);
+    const close = button("✕", () => this.close(), "close the details");
     close.className = "close";
-    this.root.replaceChildren(close, element("h2", name), this.faults, this.facts);
-    if (!this.model.states.has(name)) return;
-    if (this.operate) {
-      const buttons = element("p", "", { class: "buttons" });
+    this.root.replaceChildren(close, element("h2", node.title), this.faults, this.facts);
+    const row: HTMLElement[] = [];
+    if (this.rights.operate && isProcess) {
       for (const [text, action] of [["Start", "up"], ["Restart", "restart"], ["Stop", "down"]]) {
-        const made = button(`${text}…`, () => this.operate!(action, [name]));
-        made.setAttribute("aria-label", `${text.toLowerCase()} ${name}`);
-        buttons.append(made);
+        row.push(button(`${text}…`, () => this.rights.operate!(action, [name]), `${text.toLowerCase()} ${name}`));
       }
-      this.root.append(buttons);
     }
-    const values = element("div");
-    const log = element("pre", "", { id: "log", tabindex: "0", role: "log", "aria-label": `log of ${name}` });
-    this.root.append(element("h3", "Log"), log, element("h3", "Values"), button("Read the values that it has now", () => this.read(name, values)), values);
-    this.following = new EventSource(`${this.address()}/log-events?last=100&name=${encodeURIComponent(name)}`);
-    this.following.addEventListener("line", (event) => {
-      const line = JSON.parse(event.data), isAtEnd = log.scrollTop + log.clientHeight >= log.scrollHeight - 4;
-      log.append(`${line.time.slice(11, 19)} ${line.text}\n`);
-      while (log.childNodes.length > LONGEST) log.firstChild!.remove();
-      if (isAtEnd) log.scrollTop = log.scrollHeight;
-    });
-    // A browser that connects again gets the last lines once more.
-    this.following.addEventListener("open", () => log.replaceChildren());
+    if (this.rights.canCall && node.serves.length) row.push(button("Call…", () => this.call(name), `call a method of ${name}`));
+    const more = button("More ▾", () => {
+      const place = more.getBoundingClientRect();
+      this.ask(name, place.left, place.bottom);
+    }, `more for ${name}`);
+    more.setAttribute("aria-haspopup", "menu");
+    row.push(more);
+    this.root.append(buttons(...row));
+    if (node.kind === TOPIC && this.rights.canEcho) {
+      this.stream = new Echo(this.path(), node.title);
+      this.root.append(element("h3", "Messages"), this.stream.root);
+    }
+    if (!isProcess) return;
+    this.stream = new LogLines(this.path(), [name], 100);
+    const values = new RunningValues(this.path(), name, this.rights.canSet ? () => process(this.path(), name).then((found) => found.parameters) : null);
+    this.root.append(element("h3", "Log"), this.stream.root, element("h3", "Values"), values.root);
   }
 
-  private async read(name: string, values: HTMLElement): Promise<void> {
-    values.replaceChildren("…");
-    try {
-      const path = this.address().replace(/^api\//, "");
-      const found = await ask<{ parameters: { path: string; data: unknown; unit: string }[] }>(`${path}/parameters?process=${encodeURIComponent(name)}`);
-      const list = element("dl");
-      for (const one of found.parameters) list.append(element("dt", one.path), element("dd", `${typeof one.data === "string" ? one.data : JSON.stringify(one.data)} ${one.unit}`));
-      values.replaceChildren(list);
-    } catch (error) {
-      values.replaceChildren(element("p", (error as Error).message, { class: "fault" }));
-    }
-  }
-
-  private update(name: string): void {
-    const node = this.model.nodes.get(name)!, state = this.model.states.get(name);
+  private update(node: Node): void {
+    const { name } = node, state = this.model.states.get(name), entry = this.known.entry(name);
     const rows: [string, string][] = [["What", node.texts.slice(1, 2).join(" ")], ["Host", node.host]];
     if (node.groups.length) rows.push(["Groups", node.groups.join(", ")]);
+    const rate = this.model.rate(node);
+    if (rate) rows.push(["Rate", rate]);
     if (state) {
       rows.unshift(["State", state.words]);
       if (state.pid) rows.push(["Process", String(state.pid)]);
@@ -101,18 +80,26 @@ export class Details {
       if (state.last_exit) rows.push(["Last end", state.last_exit]);
     }
     for (const one of node.serves) rows.push(["Serves", one.port ? `${one.interface}, port ${one.port}` : one.interface]);
-    const edges = this.model.graph!.edges;
-    for (const edge of edges) {
+    for (const one of entry?.requires ?? []) rows.push(["Uses", `${one.port} of ${one.to || "nobody"}`]);
+    for (const one of entry?.topics ?? []) rows.push([one.out ? "Publishes" : "Receives", one.topic || one.port]);
+    for (const edge of this.model.graph!.edges) {
       const what = edge.label ? `${edge.label} of ` : "";
-      if (edge.from === name) rows.push([{ uses: "Uses", after: "After", publishes: "Publishes", subscribes: "Receives" }[edge.kind] ?? edge.kind, what + edge.to]);
+      if (edge.from === name && edge.kind === "uses" && !entry) rows.push(["Uses", what + edge.to]);
+      else if (edge.from === name && edge.kind === "after") rows.push(["After", edge.to]);
       else if (edge.to === name && edge.kind === "uses") rows.push(["Used by", edge.from]);
+      else if (edge.to === name && edge.kind === "publishes") rows.push(["Publisher", edge.from]);
+      else if (edge.to === name && edge.kind === "subscribes") rows.push(["Subscriber", edge.from]);
     }
-    this.facts.replaceChildren(...rows.flatMap(([key, value]) => [element("dt", key), element("dd", value)]));
-    this.faults.replaceChildren(...node.faults.map((fault) => element("p", `${fault.code}: ${fault.message}`, { class: "fault" })));
+    const text = JSON.stringify(rows);
+    if (this.facts.dataset.rows !== text) {
+      this.facts.dataset.rows = text;
+      this.facts.replaceChildren(...rows.filter(([, value]) => value).flatMap(([key, value]) => [element("dt", key), element("dd", value)]));
+    }
+    this.faults.replaceChildren(...node.faults.map((fault) => element("p", inWords(fault), { class: fault.severity === "error" ? "fault" : "hint" })));
   }
 
   private stop(): void {
-    this.following?.close();
-    this.following = null;
+    this.stream?.close();
+    this.stream = null;
   }
 }

@@ -1,73 +1,113 @@
 // The page: a picture and a tree of one deployment, kept up to date by the server's events.
 
-import { button, Details, element } from "./details";
-import { Graph, Model, SIGNS, State } from "./model";
+import { Changes } from "./changes";
+import { Details } from "./details";
+import { button, element, find, inWords, Message } from "./dom";
+import { Drawer } from "./drawer";
+import { Editing } from "./edit";
+import { Facts } from "./facts";
+import { box, gestures } from "./gestures";
+import { Action, menu } from "./menu";
+import { CLOSED, Graph, Model, Positions, SIGNS, State } from "./model";
+import { call, plan } from "./operate";
 import { Scene } from "./scene";
-import { ask, names, Refusal } from "./server";
-import { Tree } from "./tree";
+import { Abilities, ask, Refusal } from "./server";
+import type { TextPane } from "./text";
+import { Kind, Tree } from "./tree";
 
 interface Served { id: string; document: string; problem: string }
-interface Step { name: string; action: string; reason: string; changes: { field: string; old: unknown; new: unknown }[] }
-interface Message { severity: string; message: string; code: string }
 
-const find = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 const canvas = find<HTMLCanvasElement>("picture"), which = find<HTMLSelectElement>("which"), filter = find<HTMLSelectElement>("filter");
-const model = new Model();
+const model = new Model(), facts = new Facts(), can = new Abilities();
 const scene = new Scene(canvas, model);
-const tree = new Tree(find("tree"), model, (name) => select(name, true));
-let deployment = "", details: Details, progress = "";
+const tree = new Tree(find("tree"), model, (name) => select(name, true), (kind, name, x, y) => void askMenu(kind, name, x, y));
+const closed = new Set<string>(); // boxes: `host NAME`, `group NAME`
+let deployment = "", details: Details, drawer: Drawer, progress = "", text: TextPane | null = null;
 
 const path = () => `deployments/${encodeURIComponent(deployment)}`;
+const editing = new Editing(path, () => model.graph!, written, complain);
+const changes = new Changes(editing, facts, path);
+const mayOperate = () => can.may("operate"), mayEdit = () => can.may("edit");
 
 /** Selects a node. `isFound`: it was not clicked in the picture, so that the picture goes where it is. */
-function select(name: string, isFound = false): void {
+function select(name: string, isFound = false, isInText = false): void {
   model.selected = name;
   show();
-  scene.covered = find("details").hidden ? 0 : find("details").offsetWidth;
+  const { offsetWidth, offsetHeight, hidden } = find("details"), isBelow = offsetWidth === find("view").offsetWidth;
+  scene.covered = hidden || isBelow ? 0 : offsetWidth;
+  scene.coveredBelow = hidden || !isBelow ? 0 : offsetHeight;
   if (name) scene.show(name, isFound);
+  if (name && !isInText) text?.mark(name);
 }
 
 function show(): void {
   tree.show();
   details.show();
   scene.change();
-  const counts = new Map<string, number>();
-  for (const name of model.states.keys()) counts.set(model.look(name), (counts.get(model.look(name)) ?? 0) + 1);
+  const counts = model.counts(model.states.keys());
   const words: Record<string, string> = { ready: "ready", busy: "not ready", down: "failed", idle: "not running" };
-  const parts = Object.entries(words).filter(([look]) => counts.get(look)).map(([look, word]) => `${SIGNS[look as "ready"]} ${counts.get(look)} ${word}`);
-  const text = [...parts, progress].filter(Boolean).join("   ");
-  if (find("summary").textContent !== text) find("summary").textContent = text;
+  const parts = Object.entries(words).filter(([look]) => counts.get(look as "ready")).map(([look, word]) => `${SIGNS[look as "ready"]} ${counts.get(look as "ready")} ${word}`);
+  const said = [parts.join("  "), progress].filter(Boolean).join(" · ");
+  if (find("summary").textContent !== said) find("summary").textContent = said;
 }
 
-function complain(text: string): void {
-  find("problem").hidden = !text;
-  find("problem").textContent = text;
+function complain(said: string): void {
+  find("problem").hidden = !said;
+  find("problem").textContent = said;
 }
+
+/** Shows a picture: that of the documents, or of a text that is not saved. */
+function take(graph: Graph): void {
+  const isFirst = !model.graph;
+  model.take(graph);
+  complain(graph.faults.map(inWords).join("\n"));
+  find("name").textContent = document.title = graph.name;
+  choices();
+  tree.build();
+  if (isFirst) scene.fit();
+}
+
+/** The picture of a text that is not saved; null: it has none, and the last one stays. */
+function draft(graph: Graph | null): void {
+  if (graph) take(graph);
+  find("draft").hidden = false;
+  find("draft").textContent = graph ? "not saved: the picture is that of the text" : "not saved: the text has no picture, this is the last one";
+  show();
+}
+
+let asked = 0, known: Promise<void> = Promise.resolve();
 
 async function load(): Promise<void> {
+  const mine = asked += 1;
   try {
-    const isFirst = !model.graph;
-    model.take(await ask<Graph>(`${path()}/graph`));
-    complain(model.graph!.faults.map((fault) => `${fault.code}: ${fault.message}`).join("\n"));
-    find("name").textContent = document.title = model.graph!.name;
-    choices();
-    tree.build();
-    if (isFirst) scene.fit();
+    if (await text?.draw()) return;
+    const shut = [...closed].map((name) => `closed=${encodeURIComponent(name)}`).join("&");
+    const graph = await ask<Graph>(`${path()}/graph${shut ? `?${shut}` : ""}`);
+    if (mine !== asked) return;
+    find("draft").hidden = true;
+    take(graph);
   } catch (error) {
     const data = error instanceof Refusal ? error.data : {};
-    const found = (data.diagnostics as Message[] | undefined)?.map((one) => `${one.code}: ${one.message}`);
-    complain(found?.join("\n") || (error as Error).message);
+    complain((data.diagnostics as Message[] | undefined)?.map(inWords).join("\n") || (error as Error).message);
   }
   show();
+  known = facts.load(path()).then(() => { show(); drawer.changed(); }, () => undefined); // the picture does not wait for it
+}
+
+/** After a change of this page: it is shown at once, and not only when the manager looks at the disk again. */
+async function written(what: string): Promise<void> {
+  progress = what;
+  await load();
+  await text?.reload();
 }
 
 function choices(): void {
   const graph = model.graph!, chosen = model.filter;
-  const interfaces = [...new Set(graph.nodes.flatMap((node) => node.serves.map((one) => one.interface)))].sort();
+  const interfaces = [...new Set([...model.nodes.values()].flatMap((node) => node.serves.map((one) => one.interface)))].sort();
   const options: [string, string][] = [["", "everything"], ["sdown", "failed"], ["sbusy", "not ready"], ["sready", "ready"], ["sidle", "not running"],
     ...graph.hosts.map((host): [string, string] => [`h${host.name}`, `host ${host.title}`]),
     ...interfaces.map((name): [string, string] => [`i${name}`, `interface ${name}`])];
-  filter.replaceChildren(...options.map(([value, text]) => element("option", text, { value })));
+  filter.replaceChildren(...options.map(([value, title]) => element("option", title, { value })));
   filter.value = options.some(([value]) => value === chosen) ? chosen : "";
   model.filter = filter.value;
 }
@@ -75,17 +115,19 @@ function choices(): void {
 function listen(): EventSource {
   const events = new EventSource(`api/${path()}/events`);
   events.addEventListener("states", (event) => {
-    const data = JSON.parse(event.data) as { all: boolean; processes: State[]; gone?: string[]; problem: string };
+    const data = JSON.parse(event.data) as { all: boolean; processes: State[]; gone?: string[]; problem: string; topics?: Record<string, { rate: number }> };
     if (data.all) model.states.clear();
     for (const state of data.processes) model.states.set(state.name, state);
     for (const name of data.gone ?? []) model.states.delete(name);
+    for (const [name, one] of Object.entries(data.topics ?? {})) model.rates.set(name, one.rate);
     if (data.problem) complain(data.problem);
     show();
   });
-  events.addEventListener("documents", () => void load());
+  events.addEventListener("documents", () => { void load(); void text?.reload(); });
+  events.addEventListener("happened", (event) => drawer.happened(JSON.parse(event.data)));
   events.addEventListener("progress", (event) => {
     const data = JSON.parse(event.data);
-    progress = `${data.name} ${data.kind}`;
+    progress = `${data.name ?? data.host ?? ""} ${data.kind ?? ""}`.trim();
     show();
   });
   events.addEventListener("error", () => { progress = "no connection to the manager"; show(); });
@@ -93,93 +135,146 @@ function listen(): EventSource {
   return events;
 }
 
-/** Shows what an operation would do, and does it when that is confirmed. */
-async function operate(action: string, chosen: string[]): Promise<void> {
-  const dialog = find<HTMLDialogElement>("plan");
-  const title = { up: "Start", restart: "Restart", down: "Stop" }[action]! + " " + (chosen.join(", ") || model.graph?.name);
-  const list = element("ul"), buttons = element("p", "", { class: "buttons" });
-  let isPossible = true;
-  try {
-    const plan = await ask<{ plan?: Step[]; stop?: string[]; diagnostics: Message[] }>(`${path()}/plan?action=${action}&${names(chosen)}`);
-    const steps = plan.plan?.filter((step) => step.action !== "keep") ?? plan.stop!.map((name) => ({ name, action: "stop", reason: "", changes: [] }));
-    for (const step of steps) list.append(element("li", `${step.action} ${step.name}${step.reason ? `: ${step.reason}` : ""}`));
-    for (const one of plan.diagnostics) list.append(element("li", `${one.code}: ${one.message}`, one.severity === "error" ? { class: "fault" } : {}));
-    if (!steps.length) list.append(element("li", "Nothing to do."));
-    isPossible = steps.length > 0 && !plan.diagnostics.some((one) => one.severity === "error");
-  } catch (error) {
-    list.append(element("li", (error as Error).message, { class: "fault" }));
-    isPossible = false;
-  }
-  const close = button("Cancel", () => dialog.close());
-  if (isPossible) buttons.append(button("Do it", () => { dialog.close(); void run(action, chosen); }));
-  buttons.append(close);
-  dialog.replaceChildren(element("h2", title, { id: "plan-title" }), list, buttons);
-  dialog.showModal();
+function operate(action: string, chosen: string[]): void {
+  void plan(path(), action, chosen, model.graph?.name ?? "", (problem) => {
+    complain(problem);
+    progress = "";
+    show();
+  });
 }
 
-async function run(action: string, chosen: string[]): Promise<void> {
-  complain("");
+/** Everything that can be done with something, as a menu. */
+async function askMenu(kind: Kind, name: string, x: number, y: number): Promise<void> {
+  await known;
+  const actions: Action[] = [], node = model.nodes.get(name);
+  if (kind === "node" && node?.kind === CLOSED) {
+    void askMenu(...box(node), x, y);
+    return;
+  }
+  const members = kind === "node" ? (model.states.has(name) ? [name] : []) : kind === "network" ? [] :
+    [...model.nodes.values()].filter((one) => model.states.has(one.name) && (kind === "host" ? one.host === name : one.groups.includes(name))).map((one) => one.name);
+  if (mayOperate() && (members.length || kind === "network")) {
+    for (const [label, action] of [["Start…", "up"], ["Restart…", "restart"], ["Stop…", "down"]]) {
+      actions.push({ label, act: () => operate(action, kind === "group" ? [name] : members) });
+    }
+    if (kind === "network") actions.push({ label: "Roll back…", act: () => operate("rollback", []) });
+  }
+  if (mayOperate() && kind === "node" && node?.serves.length) actions.push({ label: "Call a method…", begins: true, act: () => void call(path(), name) });
+  if (members.length) actions.push({ label: "Logs", act: () => drawer.open("logs", members) });
+  if (kind === "host" || kind === "group") actions.push({ label: closed.has(`${kind} ${name}`) ? "Open in the picture" : "Close in the picture", act: () => toggle(kind, name) });
+  if (kind === "node" && facts.entry(name)) actions.push({ label: "Show in the document", act: () => void openText(name) });
+  if (kind === "node" && model.positions[name]) actions.push({ label: "Forget its position", act: () => void place({ [name]: null }) });
+  const edits = !mayEdit() ? [] : (kind === "network" ? changes.ofNetwork() : kind === "host" ? changes.ofHost(name) : kind === "group" ? changes.ofGroup(name) : changes.ofProcess(name));
+  actions.push(...edits.map((one, at) => ({ ...one, begins: !at })));
+  if (actions.length) menu(name || model.graph?.name || "network", actions, x, y);
+}
+
+function toggle(kind: "host" | "group", name: string): void {
+  const key = `${kind} ${name}`;
+  if (!closed.delete(key)) closed.add(key);
+  void load();
+}
+
+/** Keeps positions, or forgets those that are null. */
+async function place(moved: Record<string, [number, number] | null>): Promise<void> {
   try {
-    const done = await ask<{ ok: boolean; diagnostics: Message[] }>(`${path()}/${action}`, { names: chosen });
-    const wrong = done.diagnostics.filter((one) => one.severity === "error");
-    complain(wrong.map((one) => `${one.code}: ${one.message}`).join("\n"));
+    model.positions = (await ask<{ positions: Positions }>(`${path()}/positions`, { positions: moved })).positions ?? model.positions;
+    await load();
   } catch (error) {
     complain((error as Error).message);
   }
-  progress = "";
-  show();
 }
 
-function gestures(): void {
-  let last: { x: number; y: number } | null = null, moved = 0;
-  canvas.addEventListener("pointerdown", (event) => {
-    canvas.setPointerCapture(event.pointerId);
-    last = { x: event.offsetX, y: event.offsetY };
-    moved = 0;
+/** The document beside the picture; the editor is loaded when it is first wanted. */
+async function openText(name = ""): Promise<void> {
+  const { TextPane } = await import("./text");
+  text ??= new TextPane(find("text"), can, path, (found) => { if (found !== model.selected && model.nodes.has(found)) select(found, true, true); },
+    facts, load, (isOpen) => find("text-button").setAttribute("aria-expanded", String(isOpen)), draft, () => [...closed]);
+  await text.open(facts.entry(name)?.document ?? model.graph!.document);
+  if (name) text.mark(name);
+}
+
+function bars(): void {
+  const bar = find("editing");
+  if (mayOperate()) find("all").append(button("Start…", () => operate("up", [])), button("Stop…", () => operate("down", [])));
+  if (mayEdit()) {
+    const add = button("Add ▾", () => {
+      const at = add.getBoundingClientRect();
+      menu("Add", changes.ofNetwork(), at.left, at.bottom);
+    });
+    add.setAttribute("aria-haspopup", "menu");
+    bar.append(add, button("↶", () => void editing.back("undo"), "Undo"), button("↷", () => void editing.back("redo"), "Redo"));
+    window.addEventListener("keydown", (event) => {
+      if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "z" || (event.target as HTMLElement).closest("input, textarea, #text, dialog")) return;
+      event.preventDefault();
+      void editing.back(event.shiftKey ? "redo" : "undo");
+    });
+  }
+  const toggleText = button("YAML", () => { if (find("text").hidden) void openText(model.selected); else text!.close(); });
+  toggleText.id = "text-button";
+  toggleText.setAttribute("aria-expanded", "false");
+  toggleText.setAttribute("aria-controls", "text");
+  find("panels").append(toggleText);
+}
+
+function point(): void {
+  const canPlace = can.has("positions", "post") && mayEdit();
+  scene.hasHandle = (name) => mayEdit() && Boolean(facts.entry(name)?.requires.length);
+  gestures(canvas, scene, {
+    canEdit: mayEdit(), canPlace, select, toggle,
+    ask: (hit, x, y) => {
+      if (!hit || hit.kind === "end") void askMenu("network", "", x, y);
+      else if (!("node" in hit)) void askMenu(hit.kind, hit.name, x, y);
+      else {
+        select(hit.node.name);
+        void askMenu("node", hit.node.name, x, y);
+      }
+    },
+    targets: (source) => new Set([...model.nodes.keys()].filter((name) => name !== source && facts.matching(source, name).length)),
+    connect: (source, target) => changes.connect(source, "", target),
+    reconnect: (edge, target) => {
+      const port = facts.entry(edge.from)?.requires.find((one) => one.to === edge.to && (edge.label === one.interface || edge.label.startsWith(`${one.port}:`)))?.port ?? "";
+      if (target) changes.connect(edge.from, port, target);
+      else if (port) changes.disconnect(edge.from, port);
+    },
+    move: (name, host) => changes.move(name, host),
+    place: (name, x, y) => place({ [name]: [x, y] }),
   });
-  canvas.addEventListener("pointermove", (event) => {
-    if (!last) return;
-    const [dx, dy] = [event.offsetX - last.x, event.offsetY - last.y];
-    moved += Math.abs(dx) + Math.abs(dy);
-    last = { x: event.offsetX, y: event.offsetY };
-    if (moved > 4) scene.pan(dx, dy);
-  });
-  canvas.addEventListener("pointerup", (event) => {
-    if (last && moved <= 4) select(scene.at(event.offsetX, event.offsetY)?.name ?? "");
-    last = null;
-  });
-  canvas.addEventListener("pointercancel", () => { last = null; });
-  canvas.addEventListener("wheel", (event) => {
-    event.preventDefault();
-    scene.zoomAt(Math.exp(-event.deltaY * (event.ctrlKey ? 0.01 : 0.0015)), event.offsetX, event.offsetY);
-  }, { passive: false });
 }
 
 async function begin(): Promise<void> {
-  const { deployments, rights } = await ask<{ deployments: Served[]; rights: string[] }>("deployments");
-  const mayOperate = rights.includes("operate");
-  details = new Details(find("details"), model, () => `api/${path()}`, mayOperate ? (action, chosen) => void operate(action, chosen) : null, () => select(""));
+  const [{ deployments, rights }] = await Promise.all([ask<{ deployments: Served[]; rights: string[] }>("deployments"), can.learn()]);
+  can.rights = rights;
+  bars();
+  details = new Details(find("details"), model, facts, path,
+    { operate: mayOperate() ? operate : null, canSet: mayOperate(), canEcho: can.has("topic"), canCall: mayOperate() },
+    (name) => void call(path(), name), (name, x, y) => void askMenu("node", name, x, y), () => { select(""); tree.enter(); });
+  drawer = new Drawer(find("drawer"), find("panels"), model, facts, can, path, mayEdit() ? () => changes.host() : null,
+    mayEdit() ? (name, host) => changes.move(name, host) : null);
   for (const one of deployments) which.append(element("option", one.id, { value: one.id }));
   which.hidden = deployments.length < 2;
-  if (mayOperate) find("all").append(button("Start…", () => void operate("up", [])), button("Stop…", () => void operate("down", [])));
   find("fit").addEventListener("click", () => scene.fit());
   find<HTMLInputElement>("search").addEventListener("input", (event) => { model.search = (event.target as HTMLInputElement).value; show(); });
   filter.addEventListener("change", () => { model.filter = filter.value; show(); });
-  gestures();
+  point();
   let events: EventSource | null = null;
   const open = async (id: string) => {
     events?.close();
     deployment = id;
-    Object.assign(model, { graph: null, selected: "" });
+    Object.assign(model, { graph: null, selected: "", positions: {} });
     model.states.clear();
     model.nodes.clear();
+    closed.clear();
+    text?.close();
+    if (can.has("positions")) model.positions = (await ask<{ positions: Positions }>(`${path()}/positions`).catch(() => ({ positions: {} }))).positions;
     await load();
     events = listen();
+    await drawer.begin();
   };
   which.addEventListener("change", () => void open(which.value));
   await open(deployments[0].id);
 }
 
 // For tests: where the picture is, and how often it was drawn.
-Object.assign(window, { scene, model });
+Object.assign(window, { scene, model, facts });
 begin().catch((error) => complain((error as Error).message));

@@ -1,66 +1,95 @@
 // What the server says: the picture of the network, and the states of its processes.
 
+import { Message } from "./dom";
+
 export interface Box { name: string; title: string; x?: number; y?: number; width?: number; height?: number }
 export interface Placed { x: number; y: number; width: number; height: number }
 export interface Group extends Placed { name: string; host: string }
-export interface Fault { code: string; severity: string; message: string }
 export interface Node extends Placed {
   name: string; title: string; kind: string; host: string; groups: string[]; texts: string[]; enabled: boolean;
-  serves: { interface: string; port: number | null }[]; faults: Fault[];
+  serves: { interface: string; port: number | null }[]; faults: Message[]; members?: Omit<Node, keyof Placed>[];
 }
 export interface Edge {
-  from: string; to: string; kind: string; label: string; points: [number, number][]; faults: Fault[];
+  from: string; to: string; kind: string; label: string; points: [number, number][]; faults: Message[];
 }
 export interface Graph {
   name: string; width: number; height: number; hosts: Box[]; groups: Group[]; nodes: Node[]; edges: Edge[];
-  faults: Fault[]; document: string; version: string;
+  faults: Message[]; document: string; version: string;
 }
 export interface State {
   name: string; host: string; state: string; words: string; ready: boolean; down: boolean; pid: number;
   restarts: number; last_exit: string; memory: number | null; cpu: number | null;
 }
 export type Look = "ready" | "busy" | "down" | "idle" | "other";
+export type Positions = Record<string, [number, number]>;
+
+export const TOPIC = "topic", CLOSED = "closed";
+export const SIGNS: Record<Look, string> = { ready: "●", busy: "◐", down: "✕", idle: "○", other: "" };
+const WORST: Look[] = ["down", "busy", "idle", "ready"];
 
 /** How a node looks; what is no process, such as a topic, has no state. */
-export function look(node: Node | undefined, state: State | undefined): Look {
+export function look(node: { faults: Message[] } | undefined, state: State | undefined): Look {
   if (node?.faults.some((fault) => fault.severity === "error") || state?.down) return "down";
   if (!state) return "other";
   if (state.ready) return "ready";
   return state.pid ? "busy" : "idle";
 }
 
-export const SIGNS: Record<Look, string> = { ready: "●", busy: "◐", down: "✕", idle: "○", other: "" };
-
 export class Model {
   graph: Graph | null = null;
   states = new Map<string, State>();
-  nodes = new Map<string, Node>();
+  rates = new Map<string, number>(); // of topics
+  nodes = new Map<string, Node>(); // also those in closed boxes, with the place of the box
   near = new Map<string, Set<string>>();
+  positions: Positions = {}; // of the nodes that a person moved
   selected = "";
   search = "";
   filter = "";
 
   take(graph: Graph): void {
     this.graph = graph;
-    this.nodes = new Map(graph.nodes.map((node) => [node.name, node]));
-    this.near = new Map(graph.nodes.map((node) => [node.name, new Set([node.name])]));
+    this.nodes = new Map();
+    for (const node of graph.nodes) {
+      this.nodes.set(node.name, node);
+      for (const one of node.members ?? []) this.nodes.set(one.name, { ...one, x: node.x, y: node.y, width: node.width, height: node.height });
+    }
+    this.near = new Map([...this.nodes.keys()].map((name) => [name, new Set([name])]));
     for (const edge of graph.edges) {
       this.near.get(edge.from)?.add(edge.to);
       this.near.get(edge.to)?.add(edge.from);
+    }
+    for (const node of graph.nodes) {
+      for (const one of node.members ?? []) {
+        this.near.set(one.name, new Set([one.name, ...this.near.get(node.name)!]));
+      }
     }
     if (!this.nodes.has(this.selected)) this.selected = "";
   }
 
   look(name: string): Look {
-    return look(this.nodes.get(name), this.states.get(name));
+    const node = this.nodes.get(name);
+    if (!node?.members) return look(node, this.states.get(name));
+    const looks = new Set(node.members.map((one) => this.look(one.name)));
+    return WORST.find((one) => looks.has(one)) ?? "other";
+  }
+
+  /** How many of these processes look how. */
+  counts(names: Iterable<string>): Map<Look, number> {
+    const found = new Map<Look, number>();
+    for (const name of names) found.set(this.look(name), (found.get(this.look(name)) ?? 0) + 1);
+    return found;
   }
 
   /** Whether search and filter show a node in full. */
   shows(name: string): boolean {
     const node = this.nodes.get(name);
     if (!node) return false;
-    const text = [node.name, ...node.texts, node.host, ...node.groups].join(" ").toLowerCase();
-    if (this.search && !text.includes(this.search.toLowerCase())) return false;
+    if (!this.search && !this.filter) return true;
+    if (node.members) return node.members.some((one) => this.shows(one.name));
+    if (this.search) {
+      const text = [node.name, ...node.texts, node.host, ...node.groups].join(" ").toLowerCase();
+      if (!text.includes(this.search.toLowerCase())) return false;
+    }
     const [kind, value] = [this.filter.slice(0, 1), this.filter.slice(1)];
     if (kind === "h") return node.host === value;
     if (kind === "s") return this.look(name) === value;
@@ -72,5 +101,11 @@ export class Model {
   /** Whether the selection, the search and the filter show a node in full. */
   isClear(name: string): boolean {
     return this.shows(name) && (!this.selected || this.near.get(this.selected)!.has(name));
+  }
+
+  /** The rate of the messages of a topic, in words; '' if it is unknown. */
+  rate(node: Node): string {
+    const rate = node.kind === TOPIC ? this.rates.get(node.title) ?? this.rates.get(node.name) : undefined;
+    return rate === undefined ? "" : `${rate < 10 ? rate.toFixed(1) : rate.toFixed(0)} Hz`;
   }
 }

@@ -1,8 +1,13 @@
 // The picture on the canvas: it is drawn from the model whenever something changed, at most once in a frame.
 
-import { Edge, Model, Node, Placed, SIGNS } from "./model";
+import { CLOSED, Edge, Look, Model, Node, Placed, SIGNS } from "./model";
 
-const FAINT = 0.16, FAR = 0.3, READ = 0.9, SMALLEST = 6, MARGIN = 16;
+const MOVING = 200; // milliseconds after a move until the picture is painted anew
+const MANY = 200; // nodes from which on the view moves a still picture
+const FAINT = 0.16, FAR = 0.3, READ = 0.9, SMALLEST = 6, MARGIN = 16, REACH = 9;
+const COLORS = ["back", "text", "soft", "host", "group", "node", "frame", "line", "topic", "ready", "busy", "down", "idle", "other", "alarm", "chosen"] as const;
+
+export type Hit = { kind: "end"; edge: Edge } | { kind: "handle" | "node"; node: Node } | { kind: "host" | "group"; name: string };
 
 export class Scene {
   zoom = 1;
@@ -10,20 +15,46 @@ export class Scene {
   y = 0;
   drawn = 0;
   covered = 0; // pixels on the right, by the details
+  coveredBelow = 0; // and at the bottom
+  hovered = ""; // the node under the pointer
+  rubber: { from: [number, number]; to: [number, number]; targets: Set<string> } | null = null;
+  lifted: { node: Node; dx: number; dy: number } | null = null; // while it is dragged
+  hasHandle: (name: string) => boolean = () => false;
   private dirty = false;
   private isFitted = true;
-  private readonly context: CanvasRenderingContext2D;
+  private context: CanvasRenderingContext2D;
+  private size = { width: 0, height: 0 }; // of what is painted
+  private readonly still = document.createElement("canvas"); // the picture while the view moves
+  private stillAt = { zoom: 0, x: 0, y: 0 };
+  private movedAt = -MOVING;
+  private settling = 0;
+  private colors: Record<string, string> = {};
+  private font = "";
 
-  constructor(private readonly canvas: HTMLCanvasElement, private readonly model: Model) {
-    this.context = canvas.getContext("2d")!;
+  constructor(private readonly canvas: HTMLCanvasElement, readonly model: Model) {
+    this.context = canvas.getContext("2d", { alpha: false })!;
     new ResizeObserver(() => this.resize()).observe(canvas);
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.change());
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { this.restyle(); this.change(); });
+    this.restyle();
   }
 
+  /** Paints the picture anew with the next frame. */
   change(): void {
+    this.stillAt.zoom = 0;
+    this.again();
+  }
+
+  private again(): void {
     if (this.dirty) return;
     this.dirty = true;
     requestAnimationFrame(() => { this.dirty = false; this.draw(); });
+  }
+
+  /** Reads the colours of the style, which is slow. */
+  private restyle(): void {
+    const style = getComputedStyle(this.canvas);
+    this.colors = Object.fromEntries(COLORS.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
+    this.font = style.fontFamily;
   }
 
   private resize(): void {
@@ -31,7 +62,7 @@ export class Scene {
     this.canvas.width = Math.round(this.canvas.clientWidth * ratio);
     this.canvas.height = Math.round(this.canvas.clientHeight * ratio);
     if (this.isFitted) this.fit();
-    this.change();
+    this.draw();
   }
 
   fit(): void {
@@ -48,8 +79,15 @@ export class Scene {
   pan(dx: number, dy: number): void {
     this.x += dx;
     this.y += dy;
+    this.moved();
+  }
+
+  private moved(): void {
     this.isFitted = false;
-    this.change();
+    this.movedAt = performance.now();
+    this.again();
+    clearTimeout(this.settling);
+    this.settling = window.setTimeout(() => this.again(), MOVING);
   }
 
   zoomAt(factor: number, x: number, y: number): void {
@@ -57,140 +95,313 @@ export class Scene {
     this.x = x - (x - this.x) * zoom / this.zoom;
     this.y = y - (y - this.y) * zoom / this.zoom;
     this.zoom = zoom;
-    this.isFitted = false;
-    this.change();
+    this.moved();
   }
 
   /** Moves the picture so that a node is seen, and if wanted, its texts are read. */
   show(name: string, isRead = false): void {
     const node = this.model.nodes.get(name);
     if (!node) return;
-    if (isRead && 12 * this.zoom < SMALLEST) this.zoomAt(READ / this.zoom, this.x + node.x * this.zoom, this.y + node.y * this.zoom);
+    if (isRead && this.isFar) this.zoomAt(READ / this.zoom, this.x + node.x * this.zoom, this.y + node.y * this.zoom);
     const [left, top] = [this.x + node.x * this.zoom, this.y + node.y * this.zoom];
-    const { clientWidth, clientHeight: height } = this.canvas;
-    const width = clientWidth - this.covered;
+    const width = this.canvas.clientWidth - this.covered, height = this.canvas.clientHeight - this.coveredBelow;
     if (left < 0 || top < 0 || left + node.width * this.zoom > width || top + node.height * this.zoom > height) {
       this.pan(width / 2 - left - node.width * this.zoom / 2, height / 2 - top - node.height * this.zoom / 2);
     }
     this.change();
   }
 
+  /** Whether the texts of nodes are too small to be read. */
+  get isFar(): boolean {
+    return 12 * this.zoom < SMALLEST;
+  }
+
+  /** The point of the picture below a point of the canvas. */
+  point(x: number, y: number): [number, number] {
+    return [(x - this.x) / this.zoom, (y - this.y) / this.zoom];
+  }
+
   /** The node at a point of the canvas. */
   at(x: number, y: number): Node | undefined {
-    const [px, py] = [(x - this.x) / this.zoom, (y - this.y) / this.zoom];
-    return this.model.graph?.nodes.find((one) => px >= one.x && px <= one.x + one.width && py >= one.y && py <= one.y + one.height);
+    const at = this.point(x, y);
+    return this.model.graph?.nodes.find((one) => isInside(one, at));
+  }
+
+  /** What is at a point of the canvas: the end of a line, the handle of a node, a node, or the innermost box. */
+  hit(x: number, y: number): Hit | null {
+    const graph = this.model.graph, at = this.point(x, y), reach = REACH / this.zoom;
+    if (!graph) return null;
+    const near = (other: [number, number]) => Math.hypot(at[0] - other[0], at[1] - other[1]) <= reach;
+    const withHandle = this.isFar ? undefined : graph.nodes.find((one) => this.showsHandle(one) && near(handle(one)));
+    if (withHandle) return { kind: "handle", node: withHandle };
+    const edge = this.isFar ? undefined : graph.edges.find((one) => {
+      const [px, py] = one.points[one.points.length - 1];
+      return at[0] >= px - 2 * reach && at[0] <= px && Math.abs(at[1] - py) <= reach / 1.5;
+    });
+    const node = graph.nodes.find((one) => isInside(one, at));
+    if (edge && !node) return { kind: "end", edge };
+    if (node) return { kind: "node", node };
+    const group = [...graph.groups].reverse().find((one) => isInside(one, at));
+    if (group) return { kind: "group", name: group.name };
+    const host = graph.hosts.find((one) => one.width && isInside(one as Placed, at));
+    return host ? { kind: "host", name: host.name } : null;
+  }
+
+  private showsHandle(node: Node): boolean {
+    return (node.name === this.hovered || node.name === this.model.selected) && this.hasHandle(node.name);
   }
 
   private draw(): void {
-    const { context, model, zoom } = this;
-    const graph = model.graph, ratio = devicePixelRatio || 1;
-    const style = getComputedStyle(this.canvas);
-    const color = (name: string) => style.getPropertyValue(`--${name}`).trim();
-    context.setTransform(1, 0, 0, 1, 0, 0);
-    context.clearRect(0, 0, this.canvas.width, this.canvas.height);
-    if (!graph) return;
-    context.setTransform(ratio * zoom, 0, 0, ratio * zoom, ratio * this.x, ratio * this.y);
-    const font = style.fontFamily, line = Math.max(1, 1 / zoom);
-    context.textBaseline = "alphabetic";
-    const frame = (box: Placed, fill: string, title: string, size: number) => {
-      this.box(box, fill, color("frame"), line);
-      if (size * zoom < SMALLEST) return;
-      context.font = `${size}px ${font}`;
-      context.fillStyle = color("soft");
-      context.fillText(title, box.x + 8, box.y + 15);
-    };
-    for (const host of graph.hosts) if (host.width) frame(host as Placed, color("host"), host.title, 12);
-    for (const group of graph.groups) frame(group, color("group"), group.name, 12);
-    context.lineJoin = "round";
-    const isFar = 12 * zoom < SMALLEST;
-    this.lines(graph.edges, color, line, isFar);
-    const [left, top] = [-this.x / zoom, -this.y / zoom];
-    const [right, bottom] = [left + this.canvas.clientWidth / zoom, top + this.canvas.clientHeight / zoom];
-    for (const node of graph.nodes) {
-      if (node.x > right || node.y > bottom || node.x + node.width < left || node.y + node.height < top) continue;
-      this.node(node, color, font, line);
-    }
-    context.globalAlpha = 1;
-    if (isFar) this.far([...graph.hosts.map((host) => [host, host.title]), ...graph.groups.map((group) => [group, group.name])] as [Placed, string][], color, font);
+    const { clientWidth: width, clientHeight: height } = this.canvas;
     this.drawn += 1;
+    const isMoving = performance.now() - this.movedAt < MOVING && !this.rubber && !this.lifted;
+    if (isMoving && (this.model.graph?.nodes.length ?? 0) >= MANY) this.drawStill(width, height);
+    else {
+      this.size = { width, height };
+      this.paint();
+    }
   }
 
-  /** The lines, all that look alike at once: a stroke for each would take most of the time. */
-  private lines(edges: Edge[], color: (name: string) => string, line: number, isFar: boolean): void {
-    const { context, model } = this;
+  /** Shows the still picture where it is now, which is much faster than to paint. It is twice as wide and high as the
+   * view, and painted again when the view leaves it, or something else changed. */
+  private drawStill(width: number, height: number): void {
+    const { context, still } = this, ratio = devicePixelRatio || 1;
+    const place = () => {
+      const scale = this.zoom / this.stillAt.zoom;
+      return { scale, left: this.x - this.stillAt.x * scale, top: this.y - this.stillAt.y * scale };
+    };
+    let at = place();
+    const isOutside = at.left > 0 || at.top > 0 || at.left + 2 * width * at.scale < width || at.top + 2 * height * at.scale < height;
+    if (!this.stillAt.zoom || at.scale > 1.5 || isOutside || still.width !== 2 * this.canvas.width || still.height !== 2 * this.canvas.height) {
+      if (still.width !== 2 * this.canvas.width) still.width = 2 * this.canvas.width;
+      if (still.height !== 2 * this.canvas.height) still.height = 2 * this.canvas.height;
+      const { x, y } = this;
+      [this.x, this.y, this.context] = [x + width / 2, y + height / 2, still.getContext("2d", { alpha: false })!];
+      this.size = { width: 2 * width, height: 2 * height };
+      this.paint();
+      this.stillAt = { zoom: this.zoom, x: this.x, y: this.y };
+      [this.x, this.y, this.context] = [x, y, context];
+      at = place();
+    }
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    context.globalAlpha = 1;
+    context.imageSmoothingEnabled = at.scale !== 1;
+    context.drawImage(still, Math.round(at.left * ratio), Math.round(at.top * ratio), still.width * at.scale, still.height * at.scale);
+  }
+
+  private paint(): void {
+    const { context, model, zoom, colors } = this;
+    const graph = model.graph, ratio = devicePixelRatio || 1;
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    context.fillStyle = colors.back;
+    context.globalAlpha = 1;
+    context.fillRect(0, 0, this.size.width * ratio, this.size.height * ratio);
+    if (!graph) return;
+    context.setTransform(ratio * zoom, 0, 0, ratio * zoom, ratio * this.x, ratio * this.y);
+    const line = Math.max(1, 1 / zoom);
+    context.textBaseline = "alphabetic";
+    const frame = (box: Placed, fill: string, title: string, size: number) => {
+      this.box(box, fill, colors.frame, line);
+      if (size * zoom < SMALLEST) return;
+      context.font = `${size}px ${this.font}`;
+      context.fillStyle = colors.soft;
+      context.fillText(title, box.x + 8, box.y + 15);
+    };
+    for (const host of graph.hosts) if (host.width) frame(host as Placed, colors.host, host.title, 12);
+    for (const group of graph.groups) frame(group, colors.group, group.name, 12);
+    context.lineJoin = "round";
+    const [left, top] = this.point(0, 0), [right, bottom] = this.point(this.size.width, this.size.height);
+    const isSeen = (box: Placed) => box.x <= right && box.y <= bottom && box.x + box.width >= left && box.y + box.height >= top;
+    this.lines(graph.edges.filter((edge) => isSeen(around(edge))), line);
+    this.nodes(graph.nodes.filter(isSeen), line);
+    context.globalAlpha = 1;
+    if (this.isFar) this.far([...graph.hosts.map((host) => [host, host.title]), ...graph.groups.map((group) => [group, group.name])] as [Placed, string][]);
+    this.drag(line);
+  }
+
+  /** The lines, faint ones first. Their pieces are horizontal or vertical, so that they are filled as rectangles of
+   * whole pixels without transparency: without a graphics card, strokes would take most of the time. */
+  private lines(edges: Edge[], line: number): void {
+    const { context, model, isFar } = this, ratio = devicePixelRatio || 1;
     const alike = new Map<string, { edges: Edge[]; alpha: number; color: string; isChosen: boolean; isDashed: boolean }>();
     for (const edge of edges) {
-      const isClear = model.selected ? edge.from === model.selected || edge.to === model.selected
-        : model.shows(edge.from) && model.shows(edge.to);
+      const isClear = model.selected ? this.touches(edge) : model.shows(edge.from) && model.shows(edge.to);
       const isBad = edge.faults.some((fault) => fault.severity === "error");
       const name = isBad ? "down" : edge.kind === "uses" ? "line" : edge.kind === "after" ? "soft" : "topic";
       const alpha = !isClear ? FAINT : isFar && !model.selected && !isBad ? FAR : 1;
-      const isDashed = edge.kind === "after", isChosen = isClear && Boolean(model.selected);
+      const isDashed = edge.kind === "after" && !isFar, isChosen = isClear && Boolean(model.selected);
       const key = `${name} ${alpha} ${isDashed} ${isChosen}`;
-      const found = alike.get(key) ?? { edges: [], alpha, color: color(name), isChosen, isDashed };
+      const found = alike.get(key) ?? { edges: [], alpha, color: this.mixed(name, alpha), isChosen, isDashed };
       found.edges.push(edge);
       alike.set(key, found);
     }
+    const [left, top] = this.point(0, 0), [right, bottom] = this.point(this.size.width, this.size.height);
+    context.globalAlpha = 1;
     for (const one of [...alike.values()].sort((a, b) => a.alpha - b.alpha)) {
-      context.globalAlpha = one.alpha;
-      context.strokeStyle = context.fillStyle = one.color;
-      context.lineWidth = one.isChosen ? 2 * line : line;
-      context.setLineDash(one.isDashed ? [4, 4] : []);
-      context.beginPath();
-      for (const edge of one.edges) edge.points.forEach(([x, y], at) => at ? context.lineTo(x, y) : context.moveTo(x, y));
-      context.stroke();
+      const width = Math.max(1, Math.round((one.isChosen ? 2 : 1) * line * this.zoom * ratio));
+      context.fillStyle = one.color;
+      context.setTransform(1, 0, 0, 1, 0, 0);
+      for (const edge of one.edges) this.pieces(edge, width, one.isDashed ? Math.round(4 * this.zoom * ratio) || 1 : 0);
+      context.setTransform(ratio * this.zoom, 0, 0, ratio * this.zoom, ratio * this.x, ratio * this.y);
       if (isFar) continue;
       context.beginPath();
       for (const edge of one.edges) {
         const [x, y] = edge.points[edge.points.length - 1];
+        if (x < left || x - 6 > right || y < top - 4 || y > bottom + 4) continue;
         context.moveTo(x, y);
         context.lineTo(x - 6, y - 3.5);
         context.lineTo(x - 6, y + 3.5);
       }
       context.fill();
     }
-    context.setLineDash([]);
   }
 
-  /** The names of hosts and groups from afar, where the texts of their boxes are too small: as long as there is room. */
-  private far(boxes: [Placed, string][], color: (name: string) => string, font: string): void {
-    const { context, zoom } = this, size = 12 / zoom;
-    context.font = `600 ${size}px ${font}`;
+  /** The pieces of a line, in pixels of the screen; `dash` is the length of dashes, 0 for none. */
+  private pieces(edge: Edge, width: number, dash: number): void {
+    const { context } = this, ratio = devicePixelRatio || 1, scale = ratio * this.zoom, half = width >> 1;
+    const [wide, high] = [this.size.width * ratio, this.size.height * ratio];
+    let [x, y] = [0, 0];
+    edge.points.forEach((point, at) => {
+      const [left, top] = [x, y];
+      x = Math.round(point[0] * scale + this.x * ratio) - half;
+      y = Math.round(point[1] * scale + this.y * ratio) - half;
+      if (!at) return;
+      const [u, v] = [Math.min(x, left), Math.min(y, top)], [w, h] = [Math.abs(x - left) + width, Math.abs(y - top) + width];
+      if (u > wide || v > high || u + w < 0 || v + h < 0) return;
+      if (!dash) context.fillRect(u, v, w, h);
+      else if (w > h) for (let from = hidden(u, dash); from < Math.min(w, wide - u); from += 2 * dash) context.fillRect(u + from, v, Math.min(dash, w - from), width);
+      else for (let from = hidden(v, dash); from < Math.min(h, high - v); from += 2 * dash) context.fillRect(u, v + from, width, Math.min(dash, h - from));
+    });
+  }
+
+  /** A colour as it looks on the background with this transparency. */
+  private mixed(name: string, alpha: number): string {
+    if (alpha === 1) return this.colors[name];
+    const [over, under] = [parts(this.colors[name]), parts(this.colors.host)];
+    return `rgb(${over.map((one, at) => Math.round(one * alpha + under[at] * (1 - alpha))).join(" ")})`;
+  }
+
+  /** Whether a line begins or ends at what is selected, or at the closed box around it. */
+  private touches(edge: Edge): boolean {
+    const { selected } = this.model, isIt = (name: string) => name === selected || Boolean(this.model.nodes.get(name)?.members?.some((one) => one.name === selected));
+    return isIt(edge.from) || isIt(edge.to);
+  }
+
+  /** The names of hosts and groups from afar, where the texts of their boxes are too small: as long as there is room.
+   * One that would be on another is on its right. */
+  private far(boxes: [Placed, string][]): void {
+    const { context, zoom, colors } = this, size = 12 / zoom, height = size * 1.35, said: Placed[] = [];
+    context.font = `600 ${size}px ${this.font}`;
     for (const [box, title] of boxes) {
-      const width = context.measureText(title).width;
-      if (!box.width || width + size > box.width || 2 * size > box.height) continue;
-      const top = box.y + 22 - size * 1.35; // above the first nodes
+      if (!box.width || 2 * size > box.height) continue;
+      const label = { x: box.x + size / 3, y: box.y + 22 - height, width: context.measureText(title).width + size / 2, height }; // above the first nodes
+      for (let other; (other = said.find((one) => touch(one, label)));) label.x = other.x + other.width + size / 3;
+      if (label.x + label.width > box.x + box.width) continue;
+      said.push(label);
       context.globalAlpha = 0.85;
-      context.fillStyle = color("back");
-      context.fillRect(box.x + size / 3, top, width + size / 2, size * 1.35);
+      context.fillStyle = colors.back;
+      context.fillRect(label.x, label.y, label.width, height);
       context.globalAlpha = 1;
-      context.fillStyle = color("text");
-      context.fillText(title, box.x + size / 2, top + size);
+      context.fillStyle = colors.text;
+      context.fillText(title, label.x + size / 6, label.y + size);
     }
   }
 
-  private node(node: Node, color: (name: string) => string, font: string, line: number): void {
-    const { context, model, zoom } = this;
-    const look = model.look(node.name);
-    context.globalAlpha = model.isClear(node.name) ? 1 : FAINT * 1.6;
-    const isFar = 13 * zoom < SMALLEST;
-    const isChosen = node.name === model.selected;
-    this.box(node, isFar && look !== "other" ? color(look) : look === "down" ? color("alarm") : color("node"),
-      isChosen ? color("chosen") : color(look === "down" ? "down" : "frame"), isChosen ? 2.5 * line : line);
-    if (isFar) return;
-    context.fillStyle = color(look);
+  /** The nodes: from afar, all blocks of a colour at once. */
+  private nodes(nodes: Node[], line: number): void {
+    if (!this.isFar) {
+      for (const node of nodes) this.node(node, line);
+      return;
+    }
+    const { context, model, colors } = this, alike = new Map<string, { look: Look; alpha: number; nodes: Node[] }>();
+    for (const node of nodes) {
+      const look = model.look(node.name), alpha = model.isClear(node.name) ? 1 : FAINT * 1.6, key = `${look} ${alpha}`;
+      const found = alike.get(key) ?? { look, alpha, nodes: [] };
+      found.nodes.push(node);
+      alike.set(key, found);
+    }
+    for (const one of alike.values()) {
+      context.globalAlpha = one.alpha;
+      context.fillStyle = one.look === "other" ? colors.node : colors[one.look];
+      for (const node of one.nodes) context.fillRect(node.x, node.y, node.width, node.height);
+    }
+    const chosen = nodes.find((node) => this.isChosen(node));
+    if (!chosen) return;
+    context.globalAlpha = 1;
+    context.strokeStyle = colors.chosen;
+    context.lineWidth = 3 * line;
+    context.strokeRect(chosen.x, chosen.y, chosen.width, chosen.height);
+  }
+
+  private isChosen(node: Node): boolean {
+    const { selected } = this.model;
+    return node.name === selected || Boolean(selected && node.members?.some((one) => one.name === selected));
+  }
+
+  private node(node: Node, line: number): void {
+    const { context, model, zoom, colors, font } = this;
+    const look = model.look(node.name), isChosen = this.isChosen(node);
+    context.globalAlpha = model.isClear(node.name) || isChosen ? 1 : FAINT * 1.6;
+    this.box(node, look === "down" ? colors.alarm : colors.node,
+      isChosen ? colors.chosen : look === "down" ? colors.down : colors.frame, isChosen ? 2.5 * line : line);
+    context.fillStyle = colors[look];
     if (look !== "other") context.fillRect(node.x, node.y + 6, 4, node.height - 12);
     context.textAlign = "right";
     context.font = `11px ${font}`;
-    context.fillText(SIGNS[look], node.x + node.width - 6, node.y + 16);
+    context.fillText(SIGNS[look] || model.rate(node), node.x + node.width - 6, node.y + 16);
     context.textAlign = "left";
-    node.texts.forEach((text, at) => {
+    this.texts(node).forEach((text, at) => {
       const size = at ? 12 : 13;
       if (size * zoom < SMALLEST) return;
       context.font = `${at ? "" : "600 "}${size}px ${font}`;
-      context.fillStyle = color(at ? "soft" : "text");
+      context.fillStyle = at ? colors.soft : colors.text;
       context.fillText(text, node.x + 12, node.y + 16 + 16 * at);
     });
+    if (!this.showsHandle(node)) return;
+    const [x, y] = handle(node);
+    context.beginPath();
+    context.arc(x, y, 5.5, 0, 2 * Math.PI);
+    context.fillStyle = colors.back;
+    context.fill();
+    context.strokeStyle = colors.chosen;
+    context.lineWidth = 2 * line;
+    context.stroke();
+  }
+
+  /** The texts of a node; those of a closed box count its processes by their states. */
+  private texts(node: Node): string[] {
+    if (node.kind !== CLOSED) return node.texts;
+    const counts = [...this.model.counts(node.members!.map((one) => one.name))].filter(([look]) => look !== "other");
+    return [...node.texts.slice(0, 2), counts.map(([look, count]) => `${SIGNS[look]} ${count}`).join("  ")];
+  }
+
+  /** What is dragged: a line to who could serve a port, or a node. */
+  private drag(line: number): void {
+    const { context, colors, rubber, lifted } = this;
+    if (lifted) {
+      context.globalAlpha = 0.75;
+      const { node, dx, dy } = lifted;
+      this.box({ x: node.x + dx, y: node.y + dy, width: node.width, height: node.height }, colors.node, colors.chosen, 2 * line);
+      context.fillStyle = colors.text;
+      context.font = `600 13px ${this.font}`;
+      context.fillText(node.title, node.x + dx + 12, node.y + dy + 16);
+      context.globalAlpha = 1;
+    }
+    if (!rubber) return;
+    for (const name of rubber.targets) {
+      const node = this.model.nodes.get(name)!;
+      context.strokeStyle = colors.chosen;
+      context.lineWidth = 2.5 * line;
+      context.strokeRect(node.x - 3, node.y - 3, node.width + 6, node.height + 6);
+    }
+    context.strokeStyle = colors.chosen;
+    context.lineWidth = 2 * line;
+    context.setLineDash([6, 4]);
+    context.beginPath();
+    context.moveTo(...rubber.from);
+    context.lineTo(...rubber.to);
+    context.stroke();
+    context.setLineDash([]);
   }
 
   private box(box: Placed, fill: string, stroke: string, line: number): void {
@@ -203,4 +414,40 @@ export class Scene {
     context.lineWidth = line;
     context.stroke();
   }
+}
+
+/** Where a line to be connected begins. */
+export function handle(node: Placed): [number, number] {
+  return [node.x + node.width, node.y + node.height - 9];
+}
+
+function isInside(box: Placed, [x, y]: [number, number]): boolean {
+  return x >= box.x && x <= box.x + box.width && y >= box.y && y <= box.y + box.height;
+}
+
+function touch(one: Placed, other: Placed): boolean {
+  return one.x < other.x + other.width && other.x < one.x + one.width && one.y < other.y + other.height && other.y < one.y + one.height;
+}
+
+/** How much of a dashed line is before the edge of the canvas: whole dashes. */
+function hidden(from: number, dash: number): number {
+  return from < 0 ? Math.floor(-from / (2 * dash)) * 2 * dash : 0;
+}
+
+/** Red, green and blue of #rgb or #rrggbb. */
+function parts(color: string): number[] {
+  const digits = color.slice(1), wide = digits.length === 3 ? [...digits].map((one) => one + one).join("") : digits;
+  return [0, 2, 4].map((at) => parseInt(wide.slice(at, at + 2), 16));
+}
+
+const boxes = new WeakMap<Edge["points"], Placed>();
+
+/** The box around a line. */
+function around(edge: Edge): Placed {
+  const known = boxes.get(edge.points);
+  if (known) return known;
+  const xs = edge.points.map(([x]) => x), ys = edge.points.map(([, y]) => y), x = Math.min(...xs), y = Math.min(...ys);
+  const made = { x, y, width: Math.max(...xs) - x, height: Math.max(...ys) - y };
+  boxes.set(edge.points, made);
+  return made;
 }

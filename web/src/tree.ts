@@ -1,64 +1,96 @@
-// The tree of hosts and processes beside the picture: everything in it can be reached with the keyboard.
+// The tree of hosts, groups and processes beside the picture: everything can be done from it with the keyboard.
 
-import { Model, SIGNS } from "./model";
+import { Model, Node, Placed, SIGNS } from "./model";
+
+type One = Omit<Node, keyof Placed>;
+export type Kind = "network" | "host" | "group" | "node";
 
 export class Tree {
   private readonly closed = new Set<string>();
   private focused = "";
   private readonly items = new Map<string, HTMLElement>();
 
-  constructor(private readonly root: HTMLElement, private readonly model: Model, private readonly select: (name: string) => void) {
+  /** `select` is called with the name of a node; `ask` for the menu of an item, with where it is. */
+  constructor(
+    private readonly root: HTMLElement, private readonly model: Model, private readonly select: (name: string) => void,
+    private readonly ask: (kind: Kind, name: string, x: number, y: number) => void,
+  ) {
     root.addEventListener("keydown", (event) => this.key(event));
     root.addEventListener("click", (event) => {
       const item = (event.target as Element).closest<HTMLElement>("[role=treeitem]");
       if (item) this.choose(item);
     });
+    root.addEventListener("focusin", (event) => {
+      const item = event.target as HTMLElement;
+      if (item.dataset.key && item.dataset.key !== this.focused) this.focus(item);
+    });
+    root.addEventListener("contextmenu", (event) => {
+      const item = (event.target as Element).closest<HTMLElement>("[role=treeitem]");
+      event.preventDefault();
+      if (!item) return;
+      this.focus(item);
+      this.menu(item, event.clientX, event.clientY);
+    });
   }
 
   build(): void {
-    const graph = this.model.graph;
+    const graph = this.model.graph, hadFocus = this.root.contains(document.activeElement);
     this.root.replaceChildren();
     this.items.clear();
     if (!graph) return;
+    const all: One[] = graph.nodes.flatMap((node) => node.members ?? [node]);
     for (const host of [...graph.hosts, { name: "", title: "elsewhere" }]) {
-      const nodes = graph.nodes.filter((node) => node.host === host.name);
+      const nodes = all.filter((node) => node.host === host.name);
       if (!nodes.length) continue;
-      const item = this.item(`host ${host.name}`, host.title, this.root);
-      const list = document.createElement("ul");
-      list.setAttribute("role", "group");
-      item.append(list);
-      item.setAttribute("aria-expanded", "true");
-      for (const node of nodes) this.item(node.name, node.title, list);
-      this.open(item, !this.closed.has(item.dataset.name!));
+      const list = this.branch("host", host.name, host.title, this.root);
+      const groups = new Map<string, HTMLElement>();
+      for (const node of nodes) {
+        const group = node.groups[0];
+        if (group && !groups.has(group)) groups.set(group, this.branch("group", group, group, list, host.name));
+        this.item("node", node.name, node.title, groups.get(group) ?? list);
+      }
     }
     if (!this.items.has(this.focused)) this.focused = this.items.keys().next().value ?? "";
     this.show();
+    if (hadFocus) this.items.get(this.focused)?.focus();
   }
 
-  private item(name: string, title: string, parent: HTMLElement): HTMLElement {
+  private branch(kind: Kind, name: string, title: string, parent: HTMLElement, host = ""): HTMLElement {
+    const item = this.item(kind, name, title, parent, host), list = document.createElement("ul");
+    list.setAttribute("role", "group");
+    item.append(list);
+    this.open(item, !this.closed.has(item.dataset.key!));
+    return list;
+  }
+
+  private item(kind: Kind, name: string, title: string, parent: HTMLElement, host = ""): HTMLElement {
     const item = document.createElement("li"), sign = document.createElement("span"), text = document.createElement("span");
     item.setAttribute("role", "treeitem");
-    item.dataset.name = name;
+    Object.assign(item.dataset, { name, kind, key: kind === "node" ? name : `${kind} ${host} ${name}` });
     sign.className = "sign";
     sign.setAttribute("aria-hidden", "true");
     text.textContent = title;
     item.append(sign, text);
     parent.append(item);
-    this.items.set(name, item);
+    this.items.set(item.dataset.key!, item);
     return item;
   }
 
   /** Shows the states, the selection and what is searched. */
   show(): void {
     for (const [name, item] of this.items) {
+      set(item, "tabindex", name === this.focused ? "0" : "-1");
+      if (item.dataset.kind !== "node") continue;
       const node = this.model.nodes.get(name), state = this.model.states.get(name);
-      item.tabIndex = name === this.focused ? 0 : -1;
       if (!node) continue;
-      const look = this.model.look(name);
-      item.setAttribute("aria-selected", String(name === this.model.selected));
-      item.setAttribute("aria-label", state ? `${node.title}, ${state.words}` : node.title);
-      item.hidden = !this.model.shows(name);
+      const look = this.model.look(name), rate = this.model.rate(node);
+      set(item, "aria-selected", String(name === this.model.selected));
+      const isWrong = !state?.down && node.faults.some((fault) => fault.severity === "error");
+      set(item, "aria-label", [node.title, state?.words, isWrong ? "has errors" : "", rate].filter(Boolean).join(", "));
+      const isHidden = !this.model.shows(name);
+      if (item.hidden !== isHidden) item.hidden = isHidden;
       const sign = item.firstElementChild as HTMLElement;
+      if (sign.dataset.look === look) continue;
       sign.textContent = SIGNS[look];
       sign.dataset.look = look;
     }
@@ -67,8 +99,8 @@ export class Tree {
   private open(item: HTMLElement, isOpen: boolean): void {
     item.setAttribute("aria-expanded", String(isOpen));
     item.querySelector<HTMLElement>("[role=group]")!.hidden = !isOpen;
-    if (isOpen) this.closed.delete(item.dataset.name!);
-    else this.closed.add(item.dataset.name!);
+    if (isOpen) this.closed.delete(item.dataset.key!);
+    else this.closed.add(item.dataset.key!);
   }
 
   private choose(item: HTMLElement): void {
@@ -77,19 +109,34 @@ export class Tree {
     else this.select(item.dataset.name!);
   }
 
+  private menu(item: HTMLElement, x: number, y: number): void {
+    this.ask(item.dataset.kind as Kind, item.dataset.name!, x, y);
+  }
+
+  /** Puts the keyboard on the item that is its turn. */
+  enter(): void {
+    this.items.get(this.focused)?.focus();
+  }
+
   private focus(item: HTMLElement | undefined): void {
     if (!item) return;
     this.items.get(this.focused)?.setAttribute("tabindex", "-1");
-    this.focused = item.dataset.name!;
+    this.focused = item.dataset.key!;
     item.tabIndex = 0;
-    item.focus();
+    if (document.activeElement !== item) item.focus();
   }
 
   private key(event: KeyboardEvent): void {
-    const visible = [...this.items.values()].filter((item) => item.offsetParent !== null);
-    const at = visible.findIndex((item) => item.dataset.name === this.focused);
+    const visible = [...this.root.querySelectorAll<HTMLElement>("[role=treeitem]")].filter((item) => item.offsetParent !== null);
+    const at = visible.findIndex((item) => item.dataset.key === this.focused);
     const item = visible[at];
     const isBranch = item?.hasAttribute("aria-expanded"), isOpen = item?.getAttribute("aria-expanded") === "true";
+    if (item && (event.key === "ContextMenu" || event.key === "m" || (event.key === "F10" && event.shiftKey))) {
+      const place = item.getBoundingClientRect();
+      event.preventDefault();
+      this.menu(item, place.left + 30, Math.min(place.top + 22, place.bottom));
+      return;
+    }
     switch (event.key) {
       case "ArrowDown": this.focus(visible[at + 1]); break;
       case "ArrowUp": this.focus(visible[at - 1]); break;
@@ -106,4 +153,8 @@ export class Tree {
     }
     event.preventDefault();
   }
+}
+
+function set(item: HTMLElement, name: string, value: string): void {
+  if (item.getAttribute(name) !== value) item.setAttribute(name, value);
 }

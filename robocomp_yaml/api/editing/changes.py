@@ -8,7 +8,7 @@ Every interface to rcyaml makes the same changes.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, ClassVar
 
 import msgspec
 
@@ -48,9 +48,16 @@ class MoveEntry(_Tagged, frozen=True, tag="move"):
 
 
 class AddHost(_Tagged, frozen=True, tag="add-host"):
+    """`path` is the folder of the deployment there; `user` and what follows `path` are for ssh."""
+
     name: str
     address: str
     user: str = ""
+    path: str = ""
+    port: int | None = None
+    identity: str = ""
+    known_hosts: str = ""
+    jump: str = ""
 
 
 class RemoveHost(_Tagged, frozen=True, tag="remove-host"):
@@ -128,23 +135,72 @@ class StartIndependently(_Tagged, frozen=True, tag="not-after"):
     needed: tuple[str, ...]
 
 
-class AddPorts(_Tagged, frozen=True, tag="add-ports"):
-    """A component implements, requires, publishes or subscribes to (`key`) further interfaces, which are imported."""
+class AddNew(_Tagged, frozen=True, tag="add-new"):
+    """A new component is written, as `rcyaml new component` does it, and added as an entry. `component` is its name."""
 
-    key: str
-    interfaces: tuple[str, ...]
+    entry: str
+    component: str
+    language: str = ""
+    implements: tuple[str, ...] = ()
+    requires: tuple[str, ...] = ()
+    publishes: tuple[str, ...] = ()
+    subscribes: tuple[str, ...] = ()
+    host: str = ""
 
 
-class RemovePorts(_Tagged, frozen=True, tag="remove-ports"):
-    key: str
-    interfaces: tuple[str, ...]
+class _PortChange(_Tagged, frozen=True):
+    """A change of a list (`key`) of a component: it has one or several interfaces more, which are imported, or less.
+    `component` is the component's name, its folder or its document; '': the document that is changed."""
+
+    interface: str | tuple[str, ...]
+    component: str = ""
+    key: ClassVar[str]
+    adds: ClassVar[bool] = True
+
+    @property
+    def interfaces(self) -> tuple[str, ...]:
+        return (self.interface,) if isinstance(self.interface, str) else self.interface
+
+
+class Implement(_PortChange, frozen=True, tag="implement"):
+    key = "implements"
+
+
+class Unimplement(_PortChange, frozen=True, tag="unimplement"):
+    key, adds = "implements", False
+
+
+class Require(_PortChange, frozen=True, tag="require"):
+    key = "requires"
+
+
+class Unrequire(_PortChange, frozen=True, tag="unrequire"):
+    key, adds = "requires", False
+
+
+class Publish(_PortChange, frozen=True, tag="publish"):
+    key = "publishes"
+
+
+class Unpublish(_PortChange, frozen=True, tag="unpublish"):
+    key, adds = "publishes", False
+
+
+class Subscribe(_PortChange, frozen=True, tag="subscribe"):
+    key = "subscribes"
+
+
+class Unsubscribe(_PortChange, frozen=True, tag="unsubscribe"):
+    key, adds = "subscribes", False
 
 
 DeploymentChange = (
     Connect | Disconnect | NameTopic | MoveEntry | AddHost | RemoveHost | GroupEntries | UngroupEntries | AddEntry
-    | RemoveEntry | RenameEntry | SetParameter | SetPort | SetInstances | StartAfter | StartIndependently
+    | AddNew | RemoveEntry | RenameEntry | SetParameter | SetPort | SetInstances | StartAfter | StartIndependently
 )  # fmt: skip
-ComponentChange = AddPorts | RemovePorts
+ComponentChange = (
+    Implement | Unimplement | Require | Unrequire | Publish | Unpublish | Subscribe | Unsubscribe
+)  # fmt: skip
 DocumentChange = DeploymentChange | ComponentChange
 
 

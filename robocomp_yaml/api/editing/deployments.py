@@ -64,8 +64,13 @@ def _(change: changes.AddHost, entries: Entries) -> None:
         for name in entries.names(SERVICES):
             if edited.at(SERVICES, name, "icestorm", "host") is None:
                 edited.set([SERVICES, name, "icestorm", "host"], known[0])
-    new = {"address": change.address, "user": change.user} if change.user else change.address
-    edited.set([HOSTS, change.name], new)
+    ssh = {
+        "port": change.port, "identity": change.identity, "known-hosts": change.known_hosts, "jump": change.jump,
+    }  # fmt: skip
+    ssh = {key: value for key, value in ssh.items() if value not in ("", None)}
+    new = {"address": change.address, "user": change.user, "path": change.path, "ssh": ssh}
+    new = {key: value for key, value in new.items() if value}
+    edited.set([HOSTS, change.name], new if len(new) > 1 else change.address)
 
 
 @make.register
@@ -116,6 +121,12 @@ def _(change: changes.AddEntry, entries: Entries) -> None:
     if change.host:
         new["host"] = change.host
     entries.edited.set([COMPONENTS, change.entry], new)
+
+
+@make.register
+def _(change: changes.AddNew, entries: Entries) -> None:
+    (path,) = entries.created
+    make(changes.AddEntry(change.entry, component=path, host=change.host), entries)
 
 
 @make.register
@@ -223,6 +234,8 @@ def _rename(entries: Entries, section: str, old: str, new: str, one: str = "") -
         named = new.replace(INDEX, number[1]) if number is not None else new if use.is_all or not one else one
         entries.edited.set(use.steps, named + use.rest)
     entries.edited.rename([section, old], new)
+    if section == COMPONENTS:
+        entries.renamed.append((old, new))
 
 
 def _parameter(entries: Entries, steps: list[Step], parameter: str) -> tuple[list[Step], bool]:
@@ -244,6 +257,6 @@ def _parameter(entries: Entries, steps: list[Step], parameter: str) -> tuple[lis
 
 
 def _relative(path: str, entries: Entries) -> str:
-    if not os.path.exists(path):
+    if path not in entries.created and not os.path.exists(path):
         raise Refused(f"'{path}' does not exist")
     return os.path.relpath(path, os.path.dirname(entries.edited.path) or ".")

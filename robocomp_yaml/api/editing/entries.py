@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 import msgspec
 
 from robocomp_yaml.api.editing.text import EditedText
 from robocomp_yaml.api.refusals import meant
 from robocomp_yaml.diag.errors import Refused
+from robocomp_yaml.diag.listing import some
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model.deployment import INDEX
 from robocomp_yaml.semantics.paths import Step
@@ -30,10 +31,13 @@ class EntryUse(msgspec.Struct, frozen=True):
 
 class Entries:
     """The entries of the document of an edited text. `scope` is the include in which the document is, with a dot;
-    `components` are the components of entries, as far as they are known."""
+    `components` are the components of entries, as far as they are known. `created` are the paths of documents that will
+    be written with the change. `renamed` are entries that get another name."""
 
     def __init__(self, edited: EditedText, scope: str, components: dict[str, LinkedComponent]) -> None:
         self.edited, self.scope, self.components = edited, scope, components
+        self.created: Collection[str] = ()
+        self.renamed: list[tuple[str, str]] = []
 
     def names(self, section: str = COMPONENTS) -> list[str]:
         node = self.edited.at(section)
@@ -62,7 +66,8 @@ class Entries:
         return self.components.get(self.key(name))
 
     def _unknown(self, name: str, known: list[str]) -> str:
-        raise Refused(f"{self.edited.path} has no entry '{name}'{meant(name, known)}")
+        listed = f"known are {some(known, 8)}" if known else ""
+        raise Refused(f"{self.edited.path} has no entry '{name}'{meant(name, known, listed)}")
 
     def uses(self, name: str) -> Iterator[EntryUse]:
         """Where the document uses the name of an entry or a group, or of one of its instances."""

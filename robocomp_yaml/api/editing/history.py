@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import time
 
 import msgspec
 
@@ -24,12 +23,14 @@ LARGEST = 4 << 20  # bytes of texts
 
 class PastChange(msgspec.Struct, frozen=True):
     """`what` is the change in words, `time` in seconds since the epoch. `before` and `after` are the document's
-    contents."""
+    contents, `created` the documents that were written with it, `renamed` what got another name, as in a Revision."""
 
     what: str
     time: float
     before: bytes
     after: bytes
+    created: tuple[tuple[str, bytes], ...] = ()
+    renamed: tuple[tuple[str, str, str], ...] = ()
 
 
 class EditHistory(msgspec.Struct):
@@ -38,11 +39,11 @@ class EditHistory(msgspec.Struct):
     past: list[PastChange] = []
     done: int = 0
 
-    def add(self, what: str, before: bytes, after: bytes) -> None:
+    def add(self, change: PastChange) -> None:
         """Adds a change; what was undone before is forgotten."""
-        if self.done and self.past[self.done - 1].after != before:
+        if self.done and self.past[self.done - 1].after != change.before:
             self.past, self.done = [], 0  # somebody else changed the document in between
-        self.past = [*self.past[: self.done], PastChange(what, time.time(), before, after)][-LONGEST:]
+        self.past = [*self.past[: self.done], change][-LONGEST:]
         while len(self.past) > 1 and sum(len(one.before) + len(one.after) for one in self.past) > LARGEST:
             del self.past[0]
         self.done = len(self.past)

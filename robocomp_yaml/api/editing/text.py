@@ -10,11 +10,13 @@ import copy
 import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 from robocomp_yaml.parameters.editing.edit import NotEditable, set_value
 from robocomp_yaml.semantics.paths import Step
-from robocomp_yaml.source.tree import Mapping, Node, Scalar, below, end_of, parse
+from robocomp_yaml.source.parts import PartsParser
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, below, end_of
 from robocomp_yaml.source.tree import Sequence as SequenceNode
 from robocomp_yaml.source.yaml_text import flow, quoted, single_quoted, text_of
 
@@ -27,10 +29,11 @@ _LINE = re.compile(r"(?P<indent>[ \t]*)(?P<body>[^\r\n]*)(?P<end>\r\n|\r|\n|\Z)"
 
 class EditedText:
     """The text of the document at `path`, while it is edited; `text` is the current one. The steps raise NotEditable,
-    and then leave it as it was."""
+    and then leave it as it was. `parser` is the one of earlier versions of this document."""
 
-    def __init__(self, path: str, text: str) -> None:
-        root, _ = parse(path, text)
+    def __init__(self, path: str, text: str, parser: PartsParser | None = None) -> None:
+        self._parser = parser or PartsParser()
+        root, _ = self._parser.parse(path, text)
         if not isinstance(root, Mapping):
             raise ValueError("only a document that can be parsed is edited")
         self.path, self.text, self.root = path, text, root
@@ -59,8 +62,12 @@ class EditedText:
         node = self.at(*steps)
         keeps_quotes = isinstance(data, str) and isinstance(node, Scalar) and node.quoted
         new = data if keeps_quotes else text_of(data, in_flow=True) if isinstance(data, str) else flow(data)
-        made = set_value(self.path, self.text, self.root, list(steps), new, is_text=keeps_quotes)
-        self._accept(made.text, _with(self.root.data, steps, data))
+        were = self._comments()
+        with self._as_it_was():
+            made = set_value(
+                self.path, self.text, self.root, list(steps), new, is_text=keeps_quotes, parser=self._parser
+            )
+            self._accept(made.text, _with(self.root.data, steps, data), were, tree=made.tree)
 
     def append(self, steps: Sequence[Step], data: Any) -> None:
         """Appends an element to the list at these steps, which may be missing."""
@@ -75,7 +82,7 @@ class EditedText:
     def insert(self, index: int, text: str, steps: Sequence[Step], item: Any) -> None:
         """Inserts a text, by which the list at these steps gets one more item."""
         listed = self.data(*steps) or []
-        self._accept(self.text[:index] + text + self.text[index:], _with(self.root.data, steps, [*listed, item]))
+        self._change(self.text[:index] + text + self.text[index:], _with(self.root.data, steps, [*listed, item]))
 
     def remove(self, steps: Sequence[Step], *, with_comments: bool = False) -> None:
         """Removes an element of a mapping or list; a collection that would be empty is removed as well. The comments
@@ -91,7 +98,7 @@ class EditedText:
             after = self._without_in_flow(elements, index)
         else:
             after = self._without_lines(first, last, with_comments=with_comments)
-        self._accept(after, _without(self.root.data, steps), may_lose=with_comments)
+        self._change(after, _without(self.root.data, steps), may_lose=with_comments)
 
     def rename(self, steps: Sequence[str], name: str) -> None:
         """Gives the key at these steps another name."""
@@ -102,7 +109,7 @@ class EditedText:
             raise NotEditable(f"there is a '{name}' already", outer.entries[name][0])
         spelled = self._spelled(key, name, in_flow=outer.is_flow)
         after = self.text[: key.start] + spelled + self.text[key.end :]
-        self._accept(after, _renamed(self.root.data, steps, name))
+        self._change(after, _renamed(self.root.data, steps, name))
 
     def _spelled(self, node: Scalar, new: str, *, in_flow: bool) -> str:
         quote = self.text[node.start : node.start + 1]
@@ -144,21 +151,43 @@ class EditedText:
         kept = "".join(f"{indent}{comment}{line_end}" for at, comment in comments(text, self.root) if line <= at < end)
         return text[:line] + kept + text[end:]
 
-    def _accept(self, text: str, expected: Any, *, may_lose: bool = False) -> None:
-        after, faults = parse(self.path, text)
-        if not isinstance(after, Mapping) or faults or not _same(after.data, expected):
+    def _change(self, text: str, expected: Any, *, may_lose: bool = False) -> None:
+        """Makes a step whose text has this data."""
+        were = self._comments()
+        with self._as_it_was():
+            tree, faults = self._parser.parse(self.path, text)
+            self._accept(text, expected, Counter() if may_lose else were, tree=None if faults else tree)
+
+    def _accept(self, text: str, expected: Any, were: Counter[str], *, tree: Node | None) -> None:
+        """`were` are the comments that must be in the text, `tree` is its tree."""
+        if not isinstance(tree, Mapping) or not _same(tree.data, expected):
             raise NotEditable("an edit would affect more than this value", self.root)
-        were, are = (Counter(one for _, one in comments(*of)) for of in ((self.text, self.root), (text, after)))
-        if not may_lose and were - are:
-            raise NotEditable(f"the comment '{next(iter(were - are))}' would be lost", self.root)
-        self.text, self.root = text, after
+        lost = were - Counter(one for _, one in comments(text, tree))
+        if lost:
+            raise NotEditable(f"the comment '{next(iter(lost))}' would be lost", self.root)
+        self.text, self.root = text, tree
+
+    def _comments(self) -> Counter[str]:
+        return Counter(one for _, one in comments(self.text, self.root))
+
+    @contextmanager
+    def _as_it_was(self) -> Iterator[None]:
+        """If a step fails, the tree is that of the text again: the next version moved its parts."""
+        try:
+            yield
+        except NotEditable:
+            root, _ = self._parser.parse(self.path, self.text)
+            assert isinstance(root, Mapping)
+            self.root = root
+            raise
 
 
 def comments(text: str, root: Node) -> Iterator[tuple[int, str]]:
     """The comments of a document, each with its index."""
-    texts = sorted((one.start, one.end) for one in _scalars(root))
+    possible = list(_COMMENT.finditer(text))
+    texts = sorted((one.start, one.end) for one in _scalars(root)) if possible else []
     at = 0
-    for found in _COMMENT.finditer(text):
+    for found in possible:
         while at < len(texts) and texts[at][1] <= found.start():
             at += 1
         if at == len(texts) or not texts[at][0] <= found.start() < texts[at][1]:

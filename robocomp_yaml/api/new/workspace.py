@@ -62,8 +62,13 @@ def _make(folder: str, report: Report) -> None:
             report(KEPT, path)
     for name in ("interfaces", "components"):
         os.makedirs(os.path.join(folder, name), exist_ok=True)
-    for path in workspace_files.install(folder):
-        report(WROTE, path)
+    changed = workspace_files.install(folder)
+    schemas = [path for path in changed if os.path.basename(os.path.dirname(path)) == "schemas"]
+    if schemas:
+        report(WROTE, f"{os.path.dirname(schemas[0])}/ ({len(schemas)} file{'s' * (len(schemas) > 1)})")
+    for path in changed:
+        if path not in schemas:
+            report(WROTE, path)
     if problem := workspace_files.settings_problem(folder):
         report(NOTE, problem)
 

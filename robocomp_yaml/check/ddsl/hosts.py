@@ -96,7 +96,7 @@ def _conflicts(network: Network) -> Iterator[Diagnostic]:
 
 def _hint(process: Process, endpoint: Endpoint, other: Endpoint) -> str:
     if endpoint.own_span.file:
-        return f"set another port for '{process.name}', in its entry: `ports: {{{endpoint.interface}: PORT}}`"
+        return f"set another port for '{process.name}', in its entry: `ports: {{{endpoint.key}: PORT}}`"
     if endpoint.span != other.span:
         return "change one of the two ports"
     if process.component:

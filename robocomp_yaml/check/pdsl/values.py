@@ -31,7 +31,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 def check_document(linked: LinkedValues, program: Program, *, complete: bool = False) -> Iterator[Diagnostic]:
     """Checks a values document; with `complete` as the values of a component, even if other documents extend it."""
-    yield from _texts_of_ice(linked)
+    yield from texts_of_ice(linked)
     if linked.parameters is None:
         if not linked.is_extended and not linked.document.component and not linked.broken:
             yield codes.NO_COMPONENT.at(linked.document.root.span)
@@ -49,7 +49,7 @@ def check_document(linked: LinkedValues, program: Program, *, complete: bool = F
         yield from properties(linked, values)[1]
 
 
-def _texts_of_ice(linked: LinkedValues) -> Iterator[Diagnostic]:
+def texts_of_ice(linked: LinkedValues) -> Iterator[Diagnostic]:
     """Reports endpoints and proxies that Ice would reject."""
     root = linked.document.root
     manager = root.get("topics")
@@ -62,6 +62,8 @@ def _texts_of_ice(linked: LinkedValues) -> Iterator[Diagnostic]:
         if not isinstance(node, Scalar) or node.data is None:
             continue
         text = unquoted(node.lexeme)
+        if not text and not linked.document.path.endswith(".yaml"):
+            continue  # of a flat config: it is not set
         try:
             parse(text)
         except InvalidIceText as refused:

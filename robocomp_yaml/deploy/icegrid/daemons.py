@@ -92,8 +92,7 @@ def write_script(files: GridFiles, host: NetworkHost, hosts: Collection[NetworkH
         "certificate": _text(files.certificate),
         "key": _text(files.key),
         "settings": as_text(settings.of_node(files.on(host.name), host.name, address, registry)),
-        "run": resources.text("templates/icegrid/run"),
-        "guard": resources.text("templates/icegrid/guard"),
+        **{name: resources.text(f"templates/icegrid/{name}") for name in ("run", "guard", "watch")},
     }
     head = "".join(f"{name}={shlex.quote(text.rstrip())}\n" for name, text in facts.items())
     path = f"state/icegrid/hosts/{host.name}.sh"

@@ -19,12 +19,12 @@ from typing import Any
 import IceGrid
 import msgspec
 
-from robocomp_yaml.deploy import liveness
+from robocomp_yaml.deploy import interfaces, liveness
 from robocomp_yaml.deploy.engine import STOP_WITHIN
 from robocomp_yaml.deploy.icegrid.grid_files import KEEPER, GridFiles
-from robocomp_yaml.deploy.local import limits
 from robocomp_yaml.deploy.local.procfs import MARK
 from robocomp_yaml.deploy.spec import ProcessSpec
+from robocomp_yaml.network import limit_words
 from robocomp_yaml.network.network import ICESTORM, Process
 from robocomp_yaml.source import properties
 
@@ -33,7 +33,7 @@ LONGEST_CONFIG = 100_000
 
 _KEEPER_MODULE = "robocomp_yaml.deploy.icegrid.keeper"
 # While a command changes the deployment, the keeper waits for a moment, so that starting processes are faster.
-_KEEPER_SCRIPT = 'flock -s -w 3 -- "$1/state" true; shift; exec nice "$@"'
+_KEEPER_SCRIPT = 'flock -s -w 10 -- "$1/state" true; shift; exec nice "$@"'
 # Ends those children of the node that are `run` scripts of these processes. The node is also the parent of this script.
 _ENDER_SCRIPT = """\
 folder=$1; shift
@@ -73,12 +73,13 @@ def server(files: GridFiles, spec: ProcessSpec, user: str, number: int, *, is_lo
         words.append("k")  # IceGrid writes the configuration of an IceBox and its services itself
         command = command[:1]
     elif process.config and not is_local:
+        words += [f"n{name}" for name in interfaces.names_of(process, spec.address)]
         words.append(f"c{spec.config_path}")
         environment.append(f"RCYAML_CONFIG={encoded(process.config.text)}")
     if process.config and process.config.pem and not is_local:
         words.append(f"c{files.folder}/{process.config.pem_path}")
         environment.append(f"RCYAML_PEM={encoded(process.config.pem)}")
-    words += [f"l{word}" for word in limits.words(msgspec.to_builtins(process.limits))]
+    words += [f"l{word}" for word in limit_words.words(msgspec.to_builtins(process.limits))]
     words += [f"={part}" for part in command]
     facts = _facts(
         process.name, "setpriv", ["--pdeathsig", "KILL", "--", "${node.data}/../run", *map(_literal, words)],

@@ -17,7 +17,7 @@ from contextlib import suppress
 from msgspec.structs import replace
 
 from robocomp_yaml.deploy import folder as own_folder
-from robocomp_yaml.deploy import registered
+from robocomp_yaml.deploy import registered, remains
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles
 from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.time_limit import until
@@ -85,6 +85,7 @@ def main(folder: str, pending: list[str]) -> None:
     start_up.end_here(files)
     own_folder.remove(folder, _FILE)
     registered.forget(folder)
+    remains.after_down(folder)
 
 
 if __name__ == "__main__":

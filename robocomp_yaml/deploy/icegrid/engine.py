@@ -12,6 +12,7 @@ import os
 import threading
 from collections.abc import AsyncGenerator, Callable, Collection, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from msgspec.structs import replace
@@ -22,7 +23,7 @@ from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
 from robocomp_yaml.deploy.here import is_here, is_near
 from robocomp_yaml.deploy.icegrid import obstacles as of_hosts
 from robocomp_yaml.deploy.icegrid import start_up
-from robocomp_yaml.deploy.icegrid.grid_files import GridFiles
+from robocomp_yaml.deploy.icegrid.grid_files import KEEPER, GridFiles
 from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.local.log_reader import LineReader, LogReader, merged
 from robocomp_yaml.deploy.local.obstacles import CheckedSpecs, obstacles
@@ -43,8 +44,7 @@ _TIMED_OUT, _NOT_FOUND, _UNKNOWN = 124, 127, 1
 _CODE = "exit code "
 _RESERVE, _RESERVED = "reserve", 1 << 18  # bytes: for specs, rules and the registry's database
 _WRITE = 'head -c "$2" /dev/zero >"$1/.space"; code=$?; rm -f "$1/.space"; exit $code'
-_WRITE_WITHIN = 10.0
-_CHECK_WITHIN = 60.0
+_WRITE_WITHIN, _CHECK_WITHIN = 10.0, 60.0
 _CALLS = 32  # threads, which mostly wait
 
 
@@ -104,7 +104,7 @@ class IceGridEngine:
             if self._files.desired():
                 grid.close()
             else:
-                start_up.ended(grid, self._network.name)
+                start_up.ended(grid, self._network)
             raise
         self._end_leftovers(grid)
 
@@ -117,7 +117,7 @@ class IceGridEngine:
         with contextlib.suppress(GridFailed):
             leftovers.end_all(grid)
 
-    async def observe(self) -> dict[str, Running]:
+    async def observe(self, *, use: bool = False) -> dict[str, Running]:
         from robocomp_yaml.deploy.icegrid.status import observe
 
         if not self._has_changed:  # another command may have changed them since they were read
@@ -125,7 +125,7 @@ class IceGridEngine:
         if not self._specs:
             return {}
         hosts = {name: process.host for name, process in self._network.processes.items()}
-        return await self._beside("", "observed", observe, self._reached(), dict(self._specs), hosts)
+        return await self._beside("", "observed", partial(observe, use=use), self._reached(), {**self._specs}, hosts)
 
     async def obstacles(self, specs: Sequence[ProcessSpec], leaving: Collection[str]) -> list[Diagnostic]:
         """The obstacles on all hosts, and missing nodes."""
@@ -235,8 +235,8 @@ class IceGridEngine:
             servers += [
                 (host, one) for host, node in before.nodes.items() for one in node.servers if one.id not in replaced
             ]
-        elif keeper_host := self._local_host():
-            servers.append((keeper_host, descriptors.keeper(self._files, grid.user_of(keeper_host))))
+        if all(one.id != KEEPER for _, one in servers) and (host := self._local_host()) not in self._no_node and host:
+            servers.append((host, descriptors.keeper(self._files, grid.user_of(host))))
         grid.deploy(descriptors.application(self._network.name, servers), is_new=before is None)
 
     def _local_host(self) -> str:
@@ -277,7 +277,7 @@ class IceGridEngine:
                 return
             states = self._reached().states(gone)
             for name, spec in gone.items():
-                if spec and not states[name][0]:
+                if spec and not states[name][0] and not is_near(spec):
                     leftovers.note(self._files, spec.process.host, name)
                     self._unreached.setdefault(spec.process.host, set()).add(name)
             self._deploy(gone, [])
@@ -357,8 +357,8 @@ class IceGridEngine:
         grid, self._grid = self._grid, None
         if self._has_staged:
             own_folder.drop_staged(self._files.folder)
-        if grid and end:
-            lost = await self._beside("", "ended", start_up.ended, grid, self._network.name)
+        if end:  # without a session, the registry was killed before it had anything to start
+            lost = await self._beside("", "ended", start_up.ended, grid or self._files, self._network)
             self._unreached |= {host: set() for host in lost if host not in self._unreached}
         elif grid:
             if self._has_changed:

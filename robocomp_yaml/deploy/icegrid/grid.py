@@ -120,6 +120,11 @@ class GridSession:
             if self.states([name])[name][0] != "Inactive":
                 raise
 
+    def signal(self, name: str, signal: str) -> None:
+        """Sends a signal to a server. One that has just ended is ignored."""
+        with contextlib.suppress(GridFailed):
+            self._call(self._reads.sendSignal, name, signal)
+
     def run(self, name: str, within: float) -> bool:
         """Starts a server and waits until it has ended. Returns whether it has, within so many seconds."""
         self.start(name)

@@ -18,6 +18,7 @@ from typing import Any
 import msgspec
 
 from robocomp_yaml.deploy import folder as own_folder
+from robocomp_yaml.deploy import openssl
 from robocomp_yaml.deploy.here import folder_on, is_here
 from robocomp_yaml.deploy.own_address import own_address, towards_address
 from robocomp_yaml.deploy.spec import ProcessSpec
@@ -124,6 +125,7 @@ class GridFiles(msgspec.Struct, frozen=True):
         for name in ("registry/data", "rules") + (("hosts", "nodes") if with_key else ()):
             shutil.rmtree(f"{self.root}/{name}", ignore_errors=True)
         own_folder.remove(self.folder, _SPECS)
+        openssl.remove_unfinished(self.root)
         if with_key:
             for path in (self.key, self.certificate, f"{self.folder}/{_REGISTRY}"):
                 with contextlib.suppress(OSError):

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Sequence
 from msgspec.structs import replace
 
 from robocomp_yaml import languages, resources
-from robocomp_yaml.deploy import limits
+from robocomp_yaml.deploy import interfaces, limits
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.probe import modules
 from robocomp_yaml.deploy.push.host_files import digest_of
@@ -22,6 +22,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.network import files
 from robocomp_yaml.network.network import PYTHON, Network, NetworkHost, Process
+from robocomp_yaml.source.ice_endpoint import spelled_host
 
 CHECK = "rcyaml.check"
 """The name of the server that runs the check. No process can have this name."""
@@ -87,6 +88,9 @@ def _words(
     if here and here.component and _is_python(here.watched) and python not in pythons:
         pythons.add(python)
         words += ["m", python, modules()]
+    for name in interfaces.names_of(process, host.address):
+        is_reached = any(f" -h {spelled_host(host.address)} " in endpoint.text for endpoint in process.endpoints)
+        words += ["l", name, "" if is_reached else "only"]
     for key, test in limits.tests(process.limits):
         words += ["t", key, str(len(test)), *test]
     return words
@@ -132,6 +136,12 @@ def _of_line(network: Network, host: NetworkHost, spec: ProcessSpec, kind: str, 
     if kind == "limit":
         key, _, reason = text.partition(": ")
         return limits.fault(spec, key, reason.lower(), where)
+    if kind in ("listen", "interface", "only"):
+        listen, *known = text.split()
+        reason = interfaces.missing(known) if kind == "listen" else interfaces.NO_ADDRESS
+        if kind == "only":
+            reason = "others cannot know the address of that interface: write `listen: [address, " + f"{listen}]`"
+        return codes.NO_INTERFACE.at(spec.process.span, name=name, listen=listen, where=where, reason=reason)
     file = f"the file '{program}' is missing" if "/" in program else f"PATH contains no program '{program}'"
     reason = {
         "folder": f"its folder '{spec.process.cwd}' does not exist",

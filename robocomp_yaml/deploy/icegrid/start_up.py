@@ -48,7 +48,8 @@ def reached(files: GridFiles, network: Network) -> GridSession | None:
     if registry is None and one and registered.restore(files.folder):  # the folder was deleted
         registry = files.registry()
     is_pending = one is not None and bool(one.pending)
-    if registry is None or not (is_pending or files.desired() or daemons.is_alive(files.registry_folder)):
+    is_left = is_pending or bool(files.desired()) or any(files.nodes().values())  # nodes that rcyaml started
+    if registry is None or not (is_left or daemons.is_alive(files.registry_folder)):
         return None
     return _session(files, registry, network)
 
@@ -146,21 +147,28 @@ def _started(hosts: Sequence[NetworkHost], scripts: Mapping[str, str]) -> dict[s
         return {host.name: outcome for host, outcome in zip(hosts, outcomes, strict=True)}
 
 
-def ended(grid: GridSession, application: str) -> list[str]:
-    """Ends what the engine runs: servers, the nodes that it started, and the registry. Returns the hosts that do not
-    answer: these are ended later, by a process that also ends the registry then."""
+def ended(grid: GridSession | GridFiles, network: Network) -> list[str]:
+    """Ends what the engine runs: servers, the nodes that it started, and the registry; with its files only, what runs
+    on this machine. Returns the hosts that do not answer: these are ended later, by a process that also ends the
+    registry then. Without a node, nothing runs on this machine."""
+    if isinstance(grid, GridFiles):
+        end_here(grid)
+        registered.forget(grid.folder)
+        return []
     from robocomp_yaml.deploy.icegrid import leftovers
     from robocomp_yaml.deploy.icegrid.grid import GridFailed
 
     files = grid.files
     nodes = files.nodes()
     lost = [host for host, is_started in nodes.items() if is_started or leftovers.of_host(files, host)]
-    lost = [host for host in lost if not grid.has_node(host)]
+    dead = {host for host in nodes if not grid.has_node(host)}
+    dead_here = {host for host in dead if host in network.hosts and is_here(network.hosts[host])}
+    lost = [host for host in lost if host in dead - dead_here]
     with suppress(GridFailed):  # a node does not answer: its servers have ended, or end when it is back
-        grid.remove(application)
+        grid.remove(network.name)
     files.keep_desired(())
     for host, is_started in nodes.items():
-        if host not in lost:
+        if host not in dead:
             end_node(grid, host, is_started=is_started)
     if not (lost or daemons.is_alive(files.registry_folder)):
         grid.shut_down()  # its files were deleted, so that its guard is unknown

@@ -12,10 +12,11 @@ from collections.abc import Collection
 from contextlib import suppress
 from typing import Any
 
-from robocomp_yaml.deploy.local import limits, procfs, program
+from robocomp_yaml.deploy.local import procfs, program
 from robocomp_yaml.deploy.local.kernel import OpenFiles, die_with, tie
 from robocomp_yaml.deploy.local.log_file import LogFile
 from robocomp_yaml.deploy.states import ENDED, ENDS, GIVEN_UP, RUNNING, STOPPED, WAITING
+from robocomp_yaml.network import limit_words
 
 _NEVER, _ALWAYS = "no", "always"
 
@@ -209,7 +210,7 @@ class ChildProcess:
         files = [(one["name"], one["file"]) for one in self.spec["process"]["env"] if one["file"]]
         environment = {**self._environment, **program.variables(files), procfs.MARK: self.mark}
         found = program.find(command[0], folder, environment)
-        prefix = limits.words(self.spec["process"].get("limits", {}))
+        prefix = limit_words.words(self.spec["process"].get("limits", {}))
         output, written = os.pipe2(os.O_CLOEXEC | os.O_NONBLOCK)
         os.set_blocking(written, True)
         try:

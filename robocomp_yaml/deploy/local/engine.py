@@ -79,7 +79,7 @@ class LocalEngine:
         found = procfs.entry(pid) if pid else None
         registered.keep(registered.entry_of(self._network, self.name, pid, found.start if found else 0))
 
-    async def observe(self) -> dict[str, Running]:
+    async def observe(self, *, use: bool = False) -> dict[str, Running]:
         answer = await self._ask("", "observe")
         found = [_running(entry) for entry in answer["processes"]]
         return {running.name: running for running in found}
@@ -167,9 +167,10 @@ class LocalEngine:
                 await self._ask("", "end")
                 await self._client.wait_closed()
                 await client.wait_gone(self._network.folder)
-                registered.forget(self._network.folder)
             await self._client.close()
             self._client = None
+        if end:
+            registered.forget(self._network.folder)
 
     async def _ask(self, about: str, do: str, **facts: object) -> dict[str, Any]:
         """An answer of the supervisor. An error is reported for the process of the name `about`, if there is one."""

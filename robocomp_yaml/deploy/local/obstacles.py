@@ -6,7 +6,7 @@ import os
 import time
 from collections.abc import Collection, Iterable, Iterator, Sequence
 
-from robocomp_yaml.deploy import limits
+from robocomp_yaml.deploy import interfaces, limits
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import DeployFailed
 from robocomp_yaml.deploy.folder import document_in
@@ -62,8 +62,13 @@ class CheckedSpecs:
         self._until = time.monotonic() + _VALID
 
     def require(self, spec: ProcessSpec) -> None:
-        """Raises DeployFailed if a spec has an obstacle. A spec in the list is not checked, once."""
-        is_checked = self._specs.pop(spec.name, None) is spec and time.monotonic() < self._until
+        """Raises DeployFailed if a spec has an obstacle. A spec in the list is not checked, once. If the list is too
+        old, all its specs are checked again together: to find out who listens costs the same for one and for all."""
+        is_noted = self._specs.get(spec.name) is spec
+        if is_noted and time.monotonic() >= self._until and not obstacles([*self._specs.values()], ()):
+            self._until = time.monotonic() + _VALID
+        is_checked = is_noted and time.monotonic() < self._until
+        self._specs.pop(spec.name, None)
         if not is_checked and (found := obstacles([spec], ())):
             raise DeployFailed(found[0])
 
@@ -122,6 +127,8 @@ def _of_program(spec: ProcessSpec) -> Iterator[Diagnostic]:
     if reason := _why_not(spec):
         hint = "" if os.path.lexists(spec.command[0]) else process.build
         yield deploying.CANNOT.at(process.span, hint=hint, name=spec.name, what="started", reason=reason)
+    if found := interfaces.obstacle(spec):
+        yield found
 
 
 def _why_not(spec: ProcessSpec) -> str:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import Fix
@@ -52,3 +54,17 @@ def run_as_data(diagnostics: Sequence[Diagnostic], documents: int) -> dict[str, 
 def dumps(data: object, indent: int | None = 2) -> str:
     """JSON as UTF-8; bytes in file names that are not UTF-8 are escaped."""
     return json.dumps(data, indent=indent, ensure_ascii=False).encode("utf-8", "backslashreplace").decode() + "\n"
+
+
+def plain(data: Any) -> Any:
+    """Data that JSON can spell: numbers that are infinite or none are texts, as in Protobuf's JSON, and so are bytes of
+    names that are not UTF-8."""
+    if isinstance(data, str):
+        return data.encode("utf-8", "backslashreplace").decode()
+    if isinstance(data, Mapping):
+        return {plain(key): plain(value) for key, value in data.items()}
+    if isinstance(data, (list, tuple)):
+        return [plain(item) for item in data]
+    if isinstance(data, float) and not math.isfinite(data):
+        return "NaN" if math.isnan(data) else "Infinity" if data > 0 else "-Infinity"
+    return data

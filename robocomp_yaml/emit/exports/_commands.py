@@ -5,7 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 
+import msgspec
+
+from robocomp_yaml.emit.exports import _unwritable
 from robocomp_yaml.model.deployment import CONFIG
+from robocomp_yaml.network import limit_words
 from robocomp_yaml.network.network import Network, Process
 
 
@@ -30,6 +34,13 @@ def with_files(process: Process, command: Iterable[str]) -> list[str]:
     """A command of a process with its variables from files, which a shell reads when the process starts."""
     files = [word for one in process.env if one.file for word in (one.name, one.file)]
     return ["/bin/sh", "-c", _READ_FILES, process.name, *files, "--", *command] if files else list(command)
+
+
+def limited(process: Process, command: Iterable[str], form: str) -> list[str]:
+    """A command of a process behind the programs that set its limits. What they cannot limit is noted."""
+    if process.limits.cpu is not None:
+        _unwritable.note(f"{form} cannot enforce `cpu: {process.limits.cpu} %`: systemd and compose can")
+    return [*limit_words.words(msgspec.to_builtins(process.limits)), *command]
 
 
 def file_name(name: str) -> str:

@@ -12,6 +12,8 @@ from collections.abc import Iterable
 
 from robocomp_yaml.emit.exports import _unwritable
 from robocomp_yaml.emit.exports._commands import by_host, configs, file_name, with_files
+from robocomp_yaml.model.deployment import ResourceLimits
+from robocomp_yaml.network import limit_words
 from robocomp_yaml.network.files import home_of, shared_folders
 from robocomp_yaml.network.network import ALWAYS, ICESTORM, NEVER, Network, Process
 from robocomp_yaml.source.ice_proxy import proxy_at
@@ -38,11 +40,13 @@ def export(network: Network) -> dict[str, str]:
 
 def _service(process: Process, by_name: dict[str, Process]) -> list[str]:
     inside = f"{_INSIDE}/{os.path.basename(process.config.path)}" if process.config else ""
-    program, *arguments = with_files(process, process.words(inside))
+    priority = {key: getattr(process.limits, key) for key in ("nice", "realtime")}
+    program, *arguments = with_files(process, [*limit_words.words(priority), *process.words(inside)])
     lines = [
         f"{quoted(file_name(process.name))}:", f"  image: {quoted(_IMAGE)}", '  network_mode: "host"', "  init: true",
         *_list("entrypoint", [program]), *_list("command", arguments), f"  restart: {quoted(_restart(process))}",
     ]  # fmt: skip
+    lines += _limits(process.limits)
     if _folder(process):
         lines.append(f"  working_dir: {_text(process.cwd)}")
     if not process.enabled:
@@ -65,6 +69,26 @@ def _service(process: Process, by_name: dict[str, Process]) -> list[str]:
         for other in needed:
             condition = "service_healthy" if _health(other) else "service_started"
             lines.append(f"    {quoted(file_name(other.name))}: {{condition: {condition}}}")
+    return lines
+
+
+def _limits(limits: ResourceLimits) -> list[str]:
+    """What docker itself limits. Priorities are set by programs of the image, as without docker."""
+    lines = []
+    if limits.cores is not None:
+        lines.append(f"  cpuset: {quoted(limits.cores)}")
+    if (limits.nice is not None and limits.nice < 0) or limits.realtime is not None:
+        lines.append('  cap_add: ["SYS_NICE"]')
+    sizes = {"core": limits.core, "nofile": limits.files}
+    if any(size is not None for size in sizes.values()):
+        lines += ["  ulimits:", *(f"    {key}: {size}" for key, size in sizes.items() if size is not None)]
+    most = {
+        "cpus": None if limits.cpu is None else quoted(f"{limits.cpu / 100:g}"),
+        "memory": None if limits.memory is None else quoted(f"{limits.memory}b"),
+    }
+    if any(most.values()):
+        lines += ["  deploy:", "    resources:", "      limits:"]
+        lines += [f"        {key}: {value}" for key, value in most.items() if value]
     return lines
 
 

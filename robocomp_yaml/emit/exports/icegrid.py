@@ -7,7 +7,7 @@ has no order of starting and no readiness: all servers start at the same time.
 from __future__ import annotations
 
 from robocomp_yaml.emit.exports import _unwritable
-from robocomp_yaml.emit.exports._commands import file_name, with_files, without_config
+from robocomp_yaml.emit.exports._commands import file_name, limited, with_files, without_config
 from robocomp_yaml.emit.xml_text import HEAD, element
 from robocomp_yaml.model.deployment import CONFIG
 from robocomp_yaml.network.network import ICESTORM, NEVER, PROGRAM, Network, Process
@@ -58,7 +58,7 @@ def _server(process: Process) -> list[str]:
         if needs_file and process.config is not None:
             script, words = f"{_MAKE_FILE}; {_FILE_AND_DROP_LAST}", [f"={process.config.text}", *words]
         program, arguments = "/bin/sh", ["-c", script, process.name, *words]
-    program, *arguments = with_files(process, (program, *arguments))
+    program, *arguments = with_files(process, limited(process, (program, *arguments), "IceGrid"))
     if process.folders:
         program, arguments = "/bin/sh", ["-c", _MAKE_FOLDERS, process.name, *process.folders, "--", program, *arguments]
     attributes = {"id": process.name, "exe": _literal(program), "activation": _activation(process)}

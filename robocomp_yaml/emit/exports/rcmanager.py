@@ -11,9 +11,9 @@ import shlex
 from collections.abc import Iterator, Mapping, Sequence
 
 from robocomp_yaml.emit.exports import _unwritable
-from robocomp_yaml.emit.exports._commands import file_name
+from robocomp_yaml.emit.exports._commands import file_name, limited
 from robocomp_yaml.emit.xml_text import HEAD, element
-from robocomp_yaml.model.deployment import CONFIG
+from robocomp_yaml.model.deployment import CONFIG, ResourceLimits
 from robocomp_yaml.network.network import ICESTORM, LOOPBACK, Network, Process
 from robocomp_yaml.source.ice_endpoint import spelled_host
 from robocomp_yaml.source.ice_proxy import proxy_at
@@ -56,7 +56,7 @@ class _Exporter:
         self.owners = {name: process.name for process in network.processes.values()
                        for name in (process.name, *process.aliases)}  # fmt: skip
         self.aliases = {name: _text(self.of(name).get("alias"), name) for name in self.owners}
-        self.by_alias = {alias: name for name, alias in self.aliases.items()}
+        self.by_alias = {alias: name for name, alias in reversed(self.aliases.items())}  # the first one of its name
 
     def of(self, name: str) -> Kept:
         """What the document keeps of a node, and of each one of which it keeps something."""
@@ -121,16 +121,18 @@ class _Exporter:
         return "".join(f"{one.identity}:{one.protocol} -h {spelled_host(address)} -p {one.port}" for one in selected)
 
     def dependences(self, process: Process, name: str, kept: Kept) -> list[str]:
-        """The dependences that the document keeps, and the others of the process."""
+        """The dependences that the document keeps, and the others of the process. Of those of a migrated node,
+        the document names all: RCManager's graph does not have what connections imply."""
         texts = _texts(kept)
         if name != process.name:
             return texts
         listed = [alias for other in (name, *process.aliases) for alias in _texts(self.of(other))]
         meant = {self.owners[self.by_alias[alias]] for alias in listed if alias in self.by_alias}
-        return [*texts, *(self.aliases[other] for other in process.after if other not in meant)]
+        others = process.explicit if process.extra else process.after
+        return [*texts, *(self.aliases[other] for other in others if other not in meant)]
 
     def command(self, process: Process, name: str) -> str:
-        words = shlex.join(process.words(self.network.config_path(process)))
+        words = shlex.join(limited(process, process.words(self.network.config_path(process)), "RCManager"))
         return f"rcremote {self.address(process)} {file_name(name)} {shlex.quote(process.cwd)} {words}"
 
     def pattern(self, process: Process, config: str) -> str:
@@ -143,6 +145,8 @@ class _Exporter:
         """Whether a kept command starts the same program as the process, on the same host and in the same folder."""
         if process.kind == ICESTORM:
             return True
+        if process.limits != ResourceLimits():
+            return False
         try:
             words = shlex.split(command)
         except ValueError:

@@ -1,7 +1,7 @@
-"""Arranges nodes for a screen: in a grid, read from left to right, with hosts and their groups one below the other.
+"""Arranges nodes for a screen: in a grid, read from left to right, in which hosts and their groups are rectangles.
 
-What needs others is on their left. Each node has a cell in the strip of its host and group. Nodes that have a cell keep
-it: what is added is put beside them, so that a picture changes only where the network does.
+What needs others is on their left. Each node has a cell. Nodes that have a cell keep it: what is added is put beside
+what it needs, in a free cell or in a slot of its own, so that a picture changes only where the network does.
 """
 
 from __future__ import annotations
@@ -11,53 +11,41 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import msgspec
 
-from robocomp_yaml.emit.graphs.grid import Area, NodeGrid, layers
-from robocomp_yaml.emit.graphs.picture import Cell, Picture
+from robocomp_yaml.emit.graphs.grid import Area, NodeGrid
+from robocomp_yaml.emit.graphs.packing import SHAPES, Item, Spot, packed, score
+from robocomp_yaml.emit.graphs.picture import Cell, Picture, PictureNode
 
-Strip = tuple[str, str]
+Frame = tuple[str, str]
 """A host and a group of it; '' for what is in none."""
 
-_SWEEPS = 4
-_SHAPE = 1.4  # slots of a picture, by its nodes: a screen is wide, as nodes and the lines between them are
+_LEAST, _LEAST_INSIDE = 7.0, 3.5  # rows of a picture and of a frame that need not be smaller
+_MANY = 100  # nodes from which on only the first of these shapes is tried
+_INSIDE: Sequence[Sequence[float]] = (SHAPES, (0.6,), (1.0,), (1.3,), (1.7,))
 
 
 class Arranged(msgspec.Struct):
-    """`grid` has a row for each layer and a column for each slot of all strips. `groups` are the areas of groups in
-    those of hosts. `cells` are to be passed to the next `arrange`."""
+    """`grid` has a row for each layer and a column for each slot. `groups` are the areas of groups, each with its host.
+    `cells` are to be passed to the next `arrange`."""
 
     grid: NodeGrid
-    groups: list[Area]
+    groups: list[tuple[str, Area]]
     cells: dict[str, Cell]
 
 
 def arrange(picture: Picture, kept: Mapping[str, Cell] = {}) -> Arranged:
-    """The arrangement of a picture, in which nodes keep these cells, if no two in a strip have the same."""
-    members = _members(picture)
+    """The arrangement of a picture, in which nodes keep these cells, unless they are in another host or group now, or
+    others are there."""
     needs = _needs(picture)
-    cells: dict[str, Cell] = {}
-    for strip in members.values():
-        taken: set[Cell] = set()
-        for name in strip:
-            if name in kept and kept[name] not in taken:
-                cells[name] = kept[name]
-                taken.add(kept[name])
+    cells = _kept(picture, kept)
     if not cells:
-        cells = _fresh(picture, members, needs)
-    for strip in members.values():
-        _add(strip, cells, needs)
-    return _placed(picture, members, cells)
+        cells = _fresh(picture, needs)
+    else:
+        _Adding(picture, cells, needs).add()
+    return _placed(picture, cells)
 
 
-def _members(picture: Picture) -> dict[Strip, list[str]]:
-    """The nodes of each strip, those of a host together, and its groups before what is in none."""
-    found: dict[Strip, list[str]] = {}
-    for box in [*(box.name for box in picture.boxes), ""]:
-        inside: dict[str, list[str]] = {}
-        for node in picture.inside(box):
-            inside.setdefault(node.groups[0] if node.groups else "", []).append(node.name)
-        for group in sorted(inside, key=lambda group: not group):
-            found[box, group] = inside[group]
-    return found
+def _frame(node: PictureNode) -> Frame:
+    return node.box, node.groups[0] if node.groups else ""
 
 
 def _needs(picture: Picture) -> dict[str, list[str]]:
@@ -68,114 +56,224 @@ def _needs(picture: Picture) -> dict[str, list[str]]:
     return found
 
 
-def _fresh(
-    picture: Picture, members: Mapping[Strip, Sequence[str]], needs: Mapping[str, Sequence[str]]
-) -> dict[str, Cell]:
-    """The cells of a picture that nobody has seen yet. Each host begins on the left, whatever others need of it."""
-    count = len(picture.nodes)
-    room = math.ceil(math.sqrt(_SHAPE * count))
-    slots = {strip: max(1, round(len(names) * room / max(count, 1))) for strip, names in members.items()}
-    made: dict[str, tuple[int, int]] = {}
-    for host in dict.fromkeys(host for host, _ in members):
-        strips = {strip: names for strip, names in members.items() if strip[0] == host}
-        row = 0
-        for layer in _layers_of(strips, needs):
-            for strip, names in layer.items():
-                for at, name in enumerate(names):
-                    down, right = divmod(at, slots[strip])
-                    made[name] = (row + down, right)
-            row += max(math.ceil(len(names) / slots[strip]) for strip, names in layer.items())
-    return _ordered(picture, members, made)
+def _fresh(picture: Picture, needs: Mapping[str, Sequence[str]]) -> dict[str, Cell]:
+    """The cells of a picture that nobody has seen yet: groups are packed, then hosts of them, then all. What is inside
+    is tried in several shapes."""
+    names = list(picture.nodes)
+    if not names:
+        return {}
+    has_frames = len({_frame(node) for node in picture.nodes.values()}) > 1
+    shapes = _INSIDE if has_frames and len(names) < _MANY else _INSIDE[:1]
+    tried = [_Packing(picture, needs, one).of(names, 0) for one in shapes]
+    spots = min(tried, key=lambda one: score(one, needs, _LEAST))
+    return {name: Cell(layer, slot, *_frame(picture.nodes[name])) for name, (layer, slot) in spots.items()}
 
 
-def _layers_of(
-    strips: Mapping[Strip, Sequence[str]], needs: Mapping[str, Sequence[str]]
-) -> list[dict[Strip, list[str]]]:
-    """The layers of a host, with the nodes of each strip. What has no line in the host is where there is room."""
-    own = {name for names in strips.values() for name in names}
-    inside = {name: [other for other in needs.get(name, ()) if other in own] for name in own}
-    linked = {name for name, others in inside.items() if others} | {one for others in inside.values() for one in others}
-    level = layers([name for names in strips.values() for name in names if name in linked], inside)
-    made: list[dict[Strip, list[str]]] = [{} for _ in range(max(level.values(), default=0) + 1)]
-    for strip, names in strips.items():
+class _Packing(msgspec.Struct):
+    """`shapes` are those of frames."""
+
+    picture: Picture
+    needs: Mapping[str, Sequence[str]]
+    shapes: Sequence[float]
+
+    def of(self, names: Sequence[str], depth: int) -> dict[str, Spot]:
+        """The spots of nodes, which share `depth` frames: 0 in the picture, 1 in a host, 2 in a group."""
+        inside = self._inside(names, depth)
+        if len(inside) == 1 and depth < 2 and len(names) > 1:  # one host has all
+            return self.of(names, depth + 1)
+        return self._around({item: self._within(members, depth) for item, members in inside.items()}, depth)
+
+    def _inside(self, names: Sequence[str], depth: int) -> dict[str, list[str]]:
+        """The nodes of each frame, and those in none."""
+        found: dict[str, list[str]] = {}
         for name in names:
-            if name in linked:
-                made[level[name]].setdefault(strip, []).append(name)
-        for name in names:
-            if name not in linked:
-                own_layers = [layer for layer in made if strip in layer] or made
-                emptiest = min(own_layers, key=lambda layer: len(layer.get(strip, ())))
-                emptiest.setdefault(strip, []).append(name)
+            frame = _frame(self.picture.nodes[name])
+            chosen = next((one for one in range(depth, 2) if frame[one]), 2)
+            found.setdefault(f"{chosen} {frame[chosen]}" if chosen < 2 else f"- {name}", []).append(name)
+        return found
+
+    def _within(self, names: Sequence[str], depth: int) -> dict[str, Spot]:
+        if len(names) == 1:
+            return {names[0]: (0, 0)}
+        is_host = depth == 0 and bool(_frame(self.picture.nodes[names[0]])[0])
+        return self.of(names, 1 if is_host else 2)
+
+    def _around(self, within: Mapping[str, Mapping[str, Spot]], depth: int) -> dict[str, Spot]:
+        """The spots, with these rectangles packed."""
+        item_of = {name: item for item, found in within.items() for name in found}
+        items = [Item(item, max(x for x, _ in found.values()) + 1, max(y for _, y in found.values()) + 1)
+                 for item, found in within.items()]  # fmt: skip
+        links: dict[str, list[str]] = {}
+        for name, item in item_of.items():
+            for other in self.needs.get(name, ()):
+                if item_of.get(other, item) != item:
+                    links.setdefault(item, []).append(item_of[other])
+        is_all = len(item_of) == len(self.picture.nodes)
+        effort = len(items) / len(self.picture.nodes)
+        made = packed(items, links, _LEAST if is_all else _LEAST_INSIDE, SHAPES if is_all else self.shapes, effort)
+        return {
+            name: (made.spots[item][0] + x, made.spots[item][1] + y)
+            for item, found in within.items() for name, (x, y) in found.items()
+        }  # fmt: skip
+
+
+class _Bounds(msgspec.Struct):
+    left: int
+    right: int
+    top: float
+    bottom: float
+
+    def grow(self, cell: Cell) -> None:
+        self.left, self.right = min(self.left, cell.layer), max(self.right, cell.layer)
+        self.top, self.bottom = min(self.top, cell.slot), max(self.bottom, cell.slot)
+
+    @property
+    def corners(self) -> tuple[Cell, Cell]:
+        return Cell(self.left, self.top), Cell(self.right, self.bottom)
+
+    def meets(self, other: _Bounds) -> bool:
+        return (self.left <= other.right and other.left <= self.right
+                and self.top <= other.bottom and other.top <= self.bottom)  # fmt: skip
+
+    def has(self, layer: int, slot: float) -> bool:
+        return self.left <= layer <= self.right and self.top <= slot <= self.bottom
+
+
+def _bounds(cells: Iterable[Cell]) -> _Bounds:
+    first, *others = cells
+    made = _Bounds(first.layer, first.layer, first.slot, first.slot)
+    for one in others:
+        made.grow(one)
     return made
 
 
-def _ordered(
-    picture: Picture, members: Mapping[Strip, Sequence[str]], cells: dict[str, tuple[int, int]]
-) -> dict[str, Cell]:
-    """The cells, with nodes moved within their layers close to what they are connected to."""
-    first, starts = 0, {}
-    strip_of = {name: strip for strip, names in members.items() for name in names}
-    for strip, names in members.items():
-        starts[strip] = first
-        first += max((cells[name][1] for name in names), default=0) + 1
-    at = {name: starts[strip_of[name]] + slot for name, (_, slot) in cells.items()}
-    near: dict[str, list[str]] = {}
-    for line in picture.lines:
-        near.setdefault(line.source, []).append(line.target)
-        near.setdefault(line.target, []).append(line.source)
-    rows: dict[tuple[int, int], list[str]] = {}
-    for name, (row, _) in cells.items():
-        rows.setdefault((row, starts[strip_of[name]]), []).append(name)
-    ordered = [rows[key] for key in sorted(rows)]
-    for sweep in range(_SWEEPS):
-        for names in ordered if sweep % 2 == 0 else reversed(ordered):
-            places = sorted(at[name] for name in names)
-            middle = {name: _mean([at[other] for other in near.get(name, ())], at[name]) for name in names}
-            at.update(zip(sorted(names, key=lambda name: (middle[name], name)), places, strict=True))
-    return {name: Cell(row, at[name] - starts[strip_of[name]]) for name, (row, _) in cells.items()}
+def _kept(picture: Picture, kept: Mapping[str, Cell]) -> dict[str, Cell]:
+    """The cells that nodes keep: no two are the same, and no frame is in another one."""
+    own: dict[Frame, dict[str, Cell]] = {}
+    taken: set[tuple[int, float]] = set()
+    for name, cell in kept.items():
+        node = picture.nodes.get(name)
+        if node is not None and (cell.box, cell.group) == _frame(node) and (cell.layer, cell.slot) not in taken:
+            own.setdefault(_frame(node), {})[name] = cell
+            taken.add((cell.layer, cell.slot))
+    made: dict[str, Cell] = {}
+    frames = _Frames()
+    for frame in sorted(own, key=lambda frame: not frame[1]):  # groups first, as a whole
+        found = own[frame]
+        for names in [list(found)] if frame[1] else [[name] for name in found]:
+            if frames.accept(frame, [found[name] for name in names]):
+                made.update((name, found[name]) for name in names)
+    return {name: made[name] for name in kept if name in made}
 
 
-def _mean(values: Sequence[int], otherwise: float) -> float:
-    return sum(values) / len(values) if values else otherwise
+class _Frames:
+    """Frames that do not meet: hosts, groups, and what is in no host."""
 
+    def __init__(self) -> None:
+        self.hosts: dict[str, _Bounds] = {}
+        self.groups: list[_Bounds] = []
+        self.alone: list[Cell] = []
 
-def _add(names: Iterable[str], cells: dict[str, Cell], needs: Mapping[str, Sequence[str]]) -> None:
-    """Adds cells for the nodes of a strip that have none: beside what they need, or what needs them."""
-    names = list(names)
-    taken = {cells[name] for name in names if name in cells}
-    users: dict[str, list[str]] = {}
-    for name, others in needs.items():
-        for other in others:
-            users.setdefault(other, []).append(name)
-    most = max((cell.slot for cell in taken), default=0)
-    for name in names:
-        if name in cells:
-            continue
-        behind = [cells[one].layer + 1 for one in users.get(name, ()) if one in cells]
-        before = [cells[one].layer - 1 for one in needs.get(name, ()) if one in cells]
-        layer = max(behind) if behind else max(min(before), 0) if before else 0
-        slot = next(slot for slot in range(len(taken) + most + 2) if Cell(layer, slot) not in taken)
-        cells[name] = Cell(layer, slot)
-        taken.add(cells[name])
-
-
-def _placed(picture: Picture, members: Mapping[Strip, Sequence[str]], cells: dict[str, Cell]) -> Arranged:
-    """The grid of these cells, without empty layers, and the areas of hosts and groups."""
-    rows = {layer: row for row, layer in enumerate(sorted({cell.layer for cell in cells.values()}))}
-    grid, groups = NodeGrid(rows=len(rows)), list[Area]()
-    hosts: dict[str, list[tuple[int, int]]] = {}
-    for (host, group), names in members.items():
-        slots = {slot: at for at, slot in enumerate(sorted({cells[name].slot for name in names}))}
-        own = [(rows[cells[name].layer], grid.columns + slots[cells[name].slot]) for name in names]
-        grid.cells.update(zip(names, own, strict=True))
-        grid.columns += len(slots)
-        hosts.setdefault(host, []).extend(own)
+    def accept(self, frame: Frame, cells: Sequence[Cell]) -> bool:
+        """Whether these cells, of a group or of one node without, meet no frame of others; then they are one."""
+        host, group = frame
+        bounds = _bounds(cells)
+        around = _bounds([*cells, *(self.hosts[host].corners if host in self.hosts else ())]) if host else bounds
+        others = [one for name, one in self.hosts.items() if name != host]
+        if any(map(bounds.meets, self.groups)) or any(map(around.meets, others)):
+            return False
+        if any(around.has(one.layer, one.slot) for one in self.alone):
+            return False
         if group:
-            groups.append(_around(group, own))
-    grid.areas = [_around(host, own) for host, own in hosts.items()]
-    return Arranged(grid, groups, cells)
+            self.groups.append(bounds)
+        if host:
+            self.hosts[host] = around
+        elif not group:
+            self.alone += cells
+        return True
 
 
-def _around(name: str, cells: Sequence[tuple[int, int]]) -> Area:
+class _Adding:
+    """Adds cells for the nodes that have none. The frames stay apart: they only get slots between two others."""
+
+    def __init__(self, picture: Picture, cells: dict[str, Cell], needs: Mapping[str, Sequence[str]]) -> None:
+        self.picture, self.cells, self.needs = picture, cells, needs
+        self.users: dict[str, list[str]] = {}
+        for name, others in needs.items():
+            for other in others:
+                self.users.setdefault(other, []).append(name)
+
+    def add(self) -> None:
+        for name, node in self.picture.nodes.items():
+            if name not in self.cells:
+                self.cells[name] = self._cell(name, _frame(node))
+
+    def _cell(self, name: str, frame: Frame) -> Cell:
+        """Beside what the node needs, or what needs it."""
+        cells = self.cells
+        users = [cells[one] for one in self.users.get(name, ()) if one in cells]
+        needed = [cells[one] for one in self.needs.get(name, ()) if one in cells]
+        last = max((cell.layer for cell in cells.values()), default=0)
+        behind, before = [cell.layer + 1 for cell in users], [cell.layer - 1 for cell in needed]
+        layer = min(max(behind) if behind else max(min(before), 0) if before else 0, last)
+        group = [cell for cell in cells.values() if (cell.box, cell.group) == frame] if frame[1] else []
+        host = [cell for cell in cells.values() if not frame[0] or cell.box == frame[0]]
+        if not group and not host:  # a host that is new
+            return Cell(layer, math.floor(max((cell.slot for cell in cells.values()), default=-1)) + 1, *frame)
+        bounds = _bounds(group or host)
+        if group or not frame[1]:
+            slots = [cell.slot for cell in (*users, *needed)]
+            free = self._free(bounds, frame, layer, sum(slots) / len(slots) if slots else bounds.top)
+            if free is not None:
+                return Cell(*free, *frame)
+        return Cell(min(max(layer, bounds.left), bounds.right), self._below(bounds.bottom), *frame)
+
+    def _free(self, bounds: _Bounds, frame: Frame, wanted: int, middle: float) -> tuple[int, float] | None:
+        """The closest free cell of a frame that is in no frame inside it."""
+        taken = {(cell.layer, cell.slot) for cell in self.cells.values()}
+        inner = self._frames(frame)
+        slots = sorted({cell.slot for cell in self.cells.values() if bounds.top <= cell.slot <= bounds.bottom})
+        found = [
+            (abs(layer - wanted) + abs(slot - middle), layer, slot)
+            for layer in range(bounds.left, bounds.right + 1) for slot in slots
+            if (layer, slot) not in taken and not any(one.has(layer, slot) for one in inner)
+        ]  # fmt: skip
+        return min(found)[1:] if found else None
+
+    def _frames(self, frame: Frame) -> list[_Bounds]:
+        """What a node of this frame may not be put into."""
+        found: dict[Frame, list[Cell]] = {}
+        for cell in self.cells.values():
+            if cell.group and (cell.box, cell.group) != frame:
+                found.setdefault((cell.box, cell.group), []).append(cell)
+            if cell.box and cell.box != frame[0]:
+                found.setdefault((cell.box, ""), []).append(cell)
+        return [_bounds(cells) for cells in found.values()]
+
+    def _below(self, slot: float) -> float:
+        """A slot between this one and the next."""
+        following = min((cell.slot for cell in self.cells.values() if cell.slot > slot), default=slot + 2)
+        return (slot + following) / 2
+
+
+def _placed(picture: Picture, cells: Mapping[str, Cell]) -> Arranged:
+    """The grid of these cells, without empty layers and slots, and the areas of hosts and groups."""
+    rows = {layer: row for row, layer in enumerate(sorted({cell.layer for cell in cells.values()}))}
+    columns = {slot: at for at, slot in enumerate(sorted({cell.slot for cell in cells.values()}))}
+    grid = NodeGrid({name: (rows[cell.layer], columns[cell.slot]) for name, cell in cells.items()},
+                    rows=len(rows), columns=len(columns))  # fmt: skip
+    hosts: dict[str, list[tuple[int, int]]] = {}
+    groups: dict[Frame, list[tuple[int, int]]] = {}
+    for name, node in picture.nodes.items():
+        frame = _frame(node)
+        if frame[0]:
+            hosts.setdefault(frame[0], []).append(grid.cells[name])
+        if frame[1]:
+            groups.setdefault(frame, []).append(grid.cells[name])
+    grid.areas = [_area(host, own) for host, own in hosts.items()]
+    return Arranged(grid, [(host, _area(group, own)) for (host, group), own in groups.items()], dict(cells))
+
+
+def _area(name: str, cells: Sequence[tuple[int, int]]) -> Area:
     rows, columns = [row for row, _ in cells], [column for _, column in cells]
     return Area(name, min(rows), max(rows), min(columns), max(columns))

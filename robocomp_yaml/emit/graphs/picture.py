@@ -66,14 +66,18 @@ class PictureLine(msgspec.Struct, frozen=True):
 
 
 class Cell(msgspec.Struct, frozen=True):
-    """Where a node is among those of its host and group: `layer` counts from the left, `slot` from the top."""
+    """Where a node is: `layer` counts from the left, `slot` from the top, and what was added has a slot between two
+    others. It holds as long as the node is in this host (`box`) and group."""
 
     layer: int
-    slot: int
+    slot: float
+    box: str = ""
+    group: str = ""
 
 
 class Picture(msgspec.Struct):
-    """`faults` are those that belong to no node and no line. `cells` are those of nodes that stay where they are."""
+    """`faults` are those that belong to no node and no line. `cells` are those of nodes that stay where they are;
+    `positions` are those that a person chose, in pixels."""
 
     name: str
     boxes: list[Box] = []
@@ -81,6 +85,7 @@ class Picture(msgspec.Struct):
     lines: list[PictureLine] = []
     faults: tuple[PictureFault, ...] = ()
     cells: Mapping[str, Cell] = {}
+    positions: Mapping[str, tuple[float, float]] = {}
 
     def inside(self, box: str) -> list[PictureNode]:
         """The nodes in a box; those outside for ''."""

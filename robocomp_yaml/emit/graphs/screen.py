@@ -22,8 +22,8 @@ SMALL_ON_SCREEN = 12.0
 """The size of all texts but the titles of nodes."""
 LINE_HEIGHT = 16.0
 """Twice the distance of two tracks: lines that end at texts are never on those that leave nodes."""
-_PAD, _NODE_PAD = 8.0, 12.0
-_HOST_TITLE, _GROUP_TITLE = 24.0, 20.0
+PAD, _NODE_PAD = 8.0, 12.0
+HOST_TITLE, GROUP_TITLE = 24.0, 20.0
 _NARROWEST = 104.0
 
 
@@ -41,10 +41,14 @@ class ScreenGeometry(msgspec.Struct):
 
 
 def screen_geometry(picture: Picture, kept: Mapping[str, Cell] = {}) -> ScreenGeometry:
-    """The geometry of a picture. Nodes with a cell keep it."""
+    """The geometry of a picture. Nodes with a cell keep it, and nodes that a person moved are where they were put."""
     arranged = arrange(picture, kept)
     made = _ScreenPlacer(picture, arranged).place()
     made.cells = arranged.cells
+    if not picture.positions.keys().isdisjoint(made.nodes):
+        from robocomp_yaml.emit.graphs.moved import moved
+
+        moved(picture, made)
     return made
 
 
@@ -56,9 +60,11 @@ class _ScreenPlacer:
         self.routes = routes_of(picture, arranged.grid)
         self.made = ScreenGeometry()
         self.ends = self._ends()
-        self.hosts = [area for area in self.grid.areas if area.name]
-        self.lefts = {area.top for area in (*self.grid.areas, *self.groups)}
-        self.rights = {area.bottom + 1 for area in (*self.grid.areas, *self.groups)}
+        self.coming, self.leaving = self._counts()
+        self.hosts = self.grid.areas
+        frames = [*self.grid.areas, *(area for _, area in self.groups)]
+        self.lefts = {area.top for area in frames}
+        self.rights = {area.bottom + 1 for area in frames}
 
     def place(self) -> ScreenGeometry:
         for name, node in self.picture.nodes.items():
@@ -69,10 +75,9 @@ class _ScreenPlacer:
             block.x, block.y, block.width = self.x[row], self.y[column], self.wide[row]
         for area in self.hosts:
             title = next(box.title for box in self.picture.boxes if box.name == area.name)
-            self.made.hosts[area.name] = self._box(area, title, _HOST_TITLE + self._room_above(area), 2 * _PAD)
-        for area in self.groups:
-            host = next(one.name for one in self.grid.areas if one.left <= area.left and area.right <= one.right)
-            self.made.groups.append((area.name, host, self._box(area, area.name, _GROUP_TITLE, _PAD)))
+            self.made.hosts[area.name] = self._box(area, title, HOST_TITLE + self._room_above(area), 2 * PAD)
+        for host, area in self.groups:
+            self.made.groups.append((area.name, host, self._box(area, area.name, GROUP_TITLE, PAD)))
         self._route()
         return self.made
 
@@ -98,12 +103,20 @@ class _ScreenPlacer:
             taken.add(found[net])
         return found
 
+    def _counts(self) -> tuple[dict[str, int], dict[str, int]]:
+        """The lines of text that each node needs for the nets that end there, and the branches that begin there."""
+        coming: dict[str, int] = {}
+        leaving: dict[str, int] = {}
+        for net, at in self.ends.items():
+            coming[net.target] = max(coming.get(net.target, 0), at + 1)
+            for branch in net.branches:
+                leaving[branch.source] = leaving.get(branch.source, 0) + 1
+        return coming, leaving
+
     def _block(self, node: PictureNode) -> Rectangle:
         texts = _texts(node)
         widest = max([width(texts[0], TITLE, bold=True), *(width(text, SMALL_ON_SCREEN) for text in texts[1:])])
-        coming = [at for net, at in self.ends.items() if net.target == node.name]
-        leaving = sum(1 for net in self.routes.nets for one in net.branches if one.source == node.name)
-        lines = max([len(texts), *(at + 1 for at in coming), (leaving + 1) // 2])
+        lines = max(len(texts), self.coming.get(node.name, 0), (self.leaving.get(node.name, 0) + 1) // 2)
         return Rectangle(0, 0, max(_even(widest + 2 * _NODE_PAD), _NARROWEST), LINE_HEIGHT * lines + STEP, texts)
 
     def _measure(self) -> None:
@@ -124,7 +137,7 @@ class _ScreenPlacer:
         self.made.width, self.made.height = ends[-1], downs[-1]
 
     def _channel(self, row: int) -> float:
-        sides = _PAD + (2 * _PAD if row in self.lefts else 0) + (2 * _PAD if row in self.rights else 0)
+        sides = PAD + (2 * PAD if row in self.lefts else 0) + (2 * PAD if row in self.rights else 0)
         return sides + STEP * (self.routes.channel_tracks.get(row, 0) + 1)
 
     def _gap(self, column: int) -> float:
@@ -133,21 +146,22 @@ class _ScreenPlacer:
 
     def _closing(self, column: int) -> float:
         if any(area.right + 1 == column for area in self.hosts):
-            return 2 * _PAD
-        return _PAD if any(area.right + 1 == column for area in self.groups) else 0.0
+            return 2 * PAD
+        return PAD if any(area.right + 1 == column for _, area in self.groups) else 0.0
 
     def _opening(self, column: int) -> float:
-        group = _GROUP_TITLE if any(area.left == column for area in self.groups) else 0.0
-        return group + (_HOST_TITLE if any(area.left == column for area in self.hosts) else 0.0)
+        group = GROUP_TITLE if any(area.left == column for _, area in self.groups) else 0.0
+        return group + (HOST_TITLE if any(area.left == column for area in self.hosts) else 0.0)
 
     def _room_above(self, area: Area) -> float:
         """The room between the frame of a host and its first nodes, for the title of a group."""
-        return _GROUP_TITLE if any(group.left == area.left for group in self.groups) else 0.0
+        inside = [group for host, group in self.groups if host == area.name]
+        return GROUP_TITLE if any(group.left == area.left for group in inside) else 0.0
 
     def _box(self, area: Area, title: str, above: float, pad: float) -> Rectangle:
         left, right = self.x[area.top] - pad, self.x[area.bottom] + self.wide[area.bottom] + pad
         top, bottom = self.y[area.left] - above, self.y[area.right] + self.high[area.right] + pad
-        room = self.wide[area.top] + pad - _PAD  # lines cross the frame behind the first layer
+        room = self.wide[area.top] + pad - PAD  # lines cross the frame behind the first layer
         return Rectangle(left, top, right - left, bottom - top, [shortened(title, SMALL_ON_SCREEN, room)])
 
     def _route(self) -> None:
@@ -190,7 +204,7 @@ class _ScreenPlacer:
 
     def _track_x(self, row: int, net: Net) -> float:
         left = self.x[row] - self.channels[row]
-        return left + (2 * _PAD if row in self.rights else 0) + STEP * (self.routes.channels[row, net] + 1)
+        return left + (2 * PAD if row in self.rights else 0) + STEP * (self.routes.channels[row, net] + 1)
 
     def _track_y(self, column: int, net: Net) -> float:
         top = self.y[column] - self.gaps[column]

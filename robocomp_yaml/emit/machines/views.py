@@ -20,9 +20,16 @@ class StateView(msgspec.Struct, frozen=True):
     comment: str
 
 
+class OlderSignal(msgspec.Struct, frozen=True):
+    """The name that an older version of RoboComp's tool gave a signal."""
+
+    name: str
+    signal: str
+
+
 class MachineView(msgspec.Struct, frozen=True):
     """The states, and the names of guards and actions. `called` are all actions, with those of every worker. `fires` is
-    an example of code that fires an event. `member` and `signals` are for code for RoboComp's own tool."""
+    an example of code that fires an event. `member` and the signals are for code for RoboComp's own tool."""
 
     states: list[StateView]
     guards: list[str]
@@ -31,6 +38,7 @@ class MachineView(msgspec.Struct, frozen=True):
     fires: str
     member: str
     signals: list[str]
+    older_signals: list[OlderSignal]
 
 
 def view(
@@ -47,6 +55,7 @@ def view(
         next((f"{events_of}{event.method}()" for event in events(machine, in_code)), "there are none"),
         in_code(names.robocomp_machine(machine)),
         names.robocomp_signals(machine),
+        [OlderSignal(older, signal) for older, signal in names.older_signals(machine).items()],
     )
 
 

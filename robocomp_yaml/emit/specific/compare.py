@@ -9,6 +9,7 @@ import msgspec
 
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.emit.specific.code import Signature, SourceCode, SourceMethod
+from robocomp_yaml.emit.specific.types import Differ
 
 
 class MissingMethod(msgspec.Struct, frozen=True):
@@ -58,11 +59,11 @@ def accepted_in(codes: Iterable[SourceCode]) -> Accepted:
 
 def compare(
     new: Sequence[SourceCode], base: Mapping[str, SourceCode], yours: Sequence[SourceCode], bases: Collection[str] = (),
-    accepted: Accepted = _NOTHING,
+    accepted: Accepted = _NOTHING, differ: Differ = lambda mine, expected, is_result: False,
 ) -> Comparison:  # fmt: skip
     """Compares the user's files, `yours`, with the new skeleton. `base` are the skeletons that the user's files were
     written from, as far as they are known, by path. `bases` are the base classes of the skeleton's class, in addition
-    to those in `new`. `accepted` are further signatures."""
+    to those in `new`. `accepted` are further signatures. `differ` compares types."""
     result = Comparison()
     members, definitions = _by_name(yours, "members"), _by_name(yours, "definitions")
     bodies = {name: [pair for pair in pairs if pair[1].has_body] for name, pairs in members.items()}
@@ -80,7 +81,7 @@ def compare(
                 defined = any(known.get(name) or inside.get(name) for name in names)
                 if not defined and method.name not in elsewhere and not others:
                     result.missing.append(MissingMethod(skeleton, method))
-                if mine and not any(_fits_any(one, method, before.get(method.name), others) for _, one in mine):
+                if mine and not any(_fits_any(one, method, before.get(method.name), others, differ) for _, one in mine):
                     result.outdated.append(OutdatedMethod(*mine[0], skeleton, method))
     result.obsolete = list(_obsolete(new, base, members, definitions, result.missing))
     return result
@@ -104,33 +105,40 @@ def _inherited(new: Sequence[SourceCode], yours: Sequence[SourceCode], bases: Co
 
 
 def _fits_any(
-    mine: SourceMethod, expected: SourceMethod, before: SourceMethod | None, others: Iterable[SourceMethod]
-) -> bool:
-    return _fits(mine, expected, before) or any(_fits(mine, other, None) for other in others)
+    mine: SourceMethod, expected: SourceMethod, before: SourceMethod | None, others: Iterable[SourceMethod],
+    differ: Differ,
+) -> bool:  # fmt: skip
+    return _fits(mine, expected, before, differ) or any(_fits(mine, other, None, differ) for other in others)
 
 
-def _fits(mine: SourceMethod, expected: SourceMethod, before: SourceMethod | None) -> bool:
+def _fits(mine: SourceMethod, expected: SourceMethod, before: SourceMethod | None, differ: Differ) -> bool:
     """Whether a method matches that of the new skeleton. Parameters that the user changed since the skeleton `before`
-    are accepted, but their number must match."""
+    are accepted, unless their number or a type surely does not match."""
     is_, needs = mine.signature, expected.signature
     if is_ is None or needs is None or _types(is_) == _types(needs):
         return True
     count = len(needs.parameters)
     if is_.least > count or (is_.most is not None and is_.most < count):
         return False
+    pairs = zip(is_.parameters, needs.parameters, strict=False)
+    if any(differ(*pair, False) for pair in pairs) or differ(is_.returns, needs.returns, True):
+        return False
     was = before.signature if before else None
     if was is None:
         return True
     triples = [*zip(is_.parameters, was.parameters, needs.parameters, strict=False)]
     triples.append((is_.returns, was.returns, needs.returns))
-    return not any(mine == old and _differ(old, now) for mine, old, now in triples)
+    names = {now.partition(" ")[0] for now in needs.parameters}
+    return not any(mine == old and _differ(old, now, names) for mine, old, now in triples)
 
 
-def _differ(old: str, now: str) -> bool:
-    """Whether a parameter or result changed. An added or removed type is no change."""
+def _differ(old: str, now: str, names: Collection[str]) -> bool:
+    """Whether a parameter or result changed. An added or removed type is no change, nor is another name for the same
+    parameter: calls pass it by its position. `names` are those of all parameters now: one of them has moved."""
     if not old or not now or (" : " in old) != (" : " in now):
         return old.partition(" ")[0] != now.partition(" ")[0] and bool(old and now)
-    return old != now
+    (name, _, type_), (new_name, _, new_type) = old.partition(" : "), now.partition(" : ")
+    return type_ != new_type or (name != new_name and (not type_ or name in names))
 
 
 def _types(signature: Signature) -> tuple[object, ...]:

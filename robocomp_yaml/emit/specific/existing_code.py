@@ -11,6 +11,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.emit.layout import SOURCES
 from robocomp_yaml.link.program import LinkedComponent, Program
 from robocomp_yaml.link.workspace import Workspaces
+from robocomp_yaml.source.disk import Disk
 
 if TYPE_CHECKING:
     from robocomp_yaml.emit.build import Build
@@ -20,7 +21,7 @@ Ports = Callable[[LinkedComponent], PortTable]
 
 def has_code(program: Program) -> bool:
     """Whether a requested component has files of the user."""
-    return any(_is_written(program.components[real]) for real in program.requested_components())
+    return any(_is_written(program.components[real], program.disk) for real in program.requested_components())
 
 
 def changed(program: Program, files: Collection[str]) -> list[str] | None:
@@ -60,7 +61,7 @@ def plans(
     languages = {program.components[real].component.language.name for real in program.requested_components()}
     options = EmitOptions(
         None, (), frozenset({*languages, "config"}), workspaces.of, ports,
-        only=lambda linked: _is_written(linked) and (folders is None or _slashed(linked) in folders),
+        only=lambda linked: _is_written(linked, program.disk) and (folders is None or _slashed(linked) in folders),
     )  # fmt: skip
     return build(program, diagnostics, options)
 
@@ -74,5 +75,5 @@ def _slashed(linked: LinkedComponent) -> str:
     return f"{folder}/" if folder != "." else ""
 
 
-def _is_written(linked: LinkedComponent) -> bool:
-    return os.path.isdir(os.path.join(_folder(linked), SOURCES))
+def _is_written(linked: LinkedComponent, disk: Disk) -> bool:
+    return disk.ask(os.path.isdir, os.path.join(_folder(linked), SOURCES))

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Collection, Iterator
+from typing import Any
 
 from robocomp_yaml import languages
 from robocomp_yaml.emit.specific.code import CLASS, SourceCode
@@ -29,6 +30,12 @@ def comment_mark(path: str) -> str:
     """What begins a line comment."""
     language = _language(path)
     return language.comment if language else "#"
+
+
+def signature_types(path: str) -> Any:
+    """What compares types of the file's language (`SignatureTypes`), None if nothing does."""
+    language = _language(path)
+    return getattr(language.part("code"), "SignatureTypes", None) if language else None
 
 
 def compiles(code: SourceCode) -> bool:

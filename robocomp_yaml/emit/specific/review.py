@@ -77,8 +77,8 @@ def review(built: Build, disk: Disk, *, merge: bool = False) -> Review:
         for folder in {file.path.rpartition("/")[0] for file in files if reading.is_code(file.path)}:
             result.names[root.shown(folder)] = reading.names(root, folder)
             result.contents.update((root.shown(path), data) for path, data in reading.code_in(root, folder))
-        result.diagnostics += reporting.report(root, files, root.shown(plan.owner))
         linked = built.components.get((plan.root, plan.owner))
+        result.diagnostics += reporting.report(root, files, root.shown(plan.owner), linked)
         if linked is not None and linked.component.language.target.has_usage:
             merged_files = {file.path: file.data for file in files} if merge else {}
             result.add_usage(linked, root, disk, merged_files)

@@ -9,8 +9,9 @@ import msgspec
 
 from robocomp_yaml.diag.span import Span
 
-WORKER, MODULES, SETTINGS = "worker", "modules", "settings"
-"""Where a chain begins: at the worker, at the Slice modules, or at the properties that RoboComp's code gets."""
+WORKER, MODULES, SETTINGS, SERVED = "worker", "modules", "settings", "served"
+"""Where a chain begins: at the worker, at the Slice modules, at the properties that RoboComp's code gets, or at the
+arguments of the worker's own methods."""
 
 
 class Word(msgspec.Struct, frozen=True):
@@ -28,7 +29,7 @@ class Constant(msgspec.Struct, frozen=True):
 class Arguments(msgspec.Struct, frozen=True):
     """The arguments of a call: `count` by position and `names` by keyword; `is_exact` unless some are unpacked. `text`
     is the first one if it is a literal text, `keys` are those of the first one if it is a literal mapping. `constant`
-    is the last one by position if it is a literal. `span` is that of the called name."""
+    is the last one by position if it is a literal; `values` are all by position, None for those that are not."""
 
     count: int = 0
     names: tuple[Word, ...] = ()
@@ -36,27 +37,46 @@ class Arguments(msgspec.Struct, frozen=True):
     text: Word | None = None
     keys: tuple[Word, ...] = ()
     constant: Constant | None = None
+    values: tuple[Constant | None, ...] = ()
 
 
 class Step(msgspec.Struct, frozen=True):
     """One step of a chain: a name, called if it has `arguments`; or an index, whose name is '' unless it is a literal
-    text."""
+    text; or an element in a loop (`is_each`)."""
 
     word: Word
     arguments: Arguments | None = None
     is_index: bool = False
+    is_each: bool = False
 
 
 class Chain(msgspec.Struct, frozen=True):
     """Names that lead from one value to the next: `self.mouth_proxy.move(pose)`. If a value is assigned to its end,
     `is_assigned`, and `constant` is the value if it is a literal. `caught` are the exceptions that the code around it
-    handles by name."""
+    handles by name. `compared` are the literals that it is compared with, and `unpacked` is the number of variables to
+    which it is unpacked. `is_again`: another chain has all of its steps, and is judged."""
 
     root: str
     steps: tuple[Step, ...]
     is_assigned: bool = False
     constant: Constant | None = None
     caught: frozenset[str] = frozenset()
+    compared: tuple[Constant, ...] = ()
+    unpacked: int = 0
+    is_again: bool = False
+
+
+WITHOUT_SELF, NO_SELF, NOT_CALLED, NOT_GENERATED = "without self", "no self", "not called", "not generated"
+UNDEFINED, REPEATED, NO_INIT, NO_RESULT = "undefined", "repeated", "no init", "no result"
+
+
+class Slip(msgspec.Struct, frozen=True):
+    """A slip of another kind. `meant` is what should be there, or is one of `known`."""
+
+    kind: str
+    word: Word
+    meant: str = ""
+    known: tuple[str, ...] = ()
 
 
 class CodeUsage(msgspec.Struct, frozen=True):
@@ -75,3 +95,16 @@ class CodeUsage(msgspec.Struct, frozen=True):
     is_open: bool = False
     is_shared: bool = False
     faults: tuple[tuple[str, Span], ...] = ()
+    slips: tuple[Slip, ...] = ()
+
+
+def literal_head(steps: tuple[Step, ...]) -> tuple[Step, ...]:
+    """The leading indices that are literal texts; () if another index follows them, or none leads."""
+    head: list[Step] = []
+    for step in steps:
+        if not step.is_index:
+            break
+        if not step.word.text:
+            return ()
+        head.append(step)
+    return tuple(head)

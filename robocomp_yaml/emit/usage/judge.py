@@ -10,19 +10,43 @@ import msgspec
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import usage as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.diag.suggest import did_you_mean, suggest
+from robocomp_yaml.diag.fix import Edit, Fix
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.suggest import did_you_mean, likeness, suggest
+from robocomp_yaml.emit.usage import code
 from robocomp_yaml.emit.usage import offer as offers
-from robocomp_yaml.emit.usage.code import SETTINGS, WORKER, Arguments, Chain, CodeUsage, Constant, Step, Word
+from robocomp_yaml.emit.usage.code import (
+    SETTINGS,
+    WORKER,
+    Arguments,
+    Chain,
+    CodeUsage,
+    Constant,
+    Slip,
+    Step,
+    Word,
+)
+from robocomp_yaml.emit.usage.literals import never_equal, of_setting, wrong_literals
 from robocomp_yaml.emit.usage.offer import Offer, OfferedMember, ServedInterface, WorkerOffer
 from robocomp_yaml.emit.usage.values import keys, unknown, unknown_setting, where, wrong_paths, wrong_value
 from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.model.interface import Enum, Member, Struct
 
+_NEAR = 0.75  # similarity of a member that is surely misspelled
 _PROXY = re.compile(r"\w+_(?:pub)?proxy\d*_*\Z")
+_NEARLY = re.compile(r"([a-z]\w*?)_?(?:pub_?)?(?:[Pp]rox[yi]|[Pp]rx)\d*_*\Z")
 
 
 def is_proxy(name: str) -> bool:
     """Whether a name has the form that names of proxies have."""
     return _PROXY.match(name) is not None
+
+
+def is_nearly_proxy(name: str, known: Iterable[str]) -> bool:
+    """Whether a name is one of the known proxies in another form, such as `mouthProxy`."""
+    found = _NEARLY.match(name)
+    stems = {re.sub(r"_(?:pub)?proxy.*", "", one).lower() for one in known if is_proxy(one)}
+    return found is not None and found[1].lower().rstrip("_") in stems
 
 
 def judge(
@@ -33,13 +57,46 @@ def judge(
         yield codes.SYNTAX.at(span, text=text)
     if usage.faults:
         return
+    yield from map(_slip, usage.slips)
     judging = _Judging(linked, usage, offer)
+    seen = set[tuple[str, Span]]()  # chains through variables share their first steps
     for chain in usage.chains:
         if chain.root in offer.roots:
-            yield from judging.chain(chain)
+            for fault in judging.chain(chain):
+                if (fault.code, fault.span) not in seen:
+                    seen.add((fault.code, fault.span))
+                    yield fault
         elif chain.root == SETTINGS and chain.steps[-1].word.text not in usage.texts:
-            yield from unknown_setting(linked, chain, config)
+            yield from of_setting(linked, chain)
+            if not chain.is_again:
+                yield from unknown_setting(linked, chain, config)
     yield from judging.methods()
+
+
+def _slip(slip: Slip) -> Diagnostic:
+    match slip.kind:
+        case code.WITHOUT_SELF:
+            hint = f"write {slip.meant}"
+            fix = Fix(hint, (Edit(slip.word.span, slip.meant),), True)
+            return codes.WITHOUT_SELF.at(slip.word.span, name=slip.word.text, hint=hint, fixes=(fix,))
+        case code.NO_SELF:
+            return codes.NO_SELF.at(slip.word.span, name=slip.word.text, hint="its first parameter must be self")
+        case code.NOT_CALLED:
+            return codes.NOT_CALLED.at(slip.word.span, name=slip.word.text, hint=f"write {slip.word.text}(…)")
+        case code.UNDEFINED if slip.meant:
+            return codes.UNDEFINED.at(slip.word.span, name=slip.word.text, hint=f"write `{slip.meant}`")
+        case code.UNDEFINED:
+            near = did_you_mean(slip.word.text, slip.known)
+            return unknown(codes.UNDEFINED, slip.word, near.meant, otherwise="", safe=False)
+        case code.REPEATED:
+            hint = "rename one of the two"
+            return codes.REPEATED.at(slip.word.span, name=slip.word.text, line=int(slip.meant), hint=hint)
+        case code.NO_INIT:
+            return codes.NO_INIT.at(slip.word.span, hint="call super().__init__ with its arguments first")
+        case code.NO_RESULT:
+            return codes.NO_RESULT.at(slip.word.span, name=slip.word.text)
+    meant = did_you_mean(slip.word.text, slip.known, otherwise=_listed(slip.known, "it has"))
+    return unknown(codes.NOT_GENERATED, slip.word, meant.meant, otherwise=meant.text, safe=meant.safe)
 
 
 class _Judging(msgspec.Struct):
@@ -52,23 +109,41 @@ class _Judging(msgspec.Struct):
         now: Offer | None = self.offer.roots[chain.root]
         if chain.root == WORKER and chain.steps[0].word.text in self.usage.own:
             return
+        member: OfferedMember | None = None
         for number, step in enumerate(chain.steps):
             if now is None:
                 return
             if step.is_index:
-                now = now.element
+                if now.kind == offers.PARAMETERS and step.word.text and not chain.is_again:
+                    yield self._indexed(now, step.word)
+                now, member = now.each if step.is_each else now.element, None
                 continue
             member = now.members.get(step.word.text)
             if member is None:
-                if not self._may_exist(now, step, chain):
+                if not chain.is_again and not self._may_exist(now, step, chain):
                     yield self._unknown(now, step)
                 return
             is_last = number + 1 == len(chain.steps)
-            if step.arguments is not None:
+            if step.arguments is not None and not chain.is_again:
                 yield from self._call(now, step.word, member, step.arguments, chain)
             elif is_last and chain.is_assigned and member.parameter is not None:
                 yield from self._assigned(now, member, step.word, chain.constant)
-            now = member.value
+            now = member.result if step.arguments is not None and member.result is not None else member.value
+        yield from never_equal(chain, member, now)
+        if chain.unpacked and now is not None and not _is_unpacked(now, chain.unpacked):
+            yield self._results(now, chain.steps[-1].word, f"{chain.unpacked} values")
+
+    def _results(self, now: Offer, word: Word, used: str) -> Diagnostic:
+        count = "nothing" if not now.count else f"{now.count} values"
+        count = count if now.kind == offers.RESULTS else f"one {now.name}"
+        return codes.WRONG_RESULTS.at(word.span, owner=word.text, count=count, used=used)
+
+    def _indexed(self, now: Offer, word: Word) -> Diagnostic:
+        attributes = list(keys(self.linked.parameters.parameters.root))
+        meant = word.text if word.text in attributes else suggest(word.text, attributes)
+        called = "()" if any(member.most == 0 for member in now.members.values()) else ""
+        hint = f"write parameters.{meant}{called}" if meant else where(self.linked)
+        return codes.NOT_INDEXED.at(word.span, name=word.text, hint=hint)
 
     def _may_exist(self, now: Offer, step: Step, chain: Chain) -> bool:
         name = step.word.text
@@ -77,14 +152,18 @@ class _Judging(msgspec.Struct):
         if now.kind == offers.WORKER:
             if chain.is_assigned or self.usage.is_open:
                 return True
-            return not is_proxy(name) and (self.usage.is_shared or not now.is_complete)
+            is_proxy_name = is_proxy(name) or is_nearly_proxy(name, now.members)
+            return not is_proxy_name and (self.usage.is_shared or not now.is_complete)
+        if now.kind == offers.STRUCT and (chain.is_assigned or name in self.usage.own):
+            near = suggest(name, now.members)  # Python's structs may get further attributes
+            return near is None or likeness(name, near) < _NEAR
         return not now.is_complete
 
     def _unknown(self, now: Offer, step: Step) -> Diagnostic:
         word, known = step.word, now.members
         name, component = word.text, self.linked.component.name
         match now.kind:
-            case offers.WORKER if is_proxy(name):
+            case offers.WORKER if is_proxy(name) or is_nearly_proxy(name, known):
                 proxies = [one for one, member in known.items() if _is_of_proxy(member)]
                 lacking = self._lacking(name)
                 similar = [one for one in proxies if not lacking or one.lower() == name.lower()]
@@ -94,7 +173,8 @@ class _Judging(msgspec.Struct):
                 return self._at(codes.UNKNOWN_ATTRIBUTE, word, known, component=component)
             case offers.PROXY | offers.TOPIC:
                 code = codes.UNKNOWN_METHOD if now.kind == offers.PROXY else codes.UNKNOWN_EVENT
-                return self._at(code, word, known, _listed(known, "it has"), interface=now.name)
+                listed = [one for one in known if not one.endswith(offers.ASYNC)]
+                return self._at(code, word, known, _listed(listed, "it has"), interface=now.name)
             case offers.PARAMETERS | offers.RECORD:
                 if not_editable := self._not_editable(name, known):
                     return codes.NOT_EDITABLE.at(word.span, name=not_editable, hint=_EDITABLE)
@@ -106,6 +186,11 @@ class _Judging(msgspec.Struct):
                 return self._at(codes.UNKNOWN_MODULE, word, known, hint, component=component)
             case offers.ENUM:
                 return self._at(codes.UNKNOWN_ENUMERATOR, word, known, _listed(known, "it has"), enum=now.name)
+            case offers.STRUCT:
+                return self._at(codes.UNKNOWN_MEMBER, word, known, _listed(known, "it has"), struct=now.name)
+            case offers.RESULTS:
+                count = "nothing" if not now.count else f"{now.count} values"
+                return codes.WRONG_RESULTS.at(word.span, owner=now.name, count=count, used=f"one with '{name}'")
             case _:
                 return self._at(codes.UNKNOWN_TYPE, word, known, module=now.name)
 
@@ -128,12 +213,26 @@ class _Judging(msgspec.Struct):
                 yield self._at(codes.UNKNOWN_ARGUMENT, name, known, owner=word.text, signature=member.signature)
                 return
         count = arguments.count + len([one for one in arguments.names if one.text != "context"])
+        if member.can_be_empty and not count:
+            return
         if count < member.least or (member.most is not None and count > member.most):
             owner = f"{now.name}.{word.text}" if now.kind in (offers.PROXY, offers.TOPIC) else word.text
             hint = f"it is {member.signature}" if member.signature else ""
             yield codes.WRONG_ARGUMENTS.at(
                 word.span, owner=owner, expected=_arguments(member.least), count=count, hint=hint
             )
+        elif now.kind in (offers.PROXY, offers.TOPIC):
+            kinds = tuple(self._kind(now, one) for one in member.inputs)
+            yield from wrong_literals(f"{now.name}.{word.text}", member.inputs, kinds, arguments.values)
+
+    def _kind(self, proxy: Offer, parameter: Member) -> str:
+        """The type of an operation's parameter, if literals can be compared with it."""
+        if parameter.type.is_basic:
+            return parameter.type.text
+        ports = (*self.linked.requires, *self.linked.publishes)
+        scope = next((port.scope for port in ports if port.interface.name == proxy.name), None)
+        found = scope.find(parameter.type) if scope is not None else None
+        return found[1].name if found is not None and isinstance(found[1], (Enum, Struct)) else ""
 
     def _assigned(
         self, now: Offer, member: OfferedMember, word: Word, constant: Constant | None
@@ -202,6 +301,13 @@ class _Judging(msgspec.Struct):
 
 
 _EDITABLE = "add `editable: true` to the parameter, if components may change it while they run"
+
+
+def _is_unpacked(result: Offer, count: int) -> bool:
+    """Whether a result may be unpacked to this number of variables."""
+    if result.kind == offers.RESULTS:
+        return result.count == count
+    return not (result.kind == offers.STRUCT or (result.kind == offers.PLAIN and result.name != "string"))
 
 
 def _is_of_proxy(member: OfferedMember) -> bool:

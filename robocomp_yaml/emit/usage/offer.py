@@ -8,22 +8,26 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 
 import msgspec
+from msgspec import structs
 
 from robocomp_yaml.emit.lowering.ports import LoweredPorts
+from robocomp_yaml.emit.lowering.types import results
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule
 from robocomp_yaml.model import machine_names
-from robocomp_yaml.model.interface import Enum, ExceptionType, Interface, Method, Struct
+from robocomp_yaml.model.interface import Enum, ExceptionType, Interface, Member, Method, Struct
 from robocomp_yaml.model.statemachine import StateMachine
 from robocomp_yaml.parameters.types import ListType, MapType, RecordType, ResolvedMember, Type
 
-WORKER, PROXY, TOPIC, PARAMETERS, RECORD, EVENTS, MODULES, MODULE, ENUM, OTHER = (
-    "worker", "proxy", "topic", "parameters", "record", "events", "modules", "module", "enum", "other"
+WORKER, PROXY, TOPIC, PARAMETERS, RECORD, EVENTS, MODULES, MODULE, ENUM, STRUCT, RESULTS, PLAIN, OTHER = (
+    "worker", "proxy", "topic", "parameters", "record", "events", "modules", "module", "enum", "struct", "results",
+    "plain", "other",
 )  # fmt: skip
 
 
 class Offer(msgspec.Struct, frozen=True):
     """What a value has. `name` is what messages call it by. Unless it `is_complete`, it may have other members, too;
-    `others` says whether a name is one of them. `element` is what an index leads to."""
+    `others` says whether a name is one of them. `element` is what an index leads to, `each` what a loop leads to.
+    `count` is the number of RESULTS of a call."""
 
     kind: str
     name: str = ""
@@ -31,15 +35,20 @@ class Offer(msgspec.Struct, frozen=True):
     is_complete: bool = True
     others: Callable[[str], bool] = lambda name: name.startswith("_")
     element: Offer | None = None
+    each: Offer | None = None
+    count: int = 0
 
 
 class OfferedMember(msgspec.Struct, frozen=True):
-    """One member. `value` is what it is, or returns. A call has at least `least` and at most `most` arguments, by
-    position or with the `keywords`; None: unknown. `signature` is for messages. `takes_path`: its argument is the path
-    of a parameter, or a mapping of such paths; `is_state`: the name of a state. `parameter` is what an assignment, or
-    a setter, sets; `path` its path."""
+    """One member. `value` is what it is, or returns; `result` what only a call returns. A call has at least `least` and
+    at most `most` arguments, by position or with the `keywords`; None: unknown. `signature` is for messages.
+    `takes_path`: its argument is the path of a parameter, or a mapping of such paths; `is_state`: the name of a state.
+    `parameter` is what an assignment, or a setter, sets, and `read` what a getter returns; `path` its path. `inputs`
+    are the first parameters of an operation. `can_be_empty`: no arguments are right, too."""
 
     value: Offer | None = None
+    result: Offer | None = None
+    inputs: tuple[Member, ...] = ()
     least: int = 0
     most: int | None = None
     keywords: frozenset[str] | None = None
@@ -47,7 +56,9 @@ class OfferedMember(msgspec.Struct, frozen=True):
     takes_path: bool = False
     is_state: bool = False
     parameter: ResolvedMember | None = None
+    read: ResolvedMember | None = None
     path: str = ""
+    can_be_empty: bool = False
 
 
 class ServedInterface(msgspec.Struct, frozen=True):
@@ -61,29 +72,41 @@ class ServedInterface(msgspec.Struct, frozen=True):
 
 class WorkerOffer(msgspec.Struct, frozen=True):
     """All that code can use: by the root of its chains. `handlers` are the methods that the state machine calls;
-    `states` its states."""
+    `states` its states, `answering` the methods that others expect a result of."""
 
     roots: Mapping[str, Offer]
     served: tuple[ServedInterface, ...] = ()
     handlers: tuple[str, ...] = ()
     states: tuple[str, ...] = ()
+    answering: frozenset[str] = frozenset()
 
+
+ASYNC = "Async"
+"""What Ice appends to the name of an operation for its asynchronous variant."""
 
 NOTHING = Offer(OTHER, is_complete=False)
 
 
+Returned = Callable[[Method, LinkedModule], Offer | None]
+
+
 def proxies(
-    ports: LoweredPorts, called: Callable[[str], str], others: Callable[[str], bool], *, outputs: bool,
-    keywords: Callable[[Method], Iterable[str]] | None = None,
+    ports: LoweredPorts, called: Callable[[str], str], others: Callable[[str], bool], returned: Returned, *,
+    outputs: bool, keywords: Callable[[Method], Iterable[str]] | None = None,
 ) -> dict[str, OfferedMember]:  # fmt: skip
-    """The proxies of the worker. `called` makes the name of an operation; `others` are methods of every proxy. With
+    """The proxies of the worker. `called` makes the name of an operation, and `returned` what a call returns; `others`
+    are methods of every proxy. With
     `outputs`, calls have arguments for them. Every call may have a context."""
     found = {}
     for accessor, is_topic in [*((one, False) for one in ports.requires), *((one, True) for one in ports.publishes)]:
         port = accessor.port
         methods = {
-            called(method.name): _operation(method, called, outputs, keywords) for method in port.interface.methods
+            called(method.name): structs.replace(
+                _operation(method, called, outputs, keywords), result=returned(method, port.scope)
+            )
+            for method in port.interface.methods
         }
+        methods |= {f"{called(method.name)}{ASYNC}": OfferedMember() for method in port.interface.methods}
         offer = Offer(TOPIC if is_topic else PROXY, port.interface.name, methods, others=others)
         found[accessor.name] = OfferedMember(offer)
     return found
@@ -95,10 +118,16 @@ def _operation(
 ) -> OfferedMember:  # fmt: skip
     members = [*method.inputs, *(method.outputs if outputs else ())]
     return OfferedMember(
-        least=len(members), most=len(members) + 1,
+        least=len(members), most=len(members) + 1, inputs=method.inputs,
         keywords=frozenset(("context", *keywords(method))) if keywords else None,
         signature=f"{called(method.name)}({', '.join(f'{one.name}: {one.type.text}' for one in members)})",
     )  # fmt: skip
+
+
+def answering(ports: LoweredPorts) -> frozenset[str]:
+    """The methods of the user's class that return something."""
+    every = (called for service in ports.implements for called in service.methods)
+    return frozenset(called.name for called in every if results(called.method))
 
 
 def served(ports: LoweredPorts) -> tuple[ServedInterface, ...]:
@@ -129,7 +158,10 @@ def record(type_: RecordType, in_code: Callable[[str], str], path: str = "", nam
 def value(type_: Type, in_code: Callable[[str], str], path: str = "") -> Offer | None:
     """What a value of a type has."""
     match type_:
-        case ListType(element=element) | MapType(element=element):
+        case ListType(element=element):
+            inner = value(element, in_code)
+            return Offer(OTHER, is_complete=False, element=inner, each=inner)
+        case MapType(element=element):
             return Offer(OTHER, is_complete=False, element=value(element, in_code))
         case RecordType(name=name):
             return record(type_, in_code, path, f"the struct {name}" if name else "")
@@ -155,12 +187,13 @@ def states(machine: StateMachine) -> tuple[str, ...]:
 
 def modules(
     linked: LinkedComponent, variable: Callable[[str], str], in_code: Callable[[str], str],
-    others: Callable[[str], bool],
+    others: Callable[[str], bool], instance: Callable[[object, LinkedModule], Offer | None],
 ) -> Offer:  # fmt: skip
-    """The Slice modules with their types, as attributes. Two documents may define parts of one module."""
+    """The Slice modules with their types, as attributes. Two documents may define parts of one module. `instance` makes
+    what a value of a type has."""
     found: dict[str, dict[str, OfferedMember]] = {}
     for scope in linked.modules():
-        found.setdefault(variable(scope.module.name), {}).update(_types(scope, in_code))
+        found.setdefault(variable(scope.module.name), {}).update(_types(scope, in_code, instance))
     broken = {variable(scope.module.name) for scope in linked.modules() if scope.unresolved or linked.broken}
     offers = {
         name: OfferedMember(Offer(MODULE, name, members, is_complete=name not in broken, others=_is_internal))
@@ -173,7 +206,9 @@ def _is_internal(name: str) -> bool:
     return name.startswith("_") or name.endswith(("Disp", "Holder", "Ptr")) or name == "operator"
 
 
-def _types(scope: LinkedModule, in_code: Callable[[str], str]) -> dict[str, OfferedMember]:
+def _types(
+    scope: LinkedModule, in_code: Callable[[str], str], instance: Callable[[object, LinkedModule], Offer | None]
+) -> dict[str, OfferedMember]:  # fmt: skip
     found = {}
     for definition in scope.module.definitions:
         name = in_code(definition.name)
@@ -185,14 +220,15 @@ def _types(scope: LinkedModule, in_code: Callable[[str], str]) -> dict[str, Offe
                 fields = frozenset(in_code(one.name) for one in members)
                 most = len(members) if isinstance(definition, Struct) else None
                 found[name] = OfferedMember(
-                    most=most, keywords=fields if isinstance(definition, Struct) else None,
+                    result=instance(definition, scope), most=most,
+                    keywords=fields if isinstance(definition, Struct) else None,
                     signature=f"{definition.name}({', '.join(one.name for one in members)})",
                 )  # fmt: skip
             case Interface():
                 found[name] = OfferedMember()
                 found[f"{definition.name}Prx"] = OfferedMember()
             case _:
-                found[name] = OfferedMember()
+                found[name] = OfferedMember(result=instance(definition, scope))
     return found
 
 

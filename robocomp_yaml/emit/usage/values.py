@@ -22,6 +22,7 @@ from robocomp_yaml.parameters.types import (
     ResolvedMember,
     Type,
     is_secret,
+    leaves,
 )
 from robocomp_yaml.parameters.verdict.plain import wrong
 from robocomp_yaml.parameters.words import in_words
@@ -84,15 +85,26 @@ def _unknown_path(
 
 def wrong_value(type_: Type, path: str, constant: Constant) -> Iterator[Diagnostic]:
     """A literal value that the parameter rejects. None resets it. A secret is not quoted, and so not judged."""
-    data = constant.value
-    if data is None or not isinstance(type_, (BasicType, EnumType)) or is_secret(type_):
-        return
-    if isinstance(data, int) and not isinstance(data, bool) and isinstance(type_, BasicType) and not type_.is_integer:
-        data = float(data) if type_.is_number else data
-    if wrong(type_, data):
+    if rejected(type_, constant.value):
         yield codes.WRONG_VALUE.at(
             constant.span, name=path, value=repr(constant.value), hint=f"it must be {in_words(type_)}"
         )
+
+
+def rejected(type_: Type | None, data: object) -> bool:
+    """Whether a parameter of this type cannot have a value. A secret is not judged."""
+    if data is None or not isinstance(type_, (BasicType, EnumType)) or is_secret(type_):
+        return False
+    if isinstance(data, int) and not isinstance(data, bool) and isinstance(type_, BasicType) and not type_.is_integer:
+        data = float(data) if type_.is_number else data
+    return bool(wrong(type_, data))
+
+
+def type_of_setting(linked: LinkedComponent, key: str) -> Type | None:
+    """The type of the parameter that a property sets as a whole; None if there is none."""
+    path = next((path for path, name, _ in exact_keys(linked.parameters.parameters) if name == key), "")
+    every = leaves(linked.parameters.parameters.root)
+    return next((member.type for name, member in every if name == path and member is not None), None)
 
 
 def keys(record: RecordType, head: str = "") -> Iterator[str]:

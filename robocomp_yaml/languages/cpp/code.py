@@ -25,6 +25,7 @@ from robocomp_yaml.emit.specific.code import (
     text,
     words,
 )
+from robocomp_yaml.languages.cpp.signature_types import SignatureTypes as SignatureTypes
 
 _PARAMETERS = ("parameter_declaration", "optional_parameter_declaration")
 # Qt's additions to C++, which the grammar does not have, are replaced by blanks of the same length.

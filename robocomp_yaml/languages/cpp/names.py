@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Iterator
 
 from robocomp_yaml.emit.lowering.names import NameAllocator
 from robocomp_yaml.emit.lowering.ports import PortSpelling
@@ -47,6 +47,21 @@ PORTS = PortSpelling(
     published=("{name}_pubproxy",),
     called=ice_name,
 )
+
+
+def older_names(proxies: Collection[str]) -> Iterator[tuple[str, str]]:
+    """The names that older versions of RoboComp's tool gave to proxies, with those of today. They named the proxy of a
+    publisher like that of a server, and counted proxies of one interface from 0."""
+    taken = set(proxies)
+    for now in proxies:
+        stem = now.removesuffix("_pubproxy").removesuffix("_proxy")
+        candidates = [f"{stem}_proxy"] if now.endswith("_pubproxy") else []
+        if f"{stem}1_proxy" in taken:
+            candidates.append(f"{stem}0_proxy")
+        for name in candidates:
+            if name not in taken:
+                taken.add(name)
+                yield name, now
 
 
 def names(taken: Iterable[str] = ()) -> NameAllocator:

@@ -9,7 +9,7 @@ import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml.languages._shared.text import IN, declaration
-from robocomp_yaml.languages.cpp.names import ice_name, parameter, qualified
+from robocomp_yaml.languages.cpp.names import ice_name, older_names, parameter, qualified
 from robocomp_yaml.languages.cpp.ports import AccessorView, OperationView, Ports, ServiceView
 from robocomp_yaml.languages.cpp.types import input_type, type_name
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
@@ -80,6 +80,7 @@ def robocomp_view(linked: LinkedComponent, ports: Ports) -> RobocompView | None:
     if not component.compatibility:
         return None
     accessors = ports.accessors
+    classes = {accessor.name: accessor.proxy for accessor in accessors}
     handles = [
         Handles(ice_name(scope.module.name), [f"{one.name}Prx" for one in scope.module.all_interfaces])
         for scope in linked.modules() if scope.module.all_interfaces
@@ -96,25 +97,10 @@ def robocomp_view(linked: LinkedComponent, ports: Ports) -> RobocompView | None:
         enumerators=[_enumerators(scope) for scope in linked.modules()],
         legacy_sources="|".join(["commonbehaviorI", *(f"{name}I" for name in served)]),
         services=[_behind_pointer(service) for service in ports.services],
-        older=list(_older(accessors)),
+        older=[OlderName(classes[now], name, now) for name, now in older_names(classes)],
         handles=handles,
         handle_names=sorted({name for one in handles for name in one.names}),
     )
-
-
-def _older(accessors: list[AccessorView]) -> Iterator[OlderName]:
-    """Older versions named the proxy of a publisher like that of a server, and counted proxies of one interface from
-    0."""
-    taken = {accessor.name for accessor in accessors}
-    for accessor in accessors:
-        stem = accessor.name.removesuffix("_pubproxy").removesuffix("_proxy")
-        names = [f"{stem}_proxy"] if accessor.name.endswith("_pubproxy") else []
-        if f"{stem}1_proxy" in taken:
-            names.append(f"{stem}0_proxy")
-        for name in names:
-            if name not in taken:
-                taken.add(name)
-                yield OlderName(accessor.proxy, name, accessor.name)
 
 
 def _casts(accessors: list[AccessorView]) -> list[str]:

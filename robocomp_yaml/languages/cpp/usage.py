@@ -7,33 +7,39 @@ parts of the preprocessor, in macros and in templates is not judged, nor is anyt
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterable, Mapping
+from functools import partial
 
 from msgspec import structs
 
 from robocomp_yaml.emit.lowering import ports as lowering
 from robocomp_yaml.emit.usage import offer as offers
-from robocomp_yaml.emit.usage.code import MODULES, WORKER, CodeUsage, Word
-from robocomp_yaml.emit.usage.judge import is_proxy
+from robocomp_yaml.emit.usage.code import MODULES, WORKER, CodeUsage
+from robocomp_yaml.emit.usage.judge import is_nearly_proxy, is_proxy
 from robocomp_yaml.emit.usage.offer import Offer, OfferedMember, WorkerOffer
+from robocomp_yaml.emit.usage.types import OfferedTypes
+from robocomp_yaml.languages._shared.usage_file import TEXT, WORD, unused
 from robocomp_yaml.languages.cpp import LANGUAGE
-from robocomp_yaml.languages.cpp.names import PORTS, ice_name
+from robocomp_yaml.languages.cpp.names import PORTS, ice_name, older_names
 from robocomp_yaml.languages.cpp.parameters import accessors
-from robocomp_yaml.languages.cpp.usage_files import CppFile, Occurrence
+from robocomp_yaml.languages.cpp.usage_files import Occurrence
+from robocomp_yaml.languages.cpp.usage_typed import TypedCppFile
 from robocomp_yaml.link.program import LinkedComponent
 
 _INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*"([^"]+)"', re.MULTILINE)
-_WORD = re.compile(r"\b[A-Za-z_]\w*")
-_TEXT = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
-_COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 _METHOD = re.compile(r"\b(?:sm_\w+|[A-Z]\w*_\w+)\b")
 
 
 def offer(linked: LinkedComponent) -> WorkerOffer:
     """What the worker of a component offers."""
     ports, machine = lowering.lower(linked, PORTS), linked.machine
-    members = offers.proxies(ports, PORTS.called, _is_of_every_proxy, outputs=True)
-    if not linked.component.compatibility:
+    types = OfferedTypes(ice_name, _is_of_every_struct, lambda name: True)
+    returned = partial(types.result, tuples=False)
+    members = offers.proxies(ports, PORTS.called, _is_of_every_proxy, returned, outputs=True)
+    if linked.component.compatibility:
+        members |= {name: members[now] for name, now in older_names(list(members))}
+    else:
         members["parameters"] = OfferedMember(_parameters(linked))
         if machine:
             members["events"] = OfferedMember(offers.events(machine, ice_name))
@@ -41,7 +47,7 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
             members["statemachine"] = OfferedMember(Offer(offers.OTHER, "", is_in, is_complete=False))
     served = offers.served(ports)
     handled = offers.handlers(machine) if machine else ()
-    modules = offers.modules(linked, ice_name, ice_name, lambda name: True)
+    modules = offers.modules(linked, ice_name, ice_name, lambda name: True, types.of_definition)
     if linked.component.compatibility:
         modules = structs.replace(
             modules, members={name: _with_enumerators(one) for name, one in modules.members.items()}
@@ -71,7 +77,7 @@ def _parameters(linked: LinkedComponent) -> Offer:
     }
     for getter, member, setters in accessors(root):
         value = offers.value(member.type, LANGUAGE.in_code, member.name if member.is_group else "")
-        members[getter] = OfferedMember(value, most=0, signature=f"{getter}()")
+        members[getter] = OfferedMember(value, most=0, signature=f"{getter}()", read=member)
         for setter, inner, path in setters:
             members[setter] = OfferedMember(
                 least=1, most=1, signature=f"{setter}(value)", parameter=inner, path=path
@@ -81,19 +87,24 @@ def _parameters(linked: LinkedComponent) -> Offer:
 
 def _is_of_every_proxy(name: str) -> bool:
     """Methods of Ice, and its asynchronous variants of the operations."""
-    return name.startswith(("ice_", "_", "begin_", "end_")) or name.endswith("Async")
+    return name.startswith(("ice_", "_", "begin_", "end_"))
+
+
+def _is_of_every_struct(name: str) -> bool:
+    return name.startswith(("ice_", "_", "operator"))
 
 
 def read(files: Mapping[str, str], linked: LinkedComponent, worker: WorkerOffer) -> CodeUsage:
     """The use that the files below src/ make of the worker, by their paths there."""
     known = worker.roots[WORKER].members
-    words = {word for text in files.values() for word in _WORD.findall(text)}
-    names = {word for word in words if word in known or is_proxy(word)}
+    words = {word for text in files.values() for word in WORD.findall(text)}
+    names = {word for word in words if word in known or is_proxy(word) or is_nearly_proxy(word, known)}
     handlers = {word for word in words if _METHOD.fullmatch(word)} if worker.served or worker.handlers else set()
     modules = words & worker.roots[MODULES].members.keys() - _extended(files.values())
-    if not names and not handlers and not modules:
+    is_robocomp = bool(linked.component.compatibility)
+    if not names and not handlers and not modules and not is_robocomp:
         return CodeUsage()
-    parsed = [CppFile(path, text) for path, text in files.items() if _is_own(path)]
+    parsed = [TypedCppFile(path, text) for path, text in files.items() if _is_own(path)]
     classes = {name: bases for file in parsed for name, bases in file.classes()}
     workers = {name for name in classes if _is_worker(name, classes)}
     if not workers:
@@ -109,13 +120,18 @@ def read(files: Mapping[str, str], linked: LinkedComponent, worker: WorkerOffer)
                     uses.append(occurrence)
     if not all(_is_known_include(one, files) for text in files.values() for one in _INCLUDE.findall(text)):
         declared |= {name for name in names if name not in known}  # it may be declared there
-    texts = {text for source in files.values() for text in _TEXT.findall(source)}
+    settings = tuple(chain for file in parsed for chain in file.settings(workers)) if is_robocomp else ()
+    written = Counter(text for source in files.values() for text in TEXT.findall(source))
+    written.subtract(chain.steps[0].word.text for chain in settings)
+    texts = {text for text, count in written.items() if count > 0}
     chains = tuple(one.chain for one in uses if one.chain is not None)
     # Beside code for RoboComp's own tool, there may be files of that tool, which are not compiled.
-    compiled = [file for file in parsed if not linked.component.compatibility or "specificworker." in file.path]
-    chains += tuple(chain for file in compiled for name in sorted(modules) for chain in file.qualified(name))
-    methods = tuple(word for file in parsed for word in file.methods(workers))
-    return CodeUsage(chains, _unused(methods, files), frozenset(declared), frozenset(texts), is_shared=True)
+    compiled = [file for file in parsed if not is_robocomp or "specificworker." in file.path]
+    for file in compiled:
+        chains += tuple(chain for name in sorted(modules) for chain in (*file.qualified(name), *file.typed(name)))
+    methods = unused([word for file in parsed for word in file.methods(workers)], files.values(), _METHOD)
+    first = tuple({word.text: word for word in reversed(methods)}.values())  # not its definition, too
+    return CodeUsage((*chains, *settings), first, frozenset(declared), frozenset(texts), is_shared=True)
 
 
 def _extended(texts: Iterable[str]) -> set[str]:
@@ -141,15 +157,3 @@ def _is_known_include(path: str, files: Mapping[str, str]) -> bool:
     name = path.rpartition("/")[2]
     generated = ("genericworker.h", "interfaces.h", "parameters.h", "statemachine.h", "ui_mainUI.h")
     return name in generated or any(other == path or other.endswith(f"/{path}") for other in files)
-
-
-def _unused(methods: tuple[Word, ...], files: Mapping[str, str]) -> tuple[Word, ...]:
-    """The methods that the code only declares and defines, but does not use."""
-    counts = {word.text: 0 for word in methods}
-    for text in files.values():
-        for word in _METHOD.findall(_COMMENT.sub("", _TEXT.sub('""', text))):
-            if word in counts:
-                counts[word] += 1
-    written = {name: sum(word.text == name for word in methods) for name in counts}
-    first = {word.text: word for word in reversed(methods)}
-    return tuple(word for name, word in first.items() if counts[name] <= written[name])

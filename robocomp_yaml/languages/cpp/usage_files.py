@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator
-from functools import cached_property
 
 import msgspec
-from tree_sitter import Node, Tree
+from tree_sitter import Node
 
-from robocomp_yaml.diag.span import Span
-from robocomp_yaml.emit.specific.code import field, lines_of, location, text
+from robocomp_yaml.emit.specific.code import field, text
 from robocomp_yaml.emit.usage.code import MODULES, WORKER, Arguments, Chain, Constant, Step, Word
+from robocomp_yaml.emit.usage.judge import is_proxy
+from robocomp_yaml.languages._shared.usage_file import UsageFile
 from robocomp_yaml.languages.cpp.code import parse
 
 # Where an identifier is used. Everywhere else, it is declared.
@@ -39,18 +39,9 @@ class Occurrence(msgspec.Struct, frozen=True):
 _OTHER, _DECLARED = Occurrence(), Occurrence(is_declared=True)
 
 
-class CppFile:
+class CppFile(UsageFile):
     def __init__(self, path: str, source: str) -> None:
-        self.path, self._source = path, source
-        self._bytes = source.encode()
-
-    @cached_property
-    def _tree(self) -> Tree:
-        return parse(self._source)
-
-    @cached_property
-    def _lines(self) -> list[str]:
-        return lines_of(self._source)
+        super().__init__(path, source, parse)
 
     def classes(self) -> Iterator[tuple[str, list[str]]]:
         """The classes with their bases."""
@@ -84,7 +75,7 @@ class CppFile:
                 continue
             steps, end = self._steps([Step(self._word(node))], start)
             yield Occurrence(chain=Chain(WORKER, tuple(steps)))
-            for chain in self._through_variable(steps, end):
+            for chain in (*self._compared(WORKER, steps, end), *self._through_variable(WORKER, steps, end)):
                 yield Occurrence(chain=chain)
 
     def qualified(self, module: str) -> Iterator[Chain]:
@@ -96,7 +87,7 @@ class CppFile:
             is_scope = (
                 parent is not None and parent.type == "qualified_identifier" and node.type == "namespace_identifier"
             )
-            if not is_scope or parent is None or parent.child_by_field_name("scope") != node or _is_uncertain(node):
+            if not is_scope or parent is None or parent.child_by_field_name("scope") != node or is_uncertain(node):
                 continue
             if parent.parent is not None and parent.parent.type == "qualified_identifier":
                 if parent.parent.child_by_field_name("scope") != parent and _has_scope(parent.parent):
@@ -113,10 +104,7 @@ class CppFile:
 
     def _nodes(self, name: str, start: int, end: int) -> Iterator[Node]:
         """The nodes between two positions in bytes that are this word, except in comments and texts."""
-        for found in re.compile(rb"\b%s\b" % re.escape(name.encode())).finditer(self._bytes, start, end):
-            node = self._tree.root_node.descendant_for_byte_range(found.start(), found.end())
-            if node is not None and node.type not in _TEXTS:
-                yield node
+        return (node for node in self._found(name, start, end) if node.type not in _TEXTS)
 
     def _start(self, node: Node, name: str, workers: Collection[str]) -> Node | Occurrence:
         """The node at which a chain begins, if the word is a use of the worker."""
@@ -131,18 +119,18 @@ class CppFile:
             start = parent
         elif node.type == "field_identifier" or not _is_used(node, parent):
             return _DECLARED
-        if _is_uncertain(start) or _worker_around(start) not in workers:
+        if is_uncertain(start) or worker_around(start) not in workers:
             return _OTHER
         return start
 
-    def _steps(self, head: list[Step], start: Node) -> tuple[list[Step], Node]:
+    def _steps(self, head: list[Step], start: Node, *, is_value: bool = False) -> tuple[list[Step], Node]:
         """The steps of a chain that begins with some at a node, and the node at which it ends."""
         steps, now = list(head), start
         while (parent := now.parent) is not None:
             if parent.type == "field_expression" and parent.child_by_field_name("argument") == now:
                 name = parent.child_by_field_name("field")
                 operator = text(field(parent, "operator"))
-                if name is None or name.type != "field_identifier" or not _is_followed(steps, operator):
+                if name is None or name.type != "field_identifier" or not _is_followed(steps, operator, is_value):
                     break
                 steps.append(Step(self._word(name)))
             elif parent.type == "call_expression" and parent.child_by_field_name("function") == now:
@@ -150,39 +138,66 @@ class CppFile:
                     break
                 steps[-1] = msgspec.structs.replace(steps[-1], arguments=self._arguments(parent))
             elif parent.type == "subscript_expression" and parent.child_by_field_name("argument") == now:
-                steps.append(Step(Word("", Span(self.path)), is_index=True))
+                steps.append(self._index(self._key(parent)))
             elif parent.type != "parenthesized_expression":
                 break
             now = parent
         return steps, now
 
-    def _through_variable(self, steps: list[Step], end: Node) -> Iterator[Chain]:
+    def _compared(self, root: str, steps: list[Step], end: Node) -> Iterator[Chain]:
+        """A comparison of a chain with a literal."""
+        parent = end.parent
+        if parent is None or parent.type != "binary_expression" or text(field(parent, "operator")) not in ("==", "!="):
+            return
+        sides = (field(parent, "left"), field(parent, "right"))
+        constant = self._literal(sides[0] if sides[1] == end else sides[1])
+        if constant is not None and not is_uncertain(end):
+            yield Chain(root, tuple(steps), compared=(constant,), is_again=True)
+
+    def _through_variable(self, root: str, steps: list[Step], end: Node) -> Iterator[Chain]:
         """The chains that begin at a local variable, if a chain initializes it, and no other of its name is near."""
         parent = end.parent
+        if parent is not None and parent.type in ("initializer_list", "argument_list") and len(parent.children) == 3:
+            end, parent = parent, parent.parent  # `auto mouth{mouth_proxy}`
+            if parent is None or any(text(child) == "=" for child in parent.children):
+                return
         if parent is not None and parent.type == "init_declarator" and parent.child_by_field_name("value") == end:
             declaration = parent.parent
         elif parent is not None and parent.type == "for_range_loop" and parent.child_by_field_name("right") == end:
-            declaration, steps = parent, [*steps, Step(Word("", Span(self.path)), is_index=True)]
+            declaration, steps = parent, [*steps, self._index(is_each=True)]
         else:
             return
-        if declaration is None or field(declaration, "type").type != "placeholder_type_specifier":
+        type_ = field(declaration, "type") if declaration is not None else None
+        if declaration is None or type_ is None or declaration.type not in ("declaration", "for_range_loop"):
             return
+        is_same = type_.type == "placeholder_type_specifier" or text(type_).endswith("PrxPtr")
         declarator = parent.child_by_field_name("declarator")
         while declarator is not None and declarator.type == "reference_declarator":
             declarator = declarator.named_children[-1]
-        function = _function_around(end)
-        if declarator is None or declarator.type != "identifier" or function is None:
+        if declarator is not None and declarator.type == "identifier":
+            yield from self._of_variable(root, steps, declarator, declaration, is_same=is_same)
+
+    def _of_variable(
+        self, root: str, steps: list[Step], name: Node, declaration: Node, *, is_same: bool = True
+    ) -> Iterator[Chain]:
+        """The chains of a variable that stands for some steps; only comparisons unless it `is_same`, because its type
+        is another one."""
+        function = function_around(declaration)
+        if function is None:
             return
         uses = []
-        for node in self._nodes(text(declarator), function.start_byte, function.end_byte):
-            if node.type == "identifier" and node != declarator:
+        for node in self._nodes(text(name), function.start_byte, function.end_byte):
+            if node.type == "identifier" and node != name:
                 if node.parent is None or not _is_used(node, node.parent):
                     return
                 uses.append(node)
         for node in uses:
-            longer, _ = self._steps(steps, node)
-            if len(longer) > len(steps) and not _is_uncertain(node):
-                yield Chain(WORKER, tuple(longer))
+            longer, end = self._steps(steps, node, is_value=root == MODULES)
+            if is_same and len(longer) > len(steps) and not is_uncertain(node):
+                yield Chain(root, tuple(longer))
+            yield from self._compared(root, longer, end)
+            if is_same and node.start_byte > name.start_byte and not is_uncertain(node):
+                yield from self._through_variable(root, longer, end)
 
     def _arguments(self, call: Node) -> Arguments:
         given = call.child_by_field_name("arguments")
@@ -192,17 +207,14 @@ class CppFile:
         is_exact = not given.has_error and not any(
             node.type == "parameter_pack_expansion" or _MACRO.match(text(_called(node))) for node in nodes
         )
-        first = self._literal(nodes[0]) if nodes else None
-        last = self._literal(nodes[-1]) if nodes else None
-        word = None
-        if first is not None and isinstance(first.value, str):
-            span = first.span
-            word = Word(first.value, Span(self.path, span.line, span.column + 1, span.line, span.end_column - 1))
-        constant = last if last is not None and (word is None or len(nodes) > 1) else None
-        return Arguments(len(nodes), (), is_exact, word, (), constant)
+        return self._arguments_of(nodes, is_exact)
 
-    def _literal(self, node: Node) -> Constant | None:
-        """A literal number, text or truth value."""
+    def _key(self, index: Node) -> Constant | None:
+        """The literal of an index."""
+        given = index.child_by_field_name("indices")
+        return self._literal(given.named_children[0]) if given is not None and given.named_children else None
+
+    def _value_of(self, node: Node) -> str | int | float | None:
         written = text(node)
         value: str | int | float | None = None
         if node.type == "number_literal" or (node.type == "unary_expression" and re.match(r"-\s*[\d.]", written)):
@@ -216,21 +228,11 @@ class CppFile:
             value = node.type == "true"
         elif node.type == "string_literal" and "\\" not in written and written[:1] == '"':
             value = written[1:-1]
-        if value is None or node.start_point[0] != node.end_point[0]:
-            return None
-        return Constant(value, self._word(node).span)
-
-    def _word(self, node: Node) -> Word:
-        return Word(text(node), msgspec.structs.replace(location(node, self._lines), file=self.path))
+        return value
 
 
 def _is_used(node: Node, parent: Node) -> bool:
-    if parent.type in (
-        "init_declarator",
-        "optional_parameter_declaration",
-        "lambda_capture_initializer",
-        "declaration",
-    ):
+    if parent.type in _INITIALIZERS:
         value = parent.child_by_field_name("value") or parent.child_by_field_name("default_value")
         if parent.type == "lambda_capture_initializer":
             value = parent.child_by_field_name("right")
@@ -242,10 +244,12 @@ def _is_used(node: Node, parent: Node) -> bool:
     return parent.type in _USES
 
 
-def _is_followed(steps: list[Step], operator: str) -> bool:
+def _is_followed(steps: list[Step], operator: str, is_value: bool) -> bool:
     """Whether the operator leads to what is offered. A proxy is a shared pointer, and a part of the parameters a
-    handle: after a dot come their own methods."""
+    handle: after a dot come their own methods. What a call of a proxy returns `is_value`."""
     first, last = steps[0].word.text, steps[-1]
+    if is_value or (len(steps) > 1 and is_proxy(first)):
+        return operator == "."
     if len(steps) == 1 and last.arguments is None:
         is_value = first in ("parameters", "events", "statemachine")
         return operator == ("." if is_value else "->")
@@ -254,7 +258,7 @@ def _is_followed(steps: list[Step], operator: str) -> bool:
     return operator == "->" if last.arguments is not None else operator == "."
 
 
-def _is_uncertain(node: Node) -> bool:
+def is_uncertain(node: Node) -> bool:
     """Whether a node is in code that may mean something else, or nothing."""
     now: Node | None = node
     while now is not None:
@@ -278,7 +282,7 @@ def _is_guard(node: Node) -> bool:
     return defined is not None and text(field(defined, "name")) == name
 
 
-def _worker_around(node: Node) -> str:
+def worker_around(node: Node) -> str:
     """The class whose method contains a node, '' for other code."""
     now: Node | None = node
     outer = ""
@@ -302,7 +306,7 @@ def _has_scope(node: Node) -> bool:
     return node.child_by_field_name("scope") is not None
 
 
-def _function_around(node: Node) -> Node | None:
+def function_around(node: Node) -> Node | None:
     now: Node | None = node
     while now is not None and now.type != "function_definition":
         now = now.parent

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from robocomp_yaml.languages.record import PARAMETERS, PERIOD, PORTS, TargetLanguage
+from robocomp_yaml.languages.record import MERGING, PARAMETERS, PERIOD, PORTS, TargetLanguage
 
 KEYWORDS = frozenset(
     """_ abstract assert boolean break byte case catch char class const continue default do double else enum extends
@@ -17,7 +17,7 @@ LANGUAGE = TargetLanguage(
     title="Java",
     package=__name__,
     description="Java 17, with the JDK alone",
-    has=frozenset((*PORTS, PARAMETERS, PERIOD)),
+    has=frozenset((*PORTS, PARAMETERS, PERIOD, MERGING)),
     keywords=KEYWORDS,
     members=frozenset(("change", "listen", "now", "set")),
     states="generated/Main.java",
@@ -26,5 +26,7 @@ LANGUAGE = TargetLanguage(
     loaded={"build": (".jar",)},
     made_of={"generated": (".java", ".sh", "build", "start"), "src": (".java",), "slice": (".ice",), "lib": (".jar",)},
     suffixes=("java",),
+    has_usage=True,
+    has_tls=True,
     has_checks=True,
 )

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable, Iterator
 
 from robocomp_yaml.diag.codes import cdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.emit.lowering.types import resolve, results
+from robocomp_yaml.emit.lowering.types import results
 from robocomp_yaml.languages._shared.checks import needed_by, result_structs, users
 from robocomp_yaml.languages.java import LANGUAGE
 from robocomp_yaml.languages.java.names import PACKAGE
@@ -66,7 +66,10 @@ def _hiding(
 def _is_hidden(ref: TypeRef, member: Member, scope: LinkedModule) -> bool:
     if ref.is_basic:
         return False
-    home, definition = resolve(ref, scope)
+    found = scope.find(ref)
+    if found is None:
+        return False  # the unknown type is reported
+    home, definition = found
     if home.module.name != scope.module.name:
         return member.name == PACKAGE
     is_class = not isinstance(definition, (Sequence, Map))

@@ -194,17 +194,25 @@ class _Types(Types):
         return f"v{depth} -> {self.read(type_, f'v{depth}', group, depth + 1)}"
 
     def getters(self) -> Iterator[GetterView]:
-        names = NameAllocator(METHODS)
-        getters = {member.name: names.allocate(LANGUAGE.in_code(member.code_name)) for member in self.root.members}
-        for member in self.root.members:
+        for getter, member, setters in accessors(self.root, self):
             group = inside(".", member.code_name)
             yield GetterView(
                 comment(about_member(member, "\n"), IN),
-                f"public {self.member_type(member, group)} {getters[member.name]}()",
+                f"public {self.member_type(member, group)} {getter}()",
                 LANGUAGE.in_code(member.code_name),
                 [
                     f"public void {name}({self.member_type(inner, None)} value) "
                     f"{{\n{IN * 2}set({literal(path)}, value);\n{IN}}}"
-                    for name, inner, path in self.setters(member, names)
+                    for name, inner, path in setters
                 ],
             )
+
+
+def accessors(
+    root: RecordType, types: _Types | None = None
+) -> Iterator[tuple[str, ResolvedMember, list[tuple[str, ResolvedMember, str]]]]:
+    """The name of each getter with its member, and name, member and path of each of its setters."""
+    types, taken = types or _Types(root), NameAllocator(METHODS)
+    getters = {member.name: taken.allocate(LANGUAGE.in_code(member.code_name)) for member in root.members}
+    for member in root.members:
+        yield getters[member.name], member, list(types.setters(member, taken))

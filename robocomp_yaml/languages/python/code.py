@@ -25,6 +25,7 @@ from robocomp_yaml.emit.specific.code import (
     plain,
     text,
 )
+from robocomp_yaml.languages.python.signature_types import SignatureTypes as SignatureTypes
 
 
 @cache

@@ -7,19 +7,24 @@ from __future__ import annotations
 
 import ast
 import warnings
+from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping
+from functools import partial
 
 from msgspec import structs
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.lowering import ports as lowering
 from robocomp_yaml.emit.usage import offer as offers
-from robocomp_yaml.emit.usage.code import MODULES, WORKER, CodeUsage
+from robocomp_yaml.emit.usage.code import MODULES, SERVED, WORKER, CodeUsage, Slip
+from robocomp_yaml.emit.usage.judge import is_proxy
 from robocomp_yaml.emit.usage.offer import Offer, OfferedMember, WorkerOffer
+from robocomp_yaml.emit.usage.types import OfferedTypes
 from robocomp_yaml.languages.python import LANGUAGE
 from robocomp_yaml.languages.python.names import PORTS, WORKER_ATTRIBUTES, module_variable, parameters, python_name
 from robocomp_yaml.languages.python.usage_classes import UserClasses, classes_of
 from robocomp_yaml.languages.python.usage_files import FileUsage, UsageReader
+from robocomp_yaml.languages.python.usage_slips import slips
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model import machine_names
 from robocomp_yaml.model.interface import Method, Sequence
@@ -41,7 +46,9 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
     ports, machine = lowering.lower(linked, PORTS), linked.machine
     is_own = not linked.component.compatibility
     members: dict[str, OfferedMember] = {name: OfferedMember() for name in WORKER_ATTRIBUTES} if is_own else {}
-    members |= offers.proxies(ports, PORTS.called, _is_of_every_proxy, outputs=False, keywords=_keywords)
+    types = OfferedTypes(python_name, _is_of_every_struct, _is_of_every_exception)
+    returned = partial(types.result, tuples=True)
+    members |= offers.proxies(ports, PORTS.called, _is_of_every_proxy, returned, outputs=False, keywords=_keywords)
     if is_own:
         values = offers.record(linked.parameters.parameters.root, LANGUAGE.in_code)
         members["parameters"] = OfferedMember(
@@ -60,15 +67,20 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
         members |= dict.fromkeys((*handled, *(one.name for one in machine_names.actions(machine))), others)
     served = offers.served(ports)
     members |= {name: OfferedMember() for one in served for name in one.methods if name not in members}
-    modules = offers.modules(linked, module_variable, python_name, _is_in_interfaces)
+    modules = offers.modules(linked, module_variable, python_name, _is_in_interfaces, types.of_definition)
     if not is_own:  # RoboComp's tool also has the sequences beside the modules
         beside = dict.fromkeys(_sequences(linked), OfferedMember())
         modules = structs.replace(modules, members={**beside, **modules.members})
     return WorkerOffer(
-        {WORKER: Offer(offers.WORKER, linked.component.name, members, is_complete=is_own), MODULES: modules},
+        {
+            WORKER: Offer(offers.WORKER, linked.component.name, members, is_complete=is_own),
+            MODULES: modules,
+            SERVED: types.arguments(ports),
+        },
         served,
         offers.handlers(machine) if machine else (),
         offers.states(machine) if machine else (),
+        offers.answering(ports),
     )
 
 
@@ -85,7 +97,15 @@ def _keywords(method: Method) -> Iterator[str]:
 
 def _is_of_every_proxy(name: str) -> bool:
     """Methods of Ice, and Ice's asynchronous variants of the operations, which it makes of their names."""
-    return name.startswith(("ice_", "begin_", "end_", "_")) or name.endswith("Async") or name in _OF_PROXIES
+    return name.startswith(("ice_", "begin_", "end_", "_")) or name in _OF_PROXIES
+
+
+def _is_of_every_struct(name: str) -> bool:
+    return name.startswith("_")
+
+
+def _is_of_every_exception(name: str) -> bool:
+    return name.startswith(("_", "ice_")) or hasattr(Exception, name) or name == "unknown"
 
 
 _OF_PROXIES = frozenset(("checkedCast", "uncheckedCast"))
@@ -132,13 +152,46 @@ def _read(files: Mapping[str, str], linked: LinkedComponent, worker: WorkerOffer
     if faults:
         return CodeUsage(faults=tuple(faults))
     classes = classes_of(nodes)
+    found_slips = () if is_robocomp else tuple(_slips(files, trees, imported, classes, worker))
     if not classes.workers:
-        return CodeUsage()
+        return CodeUsage(slips=found_slips)
     modules = frozenset(worker.roots[MODULES].members)
+    stored, served = _stored(trees), worker.roots[SERVED].members
     every = {
-        path: UsageReader(path, files[path], classes, modules, is_robocomp).read(tree) for path, tree in trees.items()
+        path: UsageReader(path, files[path], classes, modules, served, stored, is_robocomp).read(tree)
+        for path, tree in trees.items()
     }
-    return _together(every.values(), [one for path, one in every.items() if path in imported], classes)
+    whole = _together(every.values(), [one for path, one in every.items() if path in imported], classes)
+    return structs.replace(whole, slips=found_slips)
+
+
+def _stored(trees: Mapping[str, ast.Module]) -> Counter[str]:
+    """How often each attribute is set in all files, except to None."""
+    found: Counter[str] = Counter()
+    for tree in trees.values():
+        for node in ast.walk(tree):
+            if isinstance(node, (ast.Assign, ast.AnnAssign)):
+                targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+                if isinstance(node.value, ast.Constant) and node.value.value is None:
+                    found.subtract(one.attr for one in targets if isinstance(one, ast.Attribute))
+            if isinstance(node, ast.Attribute) and isinstance(node.ctx, (ast.Store, ast.Del)):
+                found[node.attr] += 1
+    return found
+
+
+def _slips(
+    files: Mapping[str, str], trees: Mapping[str, ast.Module], imported: Collection[str], classes: UserClasses,
+    worker: WorkerOffer,
+) -> Iterator[Slip]:  # fmt: skip
+    members = worker.roots[WORKER].members
+    proxies = {name: one.value for name, one in members.items() if one.value is not None and is_proxy(name)}
+    attributes = {*proxies, *(name for name in ("events", "log", "parameters", "statemachine") if name in members)}
+    modules = worker.roots[MODULES]
+    methods = {name: set(proxy.members) for name, proxy in proxies.items()}
+    for path in sorted(imported & trees.keys()):
+        yield from slips(
+            path, files[path], trees[path], classes.workers, attributes, methods, modules.members, worker.answering
+        )
 
 
 def parsed(text: str) -> ast.Module:

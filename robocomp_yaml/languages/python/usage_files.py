@@ -1,43 +1,38 @@
-"""The chains of names in one file of Python: `self.mouth_proxy.move(pose)`, also through variables bound once."""
+"""The use that one file of Python makes of the worker: chains of names, comparisons, and what it stores."""
 
 from __future__ import annotations
 
 import ast
 import re
 from collections import Counter
-from collections.abc import Iterable, Mapping
-from functools import cached_property
+from collections.abc import Container, Iterable
 
 import msgspec
 
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.emit.usage.code import MODULES, SETTINGS, WORKER, Arguments, Chain, Constant, Step, Word
+from robocomp_yaml.emit.usage.code import (
+    MODULES,
+    SERVED,
+    SETTINGS,
+    WORKER,
+    Chain,
+    Constant,
+    Step,
+    Word,
+    literal_head,
+)
 from robocomp_yaml.languages.python.syntax import (
     all_names,
     annotations_of,
-    constant,
     imports_all,
     names_of,
-    parameters_of,
 )
+from robocomp_yaml.languages.python.usage_chains import SELF, Binding, ChainReader, Frame
 from robocomp_yaml.languages.python.usage_classes import UserClasses
 
 _Function = (ast.FunctionDef, ast.AsyncFunctionDef)
 # A worker that these get is not changed.
 _HARMLESS = frozenset("bool callable getattr hasattr id isinstance print repr str super type QTimer QThread".split())
-
-
-class Binding(msgspec.Struct, frozen=True):
-    """What a variable is bound to: the beginning of a chain, or an expression; `is_element`: an element of it."""
-
-    root: str = ""
-    steps: tuple[Step, ...] = ()
-    value: ast.expr | None = None
-    is_element: bool = False
-
-
-Frame = Mapping[str, Binding | None]
-_SELF = Binding(WORKER)
 
 
 class FileUsage(msgspec.Struct):
@@ -49,101 +44,54 @@ class FileUsage(msgspec.Struct):
     is_shared: bool = False
 
 
-class UsageReader:
+class UsageReader(ChainReader):
     def __init__(
-        self, path: str, text: str, classes: UserClasses, modules: frozenset[str], is_robocomp: bool
-    ) -> None:  # fmt: skip
-        self._path, self._text, self._classes = path, text, classes
-        self._modules, self._is_robocomp = modules, is_robocomp
-        self._sources = {"generated.interfaces", *(("interfaces",) if is_robocomp else ())}
+        self,
+        path: str,
+        text: str,
+        classes: UserClasses,
+        modules: frozenset[str],
+        served: Container[str],
+        stored: Counter[str],
+        is_robocomp: bool,
+    ) -> None:
+        super().__init__(path, text, {"generated.interfaces", *(("interfaces",) if is_robocomp else ())})
+        self._classes, self._stored = classes, stored
+        self._modules, self._served, self._is_robocomp = modules, served, is_robocomp
         self._found = FileUsage()
         self._caught: frozenset[str] = frozenset()
-        self._rebound: frozenset[str] = frozenset()
-        self._again: set[str] = set()  # the parameters that the last scope binds again
-
-    @cached_property
-    def _lines(self) -> list[str]:
-        return re.compile("\r\n|\r|\n").split(self._text)
 
     def read(self, tree: ast.Module) -> FileUsage:
         if "global " in self._text or "nonlocal " in self._text:
             scopes = (node for node in ast.walk(tree) if isinstance(node, (ast.Global, ast.Nonlocal)))
             self._rebound = frozenset(name for node in scopes for name in node.names)
         frame = self._frame(tree.body)
-        if any(imports_all(node, self._sources | {"genericworker"}) for node in tree.body):
+        if any(imports_all(node, {*self._sources, "genericworker"}) for node in tree.body):
             known = {name: Binding(MODULES, (Step(Word(name, Span(self._path))),)) for name in self._modules}
             frame = {**known, **frame}
+        self._find_aliases(tree, frame)
         self._visit_all(tree.body, (frame,))
         return self._found
 
-    # Scopes
-
-    def _frame(self, body: Iterable[ast.AST], arguments: ast.arguments | None = None) -> dict[str, Binding | None]:
-        """The variables of a scope, with what those are that are bound once."""
-        counts: Counter[str] = Counter()
-        values: dict[str, Binding] = {}
-        given = [argument.arg for argument in parameters_of(arguments)]
-        counts.update((*given, *given))
-        todo = list(body)
-        while todo:
-            node = todo.pop()
-            match node:
-                case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.ClassDef():
-                    counts[node.name] += 1
-                    continue
-                case ast.Lambda():
-                    continue
-                case ast.Name(ctx=ast.Store() | ast.Del()):
-                    counts[node.id] += 1
-                case ast.Import() | ast.ImportFrom():
-                    for alias in node.names:
-                        name = alias.asname or alias.name.partition(".")[0]
-                        counts[name] += 1
-                        if (made := self._imported(node, alias)) is not None:
-                            values[name] = made
-                case ast.ExceptHandler(name=str(name)) | ast.MatchAs(name=str(name)) | ast.MatchStar(name=str(name)):
-                    counts[name] += 1
-                case ast.Assign(targets=[ast.Name(id=name)], value=value):
-                    values[name] = Binding(value=value)
-                case ast.AnnAssign(target=ast.Name(id=name), value=ast.expr() as value):
-                    values[name] = Binding(value=value)
-                case (
-                    ast.For(target=ast.Name(id=name), iter=value)
-                    | ast.comprehension(target=ast.Name(id=name), iter=value)
-                ):
-                    values[name] = Binding(value=value, is_element=True)
-            todo += ast.iter_child_nodes(node)
-        self._again = {name for name in given if counts[name] > 2}
-        return {
-            name: values.get(name) if count == 1 and name not in self._rebound else None
-            for name, count in counts.items()
-        }
-
-    def _imported(self, node: ast.Import | ast.ImportFrom, alias: ast.alias) -> Binding | None:
-        """What an import binds, if it is one of the generated interfaces."""
-        if isinstance(node, ast.Import):
-            is_whole = alias.name in self._sources and (alias.asname or "." not in alias.name)
-            return Binding(MODULES) if is_whole else None
-        if node.module == "generated" and alias.name == "interfaces":
-            return Binding(MODULES)
-        if node.module in self._sources and not node.level and alias.name != "*":
-            return Binding(MODULES, (Step(self._word(alias.name, alias, alias.col_offset)),))
-        return None
-
-    def _lookup(self, name: str, frames: tuple[Frame, ...], depth: int = 0) -> tuple[str, tuple[Step, ...]] | None:
-        """Root and steps that a variable stands for."""
-        for index in range(len(frames) - 1, -1, -1):
-            if name in frames[index]:
-                bound = frames[index][name]
-                if bound is None or name in self._rebound or depth > 8:
-                    return None
-                if bound.value is None:
-                    return bound.root, bound.steps
-                chain = self._chain(bound.value, frames[: index + 1], depth + 1)
-                if chain is None:
-                    return None
-                return chain[0], (*chain[1], _ELEMENT) if bound.is_element else chain[1]
-        return None
+    def _find_aliases(self, tree: ast.Module, frame: Frame) -> None:
+        """The attributes of the worker that are another name of something: `self.mouth = self.mouth_proxy`."""
+        for class_ in tree.body:
+            if not isinstance(class_, ast.ClassDef) or class_.name not in self._classes.workers:
+                continue
+            for method in class_.body:
+                for node in ast.walk(method) if isinstance(method, _Function) else ():
+                    match node:
+                        case (
+                            ast.Assign(targets=[ast.Attribute(value=ast.Name(id=owner), attr=name)], value=value)
+                            | ast.AnnAssign(
+                                target=ast.Attribute(value=ast.Name(id=owner), attr=name), value=ast.expr() as value
+                            )
+                        ) if self._stored[name] == 1 and isinstance(method, _Function):
+                            frames = (frame, self._method_frame(method))
+                            if self._lookup(owner, frames) == (WORKER, ()):
+                                chain = self._chain(value, frames)
+                                if (chain is not None and chain[1]) or chain == (SETTINGS, ()):
+                                    self._aliases[name] = chain
 
     # Statements and expressions
 
@@ -170,10 +118,15 @@ class UsageReader:
             case ast.Assign(targets=targets, value=value):
                 for target in targets:
                     self._target(target, value, frames)
-                self._visit_value(value, frames)
+                self._visit_value(value, frames, _unpacked(targets))
             case ast.AnnAssign(target=target, value=ast.expr() as value):
                 self._target(target, value, frames)
                 self._visit_value(value, frames)
+            case ast.Compare(left=left, ops=[ast.Eq() | ast.NotEq() | ast.In() | ast.NotIn()], comparators=[right]):
+                self._compared(left, right, frames)
+            case ast.Match(subject=subject, cases=cases):
+                self._compared(subject, _patterns(cases), frames)
+                self._visit_all(cases, frames)
             case ast.If(test=ast.Constant(value=value), orelse=orelse) if not value:
                 self._visit_all(orelse, frames)
             case ast.If(test=ast.Name(id="TYPE_CHECKING"), orelse=orelse):
@@ -195,13 +148,31 @@ class UsageReader:
             case _:
                 self._visit_all(ast.iter_child_nodes(node), frames)
 
+    def _compared(self, left: ast.expr, right: ast.expr, frames: tuple[Frame, ...]) -> None:
+        """A comparison of a chain with literals, on one of its sides or in a list."""
+        for one, other in ((left, right), (right, left)):
+            elements = other.elts if isinstance(other, (ast.Tuple, ast.List, ast.Set)) else [other]
+            found = tuple(made for made in map(self._constant, elements) if made is not None)
+            chain = self._chain(one, frames) if found else None
+            if chain is not None and chain[1]:
+                self._add_again(Chain(*chain, caught=self._caught, compared=found))
+        self._visit_all((left, right), frames)
+
+    def _add_again(self, chain: Chain) -> None:
+        """Adds a chain whose steps belong to another one, too."""
+        steps = literal_head(chain.steps) if chain.root == SETTINGS else chain.steps
+        if steps and len(steps) == len(chain.steps):
+            self._add(msgspec.structs.replace(chain, steps=steps, is_again=True))
+
     def _probed(self) -> frozenset[str]:
         """An import that may fail is one that tries whether something exists."""
         return frozenset(("AttributeError",)) if "ImportError" in self._caught else frozenset()
 
-    def _visit_value(self, value: ast.expr, frames: tuple[Frame, ...]) -> None:
+    def _visit_value(self, value: ast.expr, frames: tuple[Frame, ...], unpacked: int = 0) -> None:
         """An assigned value. Another name of the worker is followed, unless it is an attribute of something."""
-        if not isinstance(value, ast.Name):
+        if isinstance(value, ast.Call) and unpacked:
+            self._expression(value, frames, unpacked=unpacked)
+        elif not isinstance(value, ast.Name):
             self._visit(value, frames)
 
     def _guarded(self, body: list[ast.stmt], names: set[str], frames: tuple[Frame, ...]) -> None:
@@ -232,18 +203,27 @@ class UsageReader:
             word = Word(node.name, Span(self._path, node.lineno, start, node.lineno, start + len(node.name)))
             self._found.methods.append(word)
         self._visit_all((*node.decorator_list, *node.args.defaults, *annotations_of(node)), frames)
+        self._visit_all(node.body, (*frames, self._method_frame(node)))
+
+    def _method_frame(self, node: ast.FunctionDef | ast.AsyncFunctionDef) -> dict[str, Binding | None]:
+        """The variables of a method of the worker."""
         frame = self._frame(node.body, node.args)
         again = self._again
         first = next(iter([*node.args.posonlyargs, *node.args.args]), None)
         decorators = {name for one in node.decorator_list for name in names_of(one)}
         if first is not None and not decorators & {"staticmethod", "classmethod"} and first.arg not in again:
-            frame[first.arg] = _SELF
+            frame[first.arg] = SELF
+        if node.name in self._served:
+            for number, argument in enumerate(node.args.args[1:]):
+                if argument.arg not in again:
+                    steps = (Step(Word(node.name, Span(self._path))), Step(Word(str(number), Span(self._path))))
+                    frame[argument.arg] = Binding(SERVED, steps)
         if self._is_robocomp:
             for argument in node.args.args[1:]:
                 is_params = node.name == "setParams" or argument.arg == "configData"
                 if is_params and argument.arg not in again:
                     frame[argument.arg] = Binding(SETTINGS)
-        self._visit_all(node.body, (*frames, frame))
+        return frame
 
     def _target(self, target: ast.expr, value: ast.expr, frames: tuple[Frame, ...]) -> None:
         if isinstance(target, (ast.Attribute, ast.Subscript)):
@@ -254,23 +234,26 @@ class UsageReader:
                 self._visit(value, frames)
 
     def _expression(
-        self, node: ast.expr, frames: tuple[Frame, ...], value: Constant | None = None
+        self, node: ast.expr, frames: tuple[Frame, ...], value: Constant | None = None, unpacked: int = 0
     ) -> None:  # fmt: skip
         """Records the chain that ends here, and visits what is in it: arguments, indices, and its beginning."""
         chain = self._chain(node, frames)
         is_assigned = isinstance(getattr(node, "ctx", None), (ast.Store, ast.Del))
         keys: set[int] = set()
         if chain is not None and chain[0] == SETTINGS:
-            steps = _literal_head(chain[1])
+            steps = literal_head(chain[1])
             if steps and not is_assigned:
                 self._add(Chain(SETTINGS, steps, caught=self._caught))
         elif chain is not None and chain[1]:
-            self._add(Chain(*chain, is_assigned=is_assigned, constant=value, caught=self._caught))
+            made = Chain(*chain, is_assigned=is_assigned, constant=value, caught=self._caught, unpacked=unpacked)
+            self._add(made)
         now: ast.expr = node
         while True:
             match now:
                 case ast.Attribute(value=inner):
-                    if isinstance(now.ctx, (ast.Store, ast.Del)):
+                    steps = chain[1] if chain is not None else ()
+                    is_inside = len(steps) > 1 and steps[0].word.text == "parameters"
+                    if isinstance(now.ctx, (ast.Store, ast.Del)) and not is_inside:
                         self._found.stored.add(now.attr)
                     self._found.is_open |= now.attr == "__dict__"
                     now = inner
@@ -299,102 +282,28 @@ class UsageReader:
             if not (is_harmless and isinstance(argument, ast.Name)):
                 self._visit(argument, frames)
 
-    def _chain(
-        self, node: ast.expr, frames: tuple[Frame, ...], depth: int = 0
-    ) -> tuple[str, tuple[Step, ...]] | None:  # fmt: skip
-        """Root and steps of an expression, if it is a chain."""
-        steps: list[Step] = []
-        arguments: Arguments | None = None
-        now = node
-        while True:
-            match now:
-                case ast.Attribute(value=inner, attr=name):
-                    at = (now.end_col_offset or 0) - len(name.encode())
-                    steps.append(Step(self._word(name, now, at, now.end_lineno), arguments))
-                    arguments, now = None, inner
-                case ast.Subscript(value=inner, slice=index) if arguments is None:
-                    steps.append(Step(self._key(index), is_index=True))
-                    now = inner
-                case ast.Call(func=function) if arguments is None:
-                    arguments = self._arguments_of(now)
-                    now = function
-                case ast.Name(id=name):
-                    found = self._lookup(name, frames, depth)
-                    if found is None or (arguments is not None and not found[1]):
-                        return None
-                    root, head = found
-                    if arguments is not None:  # a method in a variable: the call is where the variable is
-                        here = self._word(name, now, now.col_offset).span
-                        head = (*head[:-1], Step(Word(head[-1].word.text, here), arguments, head[-1].is_index))
-                    return root, (*head, *reversed(steps))
-                case _:
-                    return None
-
-    def _arguments_of(self, call: ast.Call) -> Arguments:
-        is_exact = not any(isinstance(one, ast.Starred) for one in call.args)
-        is_exact = is_exact and all(word.arg is not None for word in call.keywords)
-        names = [self._word(word.arg, word, word.col_offset) for word in call.keywords if word.arg is not None]
-        first = call.args[0] if call.args else None
-        text: Word | None = None
-        keys: tuple[Word, ...] = ()
-        if isinstance(first, ast.Constant) and isinstance(first.value, str):
-            text = self._text_word(first)
-        elif isinstance(first, ast.Dict):
-            words = (self._text_word(key) for key in first.keys if isinstance(key, ast.Constant))
-            keys = tuple(word for word in words if word is not None)
-        last = call.args[-1] if call.args else None
-        constant = self._constant(last) if last is not None and (text is None or last is not first) else None
-        return Arguments(len(call.args), tuple(names), is_exact, text, keys, constant)
-
-    def _key(self, index: ast.expr) -> Word:
-        word = self._text_word(index) if isinstance(index, ast.Constant) else None
-        return word or Word("", Span(self._path))
-
-    def _text_word(self, node: ast.Constant) -> Word | None:
-        """The text in a literal, without its quotes; None if it is not written as it is."""
-        if not isinstance(node.value, str) or node.end_lineno != node.lineno:
-            return None
-        span = self._span(node)
-        line = self._lines[node.lineno - 1] if node.lineno <= len(self._lines) else ""
-        at = line.find(node.value, span.column - 1, span.end_column - 1)
-        if at < 0 or not node.value:
-            return None
-        return Word(node.value, Span(self._path, node.lineno, at + 1, node.lineno, at + 1 + len(node.value)))
-
-    def _word(self, text: str, node: ast.expr | ast.alias | ast.keyword, byte: int, line: int | None = None) -> Word:
-        row = line or node.lineno
-        column = self._column(row, byte)
-        return Word(text, Span(self._path, row, column, row, column + len(text)))
-
-    def _constant(self, node: ast.expr) -> Constant | None:
-        value = constant(node)
-        return None if value is None else Constant(value, self._span(node))
-
-    def _span(self, node: ast.expr) -> Span:
-        line, end = node.lineno, node.end_lineno or node.lineno
-        return Span(
-            self._path, line, self._column(line, node.col_offset), end, self._column(end, node.end_col_offset or 0)
-        )
-
-    def _column(self, line: int, byte: int) -> int:
-        """The column, from 1 and in characters, of a position in bytes."""
-        text = self._lines[line - 1] if line <= len(self._lines) else ""
-        return byte + 1 if text.isascii() else len(text.encode()[:byte].decode(errors="replace")) + 1
-
     def _add(self, chain: Chain) -> None:
         self._found.chains.append(chain)
 
 
-_ELEMENT = Step(Word("", Span("")), is_index=True)
+def _unpacked(targets: list[ast.expr]) -> int:
+    """The number of variables to which a value is unpacked; 0 if it is not, or if it may be any."""
+    for target in targets:
+        if isinstance(target, (ast.Tuple, ast.List)):
+            return 0 if any(isinstance(one, ast.Starred) for one in target.elts) else len(target.elts)
+    return 0
 
 
-def _literal_head(steps: tuple[Step, ...]) -> tuple[Step, ...]:
-    """The leading indices that are literal texts; () if another index follows them, or none leads."""
-    head: list[Step] = []
-    for step in steps:
-        if not step.is_index:
-            break
-        if not step.word.text:
-            return ()
-        head.append(step)
-    return tuple(head)
+def _patterns(cases: list[ast.match_case]) -> ast.Tuple:
+    """The literals of the cases of a match statement."""
+    found: list[ast.expr] = []
+    todo: list[ast.pattern] = [case.pattern for case in cases]
+    while todo:
+        match todo.pop(0):
+            case ast.MatchValue(value=value):
+                found.append(value)
+            case ast.MatchOr(patterns=patterns):
+                todo += patterns
+            case ast.MatchAs(pattern=ast.pattern() as pattern):
+                todo.append(pattern)
+    return ast.Tuple(found, ast.Load())

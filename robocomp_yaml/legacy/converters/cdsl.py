@@ -121,7 +121,9 @@ class _CdslConverter(ComponentBuilder):
     def options(self, clause: Tree[Token]) -> None:
         listed = List()
         for option in trees(clause, "option"):
-            listed.put(self.reader.name(option).lower(), self.reader.notes(option))
+            name = self.reader.name(option).lower()
+            listed.put(name, self.reader.notes(option))
+            self.add_option(name, option)
         self.put("options", listed, self.reader.notes(clause))
 
     def statemachine(self, clause: Tree[Token]) -> None:

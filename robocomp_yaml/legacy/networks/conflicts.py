@@ -96,6 +96,8 @@ class Processes(msgspec.Struct, eq=False):
                     guesses.append(codes.GUESSED_SERVER.at(
                         node.span, name=node.alias, interface=interface, target=candidates[0].name,
                     ))  # fmt: skip
+            elif not candidates and (text := config.misspelled(proxy)):
+                connect[proxy] = text
         return connect, guesses
 
     def candidates(self, node: NetworkNode, interface: str) -> list[NetworkNode]:

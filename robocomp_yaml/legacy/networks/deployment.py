@@ -20,7 +20,7 @@ from robocomp_yaml.legacy.networks.components import KnownComponent, match, of_f
 from robocomp_yaml.legacy.networks.conflicts import Processes, host_of, without_circles
 from robocomp_yaml.legacy.networks.entries import COMMON, Destination, component_entry, program_entry
 from robocomp_yaml.legacy.networks.node import NetworkDraft, NetworkNode, safe_name
-from robocomp_yaml.legacy.networks.served import ConfigAddresses, addresses
+from robocomp_yaml.legacy.networks.served import ConfigAddresses, addresses, is_missing
 from robocomp_yaml.legacy.workspaces import Workspaces
 from robocomp_yaml.source.text import OF_NO_LINE
 
@@ -73,11 +73,13 @@ class _DeploymentBuilder(msgspec.Struct, eq=False):
     """By the name of a node, the first node of the same process."""
     waits: dict[str, list[str]] = {}
     """By the name of a process's first node, the names of those that it waits for, without circles."""
+    unconfigured: dict[str, KnownComponent] = {}
+    """By the name of a node, the component whose configuration is missing."""
     processes: Processes = msgspec.field(default_factory=lambda: Processes((), {}, {}, {}))
 
     def document(self) -> Map:
         nodes = self.network.nodes
-        self.by_alias = {node.alias: node for node in nodes}
+        self.by_alias = {node.alias: node for node in reversed(nodes)}  # a dependence means the first one of its name
         spelled = _spellings(self.known)
         for node in nodes:
             node.interface = spelled.get(node.interface.lower(), node.interface)
@@ -161,7 +163,13 @@ class _DeploymentBuilder(msgspec.Struct, eq=False):
             if node.name in self.owners or command is None or command.in_shell or _is_storm(node):
                 continue
             component = match(command, self.known)
-            if component is not None:
+            if component is not None and is_missing(command, component, self.site.sources):
+                missing = codes.MISSING_CONFIG.at(
+                    node.span, name=node.alias, config=command.config, component=component.name
+                )
+                self.diagnostics.append(missing)
+                self.unconfigured[node.name] = component
+            elif component is not None:
                 components[node.name] = component
                 configured[node.name] = addresses(command, component, self.site.sources)
         self.processes = Processes(running, self.owners, components, configured)
@@ -248,7 +256,7 @@ class _DeploymentBuilder(msgspec.Struct, eq=False):
         host = hosts.get(host_of(node), "")
         component = self.processes.components.get(node.name)
         if component is None:
-            return program_entry(node, host, after, self.site)
+            return program_entry(node, host, after, self.site, home=self.home(node))
         depends = [self.by_alias[alias] for alias, _, _ in node.after if alias in self.by_alias]
         connect, guesses = self.processes.connections(node, depends)
         self.diagnostics += guesses
@@ -258,6 +266,14 @@ class _DeploymentBuilder(msgspec.Struct, eq=False):
         if problem:
             self.diagnostics.append(codes.ODD_ENDPOINT.at(node.endpoint_span, problem=problem))
         return result
+
+    def home(self, node: NetworkNode) -> str:
+        """Return the folder of the component that a program on this host is, if that is its working folder; or ''."""
+        component = self.unconfigured.get(node.name)
+        if component is None or node.command is None or host_of(node) != LOCAL:
+            return ""
+        home = os.path.dirname(component.path) or "."
+        return home if os.path.basename(os.path.abspath(home)) == os.path.basename(node.command.folder) else ""
 
     def after(self, node: NetworkNode) -> List:
         """Return the entries that a process waits for: those of all its nodes, except itself."""

@@ -33,7 +33,10 @@ class Destination(msgspec.Struct, frozen=True):
         return os.path.dirname(self.document) or "."
 
 
-def program_entry(node: NetworkNode, host: str, after: List, site: Destination, *, process: str = "") -> Map:
+def program_entry(
+    node: NetworkNode, host: str, after: List, site: Destination, *, process: str = "", home: str = ""
+) -> Map:
+    """`home` is the folder in the repository that is the program's working folder on the machine of the file."""
     entry = Map(block=True)
     command = node.command
     if process:
@@ -41,7 +44,8 @@ def program_entry(node: NetworkNode, host: str, after: List, site: Destination, 
     elif command is not None:
         entry.put("program", command.words[0], node.by_key.get("program"))
         entry.put_some("host", host)
-        entry.put_some("cwd", command.folder, node.by_key.get("cwd"))
+        folder = os.path.relpath(home, site.folder) if home else command.folder
+        entry.put_some("cwd", folder, node.by_key.get("cwd"))
         entry.put_some("args", List.of(command.full[1:]))
     if node.endpoint is not None and not node.is_only_pinged:
         endpoints = Map.of({node.interface: node.endpoint.text})
@@ -126,7 +130,7 @@ def _completed(entry: Map, node: NetworkNode, after: List, key: str) -> Map:
 def _derived(node: NetworkNode, entry: Map) -> dict[str, str]:
     """Return what an exporter derives from the entry."""
     command, derived = node.command, dict[str, str]()
-    if command is not None and any(entry.key == "cwd" for entry in entry.entries):
+    if command is not None and entry.get("cwd") == command.folder:
         derived["workingDir"] = posixpath.normpath(command.folder)
     endpoint = node.endpoint
     if command is not None and endpoint is not None and not node.is_shared and not node.is_only_pinged \

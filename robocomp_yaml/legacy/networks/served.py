@@ -20,10 +20,11 @@ OWN = "etc/config"
 
 class ConfigAddresses(msgspec.Struct, frozen=True):
     """`ports` are those of the adapters by the adapter's name; `proxies` are texts by the proxy's name, both in lower
-    case."""
+    case. `keys` are all properties as they are spelled."""
 
     ports: Mapping[str, int] = {}
     proxies: Mapping[str, str] = {}
+    keys: frozenset[str] = frozenset()
 
     def proxy(self, name: str, interface: str) -> str:
         """The proxy of a required interface: by its name (older tools count from 0), else the only one to an object
@@ -33,8 +34,23 @@ class ConfigAddresses(msgspec.Struct, frozen=True):
         same = {text for text in self.proxies.values() if (proxy_at(text) or _NONE).identity == interface.lower()}
         return same.pop() if len(same) == 1 else ""
 
+    def misspelled(self, name: str) -> str:
+        """The text of a proxy whose key differs from the expected one only in case, so that components do not read it;
+        or ''."""
+        key = f"{name}Proxy"
+        other = next((each for each in self.keys if each.lower() == key.lower()), key)
+        return self.proxies.get(name.lower(), "") if key not in self.keys and other != key else ""
+
 
 _NONE = Proxy("", "", "")
+
+
+def is_missing(command: NodeCommand, component: KnownComponent, sources: str) -> bool:
+    """Whether the configuration that a command passes to a component is not in the repository."""
+    home = os.path.dirname(component.path) or "."
+    return bool(command.config) and not any(
+        os.path.isfile(path) for path in candidates(command.config, command.folder, home, sources)
+    )
 
 
 def addresses(command: NodeCommand, component: KnownComponent, sources: str) -> ConfigAddresses:
@@ -77,7 +93,8 @@ def _tails(path: str) -> Iterator[str]:
 def _read(text: str) -> ConfigAddresses:
     ports: dict[str, int] = {}
     proxies: dict[str, str] = {}
-    for key, value in properties.read(text).values.items():
+    values = properties.read(text).values
+    for key, value in values.items():
         plain = value[1:-1] if len(value) > 1 and value[0] == value[-1] == '"' else value
         name = key.lower()
         if name.endswith(".endpoints") or name.startswith("endpoints."):
@@ -86,4 +103,4 @@ def _read(text: str) -> ConfigAddresses:
                 ports[name.removesuffix(".endpoints").removeprefix("endpoints.")] = endpoint.port
         elif (proxy := proxy_at(plain)) is not None and proxy.endpoints:
             proxies[name.removeprefix("proxies.").removesuffix("proxy").rstrip(".")] = plain
-    return ConfigAddresses(ports, proxies)
+    return ConfigAddresses(ports, proxies, frozenset(values))

@@ -10,7 +10,7 @@ from robocomp_yaml.legacy.document import DocumentEntry, Map, Value
 from robocomp_yaml.legacy.settings.entries import CLASSIC, FLAT_TOML, STRING, TOML, Leaf
 from robocomp_yaml.legacy.settings.plan import Config, ParameterPlan, Path
 from robocomp_yaml.legacy.settings.rows import squeezed
-from robocomp_yaml.legacy.settings.shapes import plain, written
+from robocomp_yaml.legacy.settings.shapes import ListShape, ScalarShape, plain, written
 from robocomp_yaml.legacy.settings.sorting import NamedSetting
 from robocomp_yaml.semantics.rows import joined, nested, split
 from robocomp_yaml.semantics.texts import unquoted
@@ -107,9 +107,7 @@ def _originals(config: Config, plans: Sequence[ParameterPlan], exact: bool) -> I
             respelled = setting.raw
             if spelled and spelled.columns:
                 respelled = spelled.separator.join(split(setting.raw, ","))
-            elif spelled and spelled.key.endswith("{i}"):
-                respelled = setting.raw
-            elif spelled and spelled.separators:
+            elif spelled and spelled.separators and not spelled.key.endswith("{i}"):
                 parts = nested(setting.raw, spelled.separators, len(spelled.separators), True)
                 respelled = joined(parts, spelled.separators, spelled.trailing)
             elif config.sorted.dialect == FLAT_TOML:
@@ -128,6 +126,6 @@ def _originals(config: Config, plans: Sequence[ParameterPlan], exact: bool) -> I
 
 def _requoted(raw: str, plan: ParameterPlan) -> str:
     """Return a plain value as flat TOML spells it: text in quotes."""
-    shape = plan.shape
-    kind = getattr(shape, "kind", "")
+    shape = plan.shape.element if isinstance(plan.shape, ListShape) else plan.shape  # of rows that are texts
+    kind = shape.kind if isinstance(shape, ScalarShape) else ""
     return f'"{unquoted(raw)}"' if kind == STRING and '"' not in unquoted(raw) else raw

@@ -12,15 +12,17 @@ from collections.abc import Callable, Collection
 from typing import Any
 
 import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml.semantics.limits import elements
 from robocomp_yaml.semantics.paths import Step
+from robocomp_yaml.source.parts import PartsParser
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, end_of, last_end, parse
 from robocomp_yaml.source.yaml_text import quoted, scalar, single_quoted
 
 _COLON = re.compile(r"[ \t]*:")
 _LINE = re.compile(r"(?<=\n)(?P<indent>[ ]*)(?P<body>[^\r\n]*?)[ \t]*(?=\r?\n|\Z)")
-_REST_OF_LINE = re.compile(r"[ \t]*(?:#[^\n]*)?(?=\r?\n|\Z)")
+_REST_OF_LINE = re.compile(r"[ \t]*(?:#[^\r\n]*)?(?=\r?\n|\Z)")
 
 
 class NotEditable(Exception):
@@ -32,19 +34,22 @@ class NotEditable(Exception):
 
 
 class DocumentEdit(msgspec.Struct, frozen=True):
-    """`text` is the whole document after the edit, `was` the previous text of the value, or ''."""
+    """`text` is the whole document after the edit, `was` the previous text of the value, or ''. `tree` is that of the
+    text, once it is checked."""
 
     text: str
     was: str
+    tree: Node | None = None
 
 
 def set_value(
     path: str, text: str, root: Mapping, steps: list[Step], new: str, *, is_text: bool,
-    lines_above: Callable[[list[Step]], Collection[str]] = lambda steps: (),
+    lines_above: Callable[[list[Step]], Collection[str]] = lambda steps: (), parser: PartsParser | None = None,
 ) -> DocumentEdit:  # fmt: skip
     """The document with a new value at `steps`, from its root. An index equal to the length of a list appends an
     element. `new` is YAML on one line, or the text itself if `is_text`. `lines_above` returns the possible comments
-    above the commented line of a value. Raises NotEditable."""
+    above the commented line of a value. `parser` parsed the tree; it may not be used any more then, but for its data.
+    Raises NotEditable."""
     node: Node = root
     key: Scalar | None = None
     for depth, step in enumerate(steps):
@@ -62,12 +67,12 @@ def set_value(
         key, node = found[0] or key, found[1]
     else:
         change = _replace(text, node, key, new, is_text)
-    after, faults = parse(path, change.text)
+    after, faults = (parser.parse if parser is not None else parse)(path, change.text)
     meant, _ = (None, []) if is_text else parse(path, new)
     expected = new if is_text else meant.data if meant is not None else None
     if after is None or faults or not _same_but(root.data, after.data, steps) or _at(after.data, steps) != expected:
         raise NotEditable("an edit would affect more than this value", node)
-    return change
+    return replace(change, tree=after)
 
 
 def _at(data: Any, steps: list[Step]) -> Any:

@@ -14,8 +14,9 @@ from typing import Any
 
 from robocomp_yaml.parameters.defaults import defaults
 from robocomp_yaml.parameters.documents import ResolvedParameters
-from robocomp_yaml.parameters.json_schema import COMPLETE, fits, gate_of_complete
+from robocomp_yaml.parameters.json_schema import COMPLETE, fits, schema_of_complete
 from robocomp_yaml.parameters.types import BasicType, ListType, MapType, RecordType, ResolvedMember, Type
+from robocomp_yaml.parameters.validators import ValuesValidator
 
 Data = dict[str, Any]
 Completer = Callable[[Any], Any]
@@ -70,9 +71,12 @@ class _RecordCompleter:
 
     def __init__(self, type_: RecordType) -> None:
         self.type = type_
-        self.is_complete = gate_of_complete(type_).is_valid
+        self.validator = ValuesValidator()
         self.added: dict[tuple[str, ...], Data] = {}
         self.normalize: Completer | None = None
+
+    def is_complete(self, data: Data) -> bool:
+        return self.validator.is_valid(data, lambda: schema_of_complete(self.type))
 
     def complete(self, data: Data) -> Data:
         keys = tuple(data)

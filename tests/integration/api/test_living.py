@@ -12,6 +12,7 @@ from msgspec.structs import replace
 
 from conftest import Tree, write_tree
 from robocomp_yaml import api
+from robocomp_yaml.addresses.port_numbers import USUAL, default_port
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import table
 from robocomp_yaml.diag.page import Files, Repeated
@@ -79,3 +80,62 @@ def test_a_diagnostic_moves_with_its_line_and_goes_with_its_cause(row: Code) -> 
         elif not Path(path).is_symlink():
             write_tree(Path(), {path: content})
     _is_as_fresh(living)
+
+
+USED = {
+    "arm.cdsl.yaml": "component: ArmComp\nlanguage: python\n",
+    "spare.config.yaml": "parameters: {speed: 1}\n",
+    "a.ddsl.yaml": "deployment: A\ncomponents: {arm: {component: arm.cdsl.yaml, config: spare.config.yaml}}\n",
+}
+
+
+@pytest.mark.parametrize("gone", ["a.ddsl.yaml", "b.ddsl.yaml"])
+@pytest.mark.parametrize("how", ["removed", "broken", "without the entry"])
+def test_values_belong_to_a_component_as_long_as_any_deployment_uses_them_for_it(gone: str, how: str) -> None:
+    write_tree(Path(), USED)
+    living = api.follow()
+    _is_as_fresh(living)
+    write_tree(Path(), {"b.ddsl.yaml": USED["a.ddsl.yaml"].replace("A", "B")})
+    _is_as_fresh(living)
+    if how == "removed":
+        Path(gone).unlink()
+    else:
+        living.edit(gone, "deployment: [" if how == "broken" else "deployment: C\ncomponents: {}\n")
+    found = [one.code for one in _is_as_fresh(living)]
+    assert "RC3301" in found  # unknown parameter
+    assert "RC3323" not in found  # these values belong to no component
+
+
+def test_the_settings_of_a_deployment_that_names_no_document_are_reported_again() -> None:
+    tree = {"rcyaml.yaml": "interfaces: [gone]\n", "a.ddsl.yaml": "deployment: A\ncomponents: {a: {program: sleep}}\n"}
+    write_tree(Path(), tree)
+    living = api.follow()
+    for _ in range(3):
+        assert [one.code for one in living.look("a.ddsl.yaml").check()] == ["RC0301"]
+        assert [one.code for one in living.load().check()] == ["RC0301"]
+
+
+def test_a_network_depends_on_the_components_that_appear_elsewhere_in_its_workspace() -> None:
+    """A proxy that rcyaml would write if nobody sets one counts as none, and others' components decide which it is."""
+    arm = "language: python\nimports: [../interfaces/Arm]\n"
+    proxy = f"Proxies.Arm=arm:tcp -h localhost -p {default_port('HandComp', 'Arm', USUAL)}\n"
+    tree = {
+        "rcyaml.yaml": "",
+        "interfaces/Arm.idsl.yaml": "module: RoboCompArm\ninterfaces: {Arm: {methods: {move: {}}}}\n",
+        "arm/arm.cdsl.yaml": f"component: ArmComp\nrequires: [Arm]\n{arm}",
+        "arm/etc/config": proxy,
+        "lab/lab.ddsl.yaml": "deployment: Lab\ncomponents: {arm: {component: ../arm}}\n",
+    }
+    write_tree(Path(), tree)
+    living = api.follow()
+
+    def proxies() -> list[str]:
+        living.refresh()
+        found, fresh = living.look("lab/lab.ddsl.yaml"), api.load("lab/lab.ddsl.yaml")
+        assert found.check() == fresh.check()
+        assert shown(found.networks) == shown(fresh.networks)
+        return [one.proxy for one in found.network().connections]
+
+    assert proxies() == proxies() == [proxy.strip().partition("=")[2]]
+    write_tree(Path(), {"hand/hand.cdsl.yaml": f"component: HandComp\nimplements: [Arm]\n{arm}"})
+    assert proxies() == proxies() == [""]

@@ -147,7 +147,10 @@ def test_others_are_built_if_a_document_cannot_be_read(workspace: Path, rcyaml: 
 
 def test_no_components(rcyaml: Rcyaml, tmp_path: Path) -> None:
     result = rcyaml("build")
-    assert result.exit_code == 0 and result.stdout == "no components\n"
+    assert (
+        result.exit_code == 0
+        and result.stdout == "this folder has no component; `rcyaml new component NAME` writes one\n"
+    )
 
 
 def test_a_command_whose_output_has_a_location(rcyaml: Rcyaml, tmp_path: Path) -> None:

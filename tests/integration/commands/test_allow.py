@@ -88,8 +88,7 @@ def test_a_document_is_reported_at_its_first_line(diagnostics: Check, tmp_path: 
     allow = "# rcyaml: allow RC2010 -- they share a folder\n"
     for head in (allow, "# Ours.\n\n" + allow, allow + "# yaml-language-server: $schema=x\n---\n"):
         assert diagnostics({"a.cdsl.yaml": "component: A\nlanguage: python\n", "b.cdsl.yaml": head + other}) == []
-    late = other + allow
-    diagnosed = diagnostics({"b.cdsl.yaml": late})
+    diagnosed = diagnostics({"a.cdsl.yaml": "component: A\nlanguage: python\n", "b.cdsl.yaml": other + allow})
     assert codes(diagnosed) == [("RC2010", 1), ("RC0060", 3)]
 
 

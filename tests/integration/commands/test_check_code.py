@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -108,3 +109,27 @@ def test_other_files_of_the_user_count_too(compiled: Path, rcyaml: Rcyaml, comma
     assert diagnostics(rcyaml(command, "--format", "json")) == []
     more.write_text("class More:\n    pass\n", encoding="utf-8")
     assert {code for code, _, _ in diagnostics(rcyaml(command, "--format", "json"))} == {"RC6201"}
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [("text: string", "text: int"), ("stop: ", "stop: {returns: float}"), ("text: string", "text: Texts")],
+)
+@pytest.mark.parametrize("keeps_base", [True, False])
+def test_another_type_alone_is_reported(
+    compiled: Path, rcyaml: Rcyaml, old: str, new: str, *, keeps_base: bool
+) -> None:
+    """Also in a clone without the skeletons that the files were written from, and after the user wrote to the file."""
+    for folder in ("py", "cpp"):
+        if not keeps_base:
+            shutil.rmtree(compiled / folder / ".rcyaml")
+        for path in (compiled / folder / "src").iterdir():
+            path.write_text(path.read_text(encoding="utf-8") + "\n", encoding="utf-8")
+    changed = SPEECH.replace(old, new).replace("interfaces:", "types: {Texts: {sequence: string}}\ninterfaces:")
+    write_tree(compiled, {"Speech.idsl.yaml": changed})
+    result = rcyaml("check", "--format", "json")
+    found = [one for one in json.loads(result.stdout)["diagnostics"] if one["code"] == "RC6202"]
+    assert {one["file"] for one in found} >= {"py/src/specificworker.py", "cpp/src/specificworker.h"}
+    shown = rcyaml("check").stdout
+    now = {"text: int": "int", "text: Texts": "list[str]"}.get(new, "-> float")
+    assert now in shown and "it must begin as follows" in shown

@@ -99,12 +99,12 @@ def test_right_code_has_no_findings_even_before_a_compile(workspace: Path, rcyam
     ("right", "wrong", "text", "rule"),
     [
         ('"elbow", 1,', '"elbow", "1",', '"1"', "invalid-argument-type"),
-        ("True, {", '"True", {', '"True"', "invalid-argument-type"),
+        ("True, {", '"True", {', '"True"', "RC6328"),
         ("count: int", "count: str", "self.arm_proxy.move(", "invalid-assignment"),
-        ("blocked.at.name", "blocked.at.nmae", "blocked.at.nmae", "missing-attribute"),
+        ("blocked.at.name", "blocked.at.nmae", "nmae", "RC6325"),
         (".result(2.5)", ".reslut(2.5)", None, "missing-attribute"),
         ("joints[0].name", "joints.name", "joints.name", "missing-attribute"),
-        ("speed = 4", "speed = speeed", "speeed", "unresolved-reference"),
+        ("speed = 4", "speed = speeed", "speeed", "RC6331"),
         ("moved(1.5)", "moved([1.5])", "[1.5]", "invalid-argument-type"),
         ("self.log.info(", "self.log.inform(", "self.log.inform", "missing-attribute"),
     ],
@@ -115,12 +115,14 @@ def test_wrong_types_are_reported_where_they_are(
     code = workspace / "use/src/specificworker.py"
     assert right in RIGHT
     code.write_text(RIGHT.replace(right, wrong), encoding="utf-8")
-    assert rcyaml("check").exit_code == 0
+    is_always_seen = rule.startswith("RC")
+    assert rcyaml("check").exit_code == is_always_seen
     result = rcyaml("check", "--code", "--format", "json")
     assert result.exit_code == 1
     (found,) = json.loads(result.stdout)["diagnostics"]
-    assert (found["code"], found["file"]) == ("RC6318", "use/src/specificworker.py")
-    assert found["facts"]["rule"] == rule and found["facts"]["tool"] == "ty"
+    assert (found["code"], found["file"]) == (rule if is_always_seen else "RC6318", "use/src/specificworker.py")
+    if not is_always_seen:
+        assert found["facts"]["rule"] == rule and found["facts"]["tool"] == "ty"
     line = code.read_text(encoding="utf-8").split("\n")[found["line"] - 1]
     if text is not None:
         assert line[found["column"] - 1 :].startswith(text)
@@ -131,7 +133,7 @@ def test_types_are_those_of_the_documents_as_they_are_now(workspace: Path, rcyam
     document = workspace / "interfaces/Arm.idsl.yaml"
     document.write_text(TREE["interfaces/Arm.idsl.yaml"].replace("angle: float", "angle: string"), encoding="utf-8")
     found = json.loads(rcyaml("check", "--code", "--format", "json").stdout)["diagnostics"]
-    assert {one["code"] for one in found} == {"RC6318"}
+    assert {one["code"] for one in found} == {"RC6318", "RC6328"}
 
 
 def test_what_is_reported_without_types_is_not_repeated(workspace: Path, rcyaml: Rcyaml) -> None:

@@ -36,8 +36,10 @@ def test_every_change_of_the_library_has_a_command() -> None:
         ("add-host", "one", "10.0.0.2"), ("add-host", "two", "10.0.0.3", "--user", "robo"),
         ("move", "lips0", "two"), ("set", "speech", "period.compute", "50"), ("unset", "speech", "period.compute"),
         ("add", "wait", "--program", "--host", "one", "sleep", "9"), ("remove", "wait"),
-        ("implement", "SpeechComp", "Mouth"), ("implement", "SpeechComp", "Mouth", "--remove"),
+        ("implement", "SpeechComp", "Mouth"), ("unimplement", "SpeechComp", "Mouth"),
         ("publish", "speech", "Heard"), ("subscribe", "mouth/mouth.cdsl.yaml", "Heard"), ("require", "mouth", "Speech"),
+        ("unrequire", "mouth", "Speech"), ("unpublish", "speech", "Heard"), ("unsubscribe", "mouth", "Heard"),
+        ("add", "nose", "NoseComp", "--new", "--implements", "Speech", "--host", "one"), ("remove", "nose"),
     ):  # fmt: skip
         result = edit(*words, "--force")
         assert result.exit_code in (0, 1), (words, result.output)
@@ -110,3 +112,18 @@ def test_unknown_names_are_wrong_usage() -> None:
     assert "did you mean 'speech'?" in result.stderr
     assert edit("connect", "speech").exit_code == 2
     assert edit("port", "mouth", "many").exit_code == 2
+
+
+def test_a_new_component_is_added_as_rcyaml_new_writes_it() -> None:
+    assert edit("add", "nose", "NoseComp", "--new", "--language", "cpp", "--implements", "Speech").exit_code == 0
+    assert "language: cpp" in Path("components/nosecomp/nosecomp.cdsl.yaml").read_text()
+    assert edit("undo").exit_code == 0
+    assert not Path("components").exists() or not list(Path("components").iterdir())
+    for words, text in (
+        (("add", "nose", "mouth", "--implements", "Speech"), "add --new"),
+        (("add", "nose", "x", "--new", "--program"), "exclude each other"),
+        (("add", "nose", "NoseComp", "--new", "--language", "pascal"), "no language 'pascal'"),
+        (("add", "nose", "NoseComp", "--new", "--implements", "Speach"), "did you mean 'Speech'"),
+    ):
+        done = edit(*words)
+        assert (done.exit_code, text in done.stderr) == (2, True), done.output

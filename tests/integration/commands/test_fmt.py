@@ -109,4 +109,4 @@ def test_secrets_are_hidden_in_what_would_change(rcyaml: Run, tmp_path: Path) ->
 def test_names_that_are_no_documents(rcyaml: Run, folder: Path) -> None:
     run = rcyaml("fmt", "notes.yaml")
     assert run.exit_code == 1 and (folder / "notes.yaml").read_text() == FILES["notes.yaml"]
-    assert rcyaml("fmt", "nowhere.idsl.yaml").exit_code == 1
+    assert rcyaml("fmt", "nowhere.idsl.yaml").exit_code == 2

@@ -21,7 +21,7 @@ Rcyaml = Callable[..., Result]
         ("deploy staus x.ddsl.yaml", "unknown command 'deploy staus'; did you mean 'deploy status'?"),
         ("config sett a b", "unknown command 'config sett'; did you mean 'config set'?"),
         ("new componnent", "unknown command 'new componnent'; did you mean 'new component'?"),
-        ("deploy xyzzy", "unknown command 'deploy xyzzy'\n"),
+        ("deploy xyzzy", "unknown command 'deploy xyzzy'; known are plan, up, "),
         ("xyzzy", "unknown command 'xyzzy'\n"),
         ("logs -f", "unknown command 'logs'; did you mean 'deploy logs'?"),
         ("export", "unknown command 'export'; did you mean 'config export' or 'deploy export'?"),

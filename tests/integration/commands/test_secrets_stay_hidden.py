@@ -14,6 +14,7 @@ from typing import Any
 import pytest
 
 from conftest import write_tree
+from processes import killed_on_failure
 
 CDSL = "component: SpeechComp\nlanguage: python\n"
 PDSL = """\
@@ -290,7 +291,8 @@ def test_keys_of_the_user_do_not_show_it(robot: Path, rcyaml: Callable[..., Any]
 
 def on_a_terminal(*words: str) -> str:
     ours, theirs = pty.openpty()
-    with subprocess.Popen([sys.executable, "-m", "robocomp_yaml", *words], stdout=theirs, stderr=theirs) as running:
+    showing = subprocess.Popen([sys.executable, "-m", "robocomp_yaml", *words], stdout=theirs, stderr=theirs)
+    with killed_on_failure(showing) as running:
         os.close(theirs)
         printed = b""
         while True:

@@ -119,3 +119,41 @@ def test_a_plan_names_what_replaces_a_choice(tree: Path, rcyaml: Run) -> None:
         one for one in next(s for s in steps if s["name"] == "lips")["config"] if one["property"] == "Mouth.Endpoints"
     )
     assert (port["source"], port["file"], port["line"]) == ("set", "head.ddsl.yaml", 4)
+
+
+MOUTH = {
+    "mouth/mouth.cdsl.yaml": "component: MouthComp\nlanguage: python\nimports: [../Face]\nimplements: [Mouth]\n",
+    "head.ddsl.yaml": "deployment: Sourced\ncomponents:\n  arm: {component: arm}\n  lips: {component: mouth}\n",
+}
+
+
+def test_one_judge_says_whose_a_flat_config_is(tree: Path, rcyaml: Run) -> None:
+    """A change that the document contains later gives the file back, also if the document states no connections."""
+    write_tree(tree, {**MOUTH, "arm/etc/config.yaml": "component: ../arm.cdsl.yaml\n"})
+    assert rcyaml("compile").exit_code == 0
+    flat = tree / "arm/etc/config"
+    written = flat.read_text(encoding="utf-8")
+    flat.write_text("# mine\n" + written, encoding="utf-8")
+    assert "RC3330" not in rcyaml("check").output, "nothing of the user's is in it"
+    flat.write_text(written.replace("speed=5", "speed=6"), encoding="utf-8")
+    assert "RC3330" in rcyaml("check").output and rcyaml("config", "get", "arm", "speed").stdout == "6\n"
+    assert "etc/config (speed)" in rcyaml("compile").output
+    assert rcyaml("config", "set", "arm", "speed", "6").exit_code == 0
+    assert "RC3330" not in rcyaml("check").output and "RC6010" not in rcyaml("compile").output
+    assert "speed=6\n" in flat.read_text(encoding="utf-8") and "# Configuration" in flat.read_text(encoding="utf-8")
+
+
+def test_an_endpoint_in_a_changed_flat_config_counts_everywhere(tree: Path, rcyaml: Run) -> None:
+    values = "component: ../mouth.cdsl.yaml\nendpoints: {Mouth: tcp -p 12001}\n"
+    write_tree(tree, {**MOUTH, "mouth/etc/config.yaml": values})
+    assert rcyaml("compile").exit_code == 0
+    flat = tree / "mouth/etc/config"
+    flat.write_text(flat.read_text(encoding="utf-8").replace("12001", "12002"), encoding="utf-8")
+    plan = json.loads(rcyaml("deploy", "plan", "head.ddsl.yaml", "--format", "json").stdout)["plan"]
+    texts = {one["name"]: str(one["config"]) for one in plan}
+    assert (
+        "-p 12002" in texts["lips"] and "-p 12002" in texts["arm"] and "'tcp -h 127.0.0.1 -p 12001" not in texts["lips"]
+    )
+    shown = lines(rcyaml("config", "show", "mouth"))["Mouth.Endpoints"]
+    assert shown.endswith("overrides tcp -p 12001 (mouth/etc/config.yaml:2)")
+    assert "Mouth.Endpoints" in rcyaml("compile").output and "-p 12002" in flat.read_text(encoding="utf-8")

@@ -54,8 +54,11 @@ def test_the_proxy_follows_the_neighbour(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"mouth/etc/config": "Mouth.Endpoints=tcp -p 12555\n"})
     assert rcyaml("compile", "speech").exit_code == 0
     assert _proxy(tmp_path) == "12555"
-    # Its values replace its etc/config, which is older.
+    # The user's etc/config counts, until a compile replaces it.
     write_tree(tmp_path, {"mouth/etc/config.yaml": "component: ../m.cdsl.yaml\nendpoints: {Mouth: tcp -p 12777}\n"})
+    assert rcyaml("compile", "speech").exit_code == 0
+    assert _proxy(tmp_path) == "12555"
+    assert rcyaml("compile", "--adopt", "mouth").exit_code == 0
     assert rcyaml("compile", "speech").exit_code == 0
     assert _proxy(tmp_path) == "12777"
 

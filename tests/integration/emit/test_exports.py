@@ -19,8 +19,9 @@ from ruamel.yaml import YAML
 from conftest import write_tree
 from networks import large, speaking
 from rcmanager_facts import facts
-from robocomp_yaml.emit.exports import export, forms
+from robocomp_yaml.emit.exports import export, forms, noted
 from robocomp_yaml.emit.exports.icegrid import _DROP_LAST, _MAKE_FOLDERS
+from robocomp_yaml.model.deployment import ResourceLimits
 from robocomp_yaml.network.network import LOOPBACK, PROGRAM, Network, NetworkHost, Process
 
 Golden = Callable[[str, Mapping[str, str]], None]
@@ -116,7 +117,43 @@ def test_compose() -> None:
     assert files["head/config/mouth"] == speaking().processes["mouth"].config.text  # type: ignore[union-attr]
 
 
-@pytest.mark.parametrize("network", [speaking(), one(*ODD), large(50)], ids=["head", "odd", "large"])
+LIMITS = ResourceLimits(memory=300 << 20, cpu=50, cores="0", nice=7, core=0, files=333)
+LIMITED = one(
+    "-c", "ulimit -d; ulimit -n; ulimit -c; nice; taskset -cp $$ | sed 's/.*: //'", program="bash", limits=LIMITS
+)
+ITS_LIMITS = [str(300 << 10), "333", "0", "7", "0"]
+
+
+def test_compose_carries_limits() -> None:
+    service = YAML(typ="safe", pure=True).load(export(LIMITED, "compose")["compose.yaml"])["services"]["p"]
+    assert service["deploy"] == {"resources": {"limits": {"cpus": "0.5", "memory": f"{300 << 20}b"}}}
+    assert service["cpuset"] == "0" and service["ulimits"] == {"core": 0, "nofile": 333} and "cap_add" not in service
+    command = [word.replace("$$", "$") for word in (*service["entrypoint"], *service["command"])]
+    assert subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()[-2] == "7"
+    urgent = one(limits=ResourceLimits(realtime=40))
+    service = YAML(typ="safe", pure=True).load(export(urgent, "compose")["compose.yaml"])["services"]["p"]
+    assert service["cap_add"] == ["SYS_NICE"] and service["entrypoint"] == ["chrt"] and "deploy" not in service
+
+
+def test_commands_carry_limits() -> None:
+    """As IceGrid and RCManager start them. What they cannot limit is noted."""
+    with noted() as notes:
+        server = ElementTree.fromstring(export(LIMITED, "icegrid")["One.xml"]).find(".//server")
+        made = element_of(export(LIMITED, "rcmanager")["One.xml"], "upCommand")
+    assert server is not None
+    words = [server.attrib["exe"], *((option.text or "").replace("$${", "${") for option in server.findall("option"))]
+    for command in ([*words, "--Ice.Config=/x"], shlex.split(made)[4:]):
+        done = subprocess.run(command, capture_output=True, text=True, check=True)
+        assert done.stdout.split() == ITS_LIMITS, command
+    assert [str(note) for note in notes] == [
+        f"{form} cannot enforce `cpu: 50 %`: systemd and compose can" for form in ("IceGrid", "RCManager")
+    ]
+    assert {note.name for note in notes} == {"p"}
+
+
+@pytest.mark.parametrize(
+    "network", [speaking(), one(*ODD), large(50), LIMITED], ids=["head", "odd", "large", "limited"]
+)
 def test_compose_matches_the_specification(tmp_path: Path, network: Network) -> None:
     pytest.importorskip("check_jsonschema", reason="the schema of compose files comes with check-jsonschema")
     write_tree(tmp_path, export(network, "compose"))

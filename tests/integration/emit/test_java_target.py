@@ -109,4 +109,4 @@ def test_a_literal(text: str, made: str) -> None:
 def test_the_plan() -> None:
     target = language("java")
     assert target.build == (("{folder}/generated/build",),)
-    assert not target.has & {"statemachine", "gui", "merging", "compatibility"}
+    assert not target.has & {"statemachine", "gui", "compatibility"}

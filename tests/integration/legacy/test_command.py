@@ -161,7 +161,7 @@ def test_the_report(rcyaml: Run, tmp_path: Path) -> None:
         tmp_path,
         {
             "in/Speech.idsl": SPEECH + "#endif\n",
-            "in/Mouth.ice": '\n["cpp:const"]\nmodule Mouth { };\n',
+            "in/Mouth.ice": '\n#pragma weird\n["cpp:const"]\nmodule Mouth { };\n',
             "in/Bad.idsl": "module Bad {\n\n// x\n",
         },
     )
@@ -170,23 +170,25 @@ def test_the_report(rcyaml: Run, tmp_path: Path) -> None:
     files = {entry["source"]: entry for entry in report["files"]}
     none = dict.fromkeys(("blank", "converted", "comment", "repaired", "lost", "refused"), 0)
     assert files["in/Speech.idsl"]["lines"] == {**none, "total": 6, "converted": 4, "comment": 1, "repaired": 1}
-    assert files["in/Mouth.ice"]["lines"] == {**none, "total": 3, "blank": 1, "lost": 1, "converted": 1}
+    assert files["in/Mouth.ice"]["lines"] == {
+        **none, "total": 4, "blank": 1, "lost": 1, "comment": 1, "converted": 1,
+    }  # fmt: skip
     assert files["in/Bad.idsl"]["lines"] == {**none, "total": 3, "blank": 1, "refused": 2}
     assert [files[name]["status"] for name in sorted(files)] == ["refused", "warned", "warned"]
     assert files["in/Speech.idsl"]["outputs"] == ["out/Speech.idsl.yaml"] and files["in/Bad.idsl"]["outputs"] == []
-    assert files["in/Mouth.ice"]["diagnostics"][0]["code"] == "RC5006"
+    assert [one["code"] for one in files["in/Mouth.ice"]["diagnostics"]] == ["RC5051", "RC5006"]
     assert report["totals"] == {
         "files": 3,
         "converted": 0,
         "warned": 2,
         "refused": 1,
         "skipped": 0,
-        "lines": {"total": 12, "blank": 2, "converted": 5, "comment": 1, "repaired": 1, "lost": 1, "refused": 2},
+        "lines": {"total": 13, "blank": 2, "converted": 5, "comment": 2, "repaired": 1, "lost": 1, "refused": 2},
     }
 
 
 def test_strict_fails_on_a_loss(rcyaml: Run, tmp_path: Path) -> None:
-    write_tree(tmp_path, {"A.ice": '["cpp:const"]\nmodule A { };\n', "B.idsl": "module B { };\n#endif\n"})
+    write_tree(tmp_path, {"A.ice": "#pragma weird\nmodule A { };\n", "B.idsl": "module B { };\n#endif\n"})
     assert rcyaml("migrate", "A.ice").exit_code == 0
     assert rcyaml("migrate", "A.ice", "--strict").exit_code == 1
     assert rcyaml("migrate", "B.idsl", "--strict").exit_code == 0
@@ -303,11 +305,14 @@ def test_quiet_and_verbose(rcyaml: Run, tmp_path: Path) -> None:
     assert "unchanged interfaces/Speech.idsl.yaml\n" in rcyaml("-v", "migrate", ".").stdout
 
 
-def test_an_empty_folder_is_an_error(rcyaml: Run, tmp_path: Path) -> None:
-    write_tree(tmp_path, {"empty": None})
-    result = rcyaml("migrate", "empty")
-    assert result.exit_code == 1 and "RC5024" in result.stdout
-    assert read_tree(tmp_path) == {}
+@pytest.mark.parametrize("files", [{"x": None}, {"x/README.md": "Hello\n", "x/main.cpp": "int main() {}\n"}])
+def test_a_folder_without_legacy_files_is_told(rcyaml: Run, tmp_path: Path, files: dict[str, str | None]) -> None:
+    """Nothing was lost, so this is no failure."""
+    write_tree(tmp_path, files)
+    before = read_tree(tmp_path)
+    result = rcyaml("migrate", "x")
+    assert result.exit_code == 0 and "warning[RC5024]" in result.stdout
+    assert read_tree(tmp_path) == before
 
 
 def test_a_missing_path_is_a_usage_error(rcyaml: Run) -> None:

@@ -75,8 +75,15 @@ def test_the_content_decides_the_kind_of_a_toml_file(rcyaml: Run, tmp_path: Path
     assert made == {"rcyaml.yaml", "config.toml.config.yaml", "sub.ddsl.yaml", "config2.ddsl.yaml"}
 
 
+def test_components_of_one_name(rcyaml: Run, tmp_path: Path) -> None:
+    """A launcher starts both."""
+    write_tree(tmp_path, {"sub.toml": SUB + '[[components]]\nname = "bridge"\ncwd = "/opt"\ncmd = "./x"\n'})
+    result = rcyaml("migrate", "sub.toml")
+    assert result.exit_code == 0 and "'bridge' is the name of another one" in result.output, result.output
+    assert "  bridge_2:\n    program: ./x" in (tmp_path / "sub.ddsl.yaml").read_text(encoding="utf-8")
+
+
 @pytest.mark.parametrize(("text", "code"), [
-    (SUB + '[[components]]\nname = "bridge"\ncmd = "x"\n', "RC5013"),
     (SUB + '[[components]]\ncmd = "x"\n', "RC5004"),
     (SUB + "[[components]]\nname = 3\n", "RC5004"),
     (SUB + "[other]\na = 1\n", "RC5004"),

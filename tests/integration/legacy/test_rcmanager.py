@@ -138,7 +138,7 @@ def test_a_second_name_waits_with_the_first(migrated: Callable[..., tuple[Any, l
     ('<node alias="a b" endpoint="a:tcp -p 1">' + UP + "</node>", "RC5005"),
     (LASER.format(UP + UP), "RC5006"),
     (LASER.format('<upCommand command="a & b"/>'), "RC5005"),
-    ("<?php echo ?>" + LASER.format(UP), "RC5006"),
+    ("<?php echo ?>" + LASER.format(UP), "RC5051"),
 ])  # fmt: skip
 def test_problems_are_reported(migrated: Callable[..., tuple[Any, list[str]]], element: str, code: str) -> None:
     document, said = migrated(element)
@@ -147,7 +147,6 @@ def test_problems_are_reported(migrated: Callable[..., tuple[Any, list[str]]], e
 
 @pytest.mark.parametrize(("element", "code"), [
     ("<node>" + UP + "</node>", "RC5004"),
-    (LASER.format("") + LASER.format(""), "RC5013"),
     (LASER.format("<upCommand command='a'></downCommand>"), "RC5004"),
     (LASER.format('<upCommand command="a" command="b"/>'), "RC5004"),
     (LASER.format('<upCommand command="&lol;"/>'), "RC5004"),
@@ -161,7 +160,6 @@ def test_problems_are_reported(migrated: Callable[..., tuple[Any, list[str]]], e
 def test_rejected_files(migrated: Callable[..., tuple[Any, list[str]]], element: str, code: str) -> None:
     document, said = migrated(element)
     assert document is None and code in said
-    assert code != "RC5013" or said == [code]
 
 
 def test_a_document_type_is_rejected(rcyaml: Run, tmp_path: Path) -> None:

@@ -4,6 +4,7 @@ other machines, and code of every generation of RoboComp's own tool."""
 from __future__ import annotations
 
 import json
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
 
@@ -108,6 +109,41 @@ def test_legacy_interfaces_of_include_are_migrated_into_the_repository(rcyaml: R
     assert rcyaml("compile", "robot").exit_code == 0
 
 
+@pytest.mark.parametrize(("written", "found"), [("Arm", "arm"), ("arm", "Arm"), ("ARM", "arm")])
+def test_an_interface_of_include_in_another_case(rcyaml: Run, tmp_path: Path, written: str, found: str) -> None:
+    component = cdsl("A", requires="Arm", imports=written)
+    write_tree(tmp_path, {f"core/{found}.idsl": module("Arm"), "robot/a/a.cdsl": component})
+    result = rcyaml("migrate", "robot", "-I", "core")
+    assert result.exit_code == 0 and "warning[RC5008]" in result.output, result.output
+    assert rcyaml("compile", "robot").exit_code == 0
+
+
+AGM = ("AGMExecutive", "AGMCommonBehavior", "AGMWorldModel", "AGMExecutiveTopic")  # what `agmagent` imports
+
+
+@pytest.mark.parametrize("home", ["core", "robot/a/src", "robot/interfaces"])
+def test_the_interfaces_of_an_option_are_found(rcyaml: Run, tmp_path: Path, home: str) -> None:
+    """No file names them: in a folder of -I, as copies of the component, and in the repository."""
+    suffix = "ice" if home.endswith("src") else "idsl"
+    agent = cdsl("A", implements="AGMCommonBehavior", imports="AGMCommonBehavior")
+    write_tree(tmp_path, {
+        **{f"{home}/{name}.{suffix}": module(name) for name in AGM},
+        "robot/a/a.cdsl": agent.replace("language", "options agmagent; language"),
+    })  # fmt: skip
+    search = ["-I", "core"] if home == "core" else []
+    assert rcyaml("migrate", "robot", *search).exit_code == 0
+    compiled = rcyaml("compile", "robot")
+    assert compiled.exit_code == 0 and "RC2101" not in compiled.output, compiled.output
+    assert (tmp_path / "robot/a/generated/component.py").exists()
+
+
+def test_a_missing_interface_of_an_option_is_reported(rcyaml: Run, tmp_path: Path) -> None:
+    write_tree(tmp_path, {"a.cdsl": cdsl("A").replace("language", "options agmagent; language")})
+    result = rcyaml("migrate", ".")
+    assert result.exit_code == 0 and result.output.count("warning[RC5009]") == len(AGM), result.output
+    assert "imports:" not in (tmp_path / "a.cdsl.yaml").read_text()
+
+
 def test_robocomps_own_folder_is_named(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     write_tree(tmp_path, {
         "opt/interfaces/IDSLs/Arm.idsl": module("Arm"), "robot/a.cdsl": cdsl("A", requires="Arm", imports="Arm"),
@@ -175,6 +211,50 @@ def test_paths_of_another_machine_are_mapped(rcyaml: Run, tmp_path: Path) -> Non
     assert rcyaml("check").exit_code == 0, rcyaml("check").output
 
 
+GONE = """<rcmanager>
+ <node alias="arm" endpoint="base:tcp -p 11247">
+  <dependence alias="leg" />
+  <upCommand command="rcremote HOST arm /home/x/robot/arm bin/arm CONFIG" />
+ </node>
+ <node alias="leg" endpoint="leg:tcp -p 11248"><upCommand command="rcremote localhost leg /home/x/robot/leg bin/leg etc/config" /></node>
+</rcmanager>
+"""
+
+
+@pytest.mark.parametrize(("host", "config", "cwd"), [
+    ("localhost", "etc/gone", "arm"), ("localhost", "--Ice.Config=/etc/arm.conf", "arm"),
+    ("10.0.0.7", "etc/gone", "/home/x/robot/arm"),
+])  # fmt: skip
+def test_a_config_that_is_in_no_repository(rcyaml: Run, tmp_path: Path, host: str, config: str, cwd: str) -> None:
+    """RCManager starts the others all the same: so does a deployment. The graph is exported as it was."""
+    write_tree(tmp_path, {
+        "robot.xml": GONE.replace("HOST", host).replace("CONFIG", config), "arm/arm.cdsl": cdsl("arm"),
+        "leg/leg.cdsl": cdsl("leg"), "leg/etc/config": "Speed = 3\n",
+    })  # fmt: skip
+    result = rcyaml("migrate", ".")
+    assert result.exit_code == 0 and "RC5050" in result.output and "although arm is known" in result.output
+    text = (tmp_path / "robot.ddsl.yaml").read_text()
+    assert "    program: bin/arm\n" in text and f"    cwd: {cwd}\n" in text and "component: leg/leg.cdsl.yaml" in text
+    checked = rcyaml("check")
+    assert checked.exit_code == 0 and "RC4103" not in checked.output, checked.output
+    exported = rcyaml("deploy", "export", "--as", "rcmanager", "robot.ddsl.yaml").output
+    assert '<node alias="arm" endpoint="base:' in exported and '<dependence alias="leg"/>' in exported
+
+
+def test_a_proxy_whose_key_has_another_case_is_connected(rcyaml: Run, tmp_path: Path) -> None:
+    """RCManager does not read it; the component would not find it."""
+    write_tree(tmp_path, {
+        "robot.xml": RCMANAGER.replace("--Ice.Config=/home/x/robot/etc/arm.conf", "etc/config"), "Eye.idsl": module("Eye"),
+        "components/arm/arm.cdsl": cdsl("arm", requires="Eye", imports="Eye"),
+        "components/arm/etc/config": "eyeProxy = eye:tcp -h far -p 17332\nCommonBehavior.Endpoints=tcp -p 11247\n",
+    })  # fmt: skip
+    assert rcyaml("migrate", ".").exit_code == 0
+    assert 'connect: {Eye: "eye:tcp -h far -p 17332"}' in (tmp_path / "robot.ddsl.yaml").read_text().replace(
+        "Eye: eye:tcp -h far -p 17332", 'Eye: "eye:tcp -h far -p 17332"'
+    )
+    assert rcyaml("check").exit_code == 0, rcyaml("check").output
+
+
 # Second and edited configs
 
 
@@ -190,6 +270,44 @@ def test_a_second_config_of_the_user_stays(rcyaml: Run, tmp_path: Path) -> None:
     assert "0 files written" in rcyaml("compile").output
     assert rcyaml("compile", "--adopt").exit_code == 0
     assert "Speed=9" in config.read_text() and "Mine" in (tmp_path / "a/etc/config_real.orig").read_text()
+
+
+def legacy_files(folder: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in folder.iterdir() if path.suffix != ".yaml"}
+
+
+@pytest.mark.parametrize("configs", [
+    {"config": "Speed = 3\nArm.Endpoints=tcp -p 10001\n", "config_real": "Speed = 9\nArm.Endpoints=tcp -p 10001 # mine\n"},
+    {"config_real": "Speed = 9\n", "config_sim": "Speed = 3\n"},
+    {"robot.conf": "Speed = 9\n"},
+    {"config.toml": "Speed = 3\nLimit = 1e-4\n[Endpoints]\nArm = \"tcp -p 10001\"\n[Net]\nPose = [0, 0]\n"},
+    {"config.toml": "Speed = 3\n", "config": "Speed = 4\n", "config_real": "Speed=5\n"},
+    {"generic_config": "Arm.Endpoints=tcp -p 10001\nIce.Warn.Connections=0\n", "specific_config": "Row = up,  1,\t2\n"},
+    {"generic_config.debug": "Arm.Endpoints=tcp -p 10001\n", "specific_config.debug": "Speed=1\n", "specific_config": "Speed=2\n"},
+])  # fmt: skip
+def test_the_configs_of_a_repository_stay(rcyaml: Run, tmp_path: Path, configs: dict[str, str]) -> None:
+    """As they are, without a copy beside them, and without a further one that nobody wrote. All say what their
+    documents say."""
+    files = {f"a/etc/{name}": text for name, text in configs.items()}
+    arm = {"Arm.idsl": module("Arm"), "a/a.cdsl": cdsl("A", implements="Arm", imports="Arm")}
+    write_tree(tmp_path, {**arm, **files})
+    assert rcyaml("migrate", ".").exit_code == 0
+    for _ in range(2):
+        result = rcyaml("compile")
+        assert result.exit_code == 0 and "RC6010" not in result.output, result.output
+        assert legacy_files(tmp_path / "a/etc") == {name: text.encode() for name, text in configs.items()}
+    assert rcyaml("check").exit_code == 0 and rcyaml("compile", "--check").exit_code == 0
+
+
+def test_a_toml_config_that_is_adopted_is_toml(rcyaml: Run, tmp_path: Path) -> None:
+    text = 'Speed = 3\n[Endpoints]\nCommonBehavior = "tcp -p 10001"\n'
+    write_tree(tmp_path, {"a/a.cdsl": cdsl("A"), "a/etc/config.toml": text})
+    assert rcyaml("migrate", ".").exit_code == 0 and rcyaml("compile").exit_code == 0
+    assert rcyaml("config", "set", "a/etc/config.toml.config.yaml", "Speed", "4").exit_code == 0
+    assert rcyaml("compile").exit_code == 0
+    found = tomllib.loads((tmp_path / "a/etc/config.toml").read_text())
+    assert found == {"Speed": 4, "Endpoints": {"CommonBehavior": "tcp -p 10001"}}
+    assert (tmp_path / "a/etc/config.toml.orig").read_text() == text
 
 
 # Code of every generation

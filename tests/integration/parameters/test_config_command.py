@@ -168,7 +168,7 @@ def test_get_and_set_as_json(run: Run) -> None:
     changed = answer("set", "etc/config.yaml", "speed", "0.75")
     assert changed == {"path": "speed", "value": "0.75", "was": ".5"}
     [wrong] = answer("set", "etc/config.yaml", "speed", "7", code=1)["diagnostics"]  # type: ignore[misc]
-    assert (wrong["code"], wrong["line"]) == ("RC3303", 3)
+    assert (wrong["code"], wrong["file"], wrong["line"]) == ("RC3303", "value", 1)
 
 
 def test_set_does_not_make_a_list_that_a_layer_holds(run: Run) -> None:

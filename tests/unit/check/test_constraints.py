@@ -16,9 +16,9 @@ TYPES = "Mode: {enum: [slow, fast]}, Motor: {struct: {name: string, max: float}}
 LISTED = "use comparisons, arithmetic, and, or, not, in, and the functions that docs/pdsl.md lists"
 
 
-def constrained(constraint: str, parameters: str = PARAMETERS, types: str = TYPES) -> dict[str, str]:
-    quoted = constraint.replace("'", "''")
-    return pdsl(parameters, types, f"constraints: ['{quoted}']\n")
+def constrained(*constraints: str, parameters: str = PARAMETERS, types: str = TYPES) -> dict[str, str]:
+    quoted = ", ".join("'" + constraint.replace("'", "''") + "'" for constraint in constraints)
+    return pdsl(parameters, types, f"constraints: [{quoted}]\n")
 
 
 @pytest.mark.parametrize(
@@ -192,10 +192,8 @@ GIVEN = "low: 2, high: 5, part: 0.5, on: true, name: arm, mode: fast, ls: [3, 1,
 )  # fmt: skip
 def test_constraints_that_hold(constraint: str) -> None:
     """The negation of each is reported."""
-    documents = constrained(constraint, VALUES, TYPES)
-    assert refused(documents, GIVEN) == []
-    denied = constrained(f"not ({constraint})", VALUES, TYPES)
-    assert refused(denied, GIVEN) == [f"this must hold: not ({constraint})"]
+    documents = constrained(constraint, f"not ({constraint})", parameters=VALUES)
+    assert refused(documents, GIVEN) == [f"this must hold: not ({constraint})"]
 
 
 @pytest.mark.parametrize(
@@ -222,7 +220,7 @@ def test_defaults_that_violate_a_constraint() -> None:
 
 @pytest.mark.parametrize("constraint", ["high / low > 1", "high % low == 0", "ls[5] == 1", 'm["z"] > 0', "min(ls) > 0"])
 def test_a_constraint_that_cannot_be_computed_does_not_hold(constraint: str) -> None:
-    documents = constrained(constraint, "low: int, high: int, ls: {list: int}, m: {map: int}", "")
+    documents = constrained(constraint, parameters="low: int, high: int, ls: {list: int}, m: {map: int}", types="")
     assert len(refused(documents, "low: 0, high: 4, ls: [], m: {}")) == 1
 
 
@@ -230,7 +228,7 @@ def test_a_constraint_that_cannot_be_computed_does_not_hold(constraint: str) -> 
     "constraint", ["all(one > 9 for one in ls)", "not any(one > 0 for one in ls)", "unique(ls)", "sum(ls) == 0"]
 )
 def test_quantifiers_over_nothing(constraint: str) -> None:
-    assert refused(constrained(constraint, "ls: {list: int}", ""), "ls: []") == []
+    assert refused(constrained(constraint, parameters="ls: {list: int}", types=""), "ls: []") == []
 
 
 @pytest.mark.parametrize(

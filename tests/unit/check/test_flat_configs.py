@@ -87,7 +87,8 @@ def test_a_property_of_ones_own_is_only_a_warning() -> None:
 
 
 def test_the_last_line_of_a_property_counts() -> None:
-    assert not found(f"{HEAD}speed=7\nspeed=0.7\n")
+    assert [one.code for one in found(f"{HEAD}speed=7\nspeed=0.7\n")] == ["RC3336"]
+    assert not found(f"{HEAD}speed=0.7\nspeed=0.7\n")
 
 
 def test_a_file_that_rcyaml_did_not_write_is_not_judged() -> None:

@@ -14,6 +14,7 @@ from robocomp_yaml import languages
 from robocomp_yaml.languages.record import CAPABILITIES, MERGING, PORTS, TargetLanguage
 
 Rcyaml = Callable[..., Any]
+Check = Callable[..., list[dict[str, Any]]]
 SAID: dict[str, dict[str, Any]] = {
     "parameters": {"parameters": "p.pdsl.yaml"},
     "period": {"period": "20 ms"},
@@ -32,11 +33,14 @@ OTHERS = {
 }
 
 
-def reported(rcyaml: Rcyaml, folder: Path, language: Any, keys: dict[str, Any]) -> list[tuple[str, str, int]]:
+def component(language: Any, keys: dict[str, Any]) -> dict[str, str]:
     document = {"component": "ClockComp", "language": language, "imports": ["Clock"], **keys}
     text = "\n".join(f"{key}: {json.dumps(value)}" for key, value in document.items())
-    write_tree(folder, {"c.cdsl.yaml": f"{text}\n", **OTHERS})
-    found = json.loads(rcyaml("check", "--format", "json").stdout)["diagnostics"]
+    return {"c.cdsl.yaml": f"{text}\n", **OTHERS}
+
+
+def reported(diagnostics: Check, language: Any, keys: dict[str, Any]) -> list[tuple[str, str, int]]:
+    found = diagnostics(component(language, keys))
     return [(one["code"], one["message"], one["line"]) for one in found if one["code"] in ("RC2060", "RC2303")]
 
 
@@ -53,38 +57,38 @@ def test_every_key_of_a_capability_has_an_example() -> None:
 
 @pytest.mark.parametrize("key", SAID)
 @pytest.mark.parametrize("name", languages.table())
-def test_a_key_that_the_language_does_not_have_is_rejected(rcyaml: Rcyaml, tmp_path: Path, name: str, key: str) -> None:
-    assert reported(rcyaml, tmp_path, name, SAID[key]) == expected(languages.language(name), key, 4)
+def test_a_key_that_the_language_does_not_have_is_rejected(diagnostics: Check, name: str, key: str) -> None:
+    assert reported(diagnostics, name, SAID[key]) == expected(languages.language(name), key, 4)
 
 
 @pytest.mark.parametrize("name", languages.table())
-def test_a_standard(rcyaml: Rcyaml, tmp_path: Path, name: str) -> None:
+def test_a_standard(diagnostics: Check, name: str) -> None:
     language = {"name": name, "standard": 20}
-    assert reported(rcyaml, tmp_path, language, {}) == expected(languages.language(name), "standard", 2)
+    assert reported(diagnostics, language, {}) == expected(languages.language(name), "standard", 2)
 
 
 @pytest.mark.parametrize("name", languages.table())
-def test_empty_keys_are_allowed(rcyaml: Rcyaml, tmp_path: Path, name: str) -> None:
-    assert reported(rcyaml, tmp_path, name, {"implements": [], "uses": {"libraries": []}}) == []
+def test_empty_keys_are_allowed(diagnostics: Check, name: str) -> None:
+    assert reported(diagnostics, name, {"implements": [], "uses": {"libraries": []}}) == []
 
 
-def test_the_hint_lists_the_keys_of_the_language(rcyaml: Rcyaml, tmp_path: Path) -> None:
+def test_the_hint_lists_the_keys_of_the_language(diagnostics: Check, rcyaml: Rcyaml, tmp_path: Path) -> None:
     lacking = [
         (one, key) for one in languages.table().values() for key in ("statemachine", "gui") if key not in one.has
     ]
     for language, key in lacking:
-        reported(rcyaml, tmp_path, language.name, SAID[key])
-        output = rcyaml("check").output
-        assert f"remove it, or write the component in Python or C++; {language.title} has implements, " in output
+        hints = [one["hint"] for one in diagnostics(component(language.name, SAID[key]))]
+        start = f"remove it, or write the component in Python or C++; {language.title} has implements, "
+        assert any(hint.startswith(start) for hint in hints)
+        write_tree(tmp_path, component(language.name, SAID[key]))
         compiled = rcyaml("compile")
         assert compiled.exit_code == 1 and not (tmp_path / "src").exists(), compiled.output
 
 
-def test_one_key_is_one_error(rcyaml: Rcyaml, tmp_path: Path) -> None:
+def test_one_key_is_one_error(diagnostics: Check) -> None:
     """A machine that the language does not have is not checked too."""
     machine = {"statemachine": {"initial": "nowhere", "datamodel": "python", "states": {"a": {}}}}
     for language in languages.table().values():
         if "statemachine" not in language.has:
-            reported(rcyaml, tmp_path, language.name, machine)
-            found = json.loads(rcyaml("check", "--format", "json").stdout)["diagnostics"]
+            found = diagnostics(component(language.name, machine))
             assert "RC2216" not in [one["code"] for one in found]

@@ -308,7 +308,7 @@ def test_down_includes_a_process_of_another_version() -> None:
 )
 def test_an_engine_without_processes_ends(state: str, ends: bool) -> None:
     engine = InMemory(running(MOTORS, state), running(CAMERA, STOPPED))
-    asyncio.run(end_if_idle(engine))
+    asyncio.run(end_if_idle(engine, "/no/folder"))
     assert engine.done == ["end" if ends else "close"]
 
 

@@ -5,13 +5,11 @@ from __future__ import annotations
 import json
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from msgspec.structs import replace
 
 from robocomp_yaml.deploy.carry_out import undo
 from robocomp_yaml.deploy.engine import ENDED, GIVEN_UP, LOST, RUNNING, STOPPED, WAITING, Running
-from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, in_order, plan, with_dependents
+from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, plan, with_dependents
 from robocomp_yaml.deploy.spec import ProcessSpec, spec_of
 from robocomp_yaml.network.network import (
     ALWAYS,
@@ -132,22 +130,3 @@ def test_data_of_another_version_is_rejected() -> None:
     data = spec(A).as_data()
     data["process"]["colour"] = "red"
     assert ProcessSpec.of_data(data) is None
-
-
-@given(st.dictionaries(st.integers(0, 12), st.lists(st.integers(0, 12), max_size=4)))
-def test_random_graphs_are_ordered(graph: dict[int, list[int]]) -> None:
-    after = {str(name): [str(other) for other in others] for name, others in graph.items()}
-    order = in_order(after)
-    assert sorted(order) == sorted(after)
-    if not _has_cycle(after):
-        for name, others in after.items():
-            assert all(order.index(other) < order.index(name) for other in others if other in after)
-
-
-def _has_cycle(after: dict[str, list[str]]) -> bool:
-    """By removing names that are after no remaining one."""
-    left = dict(after)
-    while free := [name for name, others in left.items() if not set(others) & set(left)]:
-        for name in free:
-            del left[name]
-    return bool(left)

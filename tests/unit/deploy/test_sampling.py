@@ -35,7 +35,7 @@ class Engine:
     async def open(self, network: Network, *, create: bool) -> bool:
         return self._states[0] is not None or bool(self._states.pop(0))
 
-    async def observe(self) -> dict[str, Running]:
+    async def observe(self, *, use: bool = False) -> dict[str, Running]:
         state = self._states.pop(0)
         if isinstance(state, str):
             raise DeployFailed(deploying.FOLDER.at(Span("robot.ddsl.yaml"), path="folder", reason=state))

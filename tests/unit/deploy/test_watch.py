@@ -21,7 +21,7 @@ class Slow:
         self.state, self.looks, self.at_once, self.most = STOPPED, 0, 0, 0
         self.fails = False
 
-    async def observe(self) -> dict[str, Running]:
+    async def observe(self, *, use: bool = False) -> dict[str, Running]:
         self.looks += 1
         self.at_once += 1
         self.most = max(self.most, self.at_once)

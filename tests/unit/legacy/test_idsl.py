@@ -279,12 +279,38 @@ def test_defaults_keep_their_spelling(tmp_path: Path, literal: str, written: str
     ('import "A.idsl";\nimport "b/A.ice";\nmodule M { };', "2:8 'A' is imported already"),
     ("module M { interface I { void f(out int a, int b); }; };",
      "1:31 the 'out' parameters of 'f' are moved behind the others, as Slice requires"),
-    ('module M { ["cpp:const"] struct S { int a; }; };', "1:12 IDSL has no metadata, so that [\"cpp:const\"] is lost"),
+    ('module M { ["cpp:const"] struct S { int a; }; };', "1:12 metadata [\"cpp:const\"] is kept as a comment: it has no effect"),
     ("#if 1\nmodule M { };\n#endif\n", "1:1 IDSL has no conditions, so that '#if 1' is lost; its content is kept"),
 ])  # fmt: skip
 def test_faults_of_real_files_are_repaired(tmp_path: Path, source: str, said: str) -> None:
     assert migrated(tmp_path, source).startswith("module: M\n")
     assert warnings(tmp_path, source)[0] == said
+
+
+def test_metadata_stays_as_comments(tmp_path: Path) -> None:
+    source = """
+        module M {
+            ["cpp:comparable"]
+            struct A { int x; };  // one
+            [["cpp:header-ext:hh"]] interface I { ["amd"] void f(["cpp:array"] A a); };
+        };
+    """
+    assert migrated(tmp_path, source) == expected("""
+        module: M
+        types:
+          # ["cpp:comparable"]
+          A: {struct: {x: int}}  # one
+        interfaces:
+          # [["cpp:header-ext:hh"]]
+          I:
+            methods:
+              # ["amd"]
+              f:
+                in:
+                  # ["cpp:array"]
+                  a: A
+    """)
+    assert len(warnings(tmp_path, source)) == 4
 
 
 def test_guards_and_includes_of_slice_files(tmp_path: Path) -> None:

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import os
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
 import pytest
-from click.testing import Result
 
 from conftest import write_tree
+from robocomp_yaml import api
+from robocomp_yaml.api.migrating import Migration
+from robocomp_yaml.commands.migrate import _table
+from robocomp_yaml.diag.diagnostic import ERROR
+from robocomp_yaml.diag.render.text import render
+from robocomp_yaml.legacy.settings.corrections import CorrectionError, read_corrections
+from robocomp_yaml.legacy.settings.plan import Corrections
 
-Run = Callable[..., Result]
 Golden = Callable[[str, Mapping[str, str]], None]
 
 SPEECH = "module RoboCompSpeech { interface Speech { void say(string text); }; interface News { void told(string text); }; };\n"
@@ -91,23 +97,36 @@ CASES: dict[str, tuple[str, ...]] = {
 }  # fmt: skip
 
 
+@pytest.fixture(autouse=True)
+def _in_a_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+
+
 @pytest.mark.parametrize("rule", CASES)
-def test_flat_configs(rule: str, rcyaml: Run, tmp_path: Path, golden: Golden) -> None:
+def test_flat_configs(rule: str, golden: Golden) -> None:
     names = ("config", "config_a", "config_b")
     files = {f"speech/etc/{name}": text for name, text in zip(names, CASES[rule], strict=False)}
-    write_tree(tmp_path, {"interfaces/Speech.idsl": SPEECH, "speech/speech.cdsl": CDSL, **files})
-    golden(f"settings/{rule.replace(' ', '-')}", migrated(rcyaml, tmp_path))
+    write_tree(Path(), {"interfaces/Speech.idsl": SPEECH, "speech/speech.cdsl": CDSL, **files})
+    golden(f"settings/{rule.replace(' ', '-')}", migrated())
 
 
-def migrated(rcyaml: Run, folder: Path, *arguments: str) -> dict[str, str]:
-    """Return the documents of parameters and values, and the output."""
-    result = rcyaml("migrate", ".", *arguments)
-    told = "".join(line + "\n" for line in result.output.splitlines() if "config" in line or "guessed" in line)
-    written = [path for path in sorted(folder.rglob("*.yaml")) if path.name.endswith(("pdsl.yaml", "config.yaml"))]
-    documents = {path.name: path.read_text(encoding="utf-8").partition("\n")[2] for path in written}
-    checked = rcyaml("check", ".")
-    assert "error[" not in checked.output and "RC0062" not in checked.output, checked.output
-    return {"said.txt": told, **documents}
+def migrated(corrections: Corrections = Corrections()) -> dict[str, str]:
+    """Return the documents of parameters and values, and what is reported of configs. Nothing is written; `check` has
+    nothing against what would be."""
+    migration = Migration(["."], None, (), guesses=corrections)
+    lines = [*map(str, render(migration.diagnostics, None, False)), *_table(migration.run)]
+    told = "".join(f"{line}\n" for line in lines if "config" in line or "guessed" in line)
+    documents = dict(planned(migration))
+    checked = api.load(overlay={os.path.abspath(path): text for path, text in documents.items()}).check()
+    assert not [one for one in checked if one.severity == ERROR or one.code == "RC0062"]
+    own = [path for path in sorted(documents) if path.endswith(("pdsl.yaml", "config.yaml"))]
+    return {"said.txt": told, **{os.path.basename(path): documents[path].partition("\n")[2] for path in own}}
+
+
+def planned(migration: Migration) -> Iterator[tuple[str, str]]:
+    """Yield the path in the working folder and the text of each file that would be written."""
+    for root in migration.run.roots.values():
+        yield from ((root.root.shown(output.path), output.text) for output in root.outputs)
 
 
 TOML = """\
@@ -132,20 +151,20 @@ joints = [{name = "a", most = 1.5}, {name = "b", most = 2}]
 """
 
 
-def test_a_config_in_toml(rcyaml: Run, tmp_path: Path, golden: Golden) -> None:
+def test_a_config_in_toml(golden: Golden) -> None:
     files = {"speech/etc/config.toml": TOML}
-    write_tree(tmp_path, {"interfaces/Speech.idsl": SPEECH, "speech/speech.cdsl": CDSL, **files})
-    golden("settings/toml", migrated(rcyaml, tmp_path))
+    write_tree(Path(), {"interfaces/Speech.idsl": SPEECH, "speech/speech.cdsl": CDSL, **files})
+    golden("settings/toml", migrated())
 
 
 RULES = "names: {M: [name, most]}\ntypes: {A: float, B.c: string}\ntext: [Zip]\n"
 
 
-def test_corrections_of_the_user(rcyaml: Run, tmp_path: Path, golden: Golden) -> None:
+def test_corrections_of_the_user(golden: Golden) -> None:
     config = "M0 = a,1\nM1 = b,2\nN0 = a,1\nN1 = b,2\nA = 1\nB.c = 5\nZip = 1,2,3\n"
     files = {"speech/etc/config": config, "rules.yaml": RULES}
-    write_tree(tmp_path, {"interfaces/Speech.idsl": SPEECH, "speech/speech.cdsl": CDSL, **files})
-    golden("settings/corrected", migrated(rcyaml, tmp_path, "--rules", "rules.yaml", "--names", "N=title,count"))
+    write_tree(Path(), {"interfaces/Speech.idsl": SPEECH, "speech/speech.cdsl": CDSL, **files})
+    golden("settings/corrected", migrated(read_corrections(["N=title,count"], "rules.yaml")))
 
 
 @pytest.mark.parametrize(
@@ -166,33 +185,31 @@ def test_corrections_of_the_user(rcyaml: Run, tmp_path: Path, golden: Golden) ->
         ("", "text: Zip\n", "rules.yaml: text must be a list of keys"),
     ],
 )  # fmt: skip
-def test_invalid_corrections(rcyaml: Run, tmp_path: Path, names: str, rules: str | None, problem: str) -> None:
-    write_tree(tmp_path, {"speech/etc/config": "M0 = a,1\n", "rules.yaml": rules or ""})
-    given = ["--names", names] if names else ["--rules", "rules.yaml"]
-    result = rcyaml("migrate", ".", *given)
-    assert result.exit_code == 2 and problem in " ".join(result.output.split()), result.output
+def test_invalid_corrections(names: str, rules: str | None, problem: str) -> None:
+    Path("rules.yaml").write_text(rules or "")
+    with pytest.raises(CorrectionError) as raised:
+        read_corrections([names] if names else [], None if names else "rules.yaml")
+    assert str(raised.value).startswith(problem)
 
 
-def test_declared_parameters_are_used_as_they_are(rcyaml: Run, tmp_path: Path, golden: Golden) -> None:
+def test_declared_parameters_are_used_as_they_are(golden: Golden) -> None:
     declared = "component: speech.cdsl.yaml\nparameters:\n  A: float\n  B: {group: {c: {type: string}}}\n  L: {list: int, default: []}\n"
     config = "A = 1\nB.c = 5\nD = 7\nM0 = a,1\nM1 = b,2\nL = 1,2,3\n"
     cdsl = "component: SpeechComp\nlanguage: python\n"
     write_tree(
-        tmp_path, {"speech/speech.cdsl.yaml": cdsl, "speech/speech.pdsl.yaml": declared, "speech/etc/config": config}
+        Path(), {"speech/speech.cdsl.yaml": cdsl, "speech/speech.pdsl.yaml": declared, "speech/etc/config": config}
     )
-    golden("settings/declared", migrated(rcyaml, tmp_path))
+    golden("settings/declared", migrated())
 
 
-def test_configs_without_a_component_have_separate_parameters(rcyaml: Run, tmp_path: Path, golden: Golden) -> None:
+def test_configs_without_a_component_have_separate_parameters(golden: Golden) -> None:
     files = {"a/side.conf": "A = 1\n", "a/config.new": "B = 2\n", "a/side": "C = 3\n", "b/etc/config": "D = 4\n"}
-    write_tree(tmp_path, files)
-    rcyaml("migrate", ".")
-    paths = sorted(tmp_path.rglob("*.yaml"))
-    texts = {str(path.relative_to(tmp_path)).replace("/", "-"): path.read_text().partition("\n")[2] for path in paths}
+    write_tree(Path(), files)
+    texts = {path.replace("/", "-"): text.partition("\n")[2] for path, text in planned(Migration(["."], None, ()))}
     golden("settings/alone", texts)
 
 
-def test_too_few_names_are_ignored(rcyaml: Run, tmp_path: Path) -> None:
-    write_tree(tmp_path, {"speech/etc/config": "M0 = a,1\nM1 = b,2\n"})
-    said = " ".join(rcyaml("migrate", ".", "--names", "M=name").output.split())
-    assert "M… has 2 columns, but --names has 1; the columns are named f1, f2" in said
+def test_too_few_names_are_ignored() -> None:
+    write_tree(Path(), {"speech/etc/config": "M0 = a,1\nM1 = b,2\n"})
+    said = [one.message for one in Migration(["."], None, (), guesses=read_corrections(["M=name"], None)).diagnostics]
+    assert any("M… has 2 columns, but --names has 1; the columns are named f1, f2" in message for message in said)

@@ -28,6 +28,7 @@ def ask(
     path, _, query = path.partition("?")
     scope: dict[str, Any] = {
         "type": "http", "method": method, "path": path, "query_string": query.encode(), "scheme": "http",
+        "server": ("10.0.0.2", 7410),
         "headers": [(name.encode(), value.encode("latin-1")) for name, value in sent.items()],
     }  # fmt: skip
     messages: list[Message] = []
@@ -112,3 +113,10 @@ def test_every_answer_has_the_policies() -> None:
     for headers in (ask(**COOKIE)[1], ask()[1], ask(host="evil.com")[1], ask(f"/?token={TOKEN}")[1]):
         assert {name: headers[name.lower()] for name in HEADERS} == HEADERS
     assert "unsafe" not in HEADERS["Content-Security-Policy"]
+
+
+@pytest.mark.parametrize(("host", "is_own"), [("10.0.0.2:7410", True), ("10.0.0.3:7410", False), ("robot:7410", False)])
+def test_a_server_for_others_knows_the_address_at_which_it_is_called(host: str, is_own: bool) -> None:
+    rules = AccessRules(TOKEN, port=7410, is_secure=True)
+    assert ask(rules=rules, host=host, **COOKIE)[0] == (200 if is_own else 421)
+    assert ask(host=host, **COOKIE)[0] == 421

@@ -13,16 +13,16 @@ pytest.importorskip("starlette", reason="pip install rcyaml[manager]")
 from robocomp_yaml.api.editing import changes
 from robocomp_yaml.diag.errors import Refused
 from robocomp_yaml.manager import requests
-from robocomp_yaml.manager.commands import COMMANDS
 from robocomp_yaml.manager.description import described
 from robocomp_yaml.manager.events import Events, ServerEvent
+from robocomp_yaml.manager.table import COMMANDS
 
 DESCRIPTION = described(COMMANDS, "/api", "1")
 
 
 def test_every_command_is_described_once() -> None:
     operations = [one for path in DESCRIPTION["paths"].values() for one in path.values()]
-    assert len(operations) == len(COMMANDS) + 2  # and the two streams
+    assert len(operations) == len(COMMANDS) + 3  # and the streams
     assert len({one["operationId"] for one in operations}) == len(operations)
     json.dumps(DESCRIPTION)
 
@@ -45,6 +45,7 @@ def test_all_changes_are_described() -> None:
     named = {one["$ref"].rpartition("/")[2] for one in schema["anyOf"]}
     assert named == {type_.__name__ for type_ in changes.DocumentChange.__args__}
     assert DESCRIPTION["components"]["schemas"]["Connect"]["properties"]["change"] == {"enum": ["connect"]}
+    assert {"interface", "component", "change"} == DESCRIPTION["components"]["schemas"]["Require"]["properties"].keys()
 
 
 def test_requests_that_mean_nothing_are_refused() -> None:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from conftest import write_tree
 from deployments import analysed, config, deployed, faults, network, said
 
 BOTH = "components:\n  speech: {component: speech, port: 10001MORE}\n  mouth: {component: mouth, port: 10002}\n"
@@ -230,11 +231,11 @@ def test_readiness(given: str, expected: tuple[object, ...]) -> None:
 
 
 def test_the_code_of_a_component_in_python_is_watched() -> None:
-    more = dict.fromkeys([
+    write_tree(Path(), dict.fromkeys([
         "speech/src/specificworker.py", "speech/src/notes.txt", "speech/src/mainUI.ui",
         "speech/generated/runtime/main.py", "speech/slice/Face.ice",
-    ], "")  # fmt: skip
-    watched = network(files(**more)).processes["speech"].watched
+    ], ""))  # fmt: skip
+    watched = network(files()).processes["speech"].watched
     assert [str(Path(path).relative_to(Path.cwd())) for path in watched] == [
         "speech/bin/SpeechComp",
         "speech/generated/runtime/main.py",

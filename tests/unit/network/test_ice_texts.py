@@ -85,5 +85,5 @@ def test_values_documents(diagnostics: Check, values: str) -> None:
     (found,) = diagnostics({**TREE, "hall/etc/config.yaml": text}, "hall")
     assert (found["code"], found["severity"], found["line"]) == ("RC0208", "error", 2)
     migrated = f"{text}legacy: {{file: config}}\n"
-    (found,) = diagnostics({"hall/etc/config.yaml": migrated}, "hall")
+    (found,) = diagnostics({**TREE, "hall/etc/config.yaml": migrated}, "hall")
     assert (found["code"], found["severity"]) == ("RC0208", "warning")

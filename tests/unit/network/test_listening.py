@@ -119,3 +119,12 @@ def test_several_addresses_complete_an_endpoint_several_times() -> None:
 def test_without_an_address_for_others_an_adapter_without_a_port_follows_listen() -> None:
     found = listening(NetworkHost("here"), ("any",))
     assert found.endpoints(0) == "tcp -p 0" and not found.published(7)
+
+
+@pytest.mark.parametrize("address", ["::1", "fd00::2", "::ffff:10.0.0.2", "fe80::1%eth0"])
+@pytest.mark.parametrize("spelling", ['"{}"', '{{address: "{}"}}'])
+def test_a_host_can_have_an_ipv6_address(address: str, spelling: str) -> None:
+    components = "components:\n  a: {component: mouth, port: 10001}\n"
+    found = network(deployed(f"hosts: {{here: {spelling.format(address)}}}\n{components}"))
+    assert found.hosts["here"].address == address
+    assert f"{address}" in texts(found)["a.Mouth"]

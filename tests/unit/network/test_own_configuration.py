@@ -107,6 +107,21 @@ def test_two_entries_of_one_component_cannot_share_its_port() -> None:
     assert not faults(files(two.replace("b: {", "b: {port: 10001, "), "Mouth.Endpoints=tcp -p 12345\n"))
 
 
+def test_the_port_of_a_subscribed_topic_has_the_topics_name() -> None:
+    ears = {
+        "interfaces/News.idsl.yaml": "module: M\ntopics: {News: {methods: {said: {in: {text: string}}}}}\n",
+        "ear/ear.cdsl.yaml": "component: EarComp\nlanguage: python\nimports: [News]\nsubscribes: [News]\n",
+        "ear/etc/config": f"{FIRST}NewsTopic.Endpoints=tcp -p 12345\n",
+        "mouth/mouth.cdsl.yaml": "component: MouthComp\nlanguage: python\nimports: [News]\npublishes: [News]\n",
+        "rcyaml.yaml": "interfaces: [interfaces]\n",
+    }
+    entries = "components: {m: {component: mouth}, a: {component: ear}, b: {component: ear}}\n"
+    two = f"services: {{storm: {{icestorm: }}}}\n{entries}"
+    (found,) = faults(files(two, **ears))
+    assert found.hint == "set another port for 'b', in its entry: `ports: {News: PORT}`"
+    assert not faults(files(two.replace("b: {", "b: {ports: {News: 12346}, "), **ears))
+
+
 def test_instances_cannot_share_a_port() -> None:
     three = 'components: {"m{i}": {component: mouth, instances: 3MORE}}\n'
     own = "# mine\nMouth.Endpoints=tcp -p 12345\n"
@@ -166,8 +181,12 @@ def test_a_values_document_counts_unless_the_user_changed_the_flat_config() -> N
     assert config(edited.processes["lips"])["volume"] == "70" and ports(edited)["lips.Mouth"] == 12346
     named = network(files("components: {lips: {component: mouth, config: etc/config.yaml}}\n", "volume=70\n", values))
     assert config(named.processes["lips"])["volume"] == "60", "the entry names the document"
-    same = network(files(flat="volume=60\nMouth.Endpoints=tcp -p 12345\n", values=values))
-    assert config(same.processes["lips"])["period.compute"] == "100", "the document contains all of it"
+    flat = "volume=60\nMouth.Endpoints=tcp -p 12345\n"
+    shorter = network(files(flat=flat, values=values))
+    assert "period.compute" not in config(shorter.processes["lips"]), "a property that the user left out"
+    rest = "motors.size=1\nmotors.0.name=left\nmotors.0.vel=.9\nperiod.compute=100\nperiod.emergency=5e2\n"
+    same = network(files(flat=f"# mine\n{flat}{rest}", values=values))
+    assert config(same.processes["lips"])["period.emergency"] == "500", "the document contains all of it"
 
 
 OWN_PROXY = {"speech/etc/config": "# mine\nMouthProxy=mouth:tcp -h 10.0.0.9 -p 4\n"}

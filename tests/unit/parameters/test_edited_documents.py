@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from pathlib import Path
 
-from click.testing import Result
-
-from conftest import write_tree
-from in_memory import COMPONENT
+from in_memory import COMPONENT, ROOT, plain
+from robocomp_yaml.api.values import Values
+from robocomp_yaml.diag.errors import Faulty, Refused
+from robocomp_yaml.source.yaml_text import flow
 
 PDSL = """\
 component: c.cdsl.yaml
@@ -75,18 +74,28 @@ CASES: dict[str, tuple[str, str, str]] = {
 }
 
 
-def test_each_is_set_in_its_place(
-    rcyaml: Callable[..., Result], tmp_path: Path, golden: Callable[[str, Mapping[str, str]], None]
-) -> None:
+def test_each_is_set_in_its_place(golden: Callable[[str, Mapping[str, str]], None]) -> None:
     told = []
     for name, (text, path, value) in CASES.items():
-        before = f"component: c.cdsl.yaml\n{text}"
-        write_tree(tmp_path, {"c.cdsl.yaml": COMPONENT, "c.pdsl.yaml": PDSL, "x.config.yaml": before.encode()})
-        result = rcyaml("config", "set", "x.config.yaml", path, value)
-        after = (tmp_path / "x.config.yaml").read_bytes().decode()
-        assert result.exit_code in (0, 1, 2) and (result.exit_code == 0 or after == before)
-        if result.exit_code == 0:
-            assert rcyaml("config", "get", "x.config.yaml", path).output.strip().strip('"') == value
-        shown = after.removeprefix("component: c.cdsl.yaml\n") if result.exit_code == 0 else result.output
-        told.append(f"== {name}: {path} = {value}\n{shown}".replace("\r", "\\r").rstrip("\n"))
+        told.append(f"== {name}: {path} = {value}\n{edited(text, path, value)}".replace("\r", "\\r").rstrip("\n"))
     golden("edited", {"edited.txt": "\n".join(told) + "\n"})
+
+
+def edited(text: str, path: str, value: str) -> str:
+    """The document with the value at the path, or why the path cannot have it."""
+    head = "component: c.cdsl.yaml\n"
+    documents = {"c.cdsl.yaml": COMPONENT, "c.pdsl.yaml": PDSL, "x.config.yaml": head + text}
+    overlay = {f"{ROOT}/{name}": content.encode() for name, content in documents.items()}
+    file = f"{ROOT}/x.config.yaml"
+    try:
+        change = Values(file, overlay=overlay).set(path, value)
+    except Refused as error:
+        return plain(f"refused: {error}")
+    except Faulty as error:
+        return "".join(
+            f"{one.severity}[{one.code}] at {one.span.line}:{one.span.column}: {one.message}\n"
+            for one in error.diagnostics
+        )
+    held = Values(file, overlay={**overlay, file: change.after}).get(path)
+    assert (held if isinstance(held, str) else flow(held)) == value
+    return change.after.decode().removeprefix(head)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from click.testing import Result
 
 from conftest import write_tree
 from in_memory import pdsl
+from robocomp_yaml.api.values import Values, write_new
+from robocomp_yaml.diag.diagnostic import has_errors
 
 TYPES = (
     "Mode: {enum: [slow, fast, off]}, "
@@ -18,20 +18,20 @@ TYPES = (
 UNUSED = {"rcyaml.yaml": "lint: {RC3107: 'off'}\n"}
 
 
-def first_values(rcyaml: Callable[..., Result], folder: Path, parameters: str, constraints: str) -> tuple[str, bool]:
-    """What `config new` writes, as `config show` says it, and whether it fits."""
+@pytest.fixture(autouse=True)
+def _in_a_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+
+
+def first_values(parameters: str, constraints: str) -> tuple[str, bool, str]:
+    """What `config new` writes, as `config show` says it, whether it fits, and its text."""
     listed = [each.replace("'", "''") for each in constraints.split(", ") if each]
     more = f"constraints: [{', '.join(f'{chr(39)}{each}{chr(39)}' for each in listed)}]\n"
-    write_tree(folder, {**pdsl(parameters, TYPES, more if listed else ""), **UNUSED})
-    made = rcyaml("config", "new", "c.cdsl.yaml")
-    assert made.exit_code == 0, made.output
-    shown = rcyaml("config", "show", "etc/config.yaml").output.splitlines()
-    values = [
-        line.partition("  #")[0].rstrip()
-        for line in shown
-        if " = " in line and not line.startswith(("period", "Common"))
-    ]
-    return "; ".join(values), rcyaml("config", "check", "etc/config.yaml").exit_code == 0
+    write_tree(Path(), {**pdsl(parameters, TYPES, more if listed else ""), **UNUSED})
+    written = Values(write_new("c.cdsl.yaml"))
+    shown = [] if has_errors(written.diagnostics) else written.rows()
+    values = "; ".join(f"{row.path} = {row.text}" for row in shown if not row.path.startswith("period"))
+    return values, not has_errors(written.diagnostics), Path(written.file).read_text()
 
 
 @pytest.mark.parametrize(
@@ -78,13 +78,11 @@ def first_values(rcyaml: Callable[..., Result], folder: Path, parameters: str, c
         ('a: int', 'a % 4 == 3, a > 9', 'a = 99'),
     ],
 )  # fmt: skip
-def test_they_fit(
-    rcyaml: Callable[..., Result], tmp_path: Path, parameters: str, constraints: str, values: str
-) -> None:
-    assert first_values(rcyaml, tmp_path, parameters, constraints) == (values, True)
+def test_they_fit(parameters: str, constraints: str, values: str) -> None:
+    assert first_values(parameters, constraints)[:2] == (values, True)
 
 
-def test_where_nothing_is_found_that_fits_a_person_is_asked(rcyaml: Callable[..., Result], tmp_path: Path) -> None:
-    assert first_values(rcyaml, tmp_path, "a: int", "a > 5, a < 5") == ("", False)
-    written = (tmp_path / "etc/config.yaml").read_text()
-    assert "  # no example satisfies the constraints: set a value\n  # a:\n" in written
+def test_where_nothing_is_found_that_fits_a_person_is_asked() -> None:
+    shown, fits, text = first_values("a: int", "a > 5, a < 5")
+    assert (shown, fits) == ("", False)
+    assert "  # no example satisfies the constraints: set a value\n  # a:\n" in text

@@ -107,16 +107,14 @@ MISFITS = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize("values", FITTING)
-def test_what_fits(values: str) -> None:
-    assert refused(DOCUMENTS, f"need: 1, {values}") == []
-
-
-@pytest.mark.parametrize(("values", "code", "at", "message", "hint"), MISFITS)
-def test_what_does_not_fit(values: str, code: str, at: str, message: str, hint: str) -> None:
-    text = f"component: c.cdsl.yaml\nparameters: {{need: 1, {values}}}\n"
-    found = said({**DOCUMENTS, "c.config.yaml": text}, "c.config.yaml")
-    assert [one[:4] for one in found] == [(code, at, message, hint)]
+def test_what_fits_and_what_does_not() -> None:
+    """Each in a document of its own, and all in one analysis."""
+    expected = {values: [] for values in FITTING} | {values: [said] for values, *said in MISFITS}
+    texts = [f"component: c.cdsl.yaml\nparameters: {{need: 1, {values}}}\n" for values in expected]
+    files = {f"v{number}.config.yaml": text for number, text in enumerate(texts)}
+    found = said({**DOCUMENTS, **files})
+    got = [[list(one[:4]) for one in found if one.file == file] for file in files]
+    assert dict(zip(expected, got, strict=True)) == expected
 
 
 @pytest.mark.parametrize("layer", ["extends: [base.config.yaml]\n", ""])

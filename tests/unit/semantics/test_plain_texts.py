@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from robocomp_yaml.semantics import texts
 
@@ -41,12 +39,6 @@ from robocomp_yaml.semantics import texts
 def test_values_of_texts(type_: str, text: str, value: object) -> None:
     read = texts.read(type_, text)
     assert read == value and type(read) is type(value)
-
-
-@given(st.booleans() | st.integers(-(2**63), 2**63 - 1) | st.floats(allow_nan=False, allow_infinity=False))
-def test_what_is_spelled_is_read_back(value: bool | float) -> None:
-    type_ = "bool" if isinstance(value, bool) else "long" if isinstance(value, int) else "double"
-    assert texts.read(type_, texts.spelled(value)) == value
 
 
 @pytest.mark.parametrize(

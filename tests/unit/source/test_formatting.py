@@ -87,3 +87,26 @@ def test_layout(before: str, after: str) -> None:
 )  # fmt: skip
 def test_other_content_is_noticed(one: str, other: str) -> None:
     assert not same_content(parse("", one)[0], parse("", other)[0])
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        ("a: |\n  text", "a: |-\n  text\n"),
+        ("a: |+\n  text", "a: |-\n  text\n"),
+        ("- >2+ # c\n    text\n\n   b", "- >2- # c\n    text\n\n   b\n"),
+        ("a: |+\n  text\n  ", "a: |+\n  text\n"),
+        ("a: |+\n  text\n   ", "a: |-\n  text\n   \n"),
+        ("a: |-\n  text", "a: |-\n  text\n"),
+        ("a: |+\n  text\n\nb: 1", "a: |+\n  text\n\nb: 1\n"),
+        ("a: [\n  b # c\n   , ]\nd: 1\n", "a: [\n  b # c\n]\nd: 1\n"),
+        ("- - [ b\n  ,]\n", "- - [b\n  ]\n"),
+        ("a: {b: 1\n\n  , # c\n}\n", "a: {b: 1\n\n  , # c\n}\n"),
+    ],
+)  # fmt: skip
+def test_the_end_of_a_text_and_of_a_list(before: str, after: str) -> None:
+    """Texts at the end of a document without a line break there, and commas in lines of their own."""
+    tree, faults = parse("x", before)
+    assert not faults and same_content(tree, parse("x", formatted(before))[0])
+    assert formatted(formatted(before)) == formatted(before)
+    assert formatted(before) == after

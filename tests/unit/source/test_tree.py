@@ -5,10 +5,8 @@ from __future__ import annotations
 import math
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from robocomp_yaml.source.text import MAX_SCALAR, decode
+from robocomp_yaml.source.text import MAX_SCALAR
 from robocomp_yaml.source.tree import Mapping, parse
 
 
@@ -120,24 +118,6 @@ def test_many_brackets_side_by_side_are_not_deep() -> None:
 
 def test_an_enormous_scalar_is_refused() -> None:
     assert codes(f"doc: '{'a' * (MAX_SCALAR + 1)}'") == [("RC0004", 1, 6)]
-
-
-@given(st.text(alphabet=st.characters(codec="utf-8"), max_size=60))
-def test_no_text_gives_a_traceback(text: str) -> None:
-    decoded, diagnostics = decode("x.yaml", text.encode())
-    tree = None
-    if decoded is not None:
-        tree, diagnostics = parse("x.yaml", decoded)
-    assert (tree is None) == bool(diagnostics)
-
-
-@given(st.text(alphabet="ab:{}[],&*!|>-'\"# \n\t?0.%@", max_size=40))
-def test_no_punctuation_gives_a_traceback(text: str) -> None:
-    tree, diagnostics = parse("x.yaml", text)
-    assert (tree is None) == bool(diagnostics)
-    lines = text.split("\n")
-    for diagnostic in diagnostics:
-        assert 1 <= diagnostic.span.line <= len(lines)
 
 
 @pytest.mark.parametrize("char", ["\x85", "\u2028", "\u2029"])

@@ -5,24 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from robocomp_yaml.source.tree import parse
 from robocomp_yaml.source.yaml_text import block
-
-plain = st.booleans() | st.integers(-(2**63), 2**63 - 1) | st.floats(allow_nan=False) | st.text(max_size=30)
-anything = st.recursive(
-    plain,
-    lambda inner: st.lists(inner, max_size=12) | st.dictionaries(st.text(min_size=1, max_size=9), inner, max_size=6),
-)
-
-
-@given(anything, st.sampled_from([20, 100]))
-def test_it_is_read_again(data: Any, width: int) -> None:
-    root, faults = parse("text", block(data, width))
-    assert root is not None, [str(one) for one in faults]
-    assert root.data == data
 
 
 @pytest.mark.parametrize(

@@ -16,9 +16,9 @@ from robocomp_yaml.transactions.plan import FilePlan, Merge, Merges
 CONFIG = "etc/config"
 
 
-def stated(text: str) -> FilePlan:
-    """A generated property file, with the document that it is generated from."""
-    return FilePlan(CONFIG, text, stated_in=f"{CONFIG}.yaml")
+def stated(text: str, *users: str, base: str = "") -> FilePlan:
+    """A generated property file, with the document that it is generated from, and the user's properties."""
+    return FilePlan(CONFIG, text, stated_in=f"{CONFIG}.yaml", users=users, base=base)
 
 
 def test_the_first_compile_writes_everything(tmp_path: Path) -> None:
@@ -121,16 +121,66 @@ def test_a_file_with_the_same_text_is_adopted(tmp_path: Path) -> None:
     assert tree(tmp_path / ".rcyaml") == state
 
 
-@pytest.mark.parametrize(("mine", "adopted"), [("b = 2\na=1 # mine\n", True), ("a=1\nb=3\n", False), (b"\xff", False)])
-def test_a_config_with_the_same_properties_is_adopted(tmp_path: Path, mine: str | bytes, *, adopted: bool) -> None:
+@pytest.mark.parametrize("users", [(), ("b",)])
+def test_a_config_with_nothing_of_the_user_is_adopted(tmp_path: Path, users: tuple[str, ...]) -> None:
+    (tmp_path / "etc").mkdir()
+    (tmp_path / CONFIG).write_text("b=3\n")
+    _, said = carry_out(plan(tmp_path, stated("a=1\n", *users)))
+    assert codes(said) == ["RC6010" for _ in users]
+    assert (tmp_path / CONFIG).read_text() == ("b=3\n" if users else "a=1\n")
+    assert (tmp_path / "etc/config.orig").exists() != bool(users)
+
+
+@pytest.mark.parametrize(("mine", "planned", "is_same"), [
+    ("b = 2\na=1 # mine\n", "a=1\nb=2\n", True), ("a=1\nb=3\n", "a=1\nb=2\n", False), (b"\xff", "a=1\n", False),
+    ("Row=up,  1 ;2\n", "Row=up,1;2\n", True), ("Row=up,1,2\n", "Row=up,1;2\n", False),
+    ("g=1e-4\nv=[0,.5]\n", "g=0.0001\nv=[0.0,0.50]\n", True), ("id=0123\nh=10.0.0.1\n", "id=123\nh=10.0.0.1\n", False),
+    ("b=\na=1\n", "a=1\n", True), ("a=1\n", "a=1\nb=2\n", False),
+])  # fmt: skip
+def test_a_config_with_the_same_properties_stays(
+    tmp_path: Path, mine: str | bytes, planned: str, *, is_same: bool
+) -> None:
+    """Its document is the source all the same: the next change of that is written, and the user's text is kept."""
     (tmp_path / "etc").mkdir()
     mine = mine.encode() if isinstance(mine, str) else mine
     (tmp_path / CONFIG).write_bytes(mine)
-    _, said = carry_out(plan(tmp_path, stated("a=1\nb=2\n")))
-    assert codes(said) == ([] if adopted else ["RC6010"])
-    assert (tmp_path / CONFIG).read_bytes() == (b"a=1\nb=2\n" if adopted else mine)
-    if adopted:
+    for _ in range(2):
+        changes, said = carry_out(plan(tmp_path, stated(planned, *(() if is_same else ("b",)))))
+        assert codes(said) == ([] if is_same else ["RC6010"])
+        assert (tmp_path / CONFIG).read_bytes() == mine and not list(tmp_path.rglob("*.orig"))
+    assert not changes.dirty
+    if is_same:
+        _, said = carry_out(plan(tmp_path, stated(f"{planned}new=1\n")))
+        assert not said and (tmp_path / CONFIG).read_text() == f"{planned}new=1\n"
         assert (tmp_path / "etc/config.orig").read_bytes() == mine
+
+
+def test_an_edit_of_a_config_that_stayed_is_reported(tmp_path: Path) -> None:
+    (tmp_path / "etc").mkdir()
+    (tmp_path / CONFIG).write_text("a=1 # mine\nrow=1, 2\n")
+    assert not carry_out(plan(tmp_path, stated("a=1\nrow=1,2\n")))[1]
+    (tmp_path / CONFIG).write_text("a=5\nrow=1, 2\n")
+    _, said = carry_out(plan(tmp_path, stated("a=1\nrow=1,2\n", "a")))
+    assert "etc/config (a)" in said[0].message
+    _, said = carry_out(plan(tmp_path, stated("a=5\nrow=1,2\n")))
+    assert not said
+
+
+def test_a_blank_in_a_text_is_written_when_its_document_changes(tmp_path: Path) -> None:
+    (tmp_path / "etc").mkdir()
+    (tmp_path / CONFIG).write_text("a=1 # mine\nsay=Hello,World\n")
+    assert not carry_out(plan(tmp_path, stated("a=1\nsay=Hello,World\n")))[1]
+    assert not carry_out(plan(tmp_path, stated("a=1\nsay=Hello, World\n")))[1]
+    assert (tmp_path / CONFIG).read_text() == "a=1\nsay=Hello, World\n"
+
+
+def test_adopt_overwrites_a_config_with_the_same_properties(tmp_path: Path) -> None:
+    (tmp_path / "etc").mkdir()
+    (tmp_path / CONFIG).write_text("a=1 # mine\n")
+    assert not carry_out(plan(tmp_path, stated("a=1\n")))[1]
+    writer.commit(writer.prepare([plan(tmp_path, stated("a=1\n"))], adopt=True))
+    assert (tmp_path / CONFIG).read_text() == "a=1\n"
+    assert (tmp_path / "etc/config.orig").read_text() == "a=1 # mine\n"
 
 
 def test_a_once_file_becomes_a_generated_one(tmp_path: Path) -> None:
@@ -140,7 +190,7 @@ def test_a_once_file_becomes_a_generated_one(tmp_path: Path) -> None:
     assert not said and (tmp_path / CONFIG).read_text() == "a=2\n"
     carry_out(plan(tmp_path, once(CONFIG, "a=3\n")))
     (tmp_path / CONFIG).write_text("a=4\n")
-    _, said = carry_out(plan(tmp_path, stated("a=5\n")))
+    _, said = carry_out(plan(tmp_path, stated("a=5\n", "a")))
     assert codes(said) == ["RC6010"] and (tmp_path / CONFIG).read_text() == "a=4\n"
     assert f"set them in {tmp_path / 'etc/config.yaml'} as well;" in said[0].hint
     assert "etc/config (a)" in said[0].message
@@ -168,7 +218,7 @@ def test_a_merge_keeps_the_users_lines_the_users(tmp_path: Path, first: str) -> 
     (tmp_path / CONFIG).write_text(first)
     assert not merge(tmp_path, f"{first}\nb=1\n", "a=1\nb=1\n")
     assert not merge(tmp_path, f"{first}\nb=1\n\nc=1\n", "a=1\nb=1\nc=1\n")
-    _, said = carry_out(plan(tmp_path, stated("a=1\nb=1\n")))
+    _, said = carry_out(plan(tmp_path, stated("a=1\nb=1\n", "mine")))
     assert codes(said) == ["RC6010"] and "mine=1" in (tmp_path / CONFIG).read_text()
     assert "etc/config (mine)" in said[0].message
     _, said = carry_out(plan(tmp_path, stated("mine=1\nz=0\n")))

@@ -6,7 +6,7 @@ from typing import Any
 
 from robocomp_yaml.diag.render.json import dumps
 from robocomp_yaml.emit.graphs.geometry import Rectangle
-from robocomp_yaml.emit.graphs.picture import Picture, PictureFault
+from robocomp_yaml.emit.graphs.picture import Picture, PictureFault, PictureNode
 from robocomp_yaml.emit.graphs.screen import ScreenGeometry, screen_geometry
 
 
@@ -23,12 +23,7 @@ def picture_data(picture: Picture, geometry: ScreenGeometry) -> dict[str, Any]:
         ],
         "groups": [{"name": name, "host": host, **_at(box)} for name, host, box in geometry.groups],
         "nodes": [
-            {
-                "name": node.name, "title": node.title, "kind": node.kind, "host": node.box, "about": list(node.about),
-                "serves": [{"interface": name, "port": port or None} for name, port in node.serves],
-                "groups": list(node.groups), "enabled": node.enabled, "faults": _faults(node.faults),
-                "texts": geometry.nodes[node.name].texts, **_at(geometry.nodes[node.name]),
-            }
+            {**node_data(node), "texts": geometry.nodes[node.name].texts, **_at(geometry.nodes[node.name])}
             for node in picture.nodes.values()
         ],
         "edges": [
@@ -37,6 +32,16 @@ def picture_data(picture: Picture, geometry: ScreenGeometry) -> dict[str, Any]:
             for line, points in zip(picture.lines, geometry.lines, strict=True)
         ],
         "faults": _faults(picture.faults),
+    }  # fmt: skip
+
+
+def node_data(node: PictureNode) -> dict[str, Any]:
+    """A node without its geometry."""
+    return {
+        "name": node.name, "title": node.title, "kind": node.kind, "host": node.box, "about": list(node.about),
+        "serves": [{"interface": name, "port": port or None} for name, port in node.serves],
+        "groups": list(node.groups), "enabled": node.enabled, "faults": _faults(node.faults),
+        "texts": node.texts(),
     }  # fmt: skip
 
 

@@ -7,6 +7,7 @@ import pytest
 from robocomp_yaml.api.editing.text import EditedText, comments
 from robocomp_yaml.parameters.editing.edit import NotEditable
 from robocomp_yaml.semantics.paths import Step
+from robocomp_yaml.source import parts
 from robocomp_yaml.source.tree import parse
 
 
@@ -105,3 +106,36 @@ def test_comments_are_those_of_yaml() -> None:
     root, _ = parse("a.yaml", text)
     assert root is not None
     assert [one for _, one in comments(text, root)] == ["# top", "# yes", "# end"]
+
+
+def test_a_comment_before_a_new_line_keeps_its_line_end() -> None:
+    edited = EditedText("x.ddsl.yaml", "components:\r\n  mouth:\r\n    port: 1 # c\r\n\r\n# below\r\n")
+    edited.set(["components", "lips"], {"port": 2})
+    assert edited.text == (
+        "components:\r\n  mouth:\r\n    port: 1 # c\r\n  lips: {port: 2}\r\n\r\n# below\r\n"
+    )  # fmt: skip
+
+
+def test_a_long_text_is_parsed_where_it_changes_and_a_step_that_fails_leaves_it_as_it_was(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("robocomp_yaml.source.parts.LONG", 0)  # as if it were long
+    text = "deployment: Net\ncomponents:\n" + "".join(f"  c{at}: {{host: h, after: [x]}} # {at}\n" for at in range(12))
+    one, parsed = edited(text), list[str]()
+    make = parts.part
+    monkeypatch.setattr(parts, "part", lambda path, text, base: parsed.append(text) or make(path, text, base))  # type: ignore[func-returns-value]
+    one.set(["components", "c7", "host"], "other")
+    assert len(parsed) == 1, parsed
+    one.rename(["components", "c3"], "third")  # a line as long as before: what follows moves
+    with pytest.raises(NotEditable, match="would be lost"):
+        one._change(one.text.replace(" # 9", ""), one.data())
+    with pytest.raises(NotEditable, match="more than this value"):
+        one._change(one.text.replace("c10: {host: h", "c10: {host: g"), one.data())
+    one.set(["components", "c11", "after"], ["why"])
+    one.remove(["components", "c5", "after"])
+    expected = text.replace("c7: {host: h", "c7: {host: other").replace("c3:", "third:")
+    expected = expected.replace("[x]} # 11", "[why]} # 11").replace("c5: {host: h, after: [x]}", "c5: {host: h}")
+    assert one.text == expected
+    tree, _ = parse("a.yaml", expected)
+    assert tree is not None and one.data() == tree.data
+    assert list(comments(one.text, one.root)) == list(comments(expected, tree))

@@ -37,6 +37,10 @@ def worker(body: str, more: str = "", header: str = HEADER) -> dict[str, str]:
         ("if (moth_proxy) turns++;", "RC6301", "moth_proxy"),
         ("run([this] { moth_proxy->close(); });", "RC6301", "moth_proxy"),
         ("news_proxy->told(1);", "RC6301", "news_proxy"),
+        ("mouthproxy->close();", "RC6301", "mouthproxy"),
+        ("this->mouth_prx->close();", "RC6301", "mouth_prx"),
+        ("mouthProxy->close();", "RC6301", "mouthProxy"),
+        ("mouth_proxy->shutAsync();", "RC6302", "shutAsync"),
         ("mouth_proxy->shut();", "RC6302", "shut"),
         ("this->mouth_proxy->shut();", "RC6302", "shut"),
         ("auto x = (mouth_proxy)->shut();", "RC6302", "shut"),
@@ -68,6 +72,21 @@ def worker(body: str, more: str = "", header: str = HEADER) -> dict[str, str]:
         ("auto s = ::RoboCompMouth::Shape::oval;", "RC6315", "oval"),
         ("if (s == RoboCompMouth::Shape::oval) return;", "RC6315", "oval"),
         ("auto s = RoboCompMouth::round;", "RC6314", "round"),
+        ("auto mouth{mouth_proxy}; mouth->shut();", "RC6302", "shut"),
+        ("RoboCompMouth::MouthPrxPtr mouth = mouth_proxy; mouth->shut();", "RC6302", "shut"),
+        ("const auto& mouth = mouth_proxy; auto other = mouth; other->shut();", "RC6302", "shut"),
+        ("RoboCompMouth::Pose pose; pose.gap = 3;", "RC6325", "gap"),
+        ("RoboCompMouth::Pose a{}, b; auto c = b; use(c.gap);", "RC6325", "gap"),
+        ("const RoboCompMouth::Path& path = make(); use(path[0].gap);", "RC6325", "gap"),
+        ("for (const RoboCompMouth::Pose& pose : all) use(pose.gap);", "RC6325", "gap"),
+        ("auto way = mouth_proxy->way(); for (const auto& pose : way) use(pose.gap);", "RC6325", "gap"),
+        ("use(mouth_proxy->move(pose, true).gap);", "RC6325", "gap"),
+        ("if (parameters.mode() == \"fasst\") turns++;", "RC6327", "\"fasst\""),
+        ("const std::string mode = parameters.mode(); if (\"fasst\" != mode) turns++;", "RC6327", "\"fasst\""),
+        ("if (parameters.now()->speed == 500) turns++;", "RC6327", "500"),
+        ("mouth_proxy->move(pose, \"yes\");", "RC6328", "\"yes\""),
+        ("news_pubproxy->told(3);", "RC6328", "3"),
+        ("auto s = parameters[\"speed\"];", "RC6330", "speed"),
         ("events.begin();", "RC6310", "begin"),
         ("if (statemachine.isIn(\"quiet\")) return;", "RC6310", "quiet"),
     ],
@@ -84,6 +103,8 @@ def test_what_is_reported(link: Link, body: str, code: str, text: str) -> None:
         ("mouth_proxy->ice_ping(); mouth_proxy.get(); mouth_proxy.reset(); mouth_proxy = nullptr; *mouth_proxy;", ""),
         ("other->mouth_proxy->shut(); other.moth_proxy->close();", ""),
         ("auto moth_proxy = make(); moth_proxy->close();", ""),
+        ("auto mouthPrx = MouthPrx::checkedCast(x); mouthPrx->close(); std::shared_ptr<RoboCompMouth::MouthPrx> p;", ""),
+        ("getProxy()->close(); setProxy(x); other->mouthProxy->close(); aProxy->close();", ""),
         ("for (auto& moth_proxy : all) moth_proxy->close();", ""),
         ("auto [moth_proxy, b] = all; moth_proxy->close();", ""),
         ("moth_proxy->close();", "static std::shared_ptr<X> moth_proxy;"),
@@ -116,6 +137,14 @@ def test_what_is_reported(link: Link, body: str, code: str, text: str) -> None:
         ("other::RoboCompMouth::Anything x; using namespace RoboCompMouth; RoboCompMouth::operator==(a, b);", ""),
         ("RoboCompMouth::Own x;", "namespace RoboCompMouth { struct Own {}; }"),
         ("// RoboCompMouth::Pos\n", ""),
+        ("RoboCompMouth::Pose p; p.opening = 3; p.ice_tuple(); auto* q = &p; q->gap; std::swap(p, r);", ""),
+        ("RoboCompMouth::Pose p; { Other p; p.gap = 3; }", ""),
+        ("RoboCompMouth::Pose* p = make(); p->gap; RoboCompMouth::Shape s; use(s);", ""),
+        ("RoboCompMouth::Path q; q.size(); q.front().gap; for (auto& p : q) use(p.opening);", ""),
+        ("for (const auto& [name, motor] : parameters.offsets()) use(name); for (auto& e : parameters.offsets()) e.second;", ""),
+        ("if (parameters.mode() == \"fast\" || parameters.mode() == \"\" || parameters.speed() == 3) turns++;", ""),
+        ("std::string mode = parameters.mode(); mode.append(\"x\"); if (mode == \"fast\") turns++;", ""),
+        ("RoboCompMouth::MouthPrxPtr mouth = convert(mouth_proxy); mouth->shut();", ""),
         ("std::vector<int> parameters; parameters.push_back(1);", ""),
     ],
 )  # fmt: skip
@@ -164,3 +193,34 @@ def test_files_of_robocomps_own_tool_are_not_read(link: Link) -> None:
     left["mouthI.cpp"] = "RoboCompMouth::pose MouthI::move() { return RoboCompMouth::pose(); }\n"
     files = {**worker("moth_proxy->close(); f(RoboCompMouth::round, RoboCompMouth::Pos());"), **left}
     assert found(linked, files) == [("RC6301", "moth_proxy"), ("RC6314", "Pos")]
+
+
+@pytest.mark.parametrize(
+    ("more", "expected"), [("compatibility: robocomp\n", ["nwes_proxy"]), ("", ["news_proxy", "nwes_proxy"])]
+)
+def test_proxies_have_the_names_that_older_tools_gave_them(link: Link, more: str, expected: list[str]) -> None:
+    used = worker("news_proxy->said(1); news_pubproxy->said(1); nwes_proxy->said(1);")
+    reported = found(link(component("cpp", more)), used)
+    assert [word for code, word in reported if code == "RC6301"] == expected
+
+
+@pytest.mark.parametrize(
+    ("body", "reported"),
+    [
+        ('a = params.at("spede");', ["spede"]),
+        ('a = params["spede"].value;', ["spede"]),
+        ('a = this->configLoader.get<int>("camera.fsp");', ["camera.fsp"]),
+        ('try { a = params.at("spede"); } catch (const std::exception& e) { qFatal("no"); }', ["spede"]),
+        ('try { a = params.at("spede"); } catch (const std::exception& e) { a = 1; }', []),
+        ('a = params.at("speed"); b = params["flat"]; c = configLoader.get<int>("Period.Compute");', []),
+        ('a = other.at("spede"); b = params.at(name); c = "spede";', []),
+        ('key = "spede"; a = params.at("spede");', []),
+    ],
+)
+def test_settings_of_robocomps_own_tool(link: Link, body: str, reported: list[str]) -> None:
+    linked, files = link(component("cpp", "compatibility: robocomp\n")), worker(body)
+    of_loader = [("RC6309", one) for one in reported if "params" not in body]
+    assert found(linked, files, ("flat",)) == of_loader
+    of_params = "bool SpecificWorker::setParams(RoboCompCommonBehavior::ParameterList params)"
+    files["specificworker.cpp"] = files["specificworker.cpp"].replace("void SpecificWorker::compute()", of_params)
+    assert found(linked, files, ("flat",)) == [("RC6309", one) for one in reported]

@@ -8,7 +8,11 @@ import pytest
 
 from judged_code import MACHINE, Link, component, found
 
-HEAD = "from generated.genericworker import GenericWorker\nfrom generated.interfaces import RoboCompMouth\n"
+NAMES = "Fake, Foreign, Ice, Meta, contextlib, decorated, loadUi, name, other, path, run, speed, use"
+HEAD = (
+    "from generated.genericworker import GenericWorker\nfrom generated.interfaces import RoboCompMouth\n"
+    f"from elsewhere import {NAMES}\n"
+)
 CLASS = "\n\nclass SpecificWorker(GenericWorker):\n    def Ear_hear(self, text):\n        pass\n\n"
 
 
@@ -32,7 +36,7 @@ def worker(body: str, head: str = "") -> dict[str, str]:
         ("run = lambda: self.mouth_proxy.shut()", "RC6302", "shut"),
         ("[self.mouth_proxy.shut() for _ in range(3)]", "RC6302", "shut"),
         ("try:\n    self.mouth_proxy.shut()\nexcept Exception:\n    pass", "RC6302", "shut"),
-        ("print(self.mouth_proxy.move(\n    RoboCompMouth.Pose(),\n    True,\n).openning, self.mouth_proxy.shut())", "RC6302", "shut"),
+        ("print(self.mouth_proxy.move(\n    RoboCompMouth.Pose(),\n    True,\n).opening, self.mouth_proxy.shut())", "RC6302", "shut"),
         ("self.news_proxy.tell('x')", "RC6303", "tell"),
         ("self.mouth_proxy.move(1)", "RC6304", "move"),
         ("self.mouth_proxy.move(1, 2, {}, 3)", "RC6304", "move"),
@@ -62,6 +66,29 @@ def worker(body: str, head: str = "") -> dict[str, str]:
         ("print(RoboCompMouth.Shape.oval)", "RC6315", "oval"),
         ("print(self.lgo)", "RC6316", "lgo"),
         ("from generated.interfaces import RoboCompNose", "RC6313", "RoboCompNose"),
+        ("self.mouth = self.mouth_proxy\nself.mouth.shut()", "RC6302", "shut"),
+        ("self.mouth = None\nself.mouth = self.mouth_proxy\nself.mouth.shut()", "RC6302", "shut"),
+        ("self.go = self.mouth_proxy.move\nself.go(1)", "RC6304", "go"),
+        ("print(self.mouth_proxy.move(1, True).gap)", "RC6325", "gap"),
+        ("pose, age = self.mouth_proxy.where(1, 2)", "RC6304", "where"),
+        ("pose = RoboCompMouth.Pose()\npose.openning = 3.5", "RC6325", "openning"),
+        ("for pose in self.path:\n    pass\nself.path = self.mouth_proxy.way()\nprint(self.path[0].gap)", "RC6325", "gap"),
+        ("for pose in self.mouth_proxy.way():\n    print(pose.gap)", "RC6325", "gap"),
+        ("pose = self.mouth_proxy.where()\nprint(pose.opening)", "RC6326", "opening"),
+        ("pose, age, more = self.mouth_proxy.where()", "RC6326", "where"),
+        ("ok, pose = self.mouth_proxy.move(1, True)", "RC6326", "move"),
+        ("done, pose = self.mouth_proxy.close()", "RC6326", "close"),
+        ("if self.parameters.speed == 500: pass", "RC6327", "500"),
+        ("if 'fast' != self.parameters.speed: pass", "RC6327", "'fast'"),
+        ("if self.parameters.mode in ('slow', 'fasst'): pass", "RC6327", "'fasst'"),
+        ("mode = self.parameters.mode\nif mode == 'fasst': pass", "RC6327", "'fasst'"),
+        ("self.mode = self.parameters.mode\nif self.mode == 'fasst': pass", "RC6327", "'fasst'"),
+        ("match self.parameters.mode:\n    case 'slow' | 'fasst': pass", "RC6327", "'fasst'"),
+        ("if RoboCompMouth.Pose().shape == 'round': pass", "RC6327", "'round'"),
+        ("self.mouth_proxy.move('x', True)", "RC6328", "'x'"),
+        ("self.mouth_proxy.move(1, 'yes')", "RC6328", "'yes'"),
+        ("self.news_proxy.told(3)", "RC6328", "3"),
+        ("print(self.parameters['speed'])", "RC6330", "speed"),
         ("self.events.begin()", "RC6310", "begin"),
         ("print(self.statemachine.is_in('quiet'))", "RC6310", "quiet"),
     ],
@@ -77,7 +104,19 @@ def test_what_is_reported(link: Link, body: str, code: str, text: str) -> None:
         "self.mouth_proxy.move(1, True, {})\nself.mouth_proxy.moveAsync(1, True).result()\nself.mouth_proxy.begin_close()",
         "self.mouth_proxy.ice_ping()\nself.mouth_proxy.ice_oneway().close()\nself.news_proxy.told('x')",
         "self.mouth_proxy.move(*[1, True])\nself.mouth_proxy.move(**{})",
-        "pose, age = self.mouth_proxy.where()",
+        "pose, age = self.mouth_proxy.where()\nboth = self.mouth_proxy.where()\nprint(both[0].opening, both.count(1))",
+        "pose, *rest = self.mouth_proxy.where()\nprint(pose.gap)",
+        "self.mouth = self.mouth_proxy\nself.mouth = Fake()\nself.mouth.anything()",
+        "self.other.mouth = Fake()\nself.mouth = self.mouth_proxy\nself.mouth.anything()",
+        "pose = RoboCompMouth.Pose()\npose.stamp = 3\nprint(pose.stamp, pose.opening, pose.__class__)",
+        "pose = RoboCompMouth.Pose()\npose = None\nprint(pose.gap)",
+        "print(self.mouth_proxy.way()[1:].copy(), self.parameters.motors[1:].copy(), self.mouth_proxy.way().index(1))",
+        "for name in self.parameters.offsets:\n    print(name.upper())",
+        "print([key.upper() for key in self.parameters.offsets], self.parameters.mode.upper())",
+        "if self.parameters.mode == 'fast' or self.parameters.mode == '' or self.parameters.mode == other: pass",
+        "if self.parameters.device == 'anything' or self.parameters.speed in (1, 2): pass",
+        "match self.parameters.mode:\n    case 'slow': pass\n    case _: pass",
+        "try:\n    self.mouth_proxy.close()\nexcept Ice.Exception as error:\n    print(error.anything)",
         "self.own_proxy = 1\nprint(self.own_proxy)",
         "self.mouth_proxy = Fake()\nself.mouth_proxy.anything()",
         "setattr(self, name, 1)\nprint(self.anything, self.a_proxy)",
@@ -204,6 +243,14 @@ class SpecificWorker(GenericWorker):
         ("ifaces.RoboCompMouth.Pose(1, 2)", "ifaces.Path([ifaces.RoboCompMouth.Pos()])", [("RC6314", "Pos")]),
         ("RoboCompMouth.Shape.oval", "Pose(1)", [("RC6315", "oval")]),
         ("ifaces.RoboCompNose.A()", "pass", [("RC6313", "RoboCompNose")]),
+        ("pass", "self.params = params\n        self.a = self.params['spede']", [("RC6309", "spede")]),
+        (
+            "self.a = self.config['speed']",
+            "self.config = params\n        self.a = self.config['fast']",
+            [("RC6309", "fast")],
+        ),
+        ("pass", "self.a = params['mode'] == 'fasst'", [("RC6327", "'fasst'")]),
+        ("self.a = configData['mode'] == 'fast' or configData['speed'] == '12'", "pass", []),
     ],
 )
 def test_code_for_robocomps_own_tool(link: Link, in_init: str, in_params: str, reported: list[tuple[str, str]]) -> None:
@@ -211,3 +258,83 @@ def test_code_for_robocomps_own_tool(link: Link, in_init: str, in_params: str, r
     left = {"genericworker.py": "class GenericWorker: pass\n", "interfaces.py": "x = 1\n"}
     files = {"specificworker.py": ROBOCOMP.format(in_init=in_init, in_params=in_params), **left}
     assert found(linked, files, ("flat",)) == reported
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "code", "text"),
+    [
+        ("pass  # here", "mouth_proxy.close()", "RC6321", "mouth_proxy"),
+        ("pass  # here", "print(parameters.speed)", "RC6321", "parameters"),
+        ("pass  # here", "print(lambda: log.info('ä'), news_proxy)", "RC6321", "log"),
+        ("def compute(self)", "def compute()", "RC6322", "compute"),
+        ("pass  # here", "self.mouth_proxy.close", "RC6323", "close"),
+        ("pass  # here", "self.news_proxy.told", "RC6323", "told"),
+        ("generated.genericworker", "generated.genericworkr", "RC6324", "genericworkr"),
+        ("generated.genericworker", "generated.params", "RC6324", "params"),
+        ("import GenericWorker", "import GenericWorkr as GenericWorker", "RC6324", "GenericWorkr"),
+        ("pass  # here", "print(distence)", "RC6331", "distence"),
+        ("pass  # here", "slef.mouth_proxy.close()", "RC6331", "slef"),
+        ("pass  # here", "print(RoboCompMouth.Pose())", "RC6331", "RoboCompMouth"),
+        ("pass  # here", "pass\n\n    def compute(self):\n        pass", "RC6332", "compute"),
+        ("pass  # here", "pass\n\n    def __init__(self):\n        self.a = 1", "RC6333", "__init__"),
+    ],
+)
+def test_slips(link: Link, old: str, new: str, code: str, text: str) -> None:
+    reported = found(link(component("python")), {"specificworker.py": SLIPS.replace(old, new)})
+    assert (code, text) in reported and {one for one, _ in reported} == {code}
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("class", "mouth_proxy = log = parameters = None\n\n\nclass"),
+        ("class", "from helper import *\n\n\nclass"),
+        ("class", "import log\n\n\nclass"),
+        ("pass  # here", "for log in ():\n            log.info('x')"),
+        ("pass  # here", "print(lambda mouth_proxy: mouth_proxy.close())"),
+        ("pass  # here", "globals()['log'] = 1; log.info('x')"),
+        ("def compute(self)", "@staticmethod\n    def compute()"),
+        ("def compute(self)", "def compute(*all_of_them)"),
+        ("pass  # here", "f = self.mouth_proxy.close; self.mouth_proxy; print(self.mouth_proxy.close)"),
+        ("import GenericWorker", "import GenericWorker, Ice"),
+        (
+            "pass  # here",
+            "global distance\n        distance = 3\n        print(distance, __file__, len(()), [x for x in ()])",
+        ),
+        ("pass  # here", "try:\n            print(unicode)\n        except NameError:\n            pass"),
+        ("pass  # here", "later: Unknown = 3\n        print(later)"),
+        ("pass  # here", "pass\n\n    def __init__(self, *a):\n        GenericWorker.__init__(self, *a)"),
+        ("class", "from generated.runtime.kinds import Kind\n\n\nclass"),
+        ("class", "from generated.interfaces import RoboCompMouth\n\n\nclass"),
+        ("pass  # here", "self.parameters.speed = 3; self.speed = 4; self.speed"),
+    ],
+)
+def test_no_slips(link: Link, old: str, new: str) -> None:
+    assert found(link(component("python")), {"specificworker.py": SLIPS.replace(old, new, 1)}) == []
+
+
+def test_a_parameter_is_no_attribute_of_the_worker(link: Link) -> None:
+    text = SLIPS.replace("pass  # here", "self.parameters.speed = self.speed + 3")
+    assert found(link(component("python")), {"specificworker.py": text}) == [("RC6316", "speed")]
+
+
+SLIPS = """\
+from generated.genericworker import GenericWorker
+
+
+class SpecificWorker(GenericWorker):
+    def compute(self):
+        pass  # here
+
+    def Ear_hear(self, text):
+        self.log.info(text)
+"""
+
+
+@pytest.mark.parametrize("call", ["self.mouth_proxy.clseAsync()", "self.mouth_proxy.begin()"])
+def test_asynchronous_variants_are_those_of_the_methods(link: Link, call: str) -> None:
+    name = call.partition("(")[0].rpartition(".")[2]
+    reported = found(link(component("python")), {"specificworker.py": SLIPS.replace("pass  # here", call)})
+    assert reported == [("RC6302", name)]
+    right = SLIPS.replace("pass  # here", "self.mouth_proxy.closeAsync().result(); self.mouth_proxy.begin_close()")
+    assert found(link(component("python")), {"specificworker.py": right}) == []

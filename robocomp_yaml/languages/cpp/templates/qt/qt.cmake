@@ -23,6 +23,12 @@ if(NOT QT_VERSION_MAJOR)
     "On Debian and Ubuntu: sudo apt install qt6-base-dev")
 endif()
 
+# A form names signals and slots as texts: some are overloaded, so that a pointer to them is ambiguous.
+set(component_uic Qt${QT_VERSION_MAJOR}::uic)
+if(QT_VERSION_MAJOR GREATER 5)
+  list(APPEND component_uic --connections string)
+endif()
+
 function(rcyaml_qt_library part sources)
   set(name "rcyaml_${part}_qt${QT_VERSION_MAJOR}_${rcyaml_key}")
   if(TARGET ${name})

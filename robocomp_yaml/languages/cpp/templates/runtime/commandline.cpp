@@ -15,11 +15,15 @@ bool startsWith(const std::string& text, const std::string& beginning)
     return text.compare(0, beginning.size(), beginning) == 0;
 }
 
-/// The `etc/config` of the component with this program, `bin/NAME`, whatever the working directory is.
+/// The `etc/config` of the component with this program, `bin/NAME`, whatever the working directory is; or its
+/// `etc/config.toml` if only that exists.
 std::filesystem::path defaultConfig()
 {
     const auto program = std::filesystem::read_symlink("/proc/self/exe");
-    return program.parent_path().parent_path() / "etc" / "config";
+    const auto config = program.parent_path().parent_path() / "etc" / "config";
+    const std::filesystem::path toml = config.string() + ".toml";
+    std::error_code ignored;
+    return !std::filesystem::exists(config, ignored) && std::filesystem::exists(toml, ignored) ? toml : config;
 }
 
 }
@@ -82,7 +86,7 @@ std::string CommandLine::usage(const std::string& name)
 {
     return "usage: bin/" + name + R"( [CONFIG] [--Ice.X=Y ...] [--KEY=VALUE ...] [--startup-check]
 
-  CONFIG            a file of Ice properties (default: the component's etc/config)
+  CONFIG            a file of Ice properties (default: the component's etc/config, else its etc/config.toml)
   --Ice.Config=FILE the same as an option; of both, FILE is read last
   --KEY=VALUE       any property; it overrides the one in the file
   --startup-check   start everything, then stop

@@ -126,8 +126,9 @@ Services::~Services()
 void Services::implement(const Service& service, const std::shared_ptr<Ice::Object>& servant)
 {
     const auto& name = service.name;
-    const auto endpoints =
-        settings_.required("the endpoint of " + name, {name + ".Endpoints", "Endpoints." + name});
+    const Settings::Keys keys = {name + ".Endpoints", "Endpoints." + name};
+    const auto oldest = settings_.first(keys).empty() ? settings_.first({name + "Comp.Endpoints"}) : "";
+    const auto endpoints = oldest.empty() ? settings_.required("the endpoint of " + name, keys) : oldest;
     const std::lock_guard lock(mutex_);
     const auto adapter = makeAdapter(name, endpoints);
     const auto tally = [this, name](const std::string& operation) -> Tally&

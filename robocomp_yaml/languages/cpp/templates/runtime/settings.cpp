@@ -2,15 +2,19 @@
 #include "settings.h"
 
 #include "texts.h"
+#include "tomllines.h"
 
 #include <Ice/Initialize.h>
 #include <Ice/LocalException.h>
 #include <Ice/Properties.h>
 #include <Ice/StringConverter.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <set>
+#include <sstream>
 
 namespace runtime
 {
@@ -24,6 +28,34 @@ std::string shown(const std::filesystem::path& file)
     std::error_code ignored;
     const auto relative = std::filesystem::relative(file, ignored).string();
     return relative.empty() || relative.compare(0, 2, "..") == 0 ? file.string() : relative;
+}
+
+bool isConfig(const std::filesystem::path& file)
+{
+    static const std::set<std::string> others = {".yaml", ".yml", ".orig", ".xml", ".json"};
+    const bool isNamed = file.stem().string().find("config") != std::string::npos || file.extension() == ".conf";
+    std::error_code ignored;
+    return isNamed && others.count(file.extension().string()) == 0 && std::filesystem::is_regular_file(file, ignored);
+}
+
+/// The other config files beside a missing one, for its message.
+std::string othersThan(const std::filesystem::path& missing)
+{
+    std::set<std::string> names;
+    std::error_code failed;
+    for (const auto& entry : std::filesystem::directory_iterator(missing.parent_path(), failed))
+    {
+        if (isConfig(entry.path()))
+        {
+            names.insert(shown(entry.path()));
+        }
+    }
+    std::string all;
+    for (const auto& name : names)
+    {
+        all += (all.empty() ? "; name one that exists: " : ", ") + name;
+    }
+    return all;
 }
 
 /// The key and value of `--KEY=VALUE`. Ice's own parser would end the value at a `#`.
@@ -83,9 +115,20 @@ void Settings::load(const std::filesystem::path& file)
     }
     if (!std::ifstream(file))
     {
-        fail(std::strerror(errno));
+        const int error = errno;
+        fail(std::strerror(error) + (error == ENOENT ? othersThan(file) : ""));
     }
     checkText(file);
+    if (file.extension() == ".toml")
+    {
+        std::ostringstream text;
+        text << std::ifstream(file).rdbuf();
+        for (const auto& [key, value] : tomlProperties(text.str()))
+        {
+            properties_->setProperty(key, value);
+        }
+        return;
+    }
     try
     {
         properties_->load(file.string());

@@ -9,6 +9,7 @@ import com.zeroc.Ice.Util;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
+import javax.net.ssl.SSLContext;
 
 /**
  * One component in one process: start, run, stop in order. The main thread waits for the request to stop. Everything
@@ -62,7 +63,10 @@ final class Application {
         });
         Peers.sendHeartbeats(data.properties);
         data.properties.setProperty("Ice.Default.Package", "slice"); // the package of the Java code of all Slice
-        return Util.initialize(data);
+        SSLContext tls = Tls.prepared(data.properties);
+        Communicator communicator = Util.initialize(data);
+        Tls.use(communicator, tls);
+        return communicator;
     }
 
     /** Runs the component until it is stopped. */

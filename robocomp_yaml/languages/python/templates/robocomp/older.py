@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+import sys
+import traceback
+from pathlib import Path
 from typing import Any
 
 _PYTHON_2 = ("Missing parentheses in call to", "multiple exception types must be parenthesized")
@@ -28,3 +31,16 @@ def python_2(error: SyntaxError) -> str:
         f"{error.filename}, line {error.lineno}, is Python 2 code, which Python 3 cannot read: `2to3 -w src` converts it "
         "(Python 3.12 and older have 2to3)"
     )
+
+
+_SOURCES = {"pydsr": "the DSR library of RoboComp's agents, https://github.com/robocomp/cortex"}
+
+
+def missing(error: ImportError, root: Path) -> str:
+    """What to say about a module that is not installed; '' for another fault of an import."""
+    if not isinstance(error, ModuleNotFoundError) or not error.name:
+        return ""
+    own = [frame for frame in traceback.extract_tb(error.__traceback__) if Path(frame.filename).is_relative_to(root)]
+    at = f"{Path(own[-1].filename).relative_to(root)}, line {own[-1].lineno}," if own else "src/"
+    source = _SOURCES.get(error.name)
+    return f"{at} imports {error.name}{f' ({source})' if source else ''}, which {sys.executable} does not have"

@@ -61,6 +61,9 @@ class Stage(stage.Stage):
             raise
         except ImportError as error:
             if not (error.name or "").startswith("PySide"):
+                missing = older.missing(error, ROOT)
+                if missing:
+                    raise StartError(missing) from None
                 raise
             from generated.qt.pyside import install
 

@@ -13,7 +13,7 @@ from generated.runtime import interpreter
 USAGE = """\
 usage: bin/{name} [CONFIG] [--Ice.X=Y ...] [--KEY=VALUE ...] [--startup-check]
 
-  CONFIG            a file of Ice properties (default: the component's etc/config)
+  CONFIG            a file of Ice properties (default: the component's etc/config, else its etc/config.toml)
   --Ice.Config=FILE the same as an option; of both, FILE is read last
   --KEY=VALUE       any property; it overrides the one in the file
   --startup-check   start everything, then stop
@@ -68,4 +68,10 @@ def parse(root: Path, arguments: Sequence[str]) -> Options:
             files += [Path(word) for word in option.partition("=")[2].split(",") if word]
         else:
             properties.append(option)
-    return Options(tuple(files or [root / "etc" / "config"]), tuple(properties), "--startup-check" in arguments)
+    return Options(tuple(files or [_default(root)]), tuple(properties), "--startup-check" in arguments)
+
+
+def _default(root: Path) -> Path:
+    config = root / "etc" / "config"
+    toml = config.with_suffix(".toml")
+    return toml if toml.exists() and not config.exists() else config

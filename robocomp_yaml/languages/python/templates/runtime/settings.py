@@ -9,7 +9,7 @@ from pathlib import Path
 
 import Ice
 from generated.runtime.errors import StartError
-from generated.runtime.semantics import connections
+from generated.runtime.semantics import connections, toml_lines
 from generated.runtime.semantics.texts import unquoted
 
 
@@ -27,9 +27,14 @@ class Settings:
         for file in self._files:
             try:
                 _check_text(file)
-                properties.load(str(file))
+                if file.suffix == toml_lines.SUFFIX:
+                    for key, value in toml_lines.properties(file.read_text("utf-8", "replace")).items():
+                        properties.setProperty(key, value)
+                else:
+                    properties.load(str(file))
             except OSError as error:
-                raise StartError(f"cannot read the config file {shown(file)}: {error.strerror}") from None
+                others = _others(file) if isinstance(error, FileNotFoundError) else ""
+                raise StartError(f"cannot read the config file {shown(file)}: {error.strerror}{others}") from None
             except Ice.LocalException as error:
                 raise StartError(f"cannot read the config file {shown(file)}: {error}") from None
         for key, value in self.overrides.items():
@@ -68,7 +73,7 @@ class Settings:
     def required(self, what: str, *keys: str) -> str:
         if value := self.first(*keys):
             return value
-        raise StartError(f"{what} is not configured: set {' or '.join(keys)} in {self.where}")
+        raise StartError(f"{what} is not configured: set {' or '.join(keys[:2])} in {self.where}")
 
     def endpoints(self, name: str) -> str:
         return self.required(f"the endpoint of {name}", *connections.endpoints(name))
@@ -116,6 +121,18 @@ def _check_text(file: Path) -> None:
             line.partition(b"#")[0].decode("utf-8")
         except UnicodeDecodeError:
             raise StartError(f"{shown(file)}:{number}: this line is not UTF-8") from None
+
+
+def _others(file: Path) -> str:
+    """The other config files beside a missing one, for its message."""
+    folder = file.parent
+    names = sorted(each.name for each in folder.iterdir() if _is_config(each)) if folder.is_dir() else []
+    return f"; name one that exists: {', '.join(shown(folder / name) for name in names)}" if names else ""
+
+
+def _is_config(file: Path) -> bool:
+    is_named = "config" in file.stem or file.suffix == ".conf"
+    return is_named and file.suffix not in (".yaml", ".yml", ".orig", ".xml", ".json") and file.is_file()
 
 
 def shown(file: Path) -> str:

@@ -1,0 +1,1 @@
+"""What can be typed at a position of a document, for editors of all kinds."""

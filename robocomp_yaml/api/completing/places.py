@@ -1,0 +1,89 @@
+"""Where the cursor is in a document that is being typed: the keys around it, also if a bracket is not closed yet."""
+
+from __future__ import annotations
+
+import re
+
+import msgspec
+
+from robocomp_yaml.source.text import decode
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
+
+MARK = "rcyaml0cursor"
+_BEFORE, _BEHIND = re.compile(r"[\w./-]*\Z"), re.compile(r"[\w./-]*")
+_LINE_END = re.compile("\r\n|\r|\n")
+_OPENED = {"[": "]", "{": "}"}
+
+
+class TypedPlace(msgspec.Struct, frozen=True):
+    """`keys` are the keys around the cursor, with '' for an item of a list; `is_key` says that a key is typed there,
+    and not a value: one with a colon, in braces, or in a line of its own below a key. The word at the cursor is in
+    these columns of the line. `root` is the document with a mark instead of the word, and `text` its text."""
+
+    keys: tuple[str, ...]
+    is_key: bool
+    line: int
+    column: int
+    end_column: int
+    root: Mapping
+    text: str
+
+
+def typed_at(text: str, line: int, column: int) -> TypedPlace | None:
+    """The place at a line and column (from 1); None if it is in a comment, or the document is too broken."""
+    if decode("", text.encode("utf-8", "surrogatepass"))[0] is None:
+        return None
+    starts = [0, *(end.end() for end in _LINE_END.finditer(text))]
+    if line > len(starts):
+        return None
+    index = min(starts[line - 1] + column - 1, len(text))
+    begin, end = _BEFORE.search(text, starts[line - 1], index), _BEHIND.match(text, index)
+    assert begin is not None and end is not None
+    before, behind = text[: begin.start()], text[end.end() :]
+    own = before[starts[line - 1] :]
+    if re.search(r"(?:^|\s)#", own):
+        return None
+    rest_of_line = _LINE_END.search(behind)
+    rest = behind[: rest_of_line.start()] if rest_of_line is not None else behind
+    below = behind[len(rest) :]
+    closed = f"{before}{MARK}{_closing(own)}"
+    whole_line = f"{before}{MARK}{rest}{_closing(own + rest)}{below}"
+    attempts = [f"{before}{MARK}{behind}", whole_line, f"{closed}{below}", f"{closed}\n"]
+    if not own.strip() and not behind.strip(" \t")[:1].strip():  # a key is begun in a line of its own
+        attempts.append(f"{before}{MARK}:{below}")
+    for attempt in attempts:
+        root, _ = parse("", attempt)
+        keys = _keys_around(root) if isinstance(root, Mapping) else None
+        if keys is not None and isinstance(root, Mapping):
+            around, is_key = keys
+            is_key = is_key or (not own.strip() and around[-1:] != ("",))
+            start = begin.start() - starts[line - 1] + 1
+            return TypedPlace(around, is_key, line, start, start + end.end() - begin.start(), root, attempt)
+    return None
+
+
+def _closing(line: str) -> str:
+    """The brackets that close those which are open at the end of a line."""
+    opened = ""
+    for character in line:
+        if character in _OPENED:
+            opened = _OPENED[character] + opened
+        elif opened and character == opened[0]:
+            opened = opened[1:]
+    return opened
+
+
+def _keys_around(node: Node, outer: tuple[str, ...] = ()) -> tuple[tuple[str, ...], bool] | None:
+    if isinstance(node, Scalar):
+        return (outer, False) if node.lexeme == MARK else None
+    if isinstance(node, Mapping):
+        for key, value in node.items():
+            if key.lexeme == MARK:
+                return outer, True
+            if found := _keys_around(value, (*outer, key.lexeme)):
+                return found
+    if isinstance(node, Sequence):
+        for item in node.items:
+            if found := _keys_around(item, (*outer, "")):
+                return found
+    return None

@@ -1,0 +1,303 @@
+"""Completion of names, which the schemas do not hold: imports, interfaces, topics, types, parameters and their values,
+components, hosts and entries of deployments, states, codes of diagnostics. Keys and basic types are completed by the
+server of the schemas; if there is none, from the schemas too."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable, Iterator
+from itertools import chain
+
+from robocomp_yaml.api.completing import machines, schema_keys, values
+from robocomp_yaml.api.completing.places import MARK, TypedPlace
+from robocomp_yaml.api.completing.proposal import CODE, Proposal
+from robocomp_yaml.api.schemas import names_offered
+from robocomp_yaml.diag.codes import table
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.fix import IMPORT, Edit
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.link.program import LinkedParameters, Program
+from robocomp_yaml.naming import names
+from robocomp_yaml.naming.names import DefinedName, Names
+from robocomp_yaml.parameters.types import RecordType
+from robocomp_yaml.parameters.words import label
+from robocomp_yaml.source.discover import KINDS, kind_of
+from robocomp_yaml.source.disk import Disk
+from robocomp_yaml.source.spelled import DocumentText
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
+
+_SUFFIX = ".idsl.yaml"
+_PORTS = {
+    "implements": names.INTERFACE, "requires": names.INTERFACE, "publishes": names.TOPIC, "subscribes": names.TOPIC,
+}  # fmt: skip
+_OF_TYPES = ("struct", "sequence", "map", "in", "out", "returns", "type")
+
+
+def proposals(
+    path: str, place: TypedPlace, known: Names, importable: Iterable[str], program: Program | None = None, *,
+    with_schema: bool = False,
+) -> list[Proposal]:  # fmt: skip
+    """What can stand at a place of a document, each once. `with_schema`: also what its schema says."""
+    found: Iterator[Proposal] = iter(())
+    kind = kind_of(path, Disk()) or _kind_by_name(path)
+    match kind:
+        case "idsl":
+            found = _in_interfaces(path, place, known, importable)
+        case "cdsl":
+            found = chain(_in_component(path, place, known, importable), machines.proposals(place))
+        case "pdsl":
+            found = chain(_in_parameters(place), _component_paths(path, place, known, "component"))
+        case "ddsl":
+            found = chain(_in_deployment(path, place, known), _set_values(path, place, program))
+            found = chain(found, _ports_of_entry(path, place, program), _of_groups(place, program, path))
+        case "config":
+            found = chain(_in_values(path, place, program, with_schema=with_schema),
+                          _component_paths(path, place, known, "component"))  # fmt: skip
+    if with_schema and kind in (*KINDS,):
+        found = chain(found, _of_schema(kind, place))
+    return list({one.text: one for one in reversed(list(found))}.values())[::-1]
+
+
+def importing(path: str, place: TypedPlace, name: str) -> list[Edit]:
+    """The edits that import a module, if they are in another line than the cursor."""
+    edits = DocumentText(path, place.text).spelled(Edit(Span(path), name, IMPORT)) if name else []
+    return [one for one in edits if one.span.line != place.line]
+
+
+def _of_schema(kind: str, place: TypedPlace) -> Iterator[Proposal]:
+    if not place.is_key:
+        yield from schema_keys.values_at(kind, place.keys)
+        return
+    yield from schema_keys.keys_at(kind, place.keys, [key for key in _siblings(place) if key])
+
+
+def _siblings(place: TypedPlace) -> list[str]:
+    node: Node | None = place.root
+    for key in place.keys:
+        if isinstance(node, Mapping):
+            node = node.entries[key][1] if key in node.entries else None
+        else:
+            return []
+    return list(node.entries) if isinstance(node, Mapping) else []
+
+
+def _in_values(path: str, place: TypedPlace, program: Program | None, *, with_schema: bool) -> Iterator[Proposal]:
+    """Values and, without a server of schemas, keys in a values document."""
+    component = place.root.get("component")
+    if program is None or place.keys[:1] != ("parameters",):
+        return
+    linked = values.parameters_for(program, path, str(component.data) if component is not None else "")
+    if linked is None:
+        return
+    steps, root = place.keys[1:], linked.parameters.root
+    if not place.is_key:
+        member = values.member_at(root, steps)
+        yield from values.values_of(member) if member is not None and with_schema else ()
+    elif with_schema:
+        inner = values.member_at(root, steps) if steps else None
+        record = inner.type if inner is not None else root if not steps else None
+        for one in record.members if isinstance(record, RecordType) else ():
+            if one.name not in _siblings(place):
+                yield Proposal(one.name, names.PARAMETER, label(one.type), one.doc, snippet=f"{one.name}: ")
+
+
+def _set_values(path: str, place: TypedPlace, program: Program | None) -> Iterator[Proposal]:
+    """Values under `set:` of an entry, which no schema knows."""
+    match place.keys:
+        case ("components", entry, "set", *steps) if steps and not place.is_key and program is not None:
+            linked = _parameters_of(path, place, entry, program)
+            member = values.member_at(linked.parameters.root, steps) if linked is not None else None
+            yield from values.values_of(member) if member is not None else ()
+
+
+def _parameters_of(path: str, place: TypedPlace, entry: str, program: Program) -> LinkedParameters | None:
+    components = place.root.get("components")
+    of_entry = components.get(entry) if components is not None else None
+    component = of_entry.get("component") if of_entry is not None else None
+    return values.parameters_for(program, path, str(component.data)) if component is not None else None
+
+
+def _ports_of_entry(path: str, place: TypedPlace, program: Program | None) -> Iterator[Proposal]:
+    """The ports of an entry's component, as keys; and the topics of a deployment."""
+    match place.keys:
+        case ("components", entry, "connect" | "topics" | "ports" | "endpoints" as section) if (
+            place.is_key and program is not None
+        ):
+            linked = _parameters_of(path, place, entry, program)
+            component = linked.component if linked is not None else None
+            if component is None:
+                return
+            lists = {
+                "connect": (("requires", component.requires),),
+                "topics": (("publishes", component.publishes), ("subscribes", component.subscribes)),
+            }.get(section, (("implements", component.implements), ("subscribes", component.subscribes)))  # fmt: skip
+            present = _siblings(place)
+            for what, ports in lists:
+                for port in ports:
+                    if port.name not in present:
+                        yield Proposal(port.name, names.INTERFACE, f"{what} {port.interface.name}", port.interface.doc)
+        case ("components", _, "topics", name) if not place.is_key:
+            yield from (Proposal(topic, names.TOPIC, "topic of this deployment") for topic in _topics(place.root, name))
+
+
+def _topics(root: Mapping, own: str) -> list[str]:
+    """The names of topics that a deployment writes; that of the port itself comes first."""
+    found = {own: None}
+    components = root.get("components")
+    for _, entry in components.items() if isinstance(components, Mapping) else ():
+        topics = entry.get("topics")
+        for _, value in topics.items() if isinstance(topics, Mapping) else ():
+            if isinstance(value, Scalar) and value.lexeme and MARK not in value.lexeme:
+                found[value.lexeme] = None
+    return list(found)
+
+
+def _of_groups(place: TypedPlace, program: Program | None, path: str) -> Iterator[Proposal]:
+    """Members and methods of what a group exposes."""
+    match place.keys:
+        case ("groups", group, "expose", _) | ("groups", group, "expose", _, "member") if not place.is_key:
+            groups = place.root.get("groups")
+            listed = groups.get(group) if groups is not None else None
+            yield from (Proposal(name, names.ENTRY) for name in _items_of(listed, "components"))
+        case ("groups", _, "expose", interface, "allow", *_) if not place.is_key and program is not None:
+            for scope in program.modules.values():
+                for one in scope.module.interfaces:
+                    if one.name == interface:
+                        yield from (Proposal(each.name, names.METHOD, "", each.doc) for each in one.methods)
+
+
+def _component_paths(path: str, place: TypedPlace, known: Names, key: str) -> Iterator[Proposal]:
+    """The documents of components, as `component:` of parameters and values names them."""
+    if place.keys == (key,) and not place.is_key:
+        for one in known.of_kinds(names.COMPONENT):
+            where = os.path.relpath(one.span.file, os.path.dirname(path))
+            yield Proposal(where, names.COMPONENT, one.says, one.doc)
+
+
+_ALLOW = re.compile(r"#[ \t]*rcyaml[ \t]*:?[ \t]*allow\b[ \t]*(?:[\w,]+[ \t,]+)*(?P<code>\w*)\Z")
+
+
+def codes_at(line: str, column: int, found: Iterable[Diagnostic], number: int) -> tuple[int, list[Proposal]] | None:
+    """The codes behind `# rcyaml: allow`, and the column at which the word begins: those that are reported here first,
+    or in the next line. None anywhere else."""
+    typed = _ALLOW.search(line[: column - 1])
+    if typed is None:
+        return None
+    here = {one.code: one.message for one in found if one.span.line in (number, number + 1)}
+    known = {**here, **{id_: code.message for id_, code in table().items() if id_ not in here}}
+    made = [Proposal(id_, CODE, text, "reported here" if id_ in here else "") for id_, text in known.items()]
+    return typed.start("code") + 1, made
+
+
+def _kind_by_name(path: str) -> str:
+    return os.path.basename(path).removesuffix(".yaml").rpartition(".")[2]
+
+
+def _imports(path: str, place: TypedPlace, importable: Iterable[str]) -> Iterator[Proposal]:
+    own = os.path.basename(path).removesuffix(_SUFFIX)
+    present = set(_items(place.root, "imports"))
+    return (Proposal(name, names.MODULE) for name in importable if name != own and name not in present)
+
+
+def _in_interfaces(path: str, place: TypedPlace, known: Names, importable: Iterable[str]) -> Iterator[Proposal]:
+    keys = place.keys
+    if keys[:1] == ("imports",) and not place.is_key:
+        yield from _imports(path, place, importable)
+    elif not place.is_key and len(keys) > 2 and keys[0] in ("interfaces", "topics", "types", "exceptions", "constants"):
+        is_exception = "throws" in keys[3:]
+        if is_exception or any(key in _OF_TYPES for key in keys[2:]):
+            yield from _types(place, known, "exceptions" if is_exception else "types")
+
+
+def _types(place: TypedPlace, known: Names, section: str) -> Iterator[Proposal]:
+    kind = names.EXCEPTION if section == "exceptions" else names.TYPE
+    yield from (Proposal(name, kind, f"{kind} of this module") for name in _keys(place.root, section))
+    for stem, one in _of_imported(place, known, kind):
+        yield Proposal(f"{stem}.{one.name}", kind, one.says, one.doc)
+
+
+def _in_component(path: str, place: TypedPlace, known: Names, importable: Iterable[str]) -> Iterator[Proposal]:
+    keys = place.keys
+    if keys[:1] == ("imports",) and not place.is_key:
+        yield from _imports(path, place, importable)
+    elif keys and keys[0] in _PORTS and not place.is_key and (len(keys) < 4 or keys[3] == "interface"):
+        kind = _PORTS[keys[0]]
+        for _, one in _of_imported(place, known, kind):
+            yield Proposal(one.name, kind, one.says, one.doc)
+        stems = {stem for stem, _ in _of_imported(place, known, names.MODULE)}
+        can_be_imported = set(importable)
+        for one in known.of_kinds(kind):
+            stem = _stem(one)
+            if stem not in stems and stem in can_be_imported:
+                yield Proposal(one.name, kind, f"{one.says}, imports {stem}", one.doc, stem)
+
+
+def _in_parameters(place: TypedPlace) -> Iterator[Proposal]:
+    if not place.is_key and place.keys[-1:] in (("type",), ("list",), ("map",)):
+        yield from (Proposal(name, names.TYPE, "type of this document") for name in _keys(place.root, "types"))
+
+
+def _in_deployment(path: str, place: TypedPlace, known: Names) -> Iterator[Proposal]:
+    keys, root = place.keys, place.root
+    entries = [name for name in _keys(root, "components") if keys[:2] != ("components", name)]
+    others = [*_keys(root, "groups"), *_keys(root, "services")]
+    match keys:
+        case ("components" | "groups" | "services", _, *_, "host") if not place.is_key:
+            yield from (Proposal(name, names.HOST) for name in _keys(root, "hosts"))
+        case ("components", _, "component") | ("groups", _, "as") if not place.is_key:
+            for one in known.of_kinds(names.COMPONENT):
+                folder = os.path.relpath(os.path.dirname(one.span.file), os.path.dirname(path))
+                yield Proposal(folder, names.COMPONENT, one.says, one.doc)
+        case ("components", _, "connect" | "process", *_) if not place.is_key:
+            yield from (Proposal(name, names.ENTRY) for name in (*entries, *_keys(root, "groups")))
+        case ("components", _, "after", *_) if not place.is_key:
+            yield from (Proposal(name, names.ENTRY) for name in (*entries, *others))
+        case ("groups", _, "components", *_) if not place.is_key:
+            yield from (Proposal(name, names.ENTRY) for name in entries)
+        case ("components", entry, "set", *outer) if place.is_key:
+            target = root.get("components")
+            of_entry = target.get(entry) if target is not None else None
+            component = of_entry.get("component") if of_entry is not None else None
+            if component is not None:
+                yield from _parameters(path, str(component.data), tuple(outer), known)
+
+
+def _parameters(path: str, component: str, outer: tuple[str, ...], known: Names) -> Iterator[Proposal]:
+    """The parameters of a component, which is a folder or a document."""
+    named = os.path.normpath(os.path.join(os.path.dirname(path), component))
+    folder = os.path.dirname(named) if named.endswith(".yaml") else named
+    for one in known.of_kinds(names.PARAMETER):
+        if os.path.dirname(one.key[1]) == folder and one.key[2:-1] == outer:
+            yield Proposal(one.name, names.PARAMETER, one.says, one.doc)
+
+
+def _of_imported(place: TypedPlace, known: Names, kind: str) -> Iterator[tuple[str, DefinedName]]:
+    """The names of a kind in the modules that the document imports, each with the stem of its module."""
+    stems = {name.rpartition("/")[2].removesuffix(_SUFFIX) for name in _items(place.root, "imports")}
+    return ((_stem(one), one) for one in known.of_kinds(kind) if _stem(one) in stems)
+
+
+def _stem(one: DefinedName) -> str:
+    return os.path.basename(one.key[1]).removesuffix(_SUFFIX)
+
+
+def _keys(root: Mapping, section: str) -> list[str]:
+    found = root.get(section)
+    return [key.lexeme for key, _ in found.items()] if isinstance(found, Mapping) else []
+
+
+def _items(root: Mapping, section: str) -> list[str]:
+    return _items_of(root, section)
+
+
+def _items_of(root: Node | None, section: str) -> list[str]:
+    found = root.get(section) if root is not None else None
+    return [str(item.data) for item in found.items] if isinstance(found, Sequence) else []
+
+
+def of_schema_server(path: str, place: TypedPlace) -> frozenset[str]:
+    """The names that a server of schemas offers at a place, from the schema that a compile has written."""
+    kind = kind_of(path, Disk()) or _kind_by_name(path)
+    is_offered = kind in KINDS and not place.is_key and schema_keys.has_names(str(kind), place.keys)
+    return names_offered(path) if is_offered else frozenset()

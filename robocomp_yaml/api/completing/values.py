@@ -1,0 +1,82 @@
+"""What can be a value of a parameter: in values documents, under `set:`, and as a default."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+
+from robocomp_yaml.api.completing.proposal import VALUE, Proposal
+from robocomp_yaml.link.program import LinkedParameters, Program
+from robocomp_yaml.parameters.hidden import hidden
+from robocomp_yaml.parameters.types import (
+    BasicType,
+    EnumType,
+    ListType,
+    MapType,
+    RecordType,
+    ResolvedMember,
+    Type,
+    is_secret,
+)
+from robocomp_yaml.parameters.words import in_words
+from robocomp_yaml.source.yaml_text import flow
+
+
+def parameters_for(program: Program, path: str, component: str = "") -> LinkedParameters | None:
+    """The parameters that a document is about: those of its component, which is a folder or document as written."""
+    named = os.path.normpath(os.path.join(os.path.dirname(path), component)) if component else ""
+    for real, linked in program.components.items():
+        written = linked.component.path
+        if named in (written, real, os.path.dirname(written), os.path.dirname(real)):
+            return linked.parameters
+    for real, parameters in program.parameters.items():
+        if parameters.document is not None and path in (real, parameters.document.path):
+            return parameters
+    values = next((one for real, one in program.values.items() if path in (real, one.document.path)), None)
+    return values.parameters if values is not None else None
+
+
+def member_at(root: RecordType, steps: Sequence[str]) -> ResolvedMember | None:
+    """The parameter, or member of a record, at a path whose steps are keys, '' for an element of a list."""
+    now: Type = root
+    found: ResolvedMember | None = None
+    for step in (part for key in steps for part in (key.split(".") if key else [""])):
+        name, _, index = step.partition("[")
+        match now:
+            case RecordType():
+                found = now.member(name)
+                if found is None:
+                    return None
+                now = found.type
+                for _ in range(index.count("]")):
+                    now = now.element if isinstance(now, ListType) else now
+            case ListType(element=element) | MapType(element=element):
+                now = element
+            case _:
+                return None
+    if found is None:
+        return None
+    return ResolvedMember(found.name, now, found.doc, found.default if now is found.type else None, span=found.span)
+
+
+def values_of(member: ResolvedMember) -> Iterator[Proposal]:
+    """Values that fit: the default first, then enumerators, or the bounds of a range."""
+    type_, about = member.type, in_words(member.type)
+    if is_secret(type_):
+        return
+    if member.default is not None:
+        yield Proposal(flow(hidden(type_, member.default.data)), VALUE, f"default; {about}", member.doc)
+    match type_:
+        case EnumType(enumerators=enumerators, allowed=allowed):
+            docs = dict(enumerators)
+            for name in allowed:
+                yield Proposal(flow(name), VALUE, about, docs.get(name, ""))
+        case BasicType(name="bool", values=()):
+            for text in ("true", "false"):
+                yield Proposal(text, VALUE, about, member.doc)
+        case BasicType(values=values, range=limits):
+            for literal in values:
+                yield Proposal(flow(literal.value), VALUE, about, member.doc)
+            for bound, what in ((limits.low, "least"), (limits.high, "greatest")) if limits is not None else ():
+                if bound is not None and not bound.is_open:
+                    yield Proposal(flow(bound.value), VALUE, f"the {what}; {about}", member.doc)

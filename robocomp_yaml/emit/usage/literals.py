@@ -1,0 +1,73 @@
+"""Literal values in code that cannot be right: compared with what never equals them, or passed to what rejects them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from robocomp_yaml.diag.codes import usage as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.suggest import did_you_mean
+from robocomp_yaml.emit.usage.code import Chain, Constant
+from robocomp_yaml.emit.usage.offer import PLAIN, Offer, OfferedMember
+from robocomp_yaml.emit.usage.values import rejected, type_of_setting
+from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.model.interface import Member
+from robocomp_yaml.parameters.types import BasicType, EnumType, Type
+from robocomp_yaml.parameters.words import in_words
+
+_NUMBERS = ("byte", "short", "int", "long", "float", "double")
+
+
+def never_equal(chain: Chain, member: OfferedMember | None, now: Offer | None) -> Iterator[Diagnostic]:
+    """Comparisons of a parameter, or of a member of a struct, that are always false."""
+    for constant in chain.compared:
+        name = chain.steps[-1].word.text
+        parameter = (member.read or member.parameter) if member is not None else None
+        if member is not None and parameter is not None:
+            yield from _of_parameter(parameter.type, member.path or parameter.name, constant)
+        elif now is not None and now.kind == PLAIN and (wanted := _wanted(now.name, constant.value)):
+            yield codes.NEVER_EQUAL.at(constant.span, name=name, value=repr(constant.value), wanted=wanted)
+
+
+def of_setting(linked: LinkedComponent, chain: Chain) -> Iterator[Diagnostic]:
+    """Comparisons of a property that RoboComp's code reads. Its value may be a text or not, so only texts count."""
+    key = ".".join(step.word.text for step in chain.steps)
+    type_ = type_of_setting(linked, key)
+    is_text = isinstance(type_, EnumType) or (isinstance(type_, BasicType) and type_.name == "string")
+    for constant in chain.compared if is_text and type_ is not None else ():
+        if isinstance(constant.value, str):
+            yield from _of_parameter(type_, key, constant)
+
+
+def _of_parameter(type_: Type | None, path: str, constant: Constant) -> Iterator[Diagnostic]:
+    if constant.value != "" and rejected(type_, constant.value):  # '' may mean: not set
+        allowed = type_.allowed if isinstance(type_, EnumType) else ()
+        if isinstance(type_, BasicType):
+            allowed = tuple(str(one.value) for one in type_.values)
+        wanted = in_words(type_)  # type: ignore[arg-type]
+        hint = did_you_mean(str(constant.value), allowed)
+        yield codes.NEVER_EQUAL.at(
+            constant.span, name=path, value=repr(constant.value), wanted=wanted, hint=hint.text
+        )  # fmt: skip
+
+
+def wrong_literals(
+    owner: str, inputs: tuple[Member, ...], kinds: tuple[str, ...], values: tuple[Constant | None, ...]
+) -> Iterator[Diagnostic]:
+    """Literal arguments of a call that its parameters cannot be. `kinds` are their types, '' if unknown."""
+    for member, kind, constant in zip(inputs, kinds, values, strict=False):
+        if constant is not None and (wanted := _wanted(kind, constant.value)):
+            yield codes.WRONG_LITERAL.at(
+                constant.span, owner=owner, name=member.name, value=repr(constant.value), wanted=wanted
+            )
+
+
+def _wanted(type_: str, value: object) -> str:
+    """What a type of an interface expects instead of a literal value; '' if the value may be right."""
+    if type_ == "string":
+        return "" if isinstance(value, str) else "a text"
+    if type_ in _NUMBERS:
+        return "a number" if isinstance(value, str) else ""
+    if type_ == "bool":
+        return "true or false" if isinstance(value, str) else ""
+    return f"a {type_}" if type_ and isinstance(value, (str, float)) else ""

@@ -1,0 +1,208 @@
+"""Chains of names in Python, with what variables stand for: `self.mouth_proxy.move(pose)`, also through variables that
+are bound once."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections import Counter
+from collections.abc import Collection, Iterable, Mapping
+from functools import cached_property
+
+import msgspec
+
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.emit.usage.code import MODULES, WORKER, Arguments, Constant, Step, Word
+from robocomp_yaml.languages.python.syntax import constant, parameters_of
+
+
+class Binding(msgspec.Struct, frozen=True):
+    """What a variable is bound to: the beginning of a chain, or an expression; `is_element`: an element of it."""
+
+    root: str = ""
+    steps: tuple[Step, ...] = ()
+    value: ast.expr | None = None
+    is_element: bool = False
+
+
+Frame = Mapping[str, Binding | None]
+SELF = Binding(WORKER)
+
+
+class ChainReader:
+    """`sources` are the modules from which the Slice modules are imported."""
+
+    def __init__(self, path: str, text: str, sources: Collection[str]) -> None:
+        self._path, self._text, self._sources = path, text, sources
+        self._rebound: frozenset[str] = frozenset()
+        self._again: set[str] = set()  # the parameters that the last scope binds again
+        self._aliases: dict[str, tuple[str, tuple[Step, ...]]] = {}  # of attributes of the worker
+
+    @cached_property
+    def _lines(self) -> list[str]:
+        return re.compile("\r\n|\r|\n").split(self._text)
+
+    def _frame(self, body: Iterable[ast.AST], arguments: ast.arguments | None = None) -> dict[str, Binding | None]:
+        """The variables of a scope, with what those are that are bound once."""
+        counts: Counter[str] = Counter()
+        values: dict[str, Binding] = {}
+        given = [argument.arg for argument in parameters_of(arguments)]
+        counts.update((*given, *given))
+        todo = list(body)
+        while todo:
+            node = todo.pop()
+            match node:
+                case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.ClassDef():
+                    counts[node.name] += 1
+                    continue
+                case ast.Lambda():
+                    continue
+                case ast.Name(ctx=ast.Store() | ast.Del()):
+                    counts[node.id] += 1
+                case ast.Import() | ast.ImportFrom():
+                    for alias in node.names:
+                        name = alias.asname or alias.name.partition(".")[0]
+                        counts[name] += 1
+                        if (made := self._imported(node, alias)) is not None:
+                            values[name] = made
+                case ast.ExceptHandler(name=str(name), type=ast.Attribute() | ast.Name() as value):
+                    counts[name] += 1
+                    values[name] = Binding(value=ast.Call(value, [], [ast.keyword(None, value)]))  # any arguments
+                case ast.ExceptHandler(name=str(name)) | ast.MatchAs(name=str(name)) | ast.MatchStar(name=str(name)):
+                    counts[name] += 1
+                case ast.Assign(targets=[ast.Name(id=name)], value=value):
+                    values[name] = Binding(value=value)
+                case ast.AnnAssign(target=ast.Name(id=name), value=ast.expr() as value):
+                    values[name] = Binding(value=value)
+                case (
+                    ast.For(target=ast.Name(id=name), iter=value)
+                    | ast.comprehension(target=ast.Name(id=name), iter=value)
+                ):
+                    values[name] = Binding(value=value, is_element=True)
+            todo += ast.iter_child_nodes(node)
+        self._again = {name for name in given if counts[name] > 2}
+        return {
+            name: values.get(name) if count == 1 and name not in self._rebound else None
+            for name, count in counts.items()
+        }
+
+    def _imported(self, node: ast.Import | ast.ImportFrom, alias: ast.alias) -> Binding | None:
+        """What an import binds, if it is one of the generated interfaces."""
+        if isinstance(node, ast.Import):
+            is_whole = alias.name in self._sources and (alias.asname or "." not in alias.name)
+            return Binding(MODULES) if is_whole else None
+        if node.module == "generated" and alias.name == "interfaces":
+            return Binding(MODULES)
+        if node.module in self._sources and not node.level and alias.name != "*":
+            return Binding(MODULES, (Step(self._word(alias.name, alias, alias.col_offset)),))
+        return None
+
+    def _lookup(self, name: str, frames: tuple[Frame, ...], depth: int = 0) -> tuple[str, tuple[Step, ...]] | None:
+        """Root and steps that a variable stands for."""
+        for index in range(len(frames) - 1, -1, -1):
+            if name in frames[index]:
+                bound = frames[index][name]
+                if bound is None or name in self._rebound or depth > 8:
+                    return None
+                if bound.value is None:
+                    return bound.root, bound.steps
+                chain = self._chain(bound.value, frames[: index + 1], depth + 1)
+                if chain is None:
+                    return None
+                return chain[0], (*chain[1], _ELEMENT) if bound.is_element else chain[1]
+        return None
+
+    def _chain(
+        self, node: ast.expr, frames: tuple[Frame, ...], depth: int = 0
+    ) -> tuple[str, tuple[Step, ...]] | None:  # fmt: skip
+        """Root and steps of an expression, if it is a chain."""
+        steps: list[Step] = []
+        arguments: Arguments | None = None
+        now, is_read = node, False
+        while True:
+            match now:
+                case ast.Attribute(value=inner, attr=name):
+                    is_read = isinstance(now.ctx, ast.Load)
+                    at = (now.end_col_offset or 0) - len(name.encode())
+                    steps.append(Step(self._word(name, now, at, now.end_lineno), arguments))
+                    arguments, now = None, inner
+                case ast.Subscript(slice=ast.Slice() | ast.Tuple()):
+                    return None  # several elements
+                case ast.Subscript(value=inner, slice=index) if arguments is None:
+                    steps.append(Step(self._key(index), is_index=True))
+                    now = inner
+                case ast.Call(func=function) if arguments is None:
+                    arguments = self._arguments_of(now)
+                    now = function
+                case ast.Name(id=name):
+                    found = self._lookup(name, frames, depth)
+                    if found is None or (arguments is not None and not found[1]):
+                        return None
+                    root, head = found
+                    if found == (WORKER, ()) and steps and is_read and steps[-1].word.text in self._aliases:
+                        root, head = self._aliases[steps[-1].word.text]
+                        if steps[-1].arguments is not None and not head:
+                            return None
+                        if (last := steps.pop()).arguments is not None:
+                            head = (*head[:-1], Step(Word(head[-1].word.text, last.word.span), last.arguments))
+                    if arguments is not None:  # a method in a variable: the call is where the variable is
+                        here = self._word(name, now, now.col_offset).span
+                        head = (*head[:-1], Step(Word(head[-1].word.text, here), arguments, head[-1].is_index))
+                    return root, (*head, *reversed(steps))
+                case _:
+                    return None
+
+    def _arguments_of(self, call: ast.Call) -> Arguments:
+        is_exact = not any(isinstance(one, ast.Starred) for one in call.args)
+        is_exact = is_exact and all(word.arg is not None for word in call.keywords)
+        names = [self._word(word.arg, word, word.col_offset) for word in call.keywords if word.arg is not None]
+        first = call.args[0] if call.args else None
+        text: Word | None = None
+        keys: tuple[Word, ...] = ()
+        if isinstance(first, ast.Constant) and isinstance(first.value, str):
+            text = self._text_word(first)
+        elif isinstance(first, ast.Dict):
+            words = (self._text_word(key) for key in first.keys if isinstance(key, ast.Constant))
+            keys = tuple(word for word in words if word is not None)
+        last = call.args[-1] if call.args else None
+        constant = self._constant(last) if last is not None and (text is None or last is not first) else None
+        values = tuple(map(self._constant, call.args))
+        return Arguments(len(call.args), tuple(names), is_exact, text, keys, constant, values)
+
+    def _key(self, index: ast.expr) -> Word:
+        word = self._text_word(index) if isinstance(index, ast.Constant) else None
+        return word or Word("", Span(self._path))
+
+    def _text_word(self, node: ast.Constant) -> Word | None:
+        """The text in a literal, without its quotes; None if it is not written as it is."""
+        if not isinstance(node.value, str) or node.end_lineno != node.lineno:
+            return None
+        span = self._span(node)
+        line = self._lines[node.lineno - 1] if node.lineno <= len(self._lines) else ""
+        at = line.find(node.value, span.column - 1, span.end_column - 1)
+        if at < 0 or not node.value:
+            return None
+        return Word(node.value, Span(self._path, node.lineno, at + 1, node.lineno, at + 1 + len(node.value)))
+
+    def _word(self, text: str, node: ast.expr | ast.alias | ast.keyword, byte: int, line: int | None = None) -> Word:
+        row = line or node.lineno
+        column = self._column(row, byte)
+        return Word(text, Span(self._path, row, column, row, column + len(text)))
+
+    def _constant(self, node: ast.expr) -> Constant | None:
+        value = constant(node)
+        return None if value is None else Constant(value, self._span(node))
+
+    def _span(self, node: ast.expr) -> Span:
+        line, end = node.lineno, node.end_lineno or node.lineno
+        return Span(
+            self._path, line, self._column(line, node.col_offset), end, self._column(end, node.end_col_offset or 0)
+        )
+
+    def _column(self, line: int, byte: int) -> int:
+        """The column, from 1 and in characters, of a position in bytes."""
+        text = self._lines[line - 1] if line <= len(self._lines) else ""
+        return byte + 1 if text.isascii() else len(text.encode()[:byte].decode(errors="replace")) + 1
+
+
+_ELEMENT = Step(Word("", Span("")), is_index=True, is_each=True)

@@ -1,0 +1,178 @@
+"""Slips in the user's code in Python that need no chain: a name without `self.`, a method without `self`, a method that
+is named and not called, and names that the generated modules lack."""
+
+from __future__ import annotations
+
+import ast
+import builtins
+from collections.abc import Callable, Collection, Iterator, Mapping
+
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.emit.usage.code import (
+    NO_INIT,
+    NO_RESULT,
+    NO_SELF,
+    NOT_CALLED,
+    NOT_GENERATED,
+    REPEATED,
+    UNDEFINED,
+    WITHOUT_SELF,
+    Slip,
+    Word,
+)
+from robocomp_yaml.languages.python.syntax import names_of
+
+GENERATED = frozenset("component genericworker interfaces parameters runtime statemachine".split())
+_OF_WORKER = frozenset(("GenericWorker",))
+_OF_MODULES = frozenset("__file__ __path__ __class__ __builtins__ __annotations__ _ reveal_type WindowsError".split())
+_Function = (ast.FunctionDef, ast.AsyncFunctionDef)
+
+
+def slips(
+    path: str, text: str, tree: ast.Module, workers: Collection[str], attributes: Collection[str],
+    methods: Mapping[str, Collection[str]], modules: Collection[str], answering: Collection[str],
+) -> Iterator[Slip]:  # fmt: skip
+    """The slips of a file. `attributes` are those of the worker that no other name can mean, `methods` those of each
+    proxy, `modules` the Slice modules, and `answering` the methods that must return something."""
+    lines = text.splitlines()
+
+    def at(name: str, node: ast.expr | ast.stmt | ast.alias, end: bool = False) -> Word | None:
+        """The word at the beginning of a node, or at its end."""
+        row = (node.end_lineno or node.lineno) if end else node.lineno
+        line = lines[row - 1] if row <= len(lines) else ""
+        byte = ((node.end_col_offset or 0) - len(name.encode())) if end else node.col_offset
+        column = len(line.encode()[:byte].decode(errors="replace"))
+        start = line.find(name, column)
+        return Word(name, Span(path, row, start + 1, row, start + 1 + len(name))) if start >= 0 else None
+
+    yield from _imports(tree, at)
+    bound = _bound(tree)
+    if bound is not None:
+        yield from _undefined(tree, bound, {*modules, *_OF_WORKER}, attributes, at)
+    for class_ in (node for node in tree.body if isinstance(node, ast.ClassDef) and node.name in workers):
+        seen = dict[str, int]()
+        for method in (node for node in class_.body if isinstance(node, _Function)):
+            if not method.decorator_list and seen.setdefault(method.name, method.lineno) != method.lineno:
+                if (word := at(method.name, method)) is not None:
+                    yield Slip(REPEATED, word, str(seen[method.name]))
+            if method.name == "__init__" and "__init__" not in _called(method):
+                if (word := at(method.name, method)) is not None:
+                    yield Slip(NO_INIT, word)
+            if method.name in answering and not method.decorator_list and _returns_nothing(method):
+                if (word := at(method.name, method)) is not None:
+                    yield Slip(NO_RESULT, word)
+            given = method.args
+            if not (given.posonlyargs or given.args or given.vararg or method.decorator_list):
+                if (word := at(method.name, method)) is not None:
+                    yield Slip(NO_SELF, word)
+        for node in ast.walk(class_):
+            match node:
+                case ast.Name(id=name, ctx=ast.Load()) if (
+                    bound is not None and name in attributes and name not in bound
+                ):
+                    if (word := at(name, node)) is not None:
+                        yield Slip(WITHOUT_SELF, word, f"self.{name}")
+                case ast.Expr(
+                    value=ast.Attribute(value=ast.Attribute(value=ast.Name(id="self"), attr=proxy), attr=name)
+                ):
+                    if name in methods.get(proxy, ()) and (word := at(name, node.value, end=True)) is not None:
+                        yield Slip(NOT_CALLED, word)
+
+
+def _undefined(
+    tree: ast.Module, bound: set[str], imported: Collection[str], attributes: Collection[str],
+    at: Callable[..., Word | None],
+) -> Iterator[Slip]:  # fmt: skip
+    """The names that nothing in a file defines. `imported` are those that the generated code has."""
+    known = bound | set(dir(builtins)) | _OF_MODULES | set(attributes)  # a name of the worker is another slip
+    seen = set[str]()
+    caught = {name for node in ast.walk(tree) if isinstance(node, ast.ExceptHandler) for name in names_of(node.type)}
+    if "NameError" in caught:
+        return
+    for node in _outside_annotations(tree):
+        if (
+            isinstance(node, ast.Name)
+            and isinstance(node.ctx, ast.Load)
+            and node.id not in known
+            and node.id not in seen
+        ):
+            if (word := at(node.id, node)) is not None:
+                seen.add(node.id)
+                source = "interfaces" if node.id not in _OF_WORKER else "genericworker"
+                meant = f"from generated.{source} import {node.id}" if node.id in imported else ""
+                yield Slip(UNDEFINED, word, meant, tuple(sorted({*bound, *imported})))
+
+
+def _outside_annotations(tree: ast.Module) -> Iterator[ast.AST]:
+    todo: list[ast.AST] = [tree]
+    while todo:
+        node = todo.pop(0)
+        yield node
+        skipped: list[ast.AST | None] = []
+        if isinstance(node, (ast.AnnAssign, ast.arg)):
+            skipped = [node.annotation]
+        elif isinstance(node, _Function):
+            skipped = [node.returns]
+        todo += (child for child in ast.iter_child_nodes(node) if child not in skipped)
+
+
+def _called(method: ast.AST) -> set[str]:
+    """The last words of what a method calls."""
+    return {name for node in ast.walk(method) if isinstance(node, ast.Call) for name in names_of(node.func)}
+
+
+def _returns_nothing(method: ast.FunctionDef | ast.AsyncFunctionDef) -> bool:
+    """Whether a method surely ends without a value."""
+    last = method.body[-1]
+    if isinstance(last, (ast.Raise, ast.While, ast.Try, ast.With, ast.If, ast.Match)):
+        return False  # it may end in another way
+    todo: list[ast.AST] = list(method.body)
+    while todo:
+        match node := todo.pop():
+            case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.ClassDef() | ast.Lambda():
+                continue
+            case ast.Return(value=ast.expr()) | ast.Yield() | ast.YieldFrom():
+                return False
+        todo += ast.iter_child_nodes(node)
+    return True
+
+
+def _imports(tree: ast.Module, at: Callable[..., Word | None]) -> Iterator[Slip]:
+    """Imports of what the generated modules lack."""
+    for node in tree.body:
+        if not isinstance(node, ast.ImportFrom) or node.level or not node.module:
+            continue
+        package, _, module = node.module.partition(".")
+        if package != "generated" or "." in module:
+            continue
+        if module and module not in GENERATED and (word := at(module, node)) is not None:
+            yield Slip(NOT_GENERATED, word, known=tuple(sorted(GENERATED)))
+        elif module == "genericworker":
+            for alias in node.names:
+                if alias.name.lower().startswith("generic") and alias.name not in _OF_WORKER:
+                    if (word := at(alias.name, alias)) is not None:
+                        yield Slip(NOT_GENERATED, word, known=tuple(_OF_WORKER))
+
+
+def _bound(tree: ast.Module) -> set[str] | None:
+    """All names that a file binds anywhere; None if it may bind any."""
+    found: set[str] = set()
+    for node in ast.walk(tree):
+        match node:
+            case ast.Name(id=name, ctx=ast.Store() | ast.Del()) | ast.arg(arg=name):
+                found.add(name)
+            case ast.FunctionDef(name=name) | ast.AsyncFunctionDef(name=name) | ast.ClassDef(name=name):
+                found.add(name)
+            case ast.Import(names=names) | ast.ImportFrom(names=names):
+                if any(alias.name == "*" for alias in names):
+                    return None
+                found.update((alias.asname or alias.name).partition(".")[0] for alias in names)
+            case ast.ExceptHandler(name=str(name)) | ast.MatchAs(name=str(name)) | ast.MatchStar(name=str(name)):
+                found.add(name)
+            case ast.MatchMapping(rest=str(name)):
+                found.add(name)
+            case ast.Global(names=names) | ast.Nonlocal(names=names):
+                found.update(names)
+            case ast.Name(id="exec" | "eval" | "globals" | "locals" | "vars"):
+                return None
+    return found

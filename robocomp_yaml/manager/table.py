@@ -1,0 +1,7 @@
+"""All commands of the manager."""
+
+from __future__ import annotations
+
+from robocomp_yaml.manager import commands, documents, fields, hosts
+
+COMMANDS = (*commands.COMMANDS, *documents.COMMANDS, *fields.COMMANDS, *hosts.COMMANDS)

@@ -1,0 +1,162 @@
+"""The document beside the picture: each follows the other."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from processes import until
+
+pytest.importorskip("playwright", reason="pip install playwright")
+
+from playwright.sync_api import Page, expect
+
+from manager_pages import browser, choose, drag, has_facts, item, middle, page, under
+from test_manager_page_edit import DOCUMENT, has_action, head, served, shown, text, write
+
+__all__ = ["browser", "head", "page", "served", "shown"]
+
+
+def marked(page: Page) -> list[str]:
+    return page.locator(".cm-line.marked").all_text_contents()
+
+
+def put_cursor(page: Page, line: str) -> None:
+    page.locator(".cm-line", has_text=line).click()
+
+
+def test_text_and_picture_follow_each_other(head: Path, shown: Page) -> None:
+    shown.get_by_role("button", name="YAML").click()
+    put_cursor(shown, "  lips:")
+    expect(item(shown, "lips")).to_have_attribute("aria-selected", "true")
+    assert shown.evaluate("model.selected") == "lips"
+    until(lambda: under(shown, *middle(shown, "speech")) == "speech", "the picture made room")
+    shown.mouse.click(*middle(shown, "speech"))
+    until(lambda: "".join(marked(shown)).startswith("  speech:"), "the lines of what was clicked are marked")
+
+    choose(shown, "lips", "Move to host…")  # a change of the picture appears in the text
+    write(shown)
+    expect(shown.locator(".cm-line", has_text="lips: {component: mouth, host: onboard}")).to_be_visible()
+
+    put_cursor(shown, "  log:")  # what is typed appears in the picture
+    shown.keyboard.press("End")
+    shown.keyboard.type("\nwink: {program: sleep, args: ['9'], host: desk}")
+    expect(shown.get_by_role("region", name="Document").get_by_role("status")).to_have_text("not saved")
+    assert "wink" not in text(head)
+    shown.keyboard.press("Control+s")
+    expect(item(shown, "wink")).to_be_visible()
+    assert "  wink: {program: sleep" in text(head)
+    assert "# The one with the good voice." in text(head)
+
+
+def test_what_is_typed_is_checked_and_completed(head: Path, shown: Page) -> None:
+    shown.get_by_role("button", name="YAML").click()
+    put_cursor(shown, "  lips:")
+    shown.keyboard.press("End")
+    shown.keyboard.type("\ntongue: {component: mouht, host: desk}")
+    expect(shown.locator(".cm-lintRange-error", has_text="mouht")).to_be_visible()
+    shown.keyboard.press("Control+s")  # what has errors is not written without a question
+    dialog = shown.get_by_role("dialog")
+    expect(dialog).to_contain_text("mouht")
+    assert text(head) == DOCUMENT
+    dialog.get_by_role("button", name="Back to the text").click()
+    shown.locator(".cm-line", has_text="tongue").click()
+    shown.keyboard.press("End")
+    for _ in range(len("mouht, host: desk}")):
+        shown.keyboard.press("Backspace")
+    shown.keyboard.type("mou")
+    expect(shown.locator(".cm-tooltip-autocomplete")).to_contain_text("mouth")
+
+
+def test_the_picture_follows_what_is_typed_before_it_is_saved(head: Path, shown: Page) -> None:
+    draft = shown.locator("#draft")
+    shown.get_by_role("button", name="YAML").click()
+    put_cursor(shown, "  log:")
+    shown.keyboard.press("End")
+    shown.keyboard.type("\nwink: {program: sleep, args: ['9'], host: desk}")
+    expect(item(shown, "wink")).to_be_visible()
+    until(lambda: under(shown, *middle(shown, "wink")) == "wink", "it is drawn")
+    expect(draft).to_contain_text("not saved")
+    assert text(head) == DOCUMENT
+    shown.keyboard.press("Home")  # a line that is not YAML yet: the last picture stays
+    shown.keyboard.type("wonk: [")
+    expect(draft).to_contain_text("the last one")
+    expect(item(shown, "wink")).to_be_visible()
+    for _ in "wonk: [":
+        shown.keyboard.press("Backspace")
+    expect(draft).not_to_contain_text("the last one")
+    shown.keyboard.press("End")
+    for _ in ", host: desk}":
+        shown.keyboard.press("Backspace")
+    shown.keyboard.type(", host: dsek}")  # an error of the text is red in the picture
+    until(lambda: shown.evaluate("model.look('wink')") == "down", "its error is shown")
+    assert "RC4002" in str(shown.evaluate("model.nodes.get('wink').faults.map((one) => one.code)"))
+    choose(shown, "desk", "Close in the picture")  # boxes of it can be closed, too
+    until(lambda: shown.evaluate("model.graph.nodes.some((one) => one.kind === 'closed')"), "the box is closed")
+    expect(item(shown, "wink")).to_be_visible()
+    choose(shown, "desk", "Open in the picture")
+    shown.get_by_role("button", name="Discard").click()
+    expect(item(shown, "wink")).to_have_count(0)
+    expect(draft).to_be_hidden()
+    assert text(head) == DOCUMENT
+
+
+def test_what_others_write_is_not_overwritten(head: Path, shown: Page) -> None:
+    shown.get_by_role("button", name="YAML").click()
+    document = head / "head.ddsl.yaml"
+    document.write_text(DOCUMENT.replace("# spare", "# for Mondays"))
+    expect(shown.locator(".cm-line", has_text="# for Mondays")).to_be_visible()  # nothing was typed: it is read again
+    put_cursor(shown, "  log:")
+    shown.keyboard.press("End")
+    shown.keyboard.type("  # mine")
+    theirs = DOCUMENT.replace("# spare", "# theirs")
+    document.write_text(theirs)
+    shown.keyboard.press("Control+s")
+    dialog = shown.get_by_role("dialog", name="The file was changed elsewhere")
+    expect(dialog.get_by_label("In the file now")).to_contain_text("# theirs")
+    expect(dialog.get_by_label("What you meant")).to_contain_text("# mine")
+    assert text(head) == theirs
+    dialog.get_by_role("button", name="Take theirs").click()
+    expect(shown.locator(".cm-line", has_text="# theirs")).to_be_visible()
+    assert shown.locator(".cm-line", has_text="# mine").count() == 0
+    assert text(head) == theirs
+
+
+def test_a_position_is_kept_and_forgotten(head: Path, shown: Page) -> None:
+    before, start = shown.evaluate("[model.nodes.get('log').x, model.nodes.get('log').y]"), middle(shown, "log")
+    drag(shown, start, (start[0] + 90, start[1] + 40))
+    until(lambda: shown.evaluate("'log' in model.positions"), "the position is kept")
+    where = "[model.nodes.get('log').x, model.nodes.get('log').y]"
+    until(lambda: shown.evaluate(where) != before, "the process is where it was put")
+    moved = shown.evaluate(where)
+    assert text(head) == DOCUMENT
+    assert list((head / ".rcyaml/layout").iterdir())
+    shown.reload()
+    has_facts(shown)
+    assert shown.evaluate("[model.nodes.get('log').x, model.nodes.get('log').y]") == moved
+    choose(shown, "log", "Forget its position")
+    until(lambda: shown.evaluate("[model.nodes.get('log').x, model.nodes.get('log').y]") == before, "it is back")
+
+
+def test_boxes_close_and_open(head: Path, shown: Page) -> None:
+    choose(shown, "desk", "Close in the picture")
+    closed = "model.graph.nodes.filter((one) => one.kind === 'closed').map((one) => [one.title, one.members.length])"
+    until(lambda: shown.evaluate(closed) == [["desk (127.0.0.2)", 2]], "the host is one node")
+    assert shown.evaluate("[...model.nodes.keys()].includes('lips')")
+    item(shown, "lips").click()  # what is inside can still be selected
+    expect(shown.get_by_role("complementary").get_by_role("heading", name="lips")).to_be_visible()
+    name = "host desk"
+    until(lambda: under(shown, *middle(shown, name)) == name, "its box is where it is drawn")
+    shown.mouse.dblclick(*middle(shown, name))
+    until(lambda: shown.evaluate(closed) == [], "it is open again")
+    assert has_action(shown, "face", "Close in the picture")
+
+
+def test_what_a_host_lacks_is_seen(head: Path, shown: Page) -> None:
+    shown.get_by_role("button", name="Hosts", exact=True).click()
+    drawer = shown.get_by_role("region", name="Hosts")
+    drawer.get_by_role("button", name="what onboard has").click()
+    rows = drawer.get_by_role("row")
+    expect(rows.filter(has_text="speech")).to_contain_text("✕", timeout=15_000)
+    expect(rows.filter(has_text="speech")).to_contain_text("SpeechComp")

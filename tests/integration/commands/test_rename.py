@@ -1,0 +1,141 @@
+"""`rcyaml rename`: what is written, what is refused, and with which exit code."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from click.testing import Result
+
+from conftest import write_tree
+
+PLACE = {
+    "rcyaml.yaml": "interfaces: [interfaces]\n",
+    "interfaces/Arm.idsl.yaml": (
+        "module: RoboCompArm\ninterfaces:\n  Arm:\n    methods:\n"
+        "      reach: {in: {goal: float}, out: {rest: float}}  # mm\n      stop:\n"
+        "topics: {Reached: {methods: {reach: {in: {goal: float}}}}}\n"
+    ),
+    "arm/arm.cdsl.yaml": "component: ArmComp\nlanguage: python\nimports: [Arm]\nimplements: [Arm]\n",
+    "arm/src/specificworker.py": (
+        "from genericworker import GenericWorker\n\n\nclass SpecificWorker(GenericWorker):\n"
+        "    def Arm_reach(self, goal):\n        return goal - 1\n\n    def Arm_stop(self):\n        goal = 2\n"
+    ),
+    "robot.ddsl.yaml": "deployment: Robot\ncomponents: {arm: {component: arm}, legs: {program: sh}}\n",
+    "arm.mock.yaml": (
+        "interfaces:\n  Arm: {methods: {reach: [{out: {rest: 1}}, {out: {rest: 2}, delay: 1 ms}]}}\n"
+        "topics:\n  Reached: {messages: [{reach: {goal: 3}}]}\n"
+    ),
+}
+
+
+@pytest.fixture
+def ws(rcyaml: Callable[..., Result], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    folder = write_tree(tmp_path / "ws", PLACE)
+    monkeypatch.chdir(folder)
+    return folder
+
+
+def test_an_argument_is_renamed_in_documents_and_scripts(ws: Path, rcyaml: Callable[..., Result]) -> None:
+    ran = rcyaml("rename", "Arm.reach.rest", "left")
+    assert ran.exit_code == 0, ran.output
+    assert "out: {left: float}}  # mm\n" in (ws / "interfaces/Arm.idsl.yaml").read_text()
+    assert "[{out: {left: 1}}, {out: {left: 2}, delay" in (ws / "arm.mock.yaml").read_text()
+    assert (ws / "arm/src/specificworker.py").read_text() == PLACE["arm/src/specificworker.py"], "it is its own name"
+    assert rcyaml("check").exit_code == 0
+
+
+def test_the_argument_of_one_method_is_not_that_of_another(ws: Path, rcyaml: Callable[..., Result]) -> None:
+    ran = rcyaml("rename", "goal", "to")
+    assert ran.exit_code == 2 and "argument in interfaces/Arm.idsl.yaml:5:" in ran.output
+    ran = rcyaml("rename", "Reached.reach.goal", "to")
+    assert ran.exit_code == 0, ran.output
+    assert "{reach: {to: 3}}" in (ws / "arm.mock.yaml").read_text()
+    assert "reach: {in: {goal: float}" in (ws / "interfaces/Arm.idsl.yaml").read_text()
+
+
+def test_a_renamed_interface_takes_its_arguments_along(ws: Path, rcyaml: Callable[..., Result]) -> None:
+    ran = rcyaml("rename", "interface:Arm", "Limb")
+    assert ran.exit_code == 0, ran.output
+    assert "def Limb_reach(self, goal):" in (ws / "arm/src/specificworker.py").read_text()
+    assert rcyaml("rename", "Limb.reach.rest", "left").exit_code == 0
+
+
+@pytest.mark.parametrize("old", ["Arm", "arm"])
+@pytest.mark.parametrize("proxy", ["arm:tcp -h {host} -p 10021", '"arm" -t:tcp -p 10021 -h {host}', "arm @ Adapter"])
+def test_a_renamed_interface_takes_the_identities_in_proxies_along(
+    ws: Path, rcyaml: Callable[..., Result], old: str, proxy: str
+) -> None:
+    local, remote = proxy.format(host="localhost"), proxy.format(host="10.0.0.7")
+    interface = (ws / "interfaces/Arm.idsl.yaml").read_text().replace("  Arm:", f"  {old}:")
+    user = f"language: python\nimports: [Arm]\nrequires: [{old}]\n"
+    write_tree(
+        ws,
+        {
+            "interfaces/Arm.idsl.yaml": interface,
+            "arm/arm.cdsl.yaml": f"component: ArmComp\nlanguage: python\nimports: [Arm]\nimplements: [{old}]\n",
+            "arm.mock.yaml": "topics:\n  Reached: {messages: [{reach: {goal: 3}}]}\n",
+            "user/user.cdsl.yaml": f"component: UserComp\n{user}",
+            "user/etc/config": f"# of the user\n{old}Proxy = {local}\n",
+            "head/head.cdsl.yaml": f"component: HeadComp\n{user}",
+            "head/etc/config.yaml": f"component: ../head.cdsl.yaml\nproxies:\n  {old}: '{local}'  # near\n",
+            "robot.ddsl.yaml": "deployment: Robot\ncomponents:\n  arm: {component: arm}\n"
+            f"  head: {{component: head, connect: {{{old}: arm}}}}\n"
+            f"  user: {{component: user, connect: {{{old}: '{remote}'}}}}\n",
+        },
+    )
+    (ws / "arm/src/specificworker.py").unlink()
+    ran = rcyaml("rename", f"interface:{old}", "Limb")
+    assert ran.exit_code == 0, ran.output
+    assert (ws / "user/etc/config").read_text() == f"# of the user\nLimbProxy = {local.replace('arm', 'limb')}\n"
+    assert f"  Limb: '{local.replace('arm', 'limb')}'  # near\n" in (ws / "head/etc/config.yaml").read_text()
+    robot = (ws / "robot.ddsl.yaml").read_text()
+    assert f"connect: {{Limb: '{remote.replace('arm', 'limb')}'}}" in robot
+    assert "connect: {Limb: arm}" in robot, "an entry has a name of its own"
+
+
+@pytest.mark.parametrize(
+    ("name", "new", "code", "said"),
+    [
+        ("Arm.stop", "reach", 1, "Arm.stop"),
+        ("arm", "legs", 1, "is not renamed"),
+        ("Arm.reach.goal", "rest", 1, "is not renamed"),
+        ("Arm.reach.goal", "", 1, "at least one character"),
+        ("Arm.walk", "run", 2, "unknown name 'Arm.walk'"),
+        ("interfaces/Arm.idsl.yaml:1:1", "x", 2, "is not a name"),
+        ("interfaces/Leg.idsl.yaml:1:1", "x", 2, "is not a name"),
+    ],
+)
+def test_what_would_be_wrong_is_refused_and_nothing_is_written(
+    ws: Path, rcyaml: Callable[..., Result], name: str, new: str, code: int, said: str
+) -> None:
+    ran = rcyaml("rename", name, new)
+    assert (ran.exit_code, said in ran.output) == (code, True), ran.output
+    assert {name: (ws / name).read_text() for name in PLACE} == PLACE
+
+
+def test_a_diff_writes_nothing(ws: Path, rcyaml: Callable[..., Result]) -> None:
+    ran = rcyaml("rename", "Arm.stop", "halt", "--diff")
+    assert ran.exit_code == 0
+    assert "-    def Arm_stop(self):\n+    def Arm_halt(self):\n" in ran.stdout
+    assert "method stop would be renamed to halt" not in ran.stdout, "it is a patch"
+    assert {name: (ws / name).read_text() for name in PLACE} == PLACE
+
+
+def test_a_location_is_relative_to_the_working_folder(
+    ws: Path, rcyaml: Callable[..., Result], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(ws / "arm")
+    ran = rcyaml("rename", "../interfaces/Arm.idsl.yaml:6:7", "halt", "--format", "json")
+    assert ran.exit_code == 0, ran.output
+    told = json.loads(ran.stdout)
+    assert told["name"] == "method stop" and told["written"] is True
+    assert sorted(one["edits"] for one in told["files"]) == [1, 1]
+    assert "      halt:\n" in (ws / "interfaces/Arm.idsl.yaml").read_text()
+
+
+def test_the_same_name_changes_nothing(ws: Path, rcyaml: Callable[..., Result]) -> None:
+    ran = rcyaml("rename", "Arm.stop", "stop")
+    assert (ran.exit_code, ran.stdout) == (0, "method stop has this name already\n")

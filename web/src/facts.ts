@@ -1,0 +1,57 @@
+// What can be changed in the network: entries with their ports, hosts, groups, and what can be added.
+
+import { ask } from "./server";
+
+export interface Required { port: string; interface: string; to: string }
+export interface Offered { port: string; interface: string }
+export interface TopicPort { port: string; interface: string; out: boolean; topic: string }
+export interface Entry {
+  process: string; entry: string; document: string; line: number; kind: string; host: string; component: string; requires: Required[];
+  serves: Offered[]; topics: TopicPort[]; instances: number | null; after: string[];
+}
+export interface Known { name: string; path: string; implements: string[]; requires: string[]; publishes: string[]; subscribes: string[] }
+export interface GroupFacts { name: string; members: string[]; closed: boolean; serves: Offered[] }
+export interface Parameter {
+  path: string; type: string; words: string; doc: string; unit: string; secret: boolean; editable: boolean;
+  choices?: unknown[]; low?: number; high?: number; default?: unknown;
+}
+export interface Input { name: string; type: string; words: string; doc: string; unit: string; zero: unknown; choices?: string[] }
+export interface Method { name: string; doc: string; inputs: Input[] }
+
+const NOTHING = { entries: [], hosts: [], groups: [], services: [], components: [], interfaces: [] };
+
+export class Facts {
+  entries: Entry[] = [];
+  hosts: { name: string; address: string }[] = [];
+  groups: GroupFacts[] = [];
+  services: string[] = [];
+  components: Known[] = [];
+  interfaces: [string, boolean][] = [];
+  private of = new Map<string, Entry>();
+
+  async load(path: string): Promise<void> {
+    Object.assign(this, NOTHING, await ask<object>(`${path}/entries`));
+    this.of = new Map(this.entries.map((one) => [one.process, one]));
+  }
+
+  entry(process: string): Entry | undefined {
+    return this.of.get(process);
+  }
+
+  /** Who serves an interface: entries, and groups that act as one. */
+  providers(wanted: string): string[] {
+    const serves = (one: { serves: Offered[] }) => one.serves.some((each) => each.interface === wanted);
+    return [...new Set([...this.entries.filter(serves).map((one) => one.process),
+      ...this.groups.filter((one) => one.closed && serves(one)).map((one) => one.name)])];
+  }
+
+  /** The ports of one process that another one could serve. */
+  matching(source: string, target: string): Required[] {
+    const offered = new Set(this.of.get(target)?.serves.map((one) => one.interface));
+    return this.of.get(source)?.requires.filter((one) => offered.has(one.interface)) ?? [];
+  }
+}
+
+export function process(path: string, name: string): Promise<{ parameters: Parameter[]; methods: Method[] }> {
+  return ask(`${path}/process?name=${encodeURIComponent(name)}`);
+}
