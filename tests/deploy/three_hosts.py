@@ -215,7 +215,7 @@ class Deployment:
         return status
 
     def logs(self, *names: str) -> str:
-        return self.deploy("logs", *names, "-n", "1000")
+        return self.deploy("logs", *names, "-n", "100000")
 
     def start_node(self, host: str) -> None:
         """Starts nodes by hand as in the hint: bash on the host runs the script."""
