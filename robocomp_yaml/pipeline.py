@@ -128,7 +128,7 @@ def analyse(
     with the path of each document that is read. `overlay` has contents by path that replace those on the disk. `memory`
     has what earlier analyses computed; the result is the same without it. `files` are the files of the disk."""
     disk = Disk(overlay, files)
-    memory = memory if memory is not None else Memory()
+    memory = memory if memory is not None else Memory(once=True)
     discovered = discover(list(paths), disk)
     workspaces, search = Workspaces(disk), ImportSearch(search_folders(include), disk)
 
