@@ -40,7 +40,7 @@ def scalar(data: Any) -> str:
 
 def _number(data: int | float) -> str:
     text = repr(data)
-    return {"inf": ".inf", "-inf": "-.inf", "nan": ".nan"}.get(text, text)
+    return text if text[-1].isdigit() else {"inf": ".inf", "-inf": "-.inf", "nan": ".nan"}.get(text, text)
 
 
 def quoted(text: str) -> str:
