@@ -174,8 +174,10 @@ def _forget_output() -> None:
 
 
 def _output_failed(error: OSError) -> int:
+    from robocomp_yaml.diag.errors import reason_of
+
     _forget_output()
-    reason = (error.strerror or str(error)).lower()
+    reason = reason_of(error)
     with suppress(OSError):
         terminal.say(f"Error: cannot write to standard output: {reason}", err=True)
     return 1

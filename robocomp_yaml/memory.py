@@ -15,12 +15,12 @@ _Kept = TypeVar("_Kept")
 
 class Memory:
     """`kept` is how many results are kept. `on_make` is called before each result is made, and may raise an exception
-    to end the analysis."""
+    to end the analysis. With `once`, it is for one analysis, after which nothing is edited."""
 
-    def __init__(self) -> None:
+    def __init__(self, *, once: bool = False) -> None:
         self.on_make: Callable[[], None] = lambda: None
         self._results: dict[Hashable, tuple[tuple[Any, ...], Any]] = {}
-        self._parts: dict[Hashable, dict[Any, Any]] | None = {}
+        self._parts: dict[Hashable, dict[Any, Any]] | None = None if once else {}
         self._within: dict[Hashable, set[Hashable]] = {}  # what was used for a result
         self._making: list[set[Hashable]] = []
         self._used: set[Hashable] = set()
@@ -61,18 +61,18 @@ class Memory:
         used.add(part)
         used |= self._within.get(part, set())
 
-    def parts(self, name: Hashable) -> dict[Any, Any]:
-        """The parts of which a pass made its last result, for it to use them again. They may have changed since: an
-        earlier result may not be used any more."""
+    def parts(self, name: Hashable) -> dict[Any, Any] | None:
+        """The parts of which a pass made its last result, for it to use them again; None if it will not. They may have
+        changed since: an earlier result may not be used any more."""
         if self._parts is None:
-            return {}
+            return None
         self._use(("parts", name))
         return self._parts.setdefault(name, {})
 
     def fork(self) -> Memory:
         """A memory with the same results, for an analysis beside this one: it changes no parts."""
-        forked = Memory()
-        forked._results, forked._parts = dict(self._results), None
+        forked = Memory(once=True)
+        forked._results = dict(self._results)
         return forked
 
     def forget_unused(self) -> None:

@@ -35,6 +35,7 @@ from robocomp_yaml.link.undeployed import Undeployed
 from robocomp_yaml.link.workspace import ImportSearch, Workspaces
 from robocomp_yaml.memory import Memory
 from robocomp_yaml.network.networks import DerivedNetworks, networks_of
+from robocomp_yaml.secrets import KINDS
 from robocomp_yaml.source.allowances import Allowance
 from robocomp_yaml.source.discover import WORKSPACE_FILE, DiscoveredDocuments, discover, finds_again
 from robocomp_yaml.source.disk import Disk, Files
@@ -127,7 +128,7 @@ def analyse(
     with the path of each document that is read. `overlay` has contents by path that replace those on the disk. `memory`
     has what earlier analyses computed; the result is the same without it. `files` are the files of the disk."""
     disk = Disk(overlay, files)
-    memory = memory if memory is not None else Memory()
+    memory = memory if memory is not None else Memory(once=True)
     discovered = discover(list(paths), disk)
     workspaces, search = Workspaces(disk), ImportSearch(search_folders(include), disk)
 
@@ -145,8 +146,8 @@ def analyse(
     for check in checks_of_plugins(program, [one.plugins for one in workspaces.declared]):
         diagnostics += check(program)
     diagnostics += addresses.faults()
-    if any(document.kind != "idsl" for document in documents.values()):
-        from robocomp_yaml.check import secrets
+    if any(document.kind in KINDS for document in documents.values()):
+        from robocomp_yaml.check import secrets  # components alone have none
 
         others = [document for real, document in documents.items() if real not in rest.documents]
         part = "secrets", discovered.documents

@@ -16,6 +16,9 @@ from robocomp_yaml.semantics.secrecy import HIDDEN as HIDDEN
 from robocomp_yaml.semantics.secrecy import USER_INFO
 from robocomp_yaml.semantics.secrecy import url as url
 
+KINDS = ("config", "ddsl", "pdsl")
+"""The kinds of documents that may contain secrets outside of `x-` keys."""
+
 _ASSIGNMENT = pattern(
     r"(?P<name>(?<![\w.])[^\x00-@\[-^`{-\x7f][\w.\-]{0,60})"
     r"(?P<sign>(?P<close>[\"']?)[ \t]*=[ \t]*|[\"']?[ \t]*:[ \t]+|[\"']:)"

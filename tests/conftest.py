@@ -139,6 +139,15 @@ def use_memory() -> None:
         os.environ.setdefault("PYTEST_DEBUG_TEMPROOT", "/dev/shm")
 
 
+def leave_out_plugins(config: pytest.Config) -> None:
+    """Units need no thread that waits for a hang of the whole process, no records of logs, no repetitions and no
+    summary of random examples. For each test, that costs as much as a simple test."""
+    for name in ("faulthandler", "logging-plugin", "rerunfailures", "hypothesispytest"):
+        plugin = config.pluginmanager.get_plugin(name)
+        if plugin is not None:
+            config.pluginmanager.unregister(plugin)
+
+
 def settle_random_tests() -> None:
     """Random tests take the same examples in every run, here and in CI; `make fuzz` looks for new ones. Units have no
     random tests, and do without the time of the import."""
@@ -160,6 +169,7 @@ def pytest_configure(config: pytest.Config) -> None:
     """Tests interrupt what they start, which ignores that if we do: so does what a script runs in the background."""
     if config.option.markexpr == "unit":
         use_memory()
+        leave_out_plugins(config)
     else:
         settle_random_tests()
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:

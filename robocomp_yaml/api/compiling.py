@@ -19,10 +19,9 @@ from robocomp_yaml.emit.build import Build, build
 from robocomp_yaml.emit.layout import is_settings
 from robocomp_yaml.emit.options import EmitOptions
 from robocomp_yaml.emit.specific.review import Review, review
-from robocomp_yaml.link import workspace_files
 from robocomp_yaml.link.documents import read_tree
-from robocomp_yaml.link.workspace_names import names_below
 from robocomp_yaml.pipeline import Analysis
+from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.discover import documents_below
 from robocomp_yaml.source.disk import NOTHING
 from robocomp_yaml.source.regular import whole
@@ -119,14 +118,16 @@ class Compilation:
                 pass
         return others
 
-    def _refresh_schemas(self) -> dict[str, bytes]:
-        """Updates the schemas that editors use. Returns their contents by path. A workspace whose folder cannot be
+    def _refresh_schemas(self) -> dict[str, str]:
+        """Updates the schemas that editors use. Returns their digests by path. A workspace whose folder cannot be
         written is compiled all the same."""
-        schemas: dict[str, bytes] = {}
+        schemas: dict[str, str] = {}
         fences = AllowedFolders(self._arguments.paths, None)
         for workspace in self._analysis.workspaces.declared:
             if not fences.contain(workspace.root):
                 continue
+            from robocomp_yaml.link import workspace_files  # a compile elsewhere (-o) has none
+
             try:
                 workspace_files.install(workspace.root, workspace.plugins, self._names_below(workspace.root))
             except OSError:
@@ -134,11 +135,13 @@ class Compilation:
             for kind in workspace_files.GLOBS:
                 path = os.path.normpath(os.path.join(workspace.root, workspace_files.schema_path(kind)))
                 if os.path.lexists(path):  # it may be missing, with a plug-in
-                    schemas[path] = whole(path)[0]
+                    schemas[path] = digest(whole(path)[0])
         return schemas
 
     def _names_below(self, root: str) -> OfferedNames:
         """The names of a workspace, also those of documents that are no part of this run."""
+        from robocomp_yaml.link.workspace_names import names_below
+
         documents, disk = self._analysis.documents, self._analysis.disk
 
         def tree_of(path: str) -> Node | None:
@@ -148,7 +151,7 @@ class Compilation:
         return names_below(root, disk, tree_of)
 
     def _stamp(
-        self, own: Review, changes: Changes, schemas: dict[str, bytes], again: Outcome
+        self, own: Review, changes: Changes, schemas: dict[str, str], again: Outcome
     ) -> stamp.RunStamp | None:  # fmt: skip
         """The stamp of this compile, also if it has errors; None if something could not be read: a change of that would
         be unnoticed."""

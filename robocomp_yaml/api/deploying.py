@@ -72,7 +72,7 @@ class Deployment:
         self._engine, self._lock = make_engine(engine, network), ExitStack()
         self._diagnostics: list[Diagnostic] = []
         if not lenient:
-            from robocomp_yaml.check.cdsl.flat_configs import replaced
+            from robocomp_yaml.check.flat.configs import replaced
             from robocomp_yaml.deploy.outdated import outdated
 
             linked = analysis.program.deployments[os.path.realpath(path)]

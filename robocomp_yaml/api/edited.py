@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import msgspec
 
+from robocomp_yaml.diag.errors import reason_of
 from robocomp_yaml.source.inside import stays_inside
 from robocomp_yaml.source.regular import whole
 from robocomp_yaml.transactions import whole_file
@@ -33,7 +34,7 @@ def write(
             if not reason and not look_only:
                 whole_file.replace(path, after)
         except OSError as error:
-            reason = (error.strerror or str(error)).lower()
+            reason = reason_of(error)
         yield EditedDocument(path, before, after, reason)
 
 

@@ -16,7 +16,7 @@ import msgspec
 
 from robocomp_yaml import __version__
 from robocomp_yaml.api.refusals import cannot_write
-from robocomp_yaml.diag.errors import Refused
+from robocomp_yaml.diag.errors import Refused, reason_of
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.topics import KnownTopic, Message, Publisher, Topics
@@ -235,7 +235,7 @@ def _reading(path: str) -> Iterator[Any]:
         with open(path, "rb") as file:
             yield make_reader(file)
     except OSError as error:
-        raise Refused(f"cannot read {path}: {(error.strerror or str(error)).lower()}") from None
+        raise Refused(f"cannot read {path}: {reason_of(error)}") from None
     except (Refused, GeneratorExit):
         raise
     except Exception:  # noqa: BLE001 - the library has another exception for each kind of damage

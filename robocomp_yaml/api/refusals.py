@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 
-from robocomp_yaml.diag.errors import Refused
+from robocomp_yaml.diag.errors import Refused, reason_of
 from robocomp_yaml.diag.suggest import suggest
 
 
@@ -24,7 +24,7 @@ def require(what: str, name: str, known: Collection[str], owner: str = "rcyaml")
 
 def cannot_write(path: str, error: OSError) -> Refused:
     """The error to raise if a file cannot be written."""
-    return Refused(f"cannot write {path}: {(error.strerror or str(error)).lower()}")
+    return Refused(f"cannot write {path}: {reason_of(error)}")
 
 
 def without_ice() -> None:

@@ -27,7 +27,7 @@ from robocomp_yaml.deploy.readiness import listens
 from robocomp_yaml.deploy.single import SingleResult, SingleRun, moved
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
-from robocomp_yaml.diag.errors import Faulty, Refused
+from robocomp_yaml.diag.errors import Faulty, Refused, reason_of
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.digraph import reachable
@@ -158,7 +158,7 @@ class Run:
         except DeployFailed as error:
             self._diagnostics.append(error.diagnostic)
         except OSError as error:
-            path, reason = shown_path(error.filename or self._folder), (error.strerror or str(error)).lower()
+            path, reason = shown_path(error.filename or self._folder), reason_of(error)
             self._diagnostics.append(deploying.FOLDER.at(Span(self.network.path), path=path, reason=reason))
         raise Faulty(self.diagnostics)
 

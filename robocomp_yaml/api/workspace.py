@@ -210,7 +210,7 @@ class Workspace:
         analysis = self.analysis
         if analysis.program.components:
             from robocomp_yaml.addresses import clashes
-            from robocomp_yaml.check.cdsl.flat_configs import replaced
+            from robocomp_yaml.check.flat.configs import replaced
             from robocomp_yaml.emit.specific import existing_code
 
             program = analysis.program

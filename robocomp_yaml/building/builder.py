@@ -14,6 +14,7 @@ from robocomp_yaml.building.job import BUILT, CURRENT, FAILED, Builder, BuildRes
 from robocomp_yaml.building.unit import Unit
 from robocomp_yaml.diag.codes import building as codes
 from robocomp_yaml.diag.diagnostic import has_errors
+from robocomp_yaml.diag.errors import reason_of
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.emit.layout import GENERATED, SOURCES
@@ -114,7 +115,7 @@ def _finish(job: Job, unit: Unit, future: Future[tuple[int, float, list[str]]]) 
     try:
         code, cpu, lines = future.result()
     except OSError as error:
-        job.add_failure(unit, (error.strerror or str(error)).lower())
+        job.add_failure(unit, reason_of(error))
         return ComponentBuild(False)
     found = list(CompilerOutput(unit.folder, f"the {unit.language.title} compiler").diagnostics(lines))
     job.add(found)

@@ -5,6 +5,7 @@ the documents of the workspaces that name them."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping
 from functools import cache
 from typing import Any, TypeVar
@@ -54,7 +55,15 @@ def _kinds(program: Program) -> dict[str, object]:
         "cdsl": program.components,
         "machine": any(linked.machine for linked in program.components.values()),
         "pdsl": program.parameters or program.values,
+        "flat": program.components and _has_flat_config(program),
     }
+
+
+def _has_flat_config(program: Program) -> bool:
+    from robocomp_yaml.link.flat_configs import flat_config  # interfaces alone have none
+
+    folders = (os.path.dirname(linked.component.path) for linked in program.components.values())
+    return any(flat_config(folder, program.disk) is not None for folder in folders)
 
 
 def _languages(program: Program) -> set[str]:

@@ -48,7 +48,7 @@ def held(program: Program, documents: Iterable[Document]) -> Iterator[Held]:
     """The documents with secrets."""
     finder = _SecretFinder(program)
     for document in documents:
-        if document.kind in _KINDS and document.model is not None and finder.may_hold(document):
+        if document.kind in secrets.KINDS and document.model is not None and finder.may_hold(document):
             found = tuple(secret for secret in finder.secrets(document) if secret.is_sure)
             if found:
                 yield document, found
@@ -100,7 +100,7 @@ def hidden(program: Program, documents: Iterable[Document], files: set[str]) -> 
         if document.path not in files:
             continue
         hidden_parts.files.add(document.path)
-        if document.kind not in _KINDS:
+        if document.kind not in secrets.KINDS:
             for node in _in_extensions(document.tree):
                 hidden_parts.add(node.span, node.lexeme)
         elif document.tree is None:
@@ -115,7 +115,6 @@ _MORE = {"ddsl": ("set",), "pdsl": ("default",)}
 """Keys that may contain a secret under any name, for documents that cannot be parsed."""
 _ALLOWED = {"values", "enum", "one-of"}
 _COMMENT = ("#", ";", "//", "<!--")
-_KINDS = ("config", "ddsl", "pdsl")
 
 
 def _others_can_read(path: str) -> bool:

@@ -14,6 +14,7 @@ import msgspec
 from robocomp_yaml.commands import _plugin_choices
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.diagnostic import ERROR, SEVERITIES, Diagnostic
+from robocomp_yaml.diag.errors import reason_of
 from robocomp_yaml.diag.render import FORMATS, tell
 
 MANY = 300  # documents: fewer are read too fast for a progress bar
@@ -112,7 +113,7 @@ def writing(path: str = "") -> Iterator[None]:
         yield
     except OSError as error:
         named = path or error.filename or ""
-        reason = (error.strerror or str(error)).lower()
+        reason = reason_of(error)
         raise click.ClickException(f"cannot write {named}: {reason}" if named else f"cannot write: {reason}") from error
 
 

@@ -21,7 +21,7 @@ from robocomp_yaml.api.living import LivingWorkspace
 from robocomp_yaml.api.watching import Concern, folders, is_current, shown
 from robocomp_yaml.api.workspace import Workspace
 from robocomp_yaml.diag import terminal
-from robocomp_yaml.diag.errors import Faulty, Refused
+from robocomp_yaml.diag.errors import Faulty, Refused, reason_of
 from robocomp_yaml.diag.render import tell
 
 PAUSE, LONGEST = 100, 3000  # milliseconds
@@ -120,7 +120,7 @@ class _Loop:
             terminal.say(f"Error: {refused}", err=True)
         except OSError as error:  # a folder has gone while it was read or written
             self.failed = True
-            terminal.say(f"Error: {error.filename or self.home}: {(error.strerror or str(error)).lower()}", err=True)
+            terminal.say(f"Error: {error.filename or self.home}: {reason_of(error)}", err=True)
 
     def watch(self) -> None:
         self.watcher = _Watcher(self.watchfiles, folders(self.workspace, self.paths, self.home), self.changes)

@@ -10,7 +10,7 @@ from robocomp_yaml.deploy import ice_call
 from robocomp_yaml.deploy.ice_call import IceCall
 from robocomp_yaml.source.ice_proxy import proxy_at
 from robocomp_yaml.wire import introspection as wire
-from robocomp_yaml.wire.introspection import FAILED, RUNNING, STARTING, STATE, STOPPING, WAITING, Heartbeat, Sections
+from robocomp_yaml.wire.introspection import FAILED, RUNNING, STARTING, STATE, STOPPING, WAITING, Sections
 from robocomp_yaml.wire.protocol import NO_FACET, NO_OBJECT, NO_OPERATION, OK, Reply
 
 
@@ -95,15 +95,6 @@ def state_in(sections: Sections) -> OwnState | None:
         facts.texts.get("why", ""),
         facts.texts.get("in", ""),
     )
-
-
-async def heartbeat(proxy: str, within: float, pem: str = "") -> Heartbeat | None:
-    """The heartbeat of a component's worker; None if it does not answer. Raises NoFacet."""
-    result = _result(await ice_call.answer(proxy, IceCall(wire.HEARTBEAT, wire.FACET), within, pem))
-    try:
-        return None if result is None else wire.heartbeat_of(result)
-    except ValueError as error:
-        raise NoFacet from error
 
 
 def _result(reply: Reply | None) -> bytes | None:

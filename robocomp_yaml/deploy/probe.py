@@ -19,6 +19,7 @@ from robocomp_yaml.deploy.here import is_here
 from robocomp_yaml.deploy.ssh import CLIENT, SshFailed
 from robocomp_yaml.diag.codes import deploying as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.errors import reason_of
 from robocomp_yaml.network.network import PYTHON, Network, NetworkHost, Process
 
 WITHIN = 60.0
@@ -148,5 +149,5 @@ def run_on(host: NetworkHost, script: list[str], given: bytes = b"") -> tuple[in
     except subprocess.TimeoutExpired as error:
         raise ProbeFailed(f"no answer within {WITHIN:g} s") from error
     except OSError as error:
-        raise ProbeFailed(f"cannot run {script[0]}: {(error.strerror or str(error)).lower()}") from error
+        raise ProbeFailed(f"cannot run {script[0]}: {reason_of(error)}") from error
     return found.returncode, found.stdout, found.stderr.decode(errors="replace")

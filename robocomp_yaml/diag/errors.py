@@ -7,6 +7,12 @@ from collections.abc import Iterable, Mapping
 from robocomp_yaml.diag.diagnostic import Diagnostic
 
 
+def reason_of(error: OSError) -> str:
+    """The reason of an error of the operating system, for messages: it begins with a small letter."""
+    text = error.strerror or str(error)
+    return text[:1].lower() + text[1:]
+
+
 class Refused(Exception):
     """A request cannot be carried out, for example because a name is unknown, or because a file is the user's or cannot
     be written. The message is for users."""

@@ -15,10 +15,11 @@ from robocomp_yaml.emit import slice as slice_target
 from robocomp_yaml.emit.lowering.component import BEHAVIOR, COMMON
 from robocomp_yaml.languages import language
 from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.patterns import pattern
 from robocomp_yaml.source.digest import digest
 from robocomp_yaml.transactions.plan import FilePlan
 
-_COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/|\s+", re.DOTALL)
+_COMMENT = pattern(r"//[^\n]*|/\*.*?\*/|\s+", re.DOTALL)
 OWN = "RcYaml.ice"
 """The Slice of the facet with which components describe themselves."""
 

@@ -12,13 +12,14 @@ from msgspec.structs import replace
 from robocomp_yaml.diag.codes import files as file_codes
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.errors import reason_of
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy.formats import by_name, is_legacy_file
 from robocomp_yaml.legacy.rules import Formats, Rules
 from robocomp_yaml.link.workspace import root_above
 from robocomp_yaml.source.discover import documents_below, kind_of
 from robocomp_yaml.transactions import manifest
-from robocomp_yaml.transactions.output_root import contents, reason_of
+from robocomp_yaml.transactions.output_root import contents
 
 _SKIPPED = frozenset(("node_modules", "__pycache__"))
 

@@ -20,9 +20,8 @@ from robocomp_yaml.link.knot import grow, tie
 from robocomp_yaml.link.program import LinkedComponent, LinkedParameters, LinkedValues, Tables
 from robocomp_yaml.model.component import Component
 from robocomp_yaml.model.interface import Literal
-from robocomp_yaml.parameters.resolution.resolve import leaves_types_unknown, of_no_document, resolve
+from robocomp_yaml.parameters.resolution.periods import of_no_document
 from robocomp_yaml.parameters.specification.document import ParameterDocument, ValuesDocument
-from robocomp_yaml.parameters.types import Parameters
 from robocomp_yaml.source.discover import kind_of, of_kind
 from robocomp_yaml.source.disk import Disk
 
@@ -192,9 +191,7 @@ class Attachments(msgspec.Struct):
         self.diagnostics += self._elsewhere()
         for document in list(self.documents.read.values()):
             if isinstance(document.model, ParameterDocument) and document.real not in self.tables.parameters:
-                parameters, faults, made = self._resolved("", document.model)
-                self.diagnostics += faults
-                linked = LinkedParameters(parameters, document.model, leaves_types_unknown(faults), made)
+                linked = self._resolved("", document.model)
                 self.tables.parameters[document.real] = linked
                 self.diagnostics += self._unclaimed(document.model)
         self._join_layers()
@@ -237,27 +234,30 @@ class Attachments(msgspec.Struct):
                     related=[Related("the first reference", named[0][1])],
                 )
                 self.diagnostics.append(fault)
-        period = component.component.period
         document = self.documents.read[reals[0]].model if reals else None
         if reals and not isinstance(document, ParameterDocument):
             own = self._without_document(component, broken=True)
             tie(component, parameters=own, broken=True)
         elif isinstance(document, ParameterDocument):
-            parameters, faults, made = self._resolved(real, document, period)
-            self.diagnostics += faults
-            broken = leaves_types_unknown(faults)
-            own = LinkedParameters(parameters, document, broken, made, component=component)
-            tie(component, parameters=own, broken=component.broken or broken)
+            own = self._resolved(real, document, component)
+            tie(component, parameters=own, broken=component.broken or own.broken)
             self.tables.parameters.setdefault(reals[0], component.parameters)
         else:
             tie(component, parameters=self._without_document(component, broken=component.parameters.broken))
 
     def _resolved(
-        self, component: str, document: ParameterDocument, period: int | None = None
-    ) -> tuple[Parameters, list[Diagnostic], dict[Hashable, Any]]:
-        """The parameters of a document for a component, their problems, and what is made of them once."""
-        part, causes = ("parameters", component, document.path), (document, period)
-        return self.documents.memory.result(part, causes, lambda: (*resolve(document, period), {}))
+        self, real: str, document: ParameterDocument, component: LinkedComponent | None = None
+    ) -> LinkedParameters:  # fmt: skip
+        """The parameters of a document, for the component whose document is at `real`. Reports their problems."""
+        from robocomp_yaml.parameters.resolution.resolve import leaves_types_unknown, resolve  # many have none
+
+        period = component.component.period if component is not None else None
+        part, causes = ("parameters", real, document.path), (document, period)
+        parameters, faults, made = self.documents.memory.result(
+            part, causes, lambda: (*resolve(document, period), dict[Hashable, Any]())
+        )
+        self.diagnostics += faults
+        return LinkedParameters(parameters, document, leaves_types_unknown(faults), made, component=component)
 
     def _without_document(self, component: LinkedComponent, *, broken: bool) -> LinkedParameters:
         period = component.component.period

@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 from collections.abc import Callable, Iterator
 from collections.abc import Mapping as Map
-from functools import cache
+from functools import cache, partial
 from typing import TYPE_CHECKING, cast
 
 import msgspec
@@ -19,9 +19,8 @@ from robocomp_yaml.source import schema
 from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.heading import COMPONENT, text_at_top
-from robocomp_yaml.source.parts import Parts, parse_in_parts
 from robocomp_yaml.source.schema_text import MARKED
-from robocomp_yaml.source.syntax import SyntaxFault
+from robocomp_yaml.source.syntax import Rejected, SyntaxFault
 from robocomp_yaml.source.text import decode
 from robocomp_yaml.source.tree import Mapping, Node, parse
 
@@ -30,6 +29,7 @@ if TYPE_CHECKING:
     from robocomp_yaml.model.deployment import Deployment
     from robocomp_yaml.model.interface import Module
     from robocomp_yaml.parameters.specification.document import ParameterDocument, ValuesDocument
+    from robocomp_yaml.source.parts import Parts
 
     Model = Module | Component | ParameterDocument | ValuesDocument | Deployment
 
@@ -60,8 +60,15 @@ def _tree_of(path: str, raw: bytes, parts: Parts | None = None) -> tuple[Node | 
     text, diagnostics = decode(path, raw)
     if text is None:
         return None, diagnostics
+    if parts is None:
+        try:
+            return parse(path, text, by_libyaml=True)
+        except Rejected:
+            parts = {}  # most of its entries are right
+    from robocomp_yaml.source.parts import parse_in_parts  # most runs edit nothing, and read what is right
+
     try:
-        tree = parse_in_parts(path, text, parts) if parts is not None else None
+        tree = parse_in_parts(path, text, parts)
     except SyntaxFault as fault:
         return None, [fault.diagnostic]
     return (tree, []) if tree is not None else parse(path, text)
@@ -89,7 +96,7 @@ class Documents(msgspec.Struct):
     disk: Disk = msgspec.field(default_factory=Disk)
     on_read: Callable[[str], None] = lambda path: None
     plugins_of: Callable[[str], Plugins] = lambda path: NONE
-    memory: Memory = msgspec.field(default_factory=Memory)
+    memory: Memory = msgspec.field(default_factory=partial(Memory, once=True))
     known: Map[str, Document] = {}
     read: dict[str, Document] = {}
     diagnostics: list[Diagnostic] = []

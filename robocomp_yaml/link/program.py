@@ -84,7 +84,7 @@ class LinkedParameters(ResolvedParameters, frozen=True, eq=False):
 
 
 def _no_parameters() -> LinkedParameters:
-    from robocomp_yaml.parameters.resolution.resolve import of_no_document
+    from robocomp_yaml.parameters.resolution.periods import of_no_document
 
     return LinkedParameters(of_no_document(None))
 

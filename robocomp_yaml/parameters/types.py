@@ -15,7 +15,6 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.interface import Literal
 from robocomp_yaml.model.located import Located
 from robocomp_yaml.parameters.patterns.pattern import Pattern
-from robocomp_yaml.parameters.specification.document import LegacySpelling
 from robocomp_yaml.semantics.limits import (
     INTEGERS,
     LIMITS,
@@ -29,6 +28,7 @@ from robocomp_yaml.source.tree import Node
 
 if TYPE_CHECKING:
     from robocomp_yaml.parameters.specification.expression import Expression
+    from robocomp_yaml.parameters.specification.legacy_spelling import LegacySpelling
 
 BASIC_TYPES = ("bool", *LIMITS, "string")
 

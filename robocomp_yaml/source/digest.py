@@ -15,16 +15,15 @@ def digest(data: bytes) -> str:
 
 
 def states(folder: str, base: int) -> list[str]:
-    """Each file below a folder, in order, with its size (bytes) and times (ns). Paths lack their first `base`
-    characters. The time of the change on the disk (ctime) distinguishes builds whose files an installer gave the same
-    date."""
+    """Each file below a folder, in order, with its size (bytes) and the time of its last change (ctime, ns):
+    nobody can set it, as installers set dates. Paths lack their first `base` characters."""
     found, folders = [], [folder]
     while folders:
         with os.scandir(folders.pop()) as entries:
             for entry in entries:
                 if not entry.is_dir():
                     state = entry.stat()
-                    found.append(f"{entry.path[base:]} {state.st_size} {state.st_mtime_ns} {state.st_ctime_ns}")
+                    found.append(f"{entry.path[base:]} {state.st_size} {state.st_ctime_ns}")
                 elif entry.name != "__pycache__":
                     folders.append(entry.path)
     return sorted(found)

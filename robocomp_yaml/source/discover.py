@@ -11,6 +11,7 @@ import msgspec
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.codes.values import MISNAMED
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.errors import reason_of
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.source.disk import NOTHING, Disk
@@ -80,9 +81,7 @@ def discover(paths: list[str] | tuple[str, ...], disk: Disk | None = None) -> Di
             below = list(documents_below(path, roots, unreadable.append, disk, scripts, misnamed))
             diagnostics += (_misnamed(name) for name in misnamed)
             diagnostics += [
-                codes.UNREADABLE.at(
-                    Span(os.path.normpath(error.filename)), reason=(error.strerror or str(error)).lower()
-                )
+                codes.UNREADABLE.at(Span(os.path.normpath(error.filename)), reason=reason_of(error))
                 for error in unreadable
             ]
             if not below and not unreadable and len(scripts) == before:

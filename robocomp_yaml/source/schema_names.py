@@ -8,7 +8,6 @@ marked: a name with two letters of a known one exchanged.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from collections.abc import Mapping as Map
 from functools import cache, lru_cache
@@ -17,6 +16,7 @@ from typing import Any
 import msgspec
 
 from robocomp_yaml.languages.record import TargetLanguage
+from robocomp_yaml.patterns import pattern
 from robocomp_yaml.source.schema_text import schema_text
 from robocomp_yaml.source.yaml_text import scalar, text_of
 
@@ -25,7 +25,7 @@ _CHECKED = frozenset(("imports", "interfaces", "topics", "ports"))
 """The kinds whose slips are marked. Hosts and entries belong to one deployment, and may be as similar as `p12` and
 `p21`."""
 
-_SPECIAL = re.compile(r"[\\$}]")  # in the text of a snippet
+_SPECIAL = pattern(r"[\\$}]")  # in the text of a snippet
 
 
 class OfferedName(msgspec.Struct, frozen=True, order=True):

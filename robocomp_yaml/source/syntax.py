@@ -81,6 +81,10 @@ class SyntaxFault(Exception):
         self.diagnostic = diagnostic
 
 
+class Rejected(Exception):
+    """libyaml rejects the text, which may be YAML 1.2 nevertheless."""
+
+
 class _Composer(CParser):  # type: ignore[misc]
     """libyaml's composer; the tag of a node without a tag is UNTAGGED."""
 
@@ -94,10 +98,11 @@ class _Composer(CParser):  # type: ignore[misc]
         pass
 
 
-def compose(path: str, text: str) -> Node | None:
-    """The root node, or None for a text without content. Raises SyntaxFault."""
+def compose(path: str, text: str, *, by_libyaml: bool = False) -> Node | None:
+    """The root node, or None for a text without content. Raises SyntaxFault, and `by_libyaml` Rejected: the parser that
+    decides then takes a hundred times as long."""
     if not text.isascii() and _HAS_THEM.search(text):
-        return _composed_with_stand_ins(path, text)
+        return _composed_with_stand_ins(path, text, by_libyaml)
     if _may_be_deep(text) and _depth(text) > MAX_DEPTH:
         raise SyntaxFault(codes.TOO_DEEP.at(_deep_location(path, text), limit=MAX_DEPTH))
     root: Node | None
@@ -106,6 +111,8 @@ def compose(path: str, text: str) -> Node | None:
         return root
     except MarkedYAMLError as error:
         fault = error
+    if by_libyaml:
+        raise Rejected
     try:
         return _compose_as_1_2(text)
     except MarkedYAMLError as error:
@@ -139,9 +146,9 @@ def stand_ins(text: str) -> tuple[str, dict[int, str]]:
     return text.translate(forth), {ord(key): value for key, value in zip(free, _LINE_ENDS_OF_1_1, strict=True)}
 
 
-def _composed_with_stand_ins(path: str, text: str) -> Node | None:
+def _composed_with_stand_ins(path: str, text: str, by_libyaml: bool) -> Node | None:
     safe, back = stand_ins(text)
-    root = compose(path, safe)
+    root = compose(path, safe, by_libyaml=by_libyaml)
     for node in _nodes(root):
         if isinstance(node, ScalarNode):
             node.value = node.value.translate(back)

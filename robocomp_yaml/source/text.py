@@ -7,6 +7,7 @@ import re
 
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.errors import reason_of
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.patterns import pattern
 from robocomp_yaml.source.regular import regular
@@ -70,4 +71,4 @@ def read_bytes(path: str, limit: int = MAX_DOCUMENT) -> tuple[bytes | None, list
                 ]
             return raw, []
     except OSError as error:
-        return None, [codes.UNREADABLE.at(Span(path), reason=(error.strerror or str(error)).lower())]
+        return None, [codes.UNREADABLE.at(Span(path), reason=reason_of(error))]

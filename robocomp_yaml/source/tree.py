@@ -62,10 +62,11 @@ def _last_mark(text: str) -> Mark:
     return Mark(len(lines) - 1, len(lines[-1]), len(text))
 
 
-def parse(path: str, text: str) -> tuple[Node | None, list[Diagnostic]]:
-    """The tree of a document's text, or None with all errors."""
+def parse(path: str, text: str, *, by_libyaml: bool = False) -> tuple[Node | None, list[Diagnostic]]:
+    """The tree of a document's text, or None with all errors. Raises Rejected if only libyaml may parse it, and does
+    not."""
     try:
-        root = syntax.compose(path, text)
+        root = syntax.compose(path, text, by_libyaml=by_libyaml)
     except syntax.SyntaxFault as fault:
         return None, [fault.diagnostic]
     if root is None:

@@ -40,12 +40,13 @@ def scalar(data: Any) -> str:
 
 def _number(data: int | float) -> str:
     text = repr(data)
-    return {"inf": ".inf", "-inf": "-.inf", "nan": ".nan"}.get(text, text)
+    return text if text[-1].isdigit() else {"inf": ".inf", "-inf": "-.inf", "nan": ".nan"}.get(text, text)
 
 
 def quoted(text: str) -> str:
     """A text in double quotes, with JSON's escapes; DEL and the C1 controls are escaped, too, as YAML requires."""
-    return _UNREADABLE.sub(_escape, json.dumps(text, ensure_ascii=False))
+    written = json.dumps(text, ensure_ascii=False)
+    return written if written.isprintable() else _UNREADABLE.sub(_escape, written)
 
 
 def single_quoted(text: str) -> str:
@@ -69,12 +70,16 @@ def is_plain(text: str, *, in_flow: bool) -> bool:
     if text.isascii() and text.isidentifier() and text.lower() not in _NOT_TEXT:
         return True  # most texts are names, and need no pattern
     bad = not text or _READ_OTHERWISE.fullmatch(text) or _BAD_START.match(text) or _BAD_INSIDE.search(text)
-    return not (bad or _UNPRINTABLE.search(text) or (in_flow and _BAD_IN_FLOW.search(text)))
+    return not (bad or _is_unprintable(text) or (in_flow and _BAD_IN_FLOW.search(text)))
 
 
 def is_printable(text: str) -> bool:
     """Whether a text of several lines can be written as a block scalar."""
-    return not _UNPRINTABLE.search(text.replace("\n", ""))
+    return not _is_unprintable(text.replace("\n", ""))
+
+
+def _is_unprintable(text: str) -> bool:
+    return not text.isprintable() and _UNPRINTABLE.search(text) is not None  # the pattern accepts more: U+00A0
 
 
 def comment(text: str) -> str:

@@ -12,11 +12,12 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import msgspec
 
+from robocomp_yaml.diag.errors import reason_of
 from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.inside import stays_inside
 from robocomp_yaml.transactions import whole_file
 from robocomp_yaml.transactions.journal import JOURNAL, JOURNAL_DONE, PART, Journal, Mark, clean_up, load, put_back
-from robocomp_yaml.transactions.output_root import STATE, Root, contents, folders_of, reason_of
+from robocomp_yaml.transactions.output_root import STATE, Root, contents, folders_of
 from robocomp_yaml.transactions.plan import ANYBODY
 
 PATIENCE = 10.0

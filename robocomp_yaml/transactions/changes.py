@@ -59,15 +59,15 @@ class Change(msgspec.Struct, frozen=True):
 class RootChanges(msgspec.Struct, frozen=True):
     """The changes below one output root, with the steps that make them. A `refused` root has no steps.
 
-    `settled` are the generated files, with their content after the changes; `once` are the user's files, which must
-    exist.
+    `settled` are the generated files, with the digests of their contents after the changes; `once` are the user's
+    files, which must exist.
     """
 
     root: str
     real: str
     changes: tuple[Change, ...] = ()
     steps: tuple[FileStep, ...] = ()
-    settled: Mapping[str, bytes] = {}
+    settled: Mapping[str, str] = {}
     once: tuple[str, ...] = ()
     refused: bool = False
 
@@ -93,9 +93,9 @@ class Changes(msgspec.Struct, frozen=True):
         return any(change.action in (*WRITING, REFUSED) for change in self)
 
     @property
-    def settled(self) -> dict[str, bytes]:
-        """The content of generated files and manifests after the changes, by paths from the working folder."""
-        return {os.path.join(root.root, path): text for root in self.roots for path, text in root.settled.items()}
+    def settled(self) -> dict[str, str]:
+        """The digests of generated files and manifests after the changes, by paths from the working folder."""
+        return {os.path.join(root.root, path): hash_ for root in self.roots for path, hash_ in root.settled.items()}
 
     @property
     def once(self) -> list[str]:

@@ -10,6 +10,7 @@ from itertools import accumulate
 import msgspec
 from msgspec.structs import replace
 
+from robocomp_yaml.diag.errors import reason_of
 from robocomp_yaml.source.regular import whole
 
 STATE = ".rcyaml"
@@ -102,12 +103,6 @@ def folders_of(path: str) -> list[str]:
 def contents(path: str) -> bytes:
     """The bytes of a regular file. Raises OSError."""
     return whole(path)[0]
-
-
-def reason_of(error: OSError) -> str:
-    """The reason of an error of the operating system, for messages."""
-    text = error.strerror or str(error)
-    return text[:1].lower() + text[1:]
 
 
 def _is_plain(path: str) -> bool:

@@ -64,13 +64,13 @@ def create(
     listed: Mapping[str, list[str]],
     names: Mapping[str, list[str]],
     walked: Mapping[str, list[str]],
-    outputs: Mapping[str, bytes],
+    outputs: Mapping[str, str],
     present: Iterable[str],
     replay: Mapping[str, object],
     plugins: Iterable[str] = (),
 ) -> RunStamp | None:
     """The stamp of a run that has ended; None if one of its files was deleted since. `inputs` are the bytes that were
-    read, `outputs` those that were written: the disk may have changed since."""
+    read, `outputs` the digests of what was written: the disk may have changed since."""
     try:
         return RunStamp(
             tool(),
@@ -82,7 +82,7 @@ def create(
             dict(listed),
             dict(names),
             dict(walked),
-            {path: (digest(data), _permissions(os.lstat(path))) for path, data in outputs.items()},
+            {path: (hash_, _permissions(os.lstat(path))) for path, hash_ in outputs.items()},
             sorted(present),
             dict(replay),
             _builds(plugins),

@@ -90,7 +90,7 @@ class _RootPlanner:
         self.culprits: set[str] = set()
         self.changes: list[Change] = []
         self.steps: list[atomic.FileStep] = []
-        self.settled: dict[str, bytes] = {}
+        self.settled: dict[str, str] = {}
         self.once: list[str] = []
         self.users_settings: dict[str, list[FilePlan]] = {}
 
@@ -198,8 +198,8 @@ class _RootPlanner:
             at = Span(self.root.shown(plan.path))
             self.diagnostics.append(codes.NOT_GENERATED.at(at, path=plan.path, hint=hint))
             return
-        self.settled[plan.path] = text
-        self._enter(plan.path, digest(text))
+        self.settled[plan.path] = digest(text)
+        self._enter(plan.path, self.settled[plan.path])
         if plan.base:
             self._keep_base(plan, plan.base.encode())
         elif entry:
@@ -329,7 +329,7 @@ class _RootPlanner:
             text = new.text().encode() if new.files else None
             self._write_internal(manifest.PATH, text)
         if text is not None:
-            self.settled[manifest.PATH] = text
+            self.settled[manifest.PATH] = digest(text)
 
     def _write_internal(self, path: str, text: bytes | None, rights: int = ANYBODY) -> None:
         """Writes or deletes an internal file, which is not reported."""

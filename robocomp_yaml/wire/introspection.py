@@ -31,13 +31,6 @@ class Facts(msgspec.Struct, frozen=True):
     numbers: dict[str, float]
 
 
-class Heartbeat(msgspec.Struct, frozen=True):
-    """How long the worker has shown no life, and its period, in seconds."""
-
-    age: float
-    period: float
-
-
 Sections = dict[str, list[Facts]]
 
 
@@ -49,17 +42,9 @@ def names(sections: Iterable[str]) -> bytes:
 
 def sections_of(result: bytes) -> Sections:
     """What `report` returned. Raises ValueError if it is not valid."""
-    return _read(result, lambda reader: reader.mapping(lambda: reader.sequence(reader.facts)))
-
-
-def heartbeat_of(result: bytes) -> Heartbeat:
-    """What `getHeartbeat` returned. Raises ValueError if it is not valid."""
-    return _read(result, lambda reader: Heartbeat(reader.integer() / 1000, reader.integer() / 1000))
-
-
-def _read(data: bytes, content: Callable[[_Reader], Value]) -> Value:
+    reader = _Reader(result)
     try:
-        return content(_Reader(data))
+        return reader.mapping(lambda: reader.sequence(reader.facts))
     except (struct.error, IndexError) as error:
         raise ValueError("the answer is shorter than expected") from error
 
@@ -67,9 +52,6 @@ def _read(data: bytes, content: Callable[[_Reader], Value]) -> Value:
 class _Reader:
     def __init__(self, data: bytes) -> None:
         self._data, self._at = data, 0
-
-    def integer(self) -> int:
-        return int(self._unpack("<i"))
 
     def mapping(self, value: Callable[[], Value]) -> dict[str, Value]:
         return {self._text(): value() for _ in range(self._size())}
@@ -90,7 +72,7 @@ class _Reader:
     def _size(self) -> int:
         first = self._data[self._at]
         self._at += 1
-        size = first if first < 255 else self.integer()
+        size = first if first < 255 else int(self._unpack("<i"))
         if not 0 <= size <= len(self._data):
             raise IndexError(size)
         return size

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import os
+import struct
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -16,8 +17,11 @@ from cpp_programs import FAST, cmake, locked, needs_cpp
 from facet_sources import DOCUMENTS, FILES, PERIOD
 from java_programs import java_build, needs_java
 from processes import Ports, Running, Start, Storm, until
-from robocomp_yaml.deploy import introspection
+from robocomp_yaml.deploy import ice_call, introspection
+from robocomp_yaml.deploy.ice_call import IceCall
+from robocomp_yaml.wire import introspection as wire
 from robocomp_yaml.wire.introspection import Facts, Sections
+from robocomp_yaml.wire.protocol import OK
 
 LANGUAGES = [
     pytest.param("python", id="python"),
@@ -83,9 +87,11 @@ class Vital:
 
     @property
     def age(self) -> float:
-        beat = asyncio.run(introspection.heartbeat(self.proxy, 2.0))
-        assert beat is not None and beat.period == PERIOD / 1000
-        return beat.age
+        reply = asyncio.run(ice_call.answer(self.proxy, IceCall(wire.HEARTBEAT, wire.FACET), 2.0))
+        assert reply is not None and reply.status == OK
+        age, period = struct.unpack("<ii", reply.result)  # milliseconds
+        assert period == PERIOD
+        return float(age / 1000)
 
     def is_running(self) -> bool:
         return self.state == "running"

@@ -57,3 +57,9 @@ def test_what_two_rounds_do_not_use_is_forgotten() -> None:
         memory.result("new", (), object)
         assert memory.kept == kept
         memory.forget_unused()
+
+
+def test_parts_are_prepared_only_for_an_analysis_that_others_follow() -> None:
+    memory = Memory()
+    assert memory.parts("a.yaml") is memory.parts("a.yaml") is not None
+    assert Memory(once=True).parts("a.yaml") is memory.fork().parts("a.yaml") is None

@@ -26,7 +26,7 @@ from robocomp_yaml.api.refusals import require
 from robocomp_yaml.api.values import parameter_at, spells_text
 from robocomp_yaml.api.workspace import Workspace
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.diag.errors import Faulty, Refused
+from robocomp_yaml.diag.errors import Faulty, Refused, reason_of
 from robocomp_yaml.fixing import CheckedDocuments
 from robocomp_yaml.link.deployments import LinkedInstance
 from robocomp_yaml.link.program import LinkedComponent
@@ -348,7 +348,7 @@ def _read(path: str) -> bytes:
         with open(path, "rb") as file:
             return file.read()
     except OSError as error:
-        raise Refused(f"cannot read {path}: {(error.strerror or str(error)).lower()}") from None
+        raise Refused(f"cannot read {path}: {reason_of(error)}") from None
 
 
 def _as_before(path: str, before: bytes, text: str) -> bytes:

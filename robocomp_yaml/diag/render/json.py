@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -53,6 +52,8 @@ def run_as_data(diagnostics: Sequence[Diagnostic], documents: int) -> dict[str, 
 
 def dumps(data: object, indent: int | None = 2) -> str:
     """JSON as UTF-8; bytes in file names that are not UTF-8 are escaped."""
+    import json  # most runs print none
+
     return json.dumps(data, indent=indent, ensure_ascii=False).encode("utf-8", "backslashreplace").decode() + "\n"
 
 

@@ -4,10 +4,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import msgspec
 
-from robocomp_yaml.parameters.specification.document import LegacySpelling
 from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,
@@ -18,6 +18,9 @@ from robocomp_yaml.parameters.types import (
     Size,
     Type,
 )
+
+if TYPE_CHECKING:
+    from robocomp_yaml.parameters.specification.legacy_spelling import LegacySpelling
 
 _LIMITS = {"at_least": "atLeast", "above": "above", "at_most": "atMost", "below": "below"}
 

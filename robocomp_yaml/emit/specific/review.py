@@ -51,11 +51,13 @@ def review(built: Build, disk: Disk, *, merge: bool = False) -> Review:
     result = Review()
     if not any(file.policy == ONCE for plan in built.plans for file in plan.files):
         return result
-    from robocomp_yaml.emit.specific import reading
-
     for plan in built.plans:
         root = Root(plan.root)
         files = list(_user_files(plan, root, merge, result))
+        if not files:
+            continue
+        from robocomp_yaml.emit.specific import reading  # only for files that somebody wrote
+
         if merge:
             unmerged = [file for file in files if reading.unmerged(file.path)]
             files = [file for file in files if file not in unmerged]

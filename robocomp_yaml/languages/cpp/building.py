@@ -18,6 +18,7 @@ from robocomp_yaml.building import stamps
 from robocomp_yaml.building.inputs import state
 from robocomp_yaml.building.job import ComponentBuild, Job
 from robocomp_yaml.building.unit import Unit
+from robocomp_yaml.diag.errors import reason_of
 from robocomp_yaml.languages.cpp import workspace_tree
 from robocomp_yaml.languages.cpp.tree import BuildTree, Failure, source_of
 from robocomp_yaml.languages.cpp.workspace_tree import WorkspaceTree
@@ -70,7 +71,7 @@ def _why_not(error: OSError) -> tuple[str, str]:
     """Why the build cannot run, and a hint: a program is not installed, or a folder is not writable."""
     if isinstance(error, FileNotFoundError) and error.filename in ("cmake", "ninja", "make"):
         return f"the program '{error.filename}' is missing", "`sudo apt install cmake ninja-build g++`"
-    return f"{error.filename or 'the build tree'}: {(error.strerror or str(error)).lower()}", ""
+    return f"{error.filename or 'the build tree'}: {reason_of(error)}", ""
 
 
 def _outdate(unit: Unit, type_: str) -> None:

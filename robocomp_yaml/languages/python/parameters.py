@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import msgspec
 
@@ -24,7 +25,6 @@ from robocomp_yaml.languages._shared.views import constraint_views
 from robocomp_yaml.languages.python import LANGUAGE
 from robocomp_yaml.languages.python.text import docstring, folded, literal, one_line
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.parameters.specification.document import LegacySpelling as PropertySpelling
 from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,
@@ -37,6 +37,9 @@ from robocomp_yaml.parameters.types import (
     Type,
 )
 from robocomp_yaml.transactions.plan import FilePlan
+
+if TYPE_CHECKING:
+    from robocomp_yaml.parameters.specification.legacy_spelling import LegacySpelling as PropertySpelling
 
 WIDTH = 92
 _TAKEN = (

@@ -9,13 +9,13 @@ from robocomp_yaml.model.interface import Literal
 from robocomp_yaml.parameters.specification.document import (
     KINDS,
     ConstraintSpec,
-    LegacySpelling,
     LimitNodes,
     MemberSpec,
     ParameterDocument,
     TypeSpec,
     ValuesDocument,
 )
+from robocomp_yaml.parameters.specification.legacy_spelling import LegacySpelling
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, once
 
 

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import msgspec
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.interface import Literal
 from robocomp_yaml.model.located import Located
-from robocomp_yaml.semantics import spellings
 from robocomp_yaml.source.tree import Mapping, Node
+
+if TYPE_CHECKING:
+    from robocomp_yaml.parameters.specification.legacy_spelling import LegacySpelling
 
 # The keys that define a type, in order of precedence.
 KINDS = ("type", "list", "map", "group", "enum", "struct")
@@ -70,14 +72,6 @@ class ConstraintSpec(Located, frozen=True):
     otherwise: str = ""
     doc: str = ""
     span: Span = Span("")
-
-
-@dataclass(frozen=True)
-class LegacySpelling(spellings.Spelling):
-    """An entry of `legacy:`: how properties spell the parameter at `path`."""
-
-    path: str = ""
-    span: Span = field(default=Span(""), compare=False)
 
 
 class ParameterDocument(Located, frozen=True):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from robocomp_yaml.parameters.specification.document import LegacySpelling
+from robocomp_yaml.parameters.specification.legacy_spelling import LegacySpelling
 from robocomp_yaml.parameters.types import BasicType, ListType, RecordType, Type
 from robocomp_yaml.semantics import rows, texts
 

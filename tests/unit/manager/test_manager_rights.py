@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+from functools import cache
 from typing import Any
 
 import pytest
@@ -20,6 +21,11 @@ from robocomp_yaml.manager.table import COMMANDS
 CHANGING = {"up", "restart", "down", "rollback", "call", "parameters", "push"}
 EDITING = {"edit", "undo", "redo", "write", "positions"}
 ONLY_ASKING = {"diagnose", "completion"}  # POST, because an unsaved text does not fit into an address
+
+
+@cache
+def manager(rights: tuple[str, ...]) -> Guard:
+    return application({}, AccessRules("t", rights=rights))
 
 
 def ask(app: Guard, command: Command) -> tuple[int, dict[str, Any]]:
@@ -45,7 +51,7 @@ def ask(app: Guard, command: Command) -> tuple[int, dict[str, Any]]:
 @pytest.mark.parametrize("command", COMMANDS, ids=lambda one: f"{one.method}-{one.path.rpartition('/')[2]}")
 def test_a_command_needs_its_right(command: Command, rights: tuple[str, ...]) -> None:
     """What is let through gets to the body, or to the name of the deployment, which are wrong."""
-    status, answer = ask(application({}, AccessRules("t", rights=rights)), command)
+    status, answer = ask(manager(rights), command)
     expected = {403} if command.right not in rights else {200} if command.path == "/deployments" else {400, 404}
     assert status in expected, answer
 

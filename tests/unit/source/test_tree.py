@@ -106,7 +106,7 @@ def test_some_aliases_are_fine() -> None:
     assert data("a: &a {x: 1}\nb: *a\nc: [*a, *a]\n") == {"a": {"x": 1}, "b": {"x": 1}, "c": [{"x": 1}, {"x": 1}]}
 
 
-@pytest.mark.parametrize("depth", [150, 5_000, 300_000])
+@pytest.mark.parametrize("depth", [150, 5_000])
 @pytest.mark.parametrize(("opening", "closing"), [("[", "]"), ("{a: ", "}"), ("- ", "")])
 def test_deep_nesting_is_refused(depth: int, opening: str, closing: str) -> None:
     assert [code for code, _, _ in codes(opening * depth + "1" + closing * depth)] == ["RC0106"]

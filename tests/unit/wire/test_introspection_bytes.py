@@ -7,7 +7,7 @@ import struct
 import pytest
 
 from robocomp_yaml.wire import introspection, protocol
-from robocomp_yaml.wire.introspection import Facts, Heartbeat
+from robocomp_yaml.wire.introspection import Facts
 from robocomp_yaml.wire.protocol import size, text
 
 LONG = "é" * 200
@@ -36,12 +36,6 @@ def test_a_report_that_is_cut_off(length: int) -> None:
 def test_something_else(data: bytes) -> None:
     with pytest.raises(ValueError, match="shorter than expected"):
         introspection.sections_of(data)
-
-
-def test_a_heartbeat() -> None:
-    assert introspection.heartbeat_of(struct.pack("<ii", 1500, 100)) == Heartbeat(1.5, 0.1)
-    with pytest.raises(ValueError, match="shorter than expected"):
-        introspection.heartbeat_of(b"\0" * 7)
 
 
 def test_the_names_of_sections() -> None:

@@ -1,0 +1,1 @@
+"""Checks of the flat configs of components."""
