@@ -15,6 +15,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean, likeness, suggest
 from robocomp_yaml.emit.usage import code
 from robocomp_yaml.emit.usage import offer as offers
+from robocomp_yaml.emit.usage.arguments import after, is_context, wrong_arguments
 from robocomp_yaml.emit.usage.code import (
     SETTINGS,
     WORKER,
@@ -26,7 +27,7 @@ from robocomp_yaml.emit.usage.code import (
     Step,
     Word,
 )
-from robocomp_yaml.emit.usage.literals import never_equal, of_setting, wrong_literals
+from robocomp_yaml.emit.usage.literals import never_equal, of_setting, wanted
 from robocomp_yaml.emit.usage.offer import Offer, OfferedMember, ServedInterface, WorkerOffer
 from robocomp_yaml.emit.usage.values import keys, unknown, unknown_setting, where, wrong_paths, wrong_value
 from robocomp_yaml.link.program import LinkedComponent
@@ -124,14 +125,40 @@ class _Judging(msgspec.Struct):
                     yield self._unknown(now, step)
                 return
             is_last = number + 1 == len(chain.steps)
-            if step.arguments is not None and not chain.is_again:
+            if member.instead and not chain.is_hint and not chain.is_again and not chain.caught:
+                yield codes.UNKNOWN_TYPE.at(step.word.span, name=step.word.text, module=now.name, hint=member.instead)
+                return
+            if not chain.is_again and (fault := self._called_or_not(now, step, member, chain)):
+                yield fault
+            elif step.arguments is not None and not chain.is_again:
                 yield from self._call(now, step.word, member, step.arguments, chain)
             elif is_last and chain.is_assigned and member.parameter is not None:
                 yield from self._assigned(now, member, step.word, chain.constant)
-            now = member.result if step.arguments is not None and member.result is not None else member.value
+            elif is_last and chain.is_assigned and chain.constant is not None and now.kind == offers.STRUCT:
+                yield from self._set(now, member, step.word, chain.constant)
+            now = after(step, member)
         yield from never_equal(chain, member, now)
         if chain.unpacked and now is not None and not _is_unpacked(now, chain.unpacked):
             yield self._results(now, chain.steps[-1].word, f"{chain.unpacked} values")
+
+    def _called_or_not(self, now: Offer, step: Step, member: OfferedMember, chain: Chain) -> Diagnostic | None:
+        """A value that is called, or a getter that is not."""
+        word = step.word
+        if step.arguments is None:
+            return codes.NOT_CALLED.at(word.span, name=word.text, hint=f"write {word.text}()") if member.read else None
+        is_value = member.parameter is not None or now.kind == offers.STRUCT
+        is_value |= member.value is not None and member.value.kind == offers.RECORD
+        if not is_value or member.most is not None or member.result is not None or "TypeError" in chain.caught:
+            return None
+        return codes.NOT_CALLABLE.at(word.span, name=word.text, hint=f"write {word.text}, without ()")
+
+    def _set(self, now: Offer, member: OfferedMember, word: Word, constant: Constant) -> Iterator[Diagnostic]:
+        """A literal that a member of a struct cannot be."""
+        if member.value is not None and member.value.kind == offers.PLAIN:
+            if needed := wanted(member.value.name, constant.value, integers=True):
+                yield codes.WRONG_LITERAL.at(
+                    constant.span, owner=now.name, name=word.text, value=repr(constant.value), wanted=needed
+                )
 
     def _results(self, now: Offer, word: Word, used: str) -> Diagnostic:
         count = "nothing" if not now.count else f"{now.count} values"
@@ -154,8 +181,8 @@ class _Judging(msgspec.Struct):
                 return True
             is_proxy_name = is_proxy(name) or is_nearly_proxy(name, now.members)
             return not is_proxy_name and (self.usage.is_shared or not now.is_complete)
-        if now.kind == offers.STRUCT and (chain.is_assigned or name in self.usage.own):
-            near = suggest(name, now.members)  # Python's structs may get further attributes
+        if now.kind in (offers.STRUCT, offers.LOG) and (chain.is_assigned or name in self.usage.own):
+            near = suggest(name, now.members)  # in Python, they may get further attributes
             return near is None or likeness(name, near) < _NEAR
         return not now.is_complete
 
@@ -186,8 +213,9 @@ class _Judging(msgspec.Struct):
                 return self._at(codes.UNKNOWN_MODULE, word, known, hint, component=component)
             case offers.ENUM:
                 return self._at(codes.UNKNOWN_ENUMERATOR, word, known, _listed(known, "it has"), enum=now.name)
-            case offers.STRUCT:
-                return self._at(codes.UNKNOWN_MEMBER, word, known, _listed(known, "it has"), struct=now.name)
+            case offers.STRUCT | offers.LOG:
+                members = _listed(known, "it has") if now.kind == offers.STRUCT else ""
+                return self._at(codes.UNKNOWN_MEMBER, word, known, members, struct=now.name)
             case offers.RESULTS:
                 count = "nothing" if not now.count else f"{now.count} values"
                 return codes.WRONG_RESULTS.at(word.span, owner=now.name, count=count, used=f"one with '{name}'")
@@ -203,8 +231,9 @@ class _Judging(msgspec.Struct):
             component = self.linked.component.name
             states = sorted(self.offer.states)
             yield self._at(codes.UNKNOWN_OF_MACHINE, arguments.text, states, what="state", component=component)
-        if member.parameter is not None and member.most == 1 and arguments.constant is not None:
-            yield from wrong_value(member.parameter.type, member.path or member.parameter.name, arguments.constant)
+        first = arguments.values[0] if arguments.values else None
+        if member.parameter is not None and member.most == 1 and first is not None:
+            yield from wrong_value(member.parameter.type, member.path or member.parameter.name, first)
         if "TypeError" in chain.caught or not arguments.is_exact:
             return
         for name in arguments.names:
@@ -215,22 +244,25 @@ class _Judging(msgspec.Struct):
         count = arguments.count + len([one for one in arguments.names if one.text != "context"])
         if member.can_be_empty and not count:
             return
-        if count < member.least or (member.most is not None and count > member.most):
-            owner = f"{now.name}.{word.text}" if now.kind in (offers.PROXY, offers.TOPIC) else word.text
+        is_operation = now.kind in (offers.PROXY, offers.TOPIC)
+        is_surplus = is_operation and arguments.count > member.least and member.most is not None
+        is_surplus = is_surplus and not is_context(arguments, member.least, self.offer)
+        owner = f"{now.name}.{word.text}" if is_operation else word.text
+        if count < member.least or (member.most is not None and count > member.most) or is_surplus:
             hint = f"it is {member.signature}" if member.signature else ""
             yield codes.WRONG_ARGUMENTS.at(
                 word.span, owner=owner, expected=_arguments(member.least), count=count, hint=hint
             )
-        elif now.kind in (offers.PROXY, offers.TOPIC):
+        else:
             kinds = tuple(self._kind(now, one) for one in member.inputs)
-            yield from wrong_literals(f"{now.name}.{word.text}", member.inputs, kinds, arguments.values)
+            yield from wrong_arguments(owner, member.inputs, kinds, arguments, self.offer)
 
-    def _kind(self, proxy: Offer, parameter: Member) -> str:
-        """The type of an operation's parameter, if literals can be compared with it."""
+    def _kind(self, owner: Offer, parameter: Member) -> str:
+        """The type of a parameter of an operation, or of a member of a struct, if literals can be compared with it."""
         if parameter.type.is_basic:
             return parameter.type.text
         ports = (*self.linked.requires, *self.linked.publishes)
-        scope = next((port.scope for port in ports if port.interface.name == proxy.name), None)
+        scope = next((port.scope for port in ports if port.interface.name == owner.name), None)
         found = scope.find(parameter.type) if scope is not None else None
         return found[1].name if found is not None and isinstance(found[1], (Enum, Struct)) else ""
 

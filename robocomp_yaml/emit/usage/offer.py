@@ -18,9 +18,9 @@ from robocomp_yaml.model.interface import Enum, ExceptionType, Interface, Member
 from robocomp_yaml.model.statemachine import StateMachine
 from robocomp_yaml.parameters.types import ListType, MapType, RecordType, ResolvedMember, Type
 
-WORKER, PROXY, TOPIC, PARAMETERS, RECORD, EVENTS, MODULES, MODULE, ENUM, STRUCT, RESULTS, PLAIN, OTHER = (
+WORKER, PROXY, TOPIC, PARAMETERS, RECORD, EVENTS, MODULES, MODULE, ENUM, STRUCT, RESULTS, PLAIN, LOG, OTHER = (
     "worker", "proxy", "topic", "parameters", "record", "events", "modules", "module", "enum", "struct", "results",
-    "plain", "other",
+    "plain", "log", "other",
 )  # fmt: skip
 
 
@@ -44,7 +44,8 @@ class OfferedMember(msgspec.Struct, frozen=True):
     at most `most` arguments, by position or with the `keywords`; None: unknown. `signature` is for messages.
     `takes_path`: its argument is the path of a parameter, or a mapping of such paths; `is_state`: the name of a state.
     `parameter` is what an assignment, or a setter, sets, and `read` what a getter returns; `path` its path. `inputs`
-    are the first parameters of an operation. `can_be_empty`: no arguments are right, too."""
+    are the first parameters of an operation, or the members of a struct. `can_be_empty`: no arguments are right, too.
+    Unless `instead` is '', it exists in annotations only, and elsewhere, `instead` is the hint."""
 
     value: Offer | None = None
     result: Offer | None = None
@@ -59,6 +60,7 @@ class OfferedMember(msgspec.Struct, frozen=True):
     read: ResolvedMember | None = None
     path: str = ""
     can_be_empty: bool = False
+    instead: str = ""
 
 
 class ServedInterface(msgspec.Struct, frozen=True):
@@ -214,13 +216,15 @@ def _types(
         name = in_code(definition.name)
         match definition:
             case Enum(enumerators=enumerators):
-                names = {in_code(one.name): OfferedMember() for one in enumerators}
+                enumerator = OfferedMember(Offer(PLAIN, definition.name, is_complete=False))
+                names = {in_code(one.name): enumerator for one in enumerators}
                 found[name] = OfferedMember(Offer(ENUM, definition.name, names, others=_is_of_enum))
             case Struct(members=members) | ExceptionType(members=members):
                 fields = frozenset(in_code(one.name) for one in members)
                 most = len(members) if isinstance(definition, Struct) else None
                 found[name] = OfferedMember(
                     result=instance(definition, scope), most=most,
+                    inputs=members if isinstance(definition, Struct) else (),
                     keywords=fields if isinstance(definition, Struct) else None,
                     signature=f"{definition.name}({', '.join(one.name for one in members)})",
                 )  # fmt: skip
