@@ -7,6 +7,7 @@ import textwrap
 import pytest
 
 from judged_code import MACHINE, Link, component, found
+from robocomp_yaml.emit.usage.judge import judge
 
 NAMES = "Fake, Foreign, Ice, Meta, contextlib, decorated, loadUi, name, other, path, run, speed, use"
 HEAD = (
@@ -360,6 +361,23 @@ def test_slips(link: Link, old: str, new: str, code: str, text: str) -> None:
 )
 def test_no_slips(link: Link, old: str, new: str) -> None:
     assert found(link(component("python")), {"specificworker.py": SLIPS.replace(old, new, 1)}) == []
+
+
+@pytest.mark.parametrize(
+    ("body", "hint"),
+    [
+        ("time.sleep(1)", "write `import time`"),
+        ("print(Path('a'))", "write `from pathlib import Path`"),
+        ("print(GenericWorkr)", "did you mean 'GenericWorker'?"),
+        ("print(token)", ""),
+    ],
+)
+def test_the_import_that_a_name_lacks(link: Link, body: str, hint: str) -> None:
+    linked = link(component("python"))
+    part = linked.component.language.target.part("usage")
+    offer = part.offer(linked)
+    usage = part.read({"specificworker.py": SLIPS.replace("pass  # here", body)}, linked, offer)
+    assert [one.hint for one in judge(linked, usage, offer)] == [hint]
 
 
 def test_a_parameter_is_no_attribute_of_the_worker(link: Link) -> None:
