@@ -64,7 +64,9 @@ def inspect(unit: Unit, inputs: Inputs) -> ProgramState:
 
 def _is_copy(unit: Unit, inputs: Inputs, stamp: BuildStamp, program: State) -> bool:
     """Whether a program has the content of the one of a stamp, as in a copy of a workspace."""
-    return bool(stamp.digest) and stamp.program[0] == program[0] and inputs.digest(unit.program, program) == stamp.digest
+    return (
+        bool(stamp.digest) and stamp.program[0] == program[0] and inputs.digest(unit.program, program) == stamp.digest
+    )
 
 
 def _changed(unit: Unit, inputs: Inputs, stamp: BuildStamp) -> tuple[str, ...]:

@@ -46,7 +46,9 @@ class DeploymentDocuments(msgspec.Struct):
         self.models[document.real] = model
 
         def make() -> tuple[list[NamedDocument], dict[UsedValues, None], list[Diagnostic]]:
-            found = _NamedByDeployment(model, disk, self.root_of(document.path))  # not of this run: other deployments may name the same
+            found = _NamedByDeployment(
+                model, disk, self.root_of(document.path)
+            )  # not of this run: other deployments may name the same
             return list(found.run()), found.used, found.diagnostics
 
         causes = model, disk.version, disk.added

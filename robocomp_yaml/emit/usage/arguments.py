@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from robocomp_yaml.diag.codes import usage as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.emit.usage import offer as offers
-from robocomp_yaml.emit.usage.code import MAPPING, Arguments, Chain, Constant, Step, Word
+from robocomp_yaml.emit.usage.code import MAPPING, NOTHING, Arguments, Chain, Constant, Step, Word
 from robocomp_yaml.emit.usage.literals import NUMBERS, wanted
 from robocomp_yaml.emit.usage.offer import Offer, OfferedMember, WorkerOffer
 from robocomp_yaml.model.interface import Member
@@ -46,7 +46,7 @@ def is_context(arguments: Arguments, number: int, worker: WorkerOffer) -> bool:
     if arguments.values[number : number + 1] != (None,):
         return not arguments.values
     given = _given(arguments, number, worker)
-    return given is None or given.text == MAPPING
+    return given is None or given.text in (MAPPING, NOTHING)
 
 
 def _given(arguments: Arguments, number: int, worker: WorkerOffer) -> Word | None:
@@ -102,6 +102,8 @@ def _basic(name: str) -> str:
 
 def _unfit(kind: str, given: str) -> str:
     """What a type of an interface expects instead of something; '' if that may be right."""
+    if given == NOTHING:  # a struct, a text and a list may be None
+        return _NUMBER if kind in NUMBERS else ""
     if not kind or (given not in _FORMS and not given.startswith(("a ", "the "))):
         return ""
     expected = _basic(kind) or f"a {kind}"

@@ -19,7 +19,7 @@ class Word(msgspec.Struct, frozen=True):
     span: Span
 
 
-MAPPING = "a mapping"
+MAPPING, NOTHING = "a mapping", "None"
 
 
 class Constant(msgspec.Struct, frozen=True):

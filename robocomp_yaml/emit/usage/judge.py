@@ -29,7 +29,7 @@ from robocomp_yaml.emit.usage.code import (
 )
 from robocomp_yaml.emit.usage.literals import never_equal, of_setting, wanted
 from robocomp_yaml.emit.usage.offer import Offer, OfferedMember, ServedInterface, WorkerOffer
-from robocomp_yaml.emit.usage.values import keys, unknown, unknown_setting, where, wrong_paths, wrong_value
+from robocomp_yaml.emit.usage.values import EDITABLE, keys, unknown, unknown_setting, where, wrong_paths, wrong_value
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model.interface import Enum, Member, Struct
 
@@ -115,11 +115,16 @@ class _Judging(msgspec.Struct):
             if now is None:
                 return
             if step.is_index:
-                if now.kind == offers.PARAMETERS and step.word.text and not chain.is_again:
-                    yield self._indexed(now, step.word)
+                if step.word.text and not chain.is_again and "TypeError" not in chain.caught:
+                    yield from self._indexed(now, step.word)
                 now, member = now.each if step.is_each else now.element, None
                 continue
             member = now.members.get(step.word.text)
+            if member is None and step.word.text in now.lacks and "AttributeError" not in chain.caught:
+                if not chain.is_again:
+                    hint = now.lacks[step.word.text]
+                    yield codes.UNKNOWN_MEMBER.at(step.word.span, struct="a list", name=step.word.text, hint=hint)
+                return
             if member is None:
                 if not chain.is_again and not self._may_exist(now, step, chain):
                     yield self._unknown(now, step)
@@ -137,7 +142,8 @@ class _Judging(msgspec.Struct):
             elif is_last and chain.is_assigned and chain.constant is not None and now.kind == offers.STRUCT:
                 yield from self._set(now, member, step.word, chain.constant)
             now = after(step, member)
-        yield from never_equal(chain, member, now)
+        integers = self.linked.component.language.name == "python"  # an enum of C++98 may be compared with one
+        yield from never_equal(chain, member, now, integers=integers)
         if chain.unpacked and now is not None and not _is_unpacked(now, chain.unpacked):
             yield self._results(now, chain.steps[-1].word, f"{chain.unpacked} values")
 
@@ -165,12 +171,19 @@ class _Judging(msgspec.Struct):
         count = count if now.kind == offers.RESULTS else f"one {now.name}"
         return codes.WRONG_RESULTS.at(word.span, owner=word.text, count=count, used=used)
 
-    def _indexed(self, now: Offer, word: Word) -> Diagnostic:
-        attributes = list(keys(self.linked.parameters.parameters.root))
-        meant = word.text if word.text in attributes else suggest(word.text, attributes)
-        called = "()" if any(member.most == 0 for member in now.members.values()) else ""
-        hint = f"write parameters.{meant}{called}" if meant else where(self.linked)
-        return codes.NOT_INDEXED.at(word.span, name=word.text, hint=hint)
+    def _indexed(self, now: Offer, word: Word) -> Iterator[Diagnostic]:
+        """A text as the index of what has attributes, or of a list."""
+        if now.kind == offers.PARAMETERS:
+            attributes = list(keys(self.linked.parameters.parameters.root))
+            meant = word.text if word.text in attributes else suggest(word.text, attributes)
+            called = "()" if any(member.most == 0 for member in now.members.values()) else ""
+            hint = f"write parameters.{meant}{called}" if meant else where(self.linked)
+            yield codes.NOT_INDEXED.at(word.span, owner="the parameters", name=word.text, hint=hint)
+        elif now.kind in (offers.STRUCT, offers.ENUM, offers.RECORD):
+            hint = f"write .{word.text}" if word.text in now.members else _listed(now.members, "it has")
+            yield codes.NOT_INDEXED.at(word.span, owner=now.name or "it", name=word.text, hint=hint)
+        elif now.each is not None:
+            yield codes.NOT_INDEXED.at(word.span, owner="a list", name=word.text, hint="an index is a number")
 
     def _may_exist(self, now: Offer, step: Step, chain: Chain) -> bool:
         name = step.word.text
@@ -204,7 +217,7 @@ class _Judging(msgspec.Struct):
                 return self._at(code, word, known, _listed(listed, "it has"), interface=now.name)
             case offers.PARAMETERS | offers.RECORD:
                 if not_editable := self._not_editable(name, known):
-                    return codes.NOT_EDITABLE.at(word.span, name=not_editable, hint=_EDITABLE)
+                    return codes.NOT_EDITABLE.at(word.span, name=not_editable, hint=EDITABLE)
                 return self._at(codes.UNKNOWN_PARAMETER, word, known, where(self.linked), owner=now.name or component)
             case offers.EVENTS:
                 return self._at(codes.UNKNOWN_OF_MACHINE, word, known, what="event", component=component)
@@ -276,7 +289,7 @@ class _Judging(msgspec.Struct):
             yield codes.NOT_ASSIGNED.at(word.span, name=member.path or parameter.name, hint=hint)
             return
         if not parameter.editable and not parameter.is_group:
-            yield codes.NOT_EDITABLE.at(word.span, name=member.path or parameter.name, hint=_EDITABLE)
+            yield codes.NOT_EDITABLE.at(word.span, name=member.path or parameter.name, hint=EDITABLE)
         elif constant is not None:
             yield from wrong_value(parameter.type, member.path or parameter.name, constant)
 
@@ -330,9 +343,6 @@ class _Judging(msgspec.Struct):
         stem = name.removeprefix("set").lower()
         paths = keys(self.linked.parameters.parameters.root)
         return next((path for path in paths if path.replace(".", "").lower() == stem), "")
-
-
-_EDITABLE = "add `editable: true` to the parameter, if components may change it while they run"
 
 
 def _is_unpacked(result: Offer, count: int) -> bool:

@@ -17,14 +17,17 @@ from robocomp_yaml.parameters.words import in_words
 NUMBERS = ("byte", "short", "int", "long", "float", "double")
 
 
-def never_equal(chain: Chain, member: OfferedMember | None, now: Offer | None) -> Iterator[Diagnostic]:
-    """Comparisons of a parameter, or of a member of a struct, that are always false."""
+def never_equal(
+    chain: Chain, member: OfferedMember | None, now: Offer | None, *, integers: bool
+) -> Iterator[Diagnostic]:  # fmt: skip
+    """Comparisons of a parameter, or of a member of a struct, that are always false. With `integers`, an enumerator
+    never equals one."""
     for constant in chain.compared:
         name = chain.steps[-1].word.text
         parameter = (member.read or member.parameter) if member is not None else None
         if member is not None and parameter is not None:
             yield from _of_parameter(parameter.type, member.path or parameter.name, constant)
-        elif now is not None and now.kind == PLAIN and (needed := wanted(now.name, constant.value)):
+        elif now is not None and now.kind == PLAIN and (needed := wanted(now.name, constant.value, integers=integers)):
             yield codes.NEVER_EQUAL.at(constant.span, name=name, value=repr(constant.value), wanted=needed)
 
 

@@ -27,7 +27,7 @@ WORKER, PROXY, TOPIC, PARAMETERS, RECORD, EVENTS, MODULES, MODULE, ENUM, STRUCT,
 class Offer(msgspec.Struct, frozen=True):
     """What a value has. `name` is what messages call it by. Unless it `is_complete`, it may have other members, too;
     `others` says whether a name is one of them. `element` is what an index leads to, `each` what a loop leads to.
-    `count` is the number of RESULTS of a call."""
+    `count` is the number of RESULTS of a call. `lacks` are names that a list surely does not have, each with a hint."""
 
     kind: str
     name: str = ""
@@ -37,6 +37,7 @@ class Offer(msgspec.Struct, frozen=True):
     element: Offer | None = None
     each: Offer | None = None
     count: int = 0
+    lacks: Mapping[str, str] = {}
 
 
 class OfferedMember(msgspec.Struct, frozen=True):
@@ -94,11 +95,11 @@ Returned = Callable[[Method, LinkedModule], Offer | None]
 
 def proxies(
     ports: LoweredPorts, called: Callable[[str], str], others: Callable[[str], bool], returned: Returned, *,
-    outputs: bool, keywords: Callable[[Method], Iterable[str]] | None = None,
+    outputs: bool, keywords: Callable[[Method], Iterable[str]] | None = None, future: Offer | None = None,
 ) -> dict[str, OfferedMember]:  # fmt: skip
     """The proxies of the worker. `called` makes the name of an operation, and `returned` what a call returns; `others`
-    are methods of every proxy. With
-    `outputs`, calls have arguments for them. Every call may have a context."""
+    are methods of every proxy, and an asynchronous call returns a `future`. With `outputs`, calls have arguments for
+    them. Every call may have a context."""
     found = {}
     for accessor, is_topic in [*((one, False) for one in ports.requires), *((one, True) for one in ports.publishes)]:
         port = accessor.port
@@ -108,7 +109,9 @@ def proxies(
             )
             for method in port.interface.methods
         }
-        methods |= {f"{called(method.name)}{ASYNC}": OfferedMember() for method in port.interface.methods}
+        methods |= {
+            f"{called(method.name)}{ASYNC}": OfferedMember(result=future) for method in port.interface.methods
+        }  # fmt: skip
         offer = Offer(TOPIC if is_topic else PROXY, port.interface.name, methods, others=others)
         found[accessor.name] = OfferedMember(offer)
     return found
@@ -157,12 +160,18 @@ def record(type_: RecordType, in_code: Callable[[str], str], path: str = "", nam
     return Offer(RECORD, name or (f"the group {path}" if path else ""), members)
 
 
+def of_list(element: Offer | None, lists: Mapping[str, str] = {}) -> Offer:
+    """What a list has. `lists` are names that no list has in the language; it also lacks those of its elements."""
+    own = dict.fromkeys(element.members, "its elements have it") if element is not None and lists else {}
+    lacks = {name: hint for name, hint in {**own, **lists}.items() if not hasattr(list, name)}
+    return Offer(OTHER, is_complete=False, element=element, each=element, lacks=lacks)
+
+
 def value(type_: Type, in_code: Callable[[str], str], path: str = "") -> Offer | None:
     """What a value of a type has."""
     match type_:
         case ListType(element=element):
-            inner = value(element, in_code)
-            return Offer(OTHER, is_complete=False, element=inner, each=inner)
+            return of_list(value(element, in_code))
         case MapType(element=element):
             return Offer(OTHER, is_complete=False, element=value(element, in_code))
         case RecordType(name=name):

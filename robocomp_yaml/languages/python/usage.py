@@ -48,11 +48,19 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
     ports, machine = lowering.lower(linked, PORTS), linked.machine
     is_own = not linked.component.compatibility
     members: dict[str, OfferedMember] = {name: OfferedMember() for name in WORKER_ATTRIBUTES} if is_own else {}
-    types = OfferedTypes(python_name, _is_of_every_struct, _is_of_every_exception)
+    types = OfferedTypes(python_name, _is_of_every_struct, _is_of_every_exception, _OF_NO_LIST if is_own else {})
     if is_own:
         members["log"] = OfferedMember(Offer(offers.LOG, "log", dict.fromkeys(_OF_LOGS, OfferedMember())))
     returned = partial(types.result, tuples=True)
-    members |= offers.proxies(ports, PORTS.called, _is_of_every_proxy, returned, outputs=False, keywords=_keywords)
+    members |= offers.proxies(
+        ports,
+        PORTS.called,
+        _is_of_every_proxy,
+        returned,
+        outputs=False,
+        keywords=_keywords,
+        future=Offer(offers.LOG, "the future", dict.fromkeys(_OF_FUTURES, OfferedMember())),
+    )
     if is_own:
         values = offers.record(linked.parameters.parameters.root, LANGUAGE.in_code)
         members["parameters"] = OfferedMember(
@@ -129,6 +137,17 @@ def _is_of_every_exception(name: str) -> bool:
     return name.startswith(("_", "ice_")) or hasattr(Exception, name) or name == "unknown"
 
 
+_OF_FUTURES = (
+    "add_done_callback add_done_callback_async add_sent_callback add_sent_callback_async cancel cancelled communicator "
+    "connection done exception is_sent is_sent_synchronously operation proxy result running sent set_exception "
+    "set_result"
+).split()
+_OF_NO_LIST = {
+    "push_back": "write append()", "emplace_back": "write append()", "add": "write append()", "size": "write len()",
+    "length": "write len()", "at": "write an index", "front": "write [0]", "back": "write [-1]",
+    "isEmpty": "write `not`",
+}  # fmt: skip
+"""Names that lists of C++ and Java have, and what Python has instead."""
 _OF_LOGS = (
     "critical debug error exception fatal info log warn warning addFilter addHandler callHandlers disabled filter "
     "filters findCaller getChild getChildren getEffectiveLevel handle handlers hasHandlers isEnabledFor level "

@@ -190,7 +190,10 @@ class ChainReader:
 
     def _as_chain(self, node: ast.expr, frames: tuple[Frame, ...], depth: int) -> Chain | None:
         found = self._chain(node, frames, depth)
-        return Chain(*found) if found is not None and found[1] else None
+        if found is None or not found[1]:
+            return None
+        last = msgspec.structs.replace(found[1][-1], word=Word(found[1][-1].word.text, self._span(node)))
+        return Chain(found[0], (*found[1][:-1], last))
 
     def _key(self, index: ast.expr) -> Word:
         word = self._text_word(index) if isinstance(index, ast.Constant) else None

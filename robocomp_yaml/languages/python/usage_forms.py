@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable
 
-from robocomp_yaml.emit.usage.code import MAPPING
+from robocomp_yaml.emit.usage.code import MAPPING, NOTHING
 
 _NUMBER, _TEXT, _NO_MAPPING = "a number", "a text", "no mapping"
 _FORMS = {
@@ -36,6 +36,8 @@ def form_of(node: ast.expr, bound: Callable[[str], ast.expr | None], is_builtin:
             return _NUMBER
         case ast.Constant(value=str()):
             return _TEXT
+        case ast.Constant(value=None):
+            return NOTHING
         case ast.UnaryOp():
             return _NO_MAPPING
         case ast.BinOp(op=ast.BitOr()):

@@ -118,7 +118,8 @@ def _import_of(name: str, imported: Collection[str], *, is_owner: bool) -> str:
 
 _KNOWN = {
     "pathlib": "Path", "dataclasses": "dataclass", "enum": "Enum IntEnum", "collections": "deque defaultdict Counter",
-    "functools": "partial", "threading": "Thread Lock Event", "time": "sleep monotonic", "datetime": "datetime timedelta",
+    "functools": "partial", "threading": "Thread Lock Event", "time": "sleep monotonic",
+    "datetime": "datetime timedelta",
     "math": "sqrt pi sin cos atan2 hypot inf", "typing": "Any Optional", "contextlib": "suppress contextmanager",
 }  # fmt: skip
 """Names of the standard library that are rarely anything else."""
