@@ -35,7 +35,7 @@ parameters:
   device: {type: string, default: tty}
   mode: {type: string, values: [slow, fast], default: slow}
   motors: {list: Motor, default: [{name: left}], editable: true}
-  offsets: {map: Motor, default: {}}
+  offsets: {map: Motor, default: {}, editable: true}
   camera: {group: {fps: {type: int, default: 30, editable: true}, lens: {type: string, default: a}}}
 """,
 }

@@ -20,6 +20,8 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.flat_configs import flat_config
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Port
 from robocomp_yaml.model.port_range import PortRange
+from robocomp_yaml.semantics import connections
+from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.ice_endpoint import IceEndpoint, parse_endpoint
 
@@ -38,10 +40,12 @@ class Resolved(msgspec.Struct, frozen=True):
 class PortTable(msgspec.Struct):
     """The endpoint of each adapter of a workspace (key: real path of the component's document, name of the interface),
     and the components that implement an interface. `ports` is the range of defaults. `wanted` has for each port
-    the adapters that have it, or would have it by default in this range or in the usual one. `diagnostics` report a
-    full range."""
+    the adapters that have it, or would have it by default in this range or in the usual one. `first` has the ports that
+    rcyaml wrote, where the user changed them: another text would make the user's ports rcyaml's own. `diagnostics`
+    report a full range."""
 
     endpoints: dict[tuple[str, str], IceEndpoint] = {}
+    first: dict[tuple[str, str], int] = {}
     implementers: Implementers = msgspec.field(default_factory=Implementers)
     ports: PortRange = USUAL
     wanted: dict[int, set[tuple[str, str]]] = {}
@@ -50,6 +54,10 @@ class PortTable(msgspec.Struct):
     def endpoint(self, linked: LinkedComponent, name: str) -> IceEndpoint:
         """The endpoint of an adapter of a component."""
         return self.endpoints[document(linked), name]
+
+    def first_port(self, linked: LinkedComponent, name: str) -> int:
+        """The port of an adapter in the first `etc/config` of a component, whatever the user made of that."""
+        return self.first.get((document(linked), name)) or self.endpoint(linked, name).port
 
     def proposed(self, interface: str) -> int:
         """The port of an interface that no component of the workspace implements."""
@@ -122,6 +130,7 @@ def assign(
             result.endpoints[key, name] = endpoint
             free.taken.add(endpoint.port)
             result.want(key, name, endpoint.port)
+        result.first |= {(key, name): port for name, port in _first(linked, disk)}
     for key, linked in ordered:
         for name in sorted(adapters(linked)):
             for each in (USUAL, ports):
@@ -147,6 +156,16 @@ def _fixed(linked: LinkedComponent, values: LinkedValues | None, disk: Disk) -> 
     for name, text in endpoints.items():
         if endpoint := parse_endpoint(text.text):
             yield name, endpoint
+
+
+def _first(linked: LinkedComponent, disk: Disk) -> Iterable[tuple[str, int]]:
+    """The ports that rcyaml wrote in a flat config, and that are other ones now."""
+    flat = flat_config(os.path.dirname(linked.component.path), disk)
+    for name in adapters(linked) if flat is not None else ():
+        for key in connections.endpoints(name):
+            written = parse_endpoint(unquoted(flat.base.get(key, ""))) if flat is not None else None
+            if flat is not None and written is not None and not flat.is_as_written(key):
+                yield name, written.port
 
 
 def _proxy(port: Port, endpoint: IceEndpoint) -> str:

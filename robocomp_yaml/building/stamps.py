@@ -1,8 +1,8 @@
 """The stamp of a build: what a program was built from, so that a stale program is detected.
 
 It is in `.rcyaml/builds/` of the component, which is not under version control. If the program is the one of the stamp,
-contents are compared, so that touching a file has no effect. Any other program, such as one that CMake built directly,
-is up to date if it is younger than all its inputs.
+or a copy of it, contents are compared, so that touching a file has no effect. Any other program, such as one that CMake
+built directly, is up to date if it is younger than all its inputs.
 """
 
 from __future__ import annotations
@@ -25,13 +25,15 @@ _NAME = f"{FOLDER}/stamp.json"
 
 
 class BuildStamp(msgspec.Struct, frozen=True):
-    """`program` is the state of the built program, `inputs` are the files that it was built from, relative to the
-    folder of the component, each with state and digest; `more` are those of them that only the build knows."""
+    """`program` is the state of the built program, `digest` the one of its content; `inputs` are the files that it was
+    built from, relative to the folder of the component, each with state and digest; `more` are those of them that only
+    the build knows."""
 
     type: str
     program: State
     inputs: dict[str, tuple[State, str]]
     more: tuple[str, ...] = ()
+    digest: str = ""
 
 
 class ProgramState(msgspec.Struct, frozen=True):
@@ -53,8 +55,22 @@ def inspect(unit: Unit, inputs: Inputs) -> ProgramState:
     type_ = stamp.type if stamp else ""
     if program is None:
         return ProgramState(False, type=type_)
-    if stamp is None or stamp.program != program:
-        return ProgramState(True, tuple(sorted(_younger(unit, inputs, program))), type_)
+    if stamp is not None and stamp.program == program:
+        return ProgramState(True, _changed(unit, inputs, stamp), type_, is_known=True)
+    if stamp is not None and _is_copy(unit, inputs, stamp, program) and not _changed(unit, inputs, stamp):
+        return ProgramState(True, (), type_, is_known=True)
+    return ProgramState(True, tuple(sorted(_younger(unit, inputs, program))), type_)
+
+
+def _is_copy(unit: Unit, inputs: Inputs, stamp: BuildStamp, program: State) -> bool:
+    """Whether a program has the content of the one of a stamp, as in a copy of a workspace."""
+    return (
+        bool(stamp.digest) and stamp.program[0] == program[0] and inputs.digest(unit.program, program) == stamp.digest
+    )
+
+
+def _changed(unit: Unit, inputs: Inputs, stamp: BuildStamp) -> tuple[str, ...]:
+    """The inputs that are not those of a stamp."""
     files = {path: os.path.normpath(os.path.join(unit.folder, path)) for path in stamp.inputs}
     now = inputs.of(unit, (files[path] for path in stamp.more))
     changed = set(files.values()) ^ now.keys()
@@ -62,7 +78,7 @@ def inspect(unit: Unit, inputs: Inputs) -> ProgramState:
         file = files[path]
         if file in now and now[file] != known and inputs.digest(file, now[file]) != known_digest:
             changed.add(file)
-    return ProgramState(True, tuple(sorted(changed)), type_, is_known=True)
+    return tuple(sorted(changed))
 
 
 def _younger(unit: Unit, inputs: Inputs, program: State) -> list[str]:
@@ -100,7 +116,8 @@ def keep(unit: Unit, begun: BuildStamp) -> None:
             open(unit.path(f"{FOLDER}/.gitignore"), "x", encoding="utf-8") as own,
         ):
             own.write("*\n")
-        text = json.dumps(msgspec.to_builtins(msgspec.structs.replace(begun, program=program)), separators=(",", ":"))
+        kept = msgspec.structs.replace(begun, program=program, digest=Inputs().digest(unit.program, program))
+        text = json.dumps(msgspec.to_builtins(kept), separators=(",", ":"))
         whole_file.put(unit.path(_NAME), text.encode("utf-8", "surrogateescape"))
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from robocomp_yaml.addresses.own import MANAGER as DEFAULT_MANAGER
 from robocomp_yaml.addresses.own import adapters
@@ -27,19 +27,23 @@ _ICE = (
 
 
 def plan(component: LinkedComponent, table: PortTable) -> FilePlan:
-    """The plan of a component's first `etc/config`; `table` has the ports of its workspace."""
+    """The plan of a component's first `etc/config`; `table` has the ports of its workspace. Where the user changed a
+    port, it is the one that rcyaml wrote: the plan is what edits are compared with."""
+    return FilePlan(CONFIG, _text(component, table, table.first_port), ONCE)
+
+
+def _text(component: LinkedComponent, table: PortTable, port_of: Callable[[LinkedComponent, str], int]) -> str:
     compute = period(component.parameters.parameters)
     ice = [line for key, value, doc in _ICE for line in (f"# {doc}", f"# {entry_line(key, value)}")]
     sections = (
         _head(component),
-        _endpoints(component, table),
+        _endpoints(component, port_of),
         _proxies(component, table),
         _topics(component),
         ["# Milliseconds from one call of compute() to the next.", entry_line("period.compute", str(compute))],
         ["# Ice, the middleware. To change a default, remove the # before its name.", *ice],
     )
-    text = "\n".join("".join(f"{line}\n" for line in section) for section in map(list, sections) if section)
-    return FilePlan(CONFIG, text, ONCE)
+    return "\n".join("".join(f"{line}\n" for line in section) for section in map(list, sections) if section)
 
 
 def needed(linked: LinkedComponent) -> list[str]:
@@ -54,7 +58,7 @@ def needed(linked: LinkedComponent) -> list[str]:
 def connections(linked: LinkedComponent, table: PortTable, existing: Mapping[str, str]) -> dict[str, str]:
     """The needed keys with the values of a first `etc/config`. A proxy of the existing configuration is kept if no
     known component implements the interface."""
-    defaults = read(plan(linked, table).text).values
+    defaults = read(_text(linked, table, lambda linked, name: table.endpoint(linked, name).port)).values
     values, resolved = {key: defaults[key] for key in needed(linked)}, table.resolve(linked)
     for port in linked.requires:
         key = proxy(port.name)[0]
@@ -87,13 +91,13 @@ def _head(linked: LinkedComponent) -> Iterator[str]:
     yield f"# The command line overrides it: bin/{name} --period.compute=50 --Ice.Trace.Network=1"
 
 
-def _endpoints(linked: LinkedComponent, table: PortTable) -> Iterator[str]:
+def _endpoints(linked: LinkedComponent, port_of: Callable[[LinkedComponent, str], int]) -> Iterator[str]:
     yield "# The addresses on which this component listens."
     docs = {port.name: port.interface.doc for port in linked.implements}
     for name in adapters(linked):
         doc = docs.get(name, "State, period, properties and orderly stop of every component.")
         yield from _comment(name, doc)
-        yield entry_line(endpoints(name)[0], f"tcp -p {table.endpoint(linked, name).port}")
+        yield entry_line(endpoints(name)[0], f"tcp -p {port_of(linked, name)}")
 
 
 def _proxies(linked: LinkedComponent, table: PortTable) -> Iterator[str]:

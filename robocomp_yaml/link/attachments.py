@@ -290,6 +290,8 @@ class Attachments(msgspec.Struct):
             else:
                 if len(home) == len(components) == 1:  # `etc/config.yaml` of the only component
                     tie(linked, parameters=components[0].parameters)
+                elif len(home) > len(components):  # the component's document has errors of its own
+                    tie(linked, broken=True)
             self.diagnostics += _misplaced(linked, home, components)
 
     def _parameters(self, real: str, components: Sequence[LinkedComponent]) -> LinkedParameters | None:

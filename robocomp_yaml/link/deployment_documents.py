@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import msgspec
 
 from robocomp_yaml.diag.codes import ddsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import Hint
-from robocomp_yaml.diag.suggest import did_you_mean
+from robocomp_yaml.diag.suggest import did_you_mean, meaning, suggest
 from robocomp_yaml.digraph import postorder
 from robocomp_yaml.link import deployment_groups
 from robocomp_yaml.link import deployment_paths as paths
@@ -22,7 +22,11 @@ from robocomp_yaml.link.knot import tie
 from robocomp_yaml.link.program import NamedDocument, Tables, UsedValues
 from robocomp_yaml.model.deployment import COMPONENT, INDEX, PROCESS, Deployment, Entry
 from robocomp_yaml.model.located import Text
+from robocomp_yaml.patterns import pattern
+from robocomp_yaml.source.discover import of_kind
 from robocomp_yaml.source.disk import Disk
+
+_COMPONENT = pattern(r"(?m)^component:[ \t]*[\"']?(\w+)")
 
 
 class DeploymentDocuments(msgspec.Struct):
@@ -30,6 +34,7 @@ class DeploymentDocuments(msgspec.Struct):
 
     documents: Documents
     tables: Tables
+    root_of: Callable[[str], str]
     diagnostics: list[Diagnostic] = []
     used: dict[UsedValues, None] = {}
     models: dict[str, Deployment] = {}
@@ -41,7 +46,9 @@ class DeploymentDocuments(msgspec.Struct):
         self.models[document.real] = model
 
         def make() -> tuple[list[NamedDocument], dict[UsedValues, None], list[Diagnostic]]:
-            found = _NamedByDeployment(model, disk)  # not of this run: other deployments may name the same
+            found = _NamedByDeployment(
+                model, disk, self.root_of(document.path)
+            )  # not of this run: other deployments may name the same
             return list(found.run()), found.used, found.diagnostics
 
         causes = model, disk.version, disk.added
@@ -76,6 +83,7 @@ class _NamedByDeployment(msgspec.Struct):
 
     model: Deployment
     disk: Disk
+    root: str
     used: dict[UsedValues, None] = {}
     diagnostics: list[Diagnostic] = []
 
@@ -123,9 +131,24 @@ class _NamedByDeployment(msgspec.Struct):
             self.diagnostics.append(codes.SEVERAL_COMPONENTS.at(target.span, path=target.text, hint=f"name {names}"))
         elif not components:
             path = paths.joined(paths.document_folder(self.model), target.text)
-            hint = self._nearby(path, ".cdsl.yaml", "cdsl.yaml")
+            hint = self._named(target.text) or self._nearby(path, ".cdsl.yaml", "cdsl.yaml")
             self.diagnostics.append(codes.NO_COMPONENT.at(target.span, path=target.text, hint=hint))
         return components[0] if len(components) == 1 else None
+
+    def _named(self, name: str) -> Hint | None:
+        """A hint at the component of the workspace that has a name, or a similar one: entries name it by its path."""
+        if not name.isidentifier():
+            return None
+        folders: dict[str, str] = {}
+        for path in of_kind(self.root, "cdsl", self.disk):
+            data, _ = self.disk.read(path)
+            if data is not None and (found := _COMPONENT.search(data.decode(errors="replace"))):
+                folders[found[1]] = os.path.dirname(path) or "."
+        meant = name if name in folders else suggest(name, folders)
+        if meant is None:
+            return None
+        path = os.path.relpath(folders[meant], paths.document_folder(self.model) or ".")
+        return meaning(name, path, more=f", the folder of {meant}")
 
     def _config(self, folder: str, config: Text) -> str | None:
         candidates = paths.config_paths(self.model, folder, config.text)

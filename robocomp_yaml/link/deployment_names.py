@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 import msgspec
 
 from robocomp_yaml.diag.codes import ddsl as codes
+from robocomp_yaml.diag.codes.networks import DEADLOCK
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.fix import Hint
 from robocomp_yaml.diag.suggest import did_you_mean
@@ -40,6 +41,9 @@ class DeploymentNames(msgspec.Struct):
                 self._processes(part, instance)
                 for name in instance.entry.after:
                     for target in self._find(part, name, "`after:`", instance) or ():
+                        if target is instance and part.is_own and instance.entry.instances is None:
+                            circle = f"{instance.name} → {instance.name}"
+                            self.diagnostics.append(DEADLOCK.at(name.span, circle=circle, hint="remove it"))
                         grow(instance, "after", *(target.members if isinstance(target, LinkedGroup) else [target]))
                 if part.is_own and not instance.number:  # the same for all instances of an entry
                     self.diagnostics += _ports(instance)

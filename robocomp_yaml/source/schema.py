@@ -7,7 +7,7 @@ which yaml-language-server shows, too, has precedence over a generated message.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator
 from collections.abc import Sequence as Path
 from functools import cache
 from typing import Any
@@ -160,7 +160,7 @@ def _impossible(rule: str, node: Scalar, instance_path: Path[str | int], *, span
 def _unknown_key(
     whole: dict[str, Any], node: Mapping, instance_path: Path[str | int], schema_path: list[str | int], unknown: str
 ) -> Diagnostic:
-    from robocomp_yaml.diag.suggest import hint_for_key
+    from robocomp_yaml.diag.suggest import hint_for_key, meaning
 
     key = node.entries[unknown][0]
     around = _subschema(whole, schema_path[:-1])
@@ -169,7 +169,14 @@ def _unknown_key(
     named = [p for p in around.get("patternProperties", {}) if not p.startswith("^x-")]
     if named and not around.get("properties"):
         return codes.WRONG_NAME.at(key.span, name=unknown, hint=_name_hint(unknown))
-    hint = hint_for_key(unknown, around.get("properties", {}), node.entries)
+    known = around.get("properties", {})
+    meant = _foreign(unknown, known)
+    if meant and meant not in node.entries:
+        hint = meaning(unknown, meant)
+    elif unknown in _LIMITS and "range" in known:
+        hint = Hint("write `range: [LOWEST, HIGHEST]`")
+    else:
+        hint = hint_for_key(unknown, known, node.entries)
     return codes.UNKNOWN_KEY.at(key.span, key=unknown, where=_where(instance_path), hint=hint)
 
 
@@ -266,9 +273,25 @@ def _nearest(options: object, node: Node) -> Hint:
     """A hint at the option with the most similar spelling; none if no option is similar."""
     if not isinstance(options, list) or not isinstance(node, Scalar):
         return NO_HINT
-    from robocomp_yaml.diag.suggest import did_you_mean
+    from robocomp_yaml.diag.suggest import did_you_mean, meaning
 
-    return did_you_mean(node.lexeme, [str(option) for option in options])
+    if meant := _foreign(node.lexeme, options):
+        return meaning(node.lexeme, meant)
+    return did_you_mean(node.lexeme, map(str, options))
+
+
+def _foreign(word: str, known: Container[str]) -> str:
+    """The known word that has the meaning of one of another format; '' if there is none."""
+    return next((ours for ours, others in _FOREIGN.items() if ours in known and word.lower() in others.split()), "")
+
+
+_FOREIGN = {
+    "cpp": "c++ cplusplus cxx cc", "python": "py python3", "map": "dictionary dict hash", "struct": "class record",
+    "sequence": "list vector array", "list": "vector array sequence", "values": "choices allowed options oneof enum",
+    "implements": "provides serves offers", "requires": "needs depends", "after": "depends_on depends dependson",
+    "program": "command cmd exec", "env": "environment", "component": "name",
+}  # fmt: skip
+_LIMITS = ("min", "max", "minimum", "maximum")
 
 
 def _name_hint(name: str) -> Hint:

@@ -10,6 +10,7 @@ from msgspec.structs import replace
 from robocomp_yaml.addresses.flat_values import FlatValues, flat_values
 from robocomp_yaml.addresses.own import adapters, of_flat
 from robocomp_yaml.addresses.own_configuration import own_configuration
+from robocomp_yaml.addresses.table import LOCALHOST
 from robocomp_yaml.check.pdsl import ice_properties, proxies
 from robocomp_yaml.check.pdsl.values import texts_of_ice
 from robocomp_yaml.diag.codes import specific
@@ -23,6 +24,7 @@ from robocomp_yaml.link.program import LinkedComponent, Program
 from robocomp_yaml.parameters.types import BasicType, EnumType, RecordType, Type, below, leaves
 from robocomp_yaml.semantics.connections import endpoints, proxy
 from robocomp_yaml.source import properties
+from robocomp_yaml.source.ice_proxy import proxy_at
 from robocomp_yaml.source.properties import IceProperty, entry_line
 
 _NEAR = 0.8  # similarity of a name that is surely misspelled
@@ -47,6 +49,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
             if flat.is_written:
                 yield from _values(found, linked)
                 yield from _removed(flat, linked)
+                yield from _moved(flat, linked, program)
 
 
 def replaced(program: Program, components: Iterable[LinkedComponent]) -> Iterator[Diagnostic]:
@@ -95,6 +98,23 @@ def _removed(flat: FlatConfig, linked: LinkedComponent) -> Iterator[Diagnostic]:
                          if line.entry is not None and line.entry.key == key), Span(flat.path))  # fmt: skip
             hint = f"write {entry_line(key, flat.base[key])}, as rcyaml wrote it"
             yield specific.REMOVED_PROPERTY.at(span, name=key, component=linked.component.name, hint=hint)
+
+
+def _moved(flat: FlatConfig, linked: LinkedComponent, program: Program) -> Iterator[Diagnostic]:
+    """The proxies that rcyaml wrote, and that lead nowhere now, because a component's port was changed."""
+    own = of_flat(flat, linked)
+    for port in linked.requires:
+        text, interface = own.proxies.get(port.name), port.interface.name
+        is_ours = text is not None and (text.is_as_written or proxy(port.name)[0] not in flat.base)
+        found = proxy_at(text.text) if text is not None and is_ours else None
+        if text is None or found is None or [one.host for one in found.endpoints] != [LOCALHOST]:
+            continue
+        served = {at.port: (at, one) for at, name, one in proxies.served(program) if name == interface}
+        if served and found.endpoints[0].port not in served and linked not in [one for _, one in served.values()]:
+            endpoint, other = next(iter(served.values()))
+            meant = f"{found.identity}:{endpoint.reached_at(LOCALHOST)}"
+            hint = f"write {entry_line(proxy(port.name)[0], meant)}"
+            yield codes.MOVED.at(text.span, port=port.name, component=other.component.name, hint=hint)
 
 
 def _values(found: FlatValues, linked: LinkedComponent) -> Iterator[Diagnostic]:

@@ -14,7 +14,7 @@ from robocomp_yaml.diag.suggest import likeness
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Port, Program
 from robocomp_yaml.network.network import is_loopback
 from robocomp_yaml.semantics.texts import unquoted
-from robocomp_yaml.source.ice_endpoint import parse_endpoint
+from robocomp_yaml.source.ice_endpoint import IceEndpoint, parse_endpoint
 from robocomp_yaml.source.ice_properties import PREFIX
 from robocomp_yaml.source.ice_proxy import Proxy, proxy_at
 from robocomp_yaml.source.tree import Mapping, Scalar
@@ -98,8 +98,7 @@ def _identity(proxy: Proxy, port: Port, span: Span, program: Program) -> Iterato
     if proxy.identity == expected:
         return
     numbers = {endpoint.port for endpoint in proxy.endpoints}
-    served = (one for number, name, one in _served(program) if number in numbers and name == interface)
-    owner = next(served, None)
+    owner = next((one for at, name, one in served(program) if at.port in numbers and name == interface), None)
     if owner is None and likeness(proxy.identity, expected) < _NEAR and not _is_local(proxy, port, program):
         return  # a foreign server may have any
     where = f"{owner.component.name} serves {interface} there" if owner else f"components serve {interface}"
@@ -117,8 +116,8 @@ def _is_local(proxy: Proxy, port: Port, program: Program) -> bool:
     return any(served.interface.name == port.interface.name for served in every)
 
 
-def _served(program: Program) -> Iterator[tuple[int, str, LinkedComponent]]:
-    """The TCP ports that components' own configurations set, with the interfaces there."""
+def served(program: Program) -> Iterator[tuple[IceEndpoint, str, LinkedComponent]]:
+    """The endpoints that components' own configurations set, with the interfaces there."""
     for linked in sorted(program.components.values(), key=lambda one: one.component.path):
         own = own_configuration(linked, program)
         found = OwnAddresses()
@@ -130,7 +129,7 @@ def _served(program: Program) -> Iterator[tuple[int, str, LinkedComponent]]:
             text = found.endpoints.get(name)
             endpoint = parse_endpoint(text.text) if text is not None else None
             if endpoint is not None:
-                yield endpoint.port, name, linked
+                yield endpoint, name, linked
 
 
 def _has_locator(linked: LinkedValues) -> bool:

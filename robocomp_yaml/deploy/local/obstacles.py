@@ -16,7 +16,8 @@ from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.terminal import typed
-from robocomp_yaml.network.network import FOLDER, RUNS, Network, Process
+from robocomp_yaml.network.draft import PUBLISH
+from robocomp_yaml.network.network import FOLDER, ICESTORM, RUNS, Network, Process
 
 _VALID = 2.0  # seconds for which a check without obstacles is valid
 
@@ -93,9 +94,12 @@ def _of_ports(spec: ProcessSpec, taken: dict[int, list[int]]) -> Iterator[Diagno
                 continue
             reported.add(pid)
             who, how = _owner(pid)
+            other = f"choose another port for '{spec.name}'"
+            if endpoint.interface == PUBLISH and spec.process.kind == ICESTORM:
+                other = f"give the publishers of '{spec.name}' another port: `icestorm: {{publish: PORT}}`"
             yield deploying.PORT_TAKEN.at(
                 endpoint.span if endpoint.span.file else spec.process.span,
-                hint=f"{how}, or choose another port for '{spec.name}'" if how else "",
+                hint=f"{how}, or {other}" if how else "",
                 name=spec.name, port=endpoint.port, program=who,
             )  # fmt: skip
 

@@ -115,6 +115,8 @@ def _fits(mine: SourceMethod, expected: SourceMethod, before: SourceMethod | Non
     """Whether a method matches that of the new skeleton. Parameters that the user changed since the skeleton `before`
     are accepted, unless their number or a type surely does not match."""
     is_, needs = mine.signature, expected.signature
+    if is_ is not None and needs is not None and is_.names != needs.names and sorted(is_.names) == sorted(needs.names):
+        return False  # the parameters changed places: calls pass them by position
     if is_ is None or needs is None or _types(is_) == _types(needs):
         return True
     count = len(needs.parameters)

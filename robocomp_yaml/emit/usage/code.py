@@ -19,6 +19,9 @@ class Word(msgspec.Struct, frozen=True):
     span: Span
 
 
+MAPPING, NOTHING = "a mapping", "None"
+
+
 class Constant(msgspec.Struct, frozen=True):
     """A value that is written literally."""
 
@@ -29,7 +32,9 @@ class Constant(msgspec.Struct, frozen=True):
 class Arguments(msgspec.Struct, frozen=True):
     """The arguments of a call: `count` by position and `names` by keyword; `is_exact` unless some are unpacked. `text`
     is the first one if it is a literal text, `keys` are those of the first one if it is a literal mapping. `constant`
-    is the last one by position if it is a literal; `values` are all by position, None for those that are not."""
+    is the last one by position if it is a literal; `values` are all by position, None for those that are not, and
+    `named` those by keyword. `forms` says what those by position surely are, such as MAPPING or "a list", `chains` are
+    those that are chains; None if unknown."""
 
     count: int = 0
     names: tuple[Word, ...] = ()
@@ -38,6 +43,9 @@ class Arguments(msgspec.Struct, frozen=True):
     keys: tuple[Word, ...] = ()
     constant: Constant | None = None
     values: tuple[Constant | None, ...] = ()
+    named: tuple[Constant | None, ...] = ()
+    forms: tuple[Word | None, ...] = ()
+    chains: tuple[Chain | None, ...] = ()
 
 
 class Step(msgspec.Struct, frozen=True):
@@ -54,7 +62,8 @@ class Chain(msgspec.Struct, frozen=True):
     """Names that lead from one value to the next: `self.mouth_proxy.move(pose)`. If a value is assigned to its end,
     `is_assigned`, and `constant` is the value if it is a literal. `caught` are the exceptions that the code around it
     handles by name. `compared` are the literals that it is compared with, and `unpacked` is the number of variables to
-    which it is unpacked. `is_again`: another chain has all of its steps, and is judged."""
+    which it is unpacked. `is_again`: another chain has all of its steps, and is judged. `is_hint`: it is part of an
+    annotation that is not evaluated."""
 
     root: str
     steps: tuple[Step, ...]
@@ -64,6 +73,7 @@ class Chain(msgspec.Struct, frozen=True):
     compared: tuple[Constant, ...] = ()
     unpacked: int = 0
     is_again: bool = False
+    is_hint: bool = False
 
 
 WITHOUT_SELF, NO_SELF, NOT_CALLED, NOT_GENERATED = "without self", "no self", "not called", "not generated"

@@ -15,6 +15,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean, likeness, suggest
 from robocomp_yaml.emit.usage import code
 from robocomp_yaml.emit.usage import offer as offers
+from robocomp_yaml.emit.usage.arguments import after, is_context, wrong_arguments
 from robocomp_yaml.emit.usage.code import (
     SETTINGS,
     WORKER,
@@ -26,9 +27,9 @@ from robocomp_yaml.emit.usage.code import (
     Step,
     Word,
 )
-from robocomp_yaml.emit.usage.literals import never_equal, of_setting, wrong_literals
+from robocomp_yaml.emit.usage.literals import never_equal, of_setting, wanted
 from robocomp_yaml.emit.usage.offer import Offer, OfferedMember, ServedInterface, WorkerOffer
-from robocomp_yaml.emit.usage.values import keys, unknown, unknown_setting, where, wrong_paths, wrong_value
+from robocomp_yaml.emit.usage.values import EDITABLE, keys, unknown, unknown_setting, where, wrong_paths, wrong_value
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model.interface import Enum, Member, Struct
 
@@ -114,36 +115,75 @@ class _Judging(msgspec.Struct):
             if now is None:
                 return
             if step.is_index:
-                if now.kind == offers.PARAMETERS and step.word.text and not chain.is_again:
-                    yield self._indexed(now, step.word)
+                if step.word.text and not chain.is_again and "TypeError" not in chain.caught:
+                    yield from self._indexed(now, step.word)
                 now, member = now.each if step.is_each else now.element, None
                 continue
             member = now.members.get(step.word.text)
+            if member is None and step.word.text in now.lacks and "AttributeError" not in chain.caught:
+                if not chain.is_again:
+                    hint = now.lacks[step.word.text]
+                    yield codes.UNKNOWN_MEMBER.at(step.word.span, struct="a list", name=step.word.text, hint=hint)
+                return
             if member is None:
                 if not chain.is_again and not self._may_exist(now, step, chain):
                     yield self._unknown(now, step)
                 return
             is_last = number + 1 == len(chain.steps)
-            if step.arguments is not None and not chain.is_again:
+            if member.instead and not chain.is_hint and not chain.is_again and not chain.caught:
+                yield codes.UNKNOWN_TYPE.at(step.word.span, name=step.word.text, module=now.name, hint=member.instead)
+                return
+            if not chain.is_again and (fault := self._called_or_not(now, step, member, chain)):
+                yield fault
+            elif step.arguments is not None and not chain.is_again:
                 yield from self._call(now, step.word, member, step.arguments, chain)
             elif is_last and chain.is_assigned and member.parameter is not None:
                 yield from self._assigned(now, member, step.word, chain.constant)
-            now = member.result if step.arguments is not None and member.result is not None else member.value
-        yield from never_equal(chain, member, now)
+            elif is_last and chain.is_assigned and chain.constant is not None and now.kind == offers.STRUCT:
+                yield from self._set(now, member, step.word, chain.constant)
+            now = after(step, member)
+        integers = self.linked.component.language.name == "python"  # an enum of C++98 may be compared with one
+        yield from never_equal(chain, member, now, integers=integers)
         if chain.unpacked and now is not None and not _is_unpacked(now, chain.unpacked):
             yield self._results(now, chain.steps[-1].word, f"{chain.unpacked} values")
+
+    def _called_or_not(self, now: Offer, step: Step, member: OfferedMember, chain: Chain) -> Diagnostic | None:
+        """A value that is called, or a getter that is not."""
+        word = step.word
+        if step.arguments is None:
+            return codes.NOT_CALLED.at(word.span, name=word.text, hint=f"write {word.text}()") if member.read else None
+        is_value = member.parameter is not None or now.kind == offers.STRUCT
+        is_value |= member.value is not None and member.value.kind == offers.RECORD
+        if not is_value or member.most is not None or member.result is not None or "TypeError" in chain.caught:
+            return None
+        return codes.NOT_CALLABLE.at(word.span, name=word.text, hint=f"write {word.text}, without ()")
+
+    def _set(self, now: Offer, member: OfferedMember, word: Word, constant: Constant) -> Iterator[Diagnostic]:
+        """A literal that a member of a struct cannot be."""
+        if member.value is not None and member.value.kind == offers.PLAIN:
+            if needed := wanted(member.value.name, constant.value, integers=True):
+                yield codes.WRONG_LITERAL.at(
+                    constant.span, owner=now.name, name=word.text, value=repr(constant.value), wanted=needed
+                )
 
     def _results(self, now: Offer, word: Word, used: str) -> Diagnostic:
         count = "nothing" if not now.count else f"{now.count} values"
         count = count if now.kind == offers.RESULTS else f"one {now.name}"
         return codes.WRONG_RESULTS.at(word.span, owner=word.text, count=count, used=used)
 
-    def _indexed(self, now: Offer, word: Word) -> Diagnostic:
-        attributes = list(keys(self.linked.parameters.parameters.root))
-        meant = word.text if word.text in attributes else suggest(word.text, attributes)
-        called = "()" if any(member.most == 0 for member in now.members.values()) else ""
-        hint = f"write parameters.{meant}{called}" if meant else where(self.linked)
-        return codes.NOT_INDEXED.at(word.span, name=word.text, hint=hint)
+    def _indexed(self, now: Offer, word: Word) -> Iterator[Diagnostic]:
+        """A text as the index of what has attributes, or of a list."""
+        if now.kind == offers.PARAMETERS:
+            attributes = list(keys(self.linked.parameters.parameters.root))
+            meant = word.text if word.text in attributes else suggest(word.text, attributes)
+            called = "()" if any(member.most == 0 for member in now.members.values()) else ""
+            hint = f"write parameters.{meant}{called}" if meant else where(self.linked)
+            yield codes.NOT_INDEXED.at(word.span, owner="the parameters", name=word.text, hint=hint)
+        elif now.kind in (offers.STRUCT, offers.ENUM, offers.RECORD):
+            hint = f"write .{word.text}" if word.text in now.members else _listed(now.members, "it has")
+            yield codes.NOT_INDEXED.at(word.span, owner=now.name or "it", name=word.text, hint=hint)
+        elif now.each is not None:
+            yield codes.NOT_INDEXED.at(word.span, owner="a list", name=word.text, hint="an index is a number")
 
     def _may_exist(self, now: Offer, step: Step, chain: Chain) -> bool:
         name = step.word.text
@@ -154,8 +194,8 @@ class _Judging(msgspec.Struct):
                 return True
             is_proxy_name = is_proxy(name) or is_nearly_proxy(name, now.members)
             return not is_proxy_name and (self.usage.is_shared or not now.is_complete)
-        if now.kind == offers.STRUCT and (chain.is_assigned or name in self.usage.own):
-            near = suggest(name, now.members)  # Python's structs may get further attributes
+        if now.kind in (offers.STRUCT, offers.LOG) and (chain.is_assigned or name in self.usage.own):
+            near = suggest(name, now.members)  # in Python, they may get further attributes
             return near is None or likeness(name, near) < _NEAR
         return not now.is_complete
 
@@ -177,7 +217,7 @@ class _Judging(msgspec.Struct):
                 return self._at(code, word, known, _listed(listed, "it has"), interface=now.name)
             case offers.PARAMETERS | offers.RECORD:
                 if not_editable := self._not_editable(name, known):
-                    return codes.NOT_EDITABLE.at(word.span, name=not_editable, hint=_EDITABLE)
+                    return codes.NOT_EDITABLE.at(word.span, name=not_editable, hint=EDITABLE)
                 return self._at(codes.UNKNOWN_PARAMETER, word, known, where(self.linked), owner=now.name or component)
             case offers.EVENTS:
                 return self._at(codes.UNKNOWN_OF_MACHINE, word, known, what="event", component=component)
@@ -186,8 +226,9 @@ class _Judging(msgspec.Struct):
                 return self._at(codes.UNKNOWN_MODULE, word, known, hint, component=component)
             case offers.ENUM:
                 return self._at(codes.UNKNOWN_ENUMERATOR, word, known, _listed(known, "it has"), enum=now.name)
-            case offers.STRUCT:
-                return self._at(codes.UNKNOWN_MEMBER, word, known, _listed(known, "it has"), struct=now.name)
+            case offers.STRUCT | offers.LOG:
+                members = _listed(known, "it has") if now.kind == offers.STRUCT else ""
+                return self._at(codes.UNKNOWN_MEMBER, word, known, members, struct=now.name)
             case offers.RESULTS:
                 count = "nothing" if not now.count else f"{now.count} values"
                 return codes.WRONG_RESULTS.at(word.span, owner=now.name, count=count, used=f"one with '{name}'")
@@ -203,8 +244,9 @@ class _Judging(msgspec.Struct):
             component = self.linked.component.name
             states = sorted(self.offer.states)
             yield self._at(codes.UNKNOWN_OF_MACHINE, arguments.text, states, what="state", component=component)
-        if member.parameter is not None and member.most == 1 and arguments.constant is not None:
-            yield from wrong_value(member.parameter.type, member.path or member.parameter.name, arguments.constant)
+        first = arguments.values[0] if arguments.values else None
+        if member.parameter is not None and member.most == 1 and first is not None:
+            yield from wrong_value(member.parameter.type, member.path or member.parameter.name, first)
         if "TypeError" in chain.caught or not arguments.is_exact:
             return
         for name in arguments.names:
@@ -215,22 +257,25 @@ class _Judging(msgspec.Struct):
         count = arguments.count + len([one for one in arguments.names if one.text != "context"])
         if member.can_be_empty and not count:
             return
-        if count < member.least or (member.most is not None and count > member.most):
-            owner = f"{now.name}.{word.text}" if now.kind in (offers.PROXY, offers.TOPIC) else word.text
+        is_operation = now.kind in (offers.PROXY, offers.TOPIC)
+        is_surplus = is_operation and arguments.count > member.least and member.most is not None
+        is_surplus = is_surplus and not is_context(arguments, member.least, self.offer)
+        owner = f"{now.name}.{word.text}" if is_operation else word.text
+        if count < member.least or (member.most is not None and count > member.most) or is_surplus:
             hint = f"it is {member.signature}" if member.signature else ""
             yield codes.WRONG_ARGUMENTS.at(
                 word.span, owner=owner, expected=_arguments(member.least), count=count, hint=hint
             )
-        elif now.kind in (offers.PROXY, offers.TOPIC):
+        else:
             kinds = tuple(self._kind(now, one) for one in member.inputs)
-            yield from wrong_literals(f"{now.name}.{word.text}", member.inputs, kinds, arguments.values)
+            yield from wrong_arguments(owner, member.inputs, kinds, arguments, self.offer)
 
-    def _kind(self, proxy: Offer, parameter: Member) -> str:
-        """The type of an operation's parameter, if literals can be compared with it."""
+    def _kind(self, owner: Offer, parameter: Member) -> str:
+        """The type of a parameter of an operation, or of a member of a struct, if literals can be compared with it."""
         if parameter.type.is_basic:
             return parameter.type.text
         ports = (*self.linked.requires, *self.linked.publishes)
-        scope = next((port.scope for port in ports if port.interface.name == proxy.name), None)
+        scope = next((port.scope for port in ports if port.interface.name == owner.name), None)
         found = scope.find(parameter.type) if scope is not None else None
         return found[1].name if found is not None and isinstance(found[1], (Enum, Struct)) else ""
 
@@ -244,7 +289,7 @@ class _Judging(msgspec.Struct):
             yield codes.NOT_ASSIGNED.at(word.span, name=member.path or parameter.name, hint=hint)
             return
         if not parameter.editable and not parameter.is_group:
-            yield codes.NOT_EDITABLE.at(word.span, name=member.path or parameter.name, hint=_EDITABLE)
+            yield codes.NOT_EDITABLE.at(word.span, name=member.path or parameter.name, hint=EDITABLE)
         elif constant is not None:
             yield from wrong_value(parameter.type, member.path or parameter.name, constant)
 
@@ -298,9 +343,6 @@ class _Judging(msgspec.Struct):
         stem = name.removeprefix("set").lower()
         paths = keys(self.linked.parameters.parameters.root)
         return next((path for path in paths if path.replace(".", "").lower() == stem), "")
-
-
-_EDITABLE = "add `editable: true` to the parameter, if components may change it while they run"
 
 
 def _is_unpacked(result: Offer, count: int) -> bool:

@@ -11,22 +11,24 @@ from robocomp_yaml.emit.usage.code import Chain, Constant
 from robocomp_yaml.emit.usage.offer import PLAIN, Offer, OfferedMember
 from robocomp_yaml.emit.usage.values import rejected, type_of_setting
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.model.interface import Member
 from robocomp_yaml.parameters.types import BasicType, EnumType, Type
 from robocomp_yaml.parameters.words import in_words
 
-_NUMBERS = ("byte", "short", "int", "long", "float", "double")
+NUMBERS = ("byte", "short", "int", "long", "float", "double")
 
 
-def never_equal(chain: Chain, member: OfferedMember | None, now: Offer | None) -> Iterator[Diagnostic]:
-    """Comparisons of a parameter, or of a member of a struct, that are always false."""
+def never_equal(
+    chain: Chain, member: OfferedMember | None, now: Offer | None, *, integers: bool
+) -> Iterator[Diagnostic]:  # fmt: skip
+    """Comparisons of a parameter, or of a member of a struct, that are always false. With `integers`, an enumerator
+    never equals one."""
     for constant in chain.compared:
         name = chain.steps[-1].word.text
         parameter = (member.read or member.parameter) if member is not None else None
         if member is not None and parameter is not None:
             yield from _of_parameter(parameter.type, member.path or parameter.name, constant)
-        elif now is not None and now.kind == PLAIN and (wanted := _wanted(now.name, constant.value)):
-            yield codes.NEVER_EQUAL.at(constant.span, name=name, value=repr(constant.value), wanted=wanted)
+        elif now is not None and now.kind == PLAIN and (needed := wanted(now.name, constant.value, integers=integers)):
+            yield codes.NEVER_EQUAL.at(constant.span, name=name, value=repr(constant.value), wanted=needed)
 
 
 def of_setting(linked: LinkedComponent, chain: Chain) -> Iterator[Diagnostic]:
@@ -44,30 +46,20 @@ def _of_parameter(type_: Type | None, path: str, constant: Constant) -> Iterator
         allowed = type_.allowed if isinstance(type_, EnumType) else ()
         if isinstance(type_, BasicType):
             allowed = tuple(str(one.value) for one in type_.values)
-        wanted = in_words(type_)  # type: ignore[arg-type]
+        needed = in_words(type_)  # type: ignore[arg-type]
         hint = did_you_mean(str(constant.value), allowed)
         yield codes.NEVER_EQUAL.at(
-            constant.span, name=path, value=repr(constant.value), wanted=wanted, hint=hint.text
+            constant.span, name=path, value=repr(constant.value), wanted=needed, hint=hint.text
         )  # fmt: skip
 
 
-def wrong_literals(
-    owner: str, inputs: tuple[Member, ...], kinds: tuple[str, ...], values: tuple[Constant | None, ...]
-) -> Iterator[Diagnostic]:
-    """Literal arguments of a call that its parameters cannot be. `kinds` are their types, '' if unknown."""
-    for member, kind, constant in zip(inputs, kinds, values, strict=False):
-        if constant is not None and (wanted := _wanted(kind, constant.value)):
-            yield codes.WRONG_LITERAL.at(
-                constant.span, owner=owner, name=member.name, value=repr(constant.value), wanted=wanted
-            )
-
-
-def _wanted(type_: str, value: object) -> str:
-    """What a type of an interface expects instead of a literal value; '' if the value may be right."""
+def wanted(type_: str, value: object, *, integers: bool = False) -> str:
+    """What a type of an interface expects instead of a literal value; '' if the value may be right. With `integers`,
+    they are no enumerators."""
     if type_ == "string":
         return "" if isinstance(value, str) else "a text"
-    if type_ in _NUMBERS:
+    if type_ in NUMBERS:
         return "a number" if isinstance(value, str) else ""
     if type_ == "bool":
         return "true or false" if isinstance(value, str) else ""
-    return f"a {type_}" if type_ and isinstance(value, (str, float)) else ""
+    return f"a {type_}" if type_ and (integers or isinstance(value, (str, float))) else ""

@@ -18,16 +18,16 @@ from robocomp_yaml.model.interface import Enum, ExceptionType, Interface, Member
 from robocomp_yaml.model.statemachine import StateMachine
 from robocomp_yaml.parameters.types import ListType, MapType, RecordType, ResolvedMember, Type
 
-WORKER, PROXY, TOPIC, PARAMETERS, RECORD, EVENTS, MODULES, MODULE, ENUM, STRUCT, RESULTS, PLAIN, OTHER = (
+WORKER, PROXY, TOPIC, PARAMETERS, RECORD, EVENTS, MODULES, MODULE, ENUM, STRUCT, RESULTS, PLAIN, LOG, OTHER = (
     "worker", "proxy", "topic", "parameters", "record", "events", "modules", "module", "enum", "struct", "results",
-    "plain", "other",
+    "plain", "log", "other",
 )  # fmt: skip
 
 
 class Offer(msgspec.Struct, frozen=True):
     """What a value has. `name` is what messages call it by. Unless it `is_complete`, it may have other members, too;
     `others` says whether a name is one of them. `element` is what an index leads to, `each` what a loop leads to.
-    `count` is the number of RESULTS of a call."""
+    `count` is the number of RESULTS of a call. `lacks` are names that a list surely does not have, each with a hint."""
 
     kind: str
     name: str = ""
@@ -37,6 +37,7 @@ class Offer(msgspec.Struct, frozen=True):
     element: Offer | None = None
     each: Offer | None = None
     count: int = 0
+    lacks: Mapping[str, str] = {}
 
 
 class OfferedMember(msgspec.Struct, frozen=True):
@@ -44,7 +45,8 @@ class OfferedMember(msgspec.Struct, frozen=True):
     at most `most` arguments, by position or with the `keywords`; None: unknown. `signature` is for messages.
     `takes_path`: its argument is the path of a parameter, or a mapping of such paths; `is_state`: the name of a state.
     `parameter` is what an assignment, or a setter, sets, and `read` what a getter returns; `path` its path. `inputs`
-    are the first parameters of an operation. `can_be_empty`: no arguments are right, too."""
+    are the first parameters of an operation, or the members of a struct. `can_be_empty`: no arguments are right, too.
+    Unless `instead` is '', it exists in annotations only, and elsewhere, `instead` is the hint."""
 
     value: Offer | None = None
     result: Offer | None = None
@@ -59,6 +61,7 @@ class OfferedMember(msgspec.Struct, frozen=True):
     read: ResolvedMember | None = None
     path: str = ""
     can_be_empty: bool = False
+    instead: str = ""
 
 
 class ServedInterface(msgspec.Struct, frozen=True):
@@ -92,11 +95,11 @@ Returned = Callable[[Method, LinkedModule], Offer | None]
 
 def proxies(
     ports: LoweredPorts, called: Callable[[str], str], others: Callable[[str], bool], returned: Returned, *,
-    outputs: bool, keywords: Callable[[Method], Iterable[str]] | None = None,
+    outputs: bool, keywords: Callable[[Method], Iterable[str]] | None = None, future: Offer | None = None,
 ) -> dict[str, OfferedMember]:  # fmt: skip
     """The proxies of the worker. `called` makes the name of an operation, and `returned` what a call returns; `others`
-    are methods of every proxy. With
-    `outputs`, calls have arguments for them. Every call may have a context."""
+    are methods of every proxy, and an asynchronous call returns a `future`. With `outputs`, calls have arguments for
+    them. Every call may have a context."""
     found = {}
     for accessor, is_topic in [*((one, False) for one in ports.requires), *((one, True) for one in ports.publishes)]:
         port = accessor.port
@@ -106,7 +109,9 @@ def proxies(
             )
             for method in port.interface.methods
         }
-        methods |= {f"{called(method.name)}{ASYNC}": OfferedMember() for method in port.interface.methods}
+        methods |= {
+            f"{called(method.name)}{ASYNC}": OfferedMember(result=future) for method in port.interface.methods
+        }  # fmt: skip
         offer = Offer(TOPIC if is_topic else PROXY, port.interface.name, methods, others=others)
         found[accessor.name] = OfferedMember(offer)
     return found
@@ -155,12 +160,18 @@ def record(type_: RecordType, in_code: Callable[[str], str], path: str = "", nam
     return Offer(RECORD, name or (f"the group {path}" if path else ""), members)
 
 
+def of_list(element: Offer | None, lists: Mapping[str, str] = {}) -> Offer:
+    """What a list has. `lists` are names that no list has in the language; it also lacks those of its elements."""
+    own = dict.fromkeys(element.members, "its elements have it") if element is not None and lists else {}
+    lacks = {name: hint for name, hint in {**own, **lists}.items() if not hasattr(list, name)}
+    return Offer(OTHER, is_complete=False, element=element, each=element, lacks=lacks)
+
+
 def value(type_: Type, in_code: Callable[[str], str], path: str = "") -> Offer | None:
     """What a value of a type has."""
     match type_:
         case ListType(element=element):
-            inner = value(element, in_code)
-            return Offer(OTHER, is_complete=False, element=inner, each=inner)
+            return of_list(value(element, in_code))
         case MapType(element=element):
             return Offer(OTHER, is_complete=False, element=value(element, in_code))
         case RecordType(name=name):
@@ -214,13 +225,15 @@ def _types(
         name = in_code(definition.name)
         match definition:
             case Enum(enumerators=enumerators):
-                names = {in_code(one.name): OfferedMember() for one in enumerators}
+                enumerator = OfferedMember(Offer(PLAIN, definition.name, is_complete=False))
+                names = {in_code(one.name): enumerator for one in enumerators}
                 found[name] = OfferedMember(Offer(ENUM, definition.name, names, others=_is_of_enum))
             case Struct(members=members) | ExceptionType(members=members):
                 fields = frozenset(in_code(one.name) for one in members)
                 most = len(members) if isinstance(definition, Struct) else None
                 found[name] = OfferedMember(
                     result=instance(definition, scope), most=most,
+                    inputs=members if isinstance(definition, Struct) else (),
                     keywords=fields if isinstance(definition, Struct) else None,
                     signature=f"{definition.name}({', '.join(one.name for one in members)})",
                 )  # fmt: skip

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 from robocomp_yaml.emit.lowering.ports import LoweredPorts
 from robocomp_yaml.emit.lowering.types import results
-from robocomp_yaml.emit.usage.offer import OTHER, PLAIN, RESULTS, STRUCT, Offer, OfferedMember
+from robocomp_yaml.emit.usage.offer import OTHER, PLAIN, RESULTS, STRUCT, Offer, OfferedMember, of_list
 from robocomp_yaml.link.program import LinkedModule
 from robocomp_yaml.model.interface import Enum, ExceptionType, Map, Method, Sequence, Struct, TypeRef
 
@@ -15,9 +15,13 @@ _Members = Callable[[str], bool]
 
 class OfferedTypes:
     """The offers of types in one language. `in_code` makes the name of a member, `others` are members that every
-    struct has, or every exception."""
+    struct has, or every exception; `lists` are names that no list has, each with a hint."""
 
-    def __init__(self, in_code: Callable[[str], str], of_structs: _Members, of_exceptions: _Members) -> None:
+    def __init__(
+        self, in_code: Callable[[str], str], of_structs: _Members, of_exceptions: _Members,
+        lists: Mapping[str, str] = {},
+    ) -> None:  # fmt: skip
+        self._lists = lists
         self._in_code, self._of_structs, self._of_exceptions = in_code, of_structs, of_exceptions
         self._made: dict[tuple[LinkedModule, str], Offer | None] = {}
 
@@ -42,8 +46,7 @@ class OfferedTypes:
                     self._made[key] = Offer(STRUCT, name, members, others=others)
                 return self._made[key]
             case Sequence(element=ref):
-                element = self.of(ref, home)
-                return Offer(OTHER, is_complete=False, element=element, each=element)
+                return of_list(self.of(ref, home), self._lists if ref.text != "byte" else {})
             case Map(value=ref):
                 return Offer(OTHER, is_complete=False, element=self.of(ref, home))
             case Enum(name=name):

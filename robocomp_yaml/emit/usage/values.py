@@ -33,6 +33,9 @@ _OTHERS = frozenset("commonbehavior endpoints ice icegrid icestorm period proxie
 _OTHER_ENDINGS = ("proxy", "endpoints", "topic", "topicmanager", "prefix")
 
 
+EDITABLE = "add `editable: true` to the parameter, if components may change it while they run"
+
+
 def unknown(code: Code, word: Word, meant: str, *, otherwise: str, safe: bool, **facts: object) -> Diagnostic:
     """The diagnostic of an unknown word in code. If another one is `meant`, the hint and the fix say so."""
     facts = {"name": word.text, **facts}
@@ -52,12 +55,14 @@ def where(linked: LinkedComponent) -> str:
 
 
 def wrong_paths(linked: LinkedComponent, arguments: Arguments) -> Iterator[Diagnostic]:
-    """The paths of a call that lead to no parameter, and the value that it sets, if that is wrong."""
+    """The paths of a call that lead to no parameter, or to one that is not editable; and the value that it sets, if
+    that is wrong."""
     root = linked.parameters.parameters.root
     for word in (*([arguments.text] if arguments.text else ()), *arguments.keys):
         steps = parse(word.text)
         current: Type | None = root
         member: ResolvedMember | None = None
+        is_editable = False
         for number, step in enumerate(steps):
             if isinstance(current, RecordType):
                 member = current.member(step)
@@ -66,9 +71,12 @@ def wrong_paths(linked: LinkedComponent, arguments: Arguments) -> Iterator[Diagn
                     current = None
                     break
                 current = member.type
+                is_editable |= member.editable and not member.is_group
             else:
                 current = current.element if isinstance(current, (ListType, MapType)) else None
-        if current is not None and word == arguments.text and arguments.constant is not None:
+        if current is not None and member is not None and not is_editable and not member.is_group:
+            yield codes.NOT_EDITABLE.at(word.span, name=word.text, hint=EDITABLE)
+        elif current is not None and word == arguments.text and arguments.constant is not None:
             yield from wrong_value(current, word.text, arguments.constant)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from robocomp_yaml.emit.lowering.types import resolve, results
 from robocomp_yaml.languages.python.names import module_variable, python_name
-from robocomp_yaml.link.program import LinkedModule
+from robocomp_yaml.link.program import Definition, LinkedModule
 from robocomp_yaml.model.interface import Enum, Map, Method, Sequence, TypeRef
 
 _BASIC_HINTS = {
@@ -25,6 +25,11 @@ def hint(ref: TypeRef, scope: LinkedModule) -> str:
     if ref.is_basic:
         return _BASIC_HINTS[ref.text]
     home, definition = resolve(ref, scope)
+    return hint_of(definition, home)
+
+
+def hint_of(definition: Definition, home: LinkedModule) -> str:
+    """The type hint for a value of a type that a module defines."""
     match definition:
         case Sequence(element=element):
             return "bytes" if element.text == "byte" else f"list[{hint(element, home)}]"

@@ -6,6 +6,7 @@ The code is read with Python's own parser. A file counts if `specificworker.py` 
 from __future__ import annotations
 
 import ast
+import re
 import warnings
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping
@@ -22,12 +23,13 @@ from robocomp_yaml.emit.usage.offer import Offer, OfferedMember, WorkerOffer
 from robocomp_yaml.emit.usage.types import OfferedTypes
 from robocomp_yaml.languages.python import LANGUAGE
 from robocomp_yaml.languages.python.names import PORTS, WORKER_ATTRIBUTES, module_variable, parameters, python_name
+from robocomp_yaml.languages.python.types import hint_of
 from robocomp_yaml.languages.python.usage_classes import UserClasses, classes_of
 from robocomp_yaml.languages.python.usage_files import FileUsage, UsageReader
 from robocomp_yaml.languages.python.usage_slips import slips
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model import machine_names
-from robocomp_yaml.model.interface import Method, Sequence
+from robocomp_yaml.model.interface import Map, Method, Sequence
 
 _MAIN = "specificworker.py"
 _RELEVANT = (ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef, ast.Import, ast.ImportFrom)
@@ -46,9 +48,19 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
     ports, machine = lowering.lower(linked, PORTS), linked.machine
     is_own = not linked.component.compatibility
     members: dict[str, OfferedMember] = {name: OfferedMember() for name in WORKER_ATTRIBUTES} if is_own else {}
-    types = OfferedTypes(python_name, _is_of_every_struct, _is_of_every_exception)
+    types = OfferedTypes(python_name, _is_of_every_struct, _is_of_every_exception, _OF_NO_LIST if is_own else {})
+    if is_own:
+        members["log"] = OfferedMember(Offer(offers.LOG, "log", dict.fromkeys(_OF_LOGS, OfferedMember())))
     returned = partial(types.result, tuples=True)
-    members |= offers.proxies(ports, PORTS.called, _is_of_every_proxy, returned, outputs=False, keywords=_keywords)
+    members |= offers.proxies(
+        ports,
+        PORTS.called,
+        _is_of_every_proxy,
+        returned,
+        outputs=False,
+        keywords=_keywords,
+        future=Offer(offers.LOG, "the future", dict.fromkeys(_OF_FUTURES, OfferedMember())),
+    )
     if is_own:
         values = offers.record(linked.parameters.parameters.root, LANGUAGE.in_code)
         members["parameters"] = OfferedMember(
@@ -68,6 +80,8 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
     served = offers.served(ports)
     members |= {name: OfferedMember() for one in served for name in one.methods if name not in members}
     modules = offers.modules(linked, module_variable, python_name, _is_in_interfaces, types.of_definition)
+    if is_own and not linked.broken:
+        modules = _as_hints(linked, modules)
     if not is_own:  # RoboComp's tool also has the sequences beside the modules
         beside = dict.fromkeys(_sequences(linked), OfferedMember())
         modules = structs.replace(modules, members={**beside, **modules.members})
@@ -82,6 +96,21 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
         offers.states(machine) if machine else (),
         offers.answering(ports),
     )
+
+
+def _as_hints(linked: LinkedComponent, modules: Offer) -> Offer:
+    """The modules with sequences and maps for annotations only: Ice makes no classes of them."""
+    members = dict(modules.members)
+    for scope in linked.modules():
+        module = members[module_variable(scope.module.name)]
+        assert module.value is not None
+        hints = {
+            python_name(one.name): OfferedMember(instead=f"in Python, it is {hint_of(one, scope)}")
+            for one in scope.module.definitions if isinstance(one, (Map, Sequence))
+        }  # fmt: skip
+        value = structs.replace(module.value, members={**module.value.members, **hints})
+        members[module_variable(scope.module.name)] = structs.replace(module, value=value)
+    return structs.replace(modules, members=members)
 
 
 def _sequences(linked: LinkedComponent) -> list[str]:
@@ -107,6 +136,23 @@ def _is_of_every_struct(name: str) -> bool:
 def _is_of_every_exception(name: str) -> bool:
     return name.startswith(("_", "ice_")) or hasattr(Exception, name) or name == "unknown"
 
+
+_OF_FUTURES = (
+    "add_done_callback add_done_callback_async add_sent_callback add_sent_callback_async cancel cancelled communicator "
+    "connection done exception is_sent is_sent_synchronously operation proxy result running sent set_exception "
+    "set_result"
+).split()
+_OF_NO_LIST = {
+    "push_back": "write append()", "emplace_back": "write append()", "add": "write append()", "size": "write len()",
+    "length": "write len()", "at": "write an index", "front": "write [0]", "back": "write [-1]",
+    "isEmpty": "write `not`",
+}  # fmt: skip
+"""Names that lists of C++ and Java have, and what Python has instead."""
+_OF_LOGS = (
+    "critical debug error exception fatal info log warn warning addFilter addHandler callHandlers disabled filter "
+    "filters findCaller getChild getChildren getEffectiveLevel handle handlers hasHandlers isEnabledFor level "
+    "makeRecord manager name parent propagate removeFilter removeHandler root setLevel"
+).split()
 
 _OF_PROXIES = frozenset(("checkedCast", "uncheckedCast"))
 
@@ -137,8 +183,11 @@ def _read(files: Mapping[str, str], linked: LinkedComponent, worker: WorkerOffer
             continue
         try:
             trees[path] = parsed(files[path])
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                compile(trees[path], path, "exec", dont_inherit=True)
         except SyntaxError as error:
-            if not _is_wrong(path, files[path]):
+            if not _is_wrong(path, files[path], error):
                 return CodeUsage()  # an older or a newer Python accepts it
             line, column = error.lineno or 1, error.offset or 1
             faults.append((error.msg, Span(path, line, column, line, max(column + 1, error.end_offset or 0))))
@@ -200,11 +249,24 @@ def parsed(text: str) -> ast.Module:
         return ast.parse(text)
 
 
-def _is_wrong(path: str, text: str) -> bool:
-    """Whether the second parser sees an error, too."""
+def _is_wrong(path: str, text: str, error: SyntaxError) -> bool:
+    """Whether no other version of Python accepts it: the second parser, which knows several, sees an error, too, or
+    all versions have the rule."""
     from robocomp_yaml.languages.python.code import read as read_code  # needed only for errors
 
-    return read_code(path, text).faults > 0
+    code = read_code(path, text)
+    is_of_all = isinstance(error, IndentationError) or _OF_ALL.match(error.msg) is not None
+    return code.faults > 0 or (is_of_all and code.older is None)
+
+
+_OF_ALL = re.compile(
+    "positional argument follows|cannot assign to|cannot delete|keyword argument repeated|expression cannot contain "
+    "assign|'(return|yield|yield from|await)' outside|'break' outside|'continue' not properly|duplicate argument|"
+    "non-default argument follows|parameter without a default follows|no binding for nonlocal|"
+    "name .* (is used prior to|is assigned to before) (global|nonlocal)|name .* is parameter and|"
+    r"from __future__ imports must|import \* only allowed|nonlocal declaration not allowed"
+)
+"""Errors of syntax that every version of Python reports, and that its grammar alone does not show."""
 
 
 def _imported(nodes: Iterable[ast.AST], files: Collection[str]) -> tuple[list[str], bool]:

@@ -12,8 +12,9 @@ from functools import cached_property
 import msgspec
 
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.emit.usage.code import MODULES, WORKER, Arguments, Constant, Step, Word
+from robocomp_yaml.emit.usage.code import MODULES, WORKER, Arguments, Chain, Constant, Step, Word
 from robocomp_yaml.languages.python.syntax import constant, parameters_of
+from robocomp_yaml.languages.python.usage_forms import form_of
 
 
 class Binding(msgspec.Struct, frozen=True):
@@ -35,6 +36,7 @@ class ChainReader:
     def __init__(self, path: str, text: str, sources: Collection[str]) -> None:
         self._path, self._text, self._sources = path, text, sources
         self._rebound: frozenset[str] = frozenset()
+        self._is_argument = False
         self._again: set[str] = set()  # the parameters that the last scope binds again
         self._aliases: dict[str, tuple[str, tuple[Step, ...]]] = {}  # of attributes of the worker
 
@@ -132,7 +134,7 @@ class ChainReader:
                     steps.append(Step(self._key(index), is_index=True))
                     now = inner
                 case ast.Call(func=function) if arguments is None:
-                    arguments = self._arguments_of(now)
+                    arguments = self._arguments_of(now, frames, depth)
                     now = function
                 case ast.Name(id=name):
                     found = self._lookup(name, frames, depth)
@@ -152,7 +154,7 @@ class ChainReader:
                 case _:
                     return None
 
-    def _arguments_of(self, call: ast.Call) -> Arguments:
+    def _arguments_of(self, call: ast.Call, frames: tuple[Frame, ...], depth: int) -> Arguments:
         is_exact = not any(isinstance(one, ast.Starred) for one in call.args)
         is_exact = is_exact and all(word.arg is not None for word in call.keywords)
         names = [self._word(word.arg, word, word.col_offset) for word in call.keywords if word.arg is not None]
@@ -167,7 +169,31 @@ class ChainReader:
         last = call.args[-1] if call.args else None
         constant = self._constant(last) if last is not None and (text is None or last is not first) else None
         values = tuple(map(self._constant, call.args))
-        return Arguments(len(call.args), tuple(names), is_exact, text, keys, constant, values)
+        named = tuple(self._constant(word.value) for word in call.keywords if word.arg is not None)
+        forms: tuple[Word | None, ...] = ()
+        chains: tuple[Chain | None, ...] = ()
+        if not self._is_argument:  # what the arguments of arguments are is never used
+            self._is_argument = True
+            forms = tuple(self._form(node, frames) for node in call.args)
+            chains = tuple(self._as_chain(node, frames, depth + 1) for node in call.args)
+            self._is_argument = False
+        return Arguments(len(call.args), tuple(names), is_exact, text, keys, constant, values, named, forms, chains)
+
+    def _form(self, node: ast.expr, frames: tuple[Frame, ...]) -> Word | None:
+        def bound(name: str) -> ast.expr | None:
+            found = next((frame[name] for frame in reversed(frames) if name in frame), None)
+            is_value = found is not None and not found.is_element and name not in self._rebound
+            return found.value if found is not None and is_value else None
+
+        form = form_of(node, bound, lambda name: not any(name in frame for frame in frames))
+        return Word(form, self._span(node)) if form else None
+
+    def _as_chain(self, node: ast.expr, frames: tuple[Frame, ...], depth: int) -> Chain | None:
+        found = self._chain(node, frames, depth)
+        if found is None or not found[1]:
+            return None
+        last = msgspec.structs.replace(found[1][-1], word=Word(found[1][-1].word.text, self._span(node)))
+        return Chain(found[0], (*found[1][:-1], last))
 
     def _key(self, index: ast.expr) -> Word:
         word = self._text_word(index) if isinstance(index, ast.Constant) else None

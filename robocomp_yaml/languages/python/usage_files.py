@@ -60,11 +60,19 @@ class UsageReader(ChainReader):
         self._modules, self._served, self._is_robocomp = modules, served, is_robocomp
         self._found = FileUsage()
         self._caught: frozenset[str] = frozenset()
+        self._is_lazy = False  # annotations are not evaluated
+        self._is_hint = False
 
     def read(self, tree: ast.Module) -> FileUsage:
         if "global " in self._text or "nonlocal " in self._text:
             scopes = (node for node in ast.walk(tree) if isinstance(node, (ast.Global, ast.Nonlocal)))
             self._rebound = frozenset(name for node in scopes for name in node.names)
+        self._is_lazy = any(
+            isinstance(node, ast.ImportFrom)
+            and node.module == "__future__"
+            and any(alias.name == "annotations" for alias in node.names)
+            for node in tree.body
+        )
         frame = self._frame(tree.body)
         if any(imports_all(node, {*self._sources, "genericworker"}) for node in tree.body):
             known = {name: Binding(MODULES, (Step(Word(name, Span(self._path))),)) for name in self._modules}
@@ -122,6 +130,9 @@ class UsageReader(ChainReader):
             case ast.AnnAssign(target=target, value=ast.expr() as value):
                 self._target(target, value, frames)
                 self._visit_value(value, frames)
+            case ast.AnnAssign(target=target, annotation=annotation):
+                self._visit(target, frames)
+                self._visit_hints([annotation], frames)
             case ast.Compare(left=left, ops=[ast.Eq() | ast.NotEq() | ast.In() | ast.NotIn()], comparators=[right]):
                 self._compared(left, right, frames)
             case ast.Match(subject=subject, cases=cases):
@@ -147,6 +158,11 @@ class UsageReader(ChainReader):
                         self._add(Chain(made.root, made.steps, caught=self._caught | self._probed()))
             case _:
                 self._visit_all(ast.iter_child_nodes(node), frames)
+
+    def _visit_hints(self, nodes: Iterable[ast.expr], frames: tuple[Frame, ...]) -> None:
+        self._is_hint = self._is_lazy
+        self._visit_all(nodes, frames)
+        self._is_hint = False
 
     def _compared(self, left: ast.expr, right: ast.expr, frames: tuple[Frame, ...]) -> None:
         """A comparison of a chain with literals, on one of its sides or in a list."""
@@ -182,7 +198,7 @@ class UsageReader(ChainReader):
 
     def _function(self, node: ast.FunctionDef | ast.AsyncFunctionDef, frames: tuple[Frame, ...]) -> None:
         self._visit_all((*node.decorator_list, *node.args.defaults, *filter(None, node.args.kw_defaults)), frames)
-        self._visit_all(annotations_of(node), frames)
+        self._visit_hints(annotations_of(node), frames)
         frame = self._frame(node.body, node.args)
         self._visit_all(node.body, (*frames, frame))
 
@@ -202,7 +218,8 @@ class UsageReader(ChainReader):
             start = found.start(1) + 1
             word = Word(node.name, Span(self._path, node.lineno, start, node.lineno, start + len(node.name)))
             self._found.methods.append(word)
-        self._visit_all((*node.decorator_list, *node.args.defaults, *annotations_of(node)), frames)
+        self._visit_all((*node.decorator_list, *node.args.defaults), frames)
+        self._visit_hints(annotations_of(node), frames)
         self._visit_all(node.body, (*frames, self._method_frame(node)))
 
     def _method_frame(self, node: ast.FunctionDef | ast.AsyncFunctionDef) -> dict[str, Binding | None]:
@@ -283,7 +300,7 @@ class UsageReader(ChainReader):
                 self._visit(argument, frames)
 
     def _add(self, chain: Chain) -> None:
-        self._found.chains.append(chain)
+        self._found.chains.append(msgspec.structs.replace(chain, is_hint=True) if self._is_hint else chain)
 
 
 def _unpacked(targets: list[ast.expr]) -> int:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import ast
 import builtins
+import sys
 from collections.abc import Callable, Collection, Iterator, Mapping
 
 from robocomp_yaml.diag.span import Span
@@ -89,7 +90,10 @@ def _undefined(
     caught = {name for node in ast.walk(tree) if isinstance(node, ast.ExceptHandler) for name in names_of(node.type)}
     if "NameError" in caught:
         return
+    owners = set[int]()  # the names before a dot
     for node in _outside_annotations(tree):
+        if isinstance(node, ast.Attribute):
+            owners.add(id(node.value))
         if (
             isinstance(node, ast.Name)
             and isinstance(node.ctx, ast.Load)
@@ -98,9 +102,27 @@ def _undefined(
         ):
             if (word := at(node.id, node)) is not None:
                 seen.add(node.id)
-                source = "interfaces" if node.id not in _OF_WORKER else "genericworker"
-                meant = f"from generated.{source} import {node.id}" if node.id in imported else ""
+                meant = _import_of(node.id, imported, is_owner=id(node) in owners)
                 yield Slip(UNDEFINED, word, meant, tuple(sorted({*bound, *imported})))
+
+
+def _import_of(name: str, imported: Collection[str], *, is_owner: bool) -> str:
+    """The import that defines a name; '' if it is not sure."""
+    if name in imported:
+        return f"from generated.{'interfaces' if name not in _OF_WORKER else 'genericworker'} import {name}"
+    if is_owner and (name == "Ice" or name in sys.stdlib_module_names):
+        return f"import {name}"
+    module = next((module for module, names in _KNOWN.items() if name in names.split()), "")
+    return f"from {module} import {name}" if module else ""
+
+
+_KNOWN = {
+    "pathlib": "Path", "dataclasses": "dataclass", "enum": "Enum IntEnum", "collections": "deque defaultdict Counter",
+    "functools": "partial", "threading": "Thread Lock Event", "time": "sleep monotonic",
+    "datetime": "datetime timedelta",
+    "math": "sqrt pi sin cos atan2 hypot inf", "typing": "Any Optional", "contextlib": "suppress contextmanager",
+}  # fmt: skip
+"""Names of the standard library that are rarely anything else."""
 
 
 def _outside_annotations(tree: ast.Module) -> Iterator[ast.AST]:

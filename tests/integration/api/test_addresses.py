@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from conftest import write_tree
+from robocomp_yaml import api
 from robocomp_yaml.api.addresses import Addresses
 from robocomp_yaml.diag.errors import Faulty, Refused
 
@@ -138,3 +139,20 @@ def test_the_nearest_deployment(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir("b")
     assert proxy(Addresses(), "eye.Lens.focus").endswith(" -p 12032")
     assert proxy(Addresses("../a"), "eye.Lens.focus").endswith(" -p 12031")
+
+
+def test_a_port_of_the_user_stays_the_users() -> None:
+    """Each compile keeps what it would write today, to compare the user's files with it later: never the user's own
+    port, which a deployment would then take for a default."""
+    write_tree(Path(), {"head.ddsl.yaml": "deployment: Head\ncomponents: {lips: {component: eye}}\n"})
+    api.load(".").compile().apply()
+    config = Path("eye/etc/config")
+    default = proxy(Addresses(), "lips.Lens.focus")
+    for port in (12345, 12346):
+        lines = config.read_text(encoding="utf-8").splitlines()
+        changed = [f"Lens.Endpoints=tcp -p {port}" if line.startswith("Lens.Endpoints") else line for line in lines]
+        config.write_text("\n".join(changed) + "\n", encoding="utf-8")
+        for _ in range(2):
+            assert proxy(Addresses(), "lips.Lens.focus") == f"lens:tcp -h 127.0.0.1 -p {port}" != default
+            api.load(".").compile().apply()
+    assert config.read_text(encoding="utf-8").count("12346") == 1

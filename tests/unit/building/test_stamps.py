@@ -146,3 +146,26 @@ def test_the_stamp_holds_from_any_folder(arm: Unit, tmp_path: Path, monkeypatch:
     assert changed(here) == ()
     write("src/worker.cpp")
     assert changed(here) == ("src/worker.cpp",)
+
+
+def test_a_copy_of_a_workspace_is_as_current_as_the_workspace(arm: Unit, tmp_path: Path) -> None:
+    """As `cp -r` makes it: with other times and other inodes, the program first."""
+    built(arm)
+    for path in FILES:
+        os.utime(path, (4000, 4000))
+    program = Path(arm.program).read_bytes()
+    Path(arm.program).unlink()
+    Path(arm.program).write_bytes(program)
+    os.utime(arm.program, (3000, 3000))
+    assert changed(arm) == ()
+    write("arm/src/worker.cpp")
+    assert "arm/src/worker.cpp" in changed(arm)
+
+
+def test_the_same_program_again_from_other_inputs(arm: Unit) -> None:
+    """CMake itself built it after a change of a comment."""
+    built(arm)
+    write("arm/src/worker.cpp", "void f() {} // later")
+    os.utime("arm/src/worker.cpp", (1500, 1500))
+    os.utime(arm.program, (3000, 3000))
+    assert changed(arm) == ()

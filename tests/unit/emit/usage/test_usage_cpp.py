@@ -65,6 +65,8 @@ def worker(body: str, more: str = "", header: str = HEADER) -> dict[str, str]:
         ("parameters.setCameraLens(\"x\");", "RC6307", "setCameraLens"),
         ("parameters.setSpeed(0);", "RC6308", "0"),
         ("parameters.setSpeed(-5);", "RC6308", "-5"),
+        ("parameters.setSpeed(\"fast\");", "RC6308", "\"fast\""),
+        ("if (parameters.speed > 3) return;", "RC6323", "speed"),
         ("parameters.set(\"motors[0].vel\", 2.5);", "RC6308", "2.5"),
         ("parameters.speed(1);", "RC6304", "speed"),
         ("RoboCompMouth::Pos p;", "RC6314", "Pos"),

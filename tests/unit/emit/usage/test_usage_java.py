@@ -72,6 +72,8 @@ def worker(body: str, more: str = "", imports: str = "", extends: str = "Generic
         ("parameters.setCameraLens(\"x\");", "RC6307", "setCameraLens"),
         ("parameters.setSpeed(0);", "RC6308", "0"),
         ("parameters.setSpeed(-5);", "RC6308", "-5"),
+        ("parameters.setSpeed(\"fast\");", "RC6308", "\"fast\""),
+        ("if (parameters.speed > 3) return;", "RC6323", "speed"),
         ("parameters.setSpeed(4_000);", "RC6308", "4_000"),
         ("parameters.set(\"motors[0].vel\", 2.5f);", "RC6308", "2.5f"),
         ("parameters.speed(1);", "RC6304", "speed"),

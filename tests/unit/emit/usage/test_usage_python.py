@@ -7,6 +7,7 @@ import textwrap
 import pytest
 
 from judged_code import MACHINE, Link, component, found
+from robocomp_yaml.emit.usage.judge import judge
 
 NAMES = "Fake, Foreign, Ice, Meta, contextlib, decorated, loadUi, name, other, path, run, speed, use"
 HEAD = (
@@ -39,10 +40,10 @@ def worker(body: str, head: str = "") -> dict[str, str]:
         ("print(self.mouth_proxy.move(\n    RoboCompMouth.Pose(),\n    True,\n).opening, self.mouth_proxy.shut())", "RC6302", "shut"),
         ("self.news_proxy.tell('x')", "RC6303", "tell"),
         ("self.mouth_proxy.move(1)", "RC6304", "move"),
-        ("self.mouth_proxy.move(1, 2, {}, 3)", "RC6304", "move"),
+        ("self.mouth_proxy.move(other, 2, {}, 3)", "RC6304", "move"),
         ("self.mouth_proxy.where(1, 2)", "RC6304", "where"),
         ("move = self.mouth_proxy.move\nmove(1)", "RC6304", "move"),
-        ("self.mouth_proxy.move(1, slow=True)", "RC6305", "slow"),
+        ("self.mouth_proxy.move(other, slow=True)", "RC6305", "slow"),
         ("RoboCompMouth.Pose(gap=1)", "RC6305", "gap"),
         ("RoboCompMouth.Pose(1, 2, 3)", "RC6304", "Pose"),
         ("print(self.parameters.sped)", "RC6306", "sped"),
@@ -56,6 +57,8 @@ def worker(body: str, head: str = "") -> dict[str, str]:
         ("self.parameters.set('motors[0].velo', 1)", "RC6306", "motors[0].velo"),
         ("self.parameters.change({'speed': 3, 'camera.fsp': 4})", "RC6306", "camera.fsp"),
         ("self.parameters.device = 'x'", "RC6307", "device"),
+        ("self.parameters.set('device', 'x')", "RC6307", "device"),
+        ("self.parameters.change({'camera.lens': 'x', 'camera.fps': 3})", "RC6307", "camera.lens"),
         ("self.parameters.camera.fps = 5", "RC6320", "fps"),
         ("self.parameters.motors[0].vel = 1.5", "RC6320", "vel"),
         ("self.parameters.now.speed = 5", "RC6320", "speed"),
@@ -69,14 +72,14 @@ def worker(body: str, head: str = "") -> dict[str, str]:
         ("self.mouth = self.mouth_proxy\nself.mouth.shut()", "RC6302", "shut"),
         ("self.mouth = None\nself.mouth = self.mouth_proxy\nself.mouth.shut()", "RC6302", "shut"),
         ("self.go = self.mouth_proxy.move\nself.go(1)", "RC6304", "go"),
-        ("print(self.mouth_proxy.move(1, True).gap)", "RC6325", "gap"),
+        ("print(self.mouth_proxy.move(other, True).gap)", "RC6325", "gap"),
         ("pose, age = self.mouth_proxy.where(1, 2)", "RC6304", "where"),
         ("pose = RoboCompMouth.Pose()\npose.openning = 3.5", "RC6325", "openning"),
         ("for pose in self.path:\n    pass\nself.path = self.mouth_proxy.way()\nprint(self.path[0].gap)", "RC6325", "gap"),
         ("for pose in self.mouth_proxy.way():\n    print(pose.gap)", "RC6325", "gap"),
         ("pose = self.mouth_proxy.where()\nprint(pose.opening)", "RC6326", "opening"),
         ("pose, age, more = self.mouth_proxy.where()", "RC6326", "where"),
-        ("ok, pose = self.mouth_proxy.move(1, True)", "RC6326", "move"),
+        ("ok, pose = self.mouth_proxy.move(other, True)", "RC6326", "move"),
         ("done, pose = self.mouth_proxy.close()", "RC6326", "close"),
         ("if self.parameters.speed == 500: pass", "RC6327", "500"),
         ("if 'fast' != self.parameters.speed: pass", "RC6327", "'fast'"),
@@ -86,9 +89,35 @@ def worker(body: str, head: str = "") -> dict[str, str]:
         ("match self.parameters.mode:\n    case 'slow' | 'fasst': pass", "RC6327", "'fasst'"),
         ("if RoboCompMouth.Pose().shape == 'round': pass", "RC6327", "'round'"),
         ("self.mouth_proxy.move('x', True)", "RC6328", "'x'"),
-        ("self.mouth_proxy.move(1, 'yes')", "RC6328", "'yes'"),
+        ("self.mouth_proxy.move(other, 'yes')", "RC6328", "'yes'"),
         ("self.news_proxy.told(3)", "RC6328", "3"),
         ("print(self.parameters['speed'])", "RC6330", "speed"),
+        ("print(RoboCompMouth.Pose()['opening'])", "RC6330", "opening"),
+        ("print(RoboCompMouth.Shape['wide'])", "RC6330", "wide"),
+        ("print(self.mouth_proxy.way()['first'])", "RC6330", "first"),
+        ("print(self.mouth_proxy.way().size())", "RC6325", "size"),
+        ("way = self.mouth_proxy.way()\nprint(way.opening)", "RC6325", "opening"),
+        ("if RoboCompMouth.Pose().shape == 1: pass", "RC6327", "1"),
+        ("self.mouth_proxy.closeAsync().reslt()", "RC6325", "reslt"),
+        ("RoboCompMouth.Pose(None)", "RC6328", "None"),
+        ("self.mouth_proxy.close(3)", "RC6304", "close"),
+        ("pose = RoboCompMouth.Pose()\nself.mouth_proxy.where(pose)", "RC6304", "where"),
+        ("far = 2 * self.way\nself.way = 3\nself.mouth_proxy.close(far)", "RC6304", "close"),
+        ("self.mouth_proxy.close([1])", "RC6304", "close"),
+        ("self.mouth_proxy.move((1, 2), True)", "RC6328", "(1, 2)"),
+        ("self.mouth_proxy.move(target=3, fast=True)", "RC6328", "3"),
+        ("self.mouth_proxy.move(RoboCompMouth.Shape.wide, True)", "RC6328", "RoboCompMouth.Shape.wide"),
+        ("self.mouth_proxy.move(self.parameters.device, True)", "RC6328", "self.parameters.device"),
+        ("pose, age = self.mouth_proxy.where(), 1\nself.news_proxy.told(float(age))", "RC6328", "float(age)"),
+        ("self.news_proxy.told(self.mouth_proxy.move(other, True))", "RC6328", "self.mouth_proxy.move(other, True)"),
+        ("RoboCompMouth.Pose('wide')", "RC6328", "'wide'"),
+        ("pose = RoboCompMouth.Pose()\npose.shape = 1", "RC6328", "1"),
+        ("print(self.parameters.speed())", "RC6334", "speed"),
+        ("print(self.parameters.motors[0].vel())", "RC6334", "vel"),
+        ("print(self.parameters.now().speed)", "RC6334", "now"),
+        ("print(self.mouth_proxy.move(other, True).opening())", "RC6334", "opening"),
+        ("self.log.warnning('x')", "RC6325", "warnning"),
+        ("path = RoboCompMouth.Path()", "RC6314", "Path"),
         ("self.events.begin()", "RC6310", "begin"),
         ("print(self.statemachine.is_in('quiet'))", "RC6310", "quiet"),
     ],
@@ -100,9 +129,15 @@ def test_what_is_reported(link: Link, body: str, code: str, text: str) -> None:
 @pytest.mark.parametrize(
     "body",
     [
-        "self.mouth_proxy.close()\nself.mouth_proxy.move(1, True)\nself.mouth_proxy.move(1, fast=True, context={})",
-        "self.mouth_proxy.move(1, True, {})\nself.mouth_proxy.moveAsync(1, True).result()\nself.mouth_proxy.begin_close()",
+        "self.mouth_proxy.close()\nself.mouth_proxy.move(other, True)\nself.mouth_proxy.move(other, fast=True, context={})",
+        "self.mouth_proxy.move(other, True, {})\nself.mouth_proxy.moveAsync(other, True).result()\nself.mouth_proxy.begin_close()",
         "self.mouth_proxy.ice_ping()\nself.mouth_proxy.ice_oneway().close()\nself.news_proxy.told('x')",
+        "where = {'a': 'b'}\nself.mouth_proxy.close(where)\nself.mouth_proxy.close(other)\nself.mouth_proxy.close(None)",
+        "self.mouth_proxy.close(dict(a='b'))\nself.mouth_proxy.close(other | {})\nself.mouth_proxy.close(self.parameters.offsets)",
+        "self.mouth_proxy.move(None, 1)\nself.mouth_proxy.move(RoboCompMouth.Pose(1.5), not other)",
+        "pose = RoboCompMouth.Pose()\npose.shape = RoboCompMouth.Shape.wide\npose.opening = 2",
+        "self.log.exception('x')\nself.log.extra = 1\nself.log.getChild('a').info('x')",
+        "dict = other\nself.mouth_proxy.move(dict(), True)",
         "self.mouth_proxy.move(*[1, True])\nself.mouth_proxy.move(**{})",
         "pose, age = self.mouth_proxy.where()\nboth = self.mouth_proxy.where()\nprint(both[0].opening, both.count(1))",
         "pose, *rest = self.mouth_proxy.where()\nprint(pose.gap)",
@@ -135,7 +170,7 @@ def test_what_is_reported(link: Link, body: str, code: str, text: str) -> None:
         "def f(mouth=self.mouth_proxy):\n    mouth.shut()",
         "global mouth\nmouth = self.mouth_proxy\nmouth.shut()",
         "RoboCompMouth = other\nRoboCompMouth.Anything()",
-        "print(RoboCompMouth.WIDEST, RoboCompMouth.MouthPrx, RoboCompMouth.Ear, RoboCompMouth.Shape.valueOf(1), RoboCompMouth.Path)",
+        "print(RoboCompMouth.WIDEST, RoboCompMouth.MouthPrx, RoboCompMouth.Ear, RoboCompMouth.Shape.valueOf(1))",
         "print(RoboCompMouth.Pose(), RoboCompMouth.Pose(1), RoboCompMouth.Pose(opening=1, shape=RoboCompMouth.Shape.wide))",
         "print(self.parameters.motors[0].vel, self.parameters.camera.fps, self.parameters.period.compute)",
         "print(len(self.parameters.motors), self.parameters.offsets.items(), self.parameters.device.upper())",
@@ -196,6 +231,31 @@ def test_all_files_that_the_worker_imports_are_read(link: Link) -> None:
 def test_a_syntax_error_is_the_only_report(link: Link) -> None:
     files = worker("self.moth_proxy.close()\nif True")
     assert found(link(component("python")), files) == [("RC6317", "")]
+
+
+@pytest.mark.parametrize(
+    "body",
+    ["print(1)\n   print(2)", "print(1)\n\tprint(2)", "f(a=1, 2)", "f() = 1", "break", "f(a=1, a=2)", "lambda a, a: 1"],
+)
+def test_syntax_errors_of_every_version_of_python(link: Link, body: str) -> None:
+    files = worker("pass")
+    files["specificworker.py"] += "        " + body.replace("\n", "\n        ") + "\n"
+    assert [code for code, _ in found(link(component("python")), files)] == ["RC6317"]
+
+
+@pytest.mark.parametrize("body", ["print 'Python 2'", "try: pass\n        except A, e: pass", "return"])
+def test_syntax_of_other_versions_of_python(link: Link, body: str) -> None:
+    files = worker("pass")
+    files["specificworker.py"] += f"        {body}\n"
+    assert found(link(component("python")), files) == []
+
+
+@pytest.mark.parametrize(
+    ("head", "reported"), [("from __future__ import annotations\n", []), ("", [("RC6314", "Path")])]
+)
+def test_a_sequence_has_no_class_but_in_annotations(link: Link, head: str, reported: list[tuple[str, str]]) -> None:
+    text = head + HEAD + CLASS + "    def go(self, path: RoboCompMouth.Path) -> None:\n        pass\n"
+    assert found(link(component("python")), {"specificworker.py": text}) == reported
 
 
 @pytest.mark.parametrize(
@@ -311,6 +371,23 @@ def test_slips(link: Link, old: str, new: str, code: str, text: str) -> None:
 )
 def test_no_slips(link: Link, old: str, new: str) -> None:
     assert found(link(component("python")), {"specificworker.py": SLIPS.replace(old, new, 1)}) == []
+
+
+@pytest.mark.parametrize(
+    ("body", "hint"),
+    [
+        ("time.sleep(1)", "write `import time`"),
+        ("print(Path('a'))", "write `from pathlib import Path`"),
+        ("print(GenericWorkr)", "did you mean 'GenericWorker'?"),
+        ("print(token)", ""),
+    ],
+)
+def test_the_import_that_a_name_lacks(link: Link, body: str, hint: str) -> None:
+    linked = link(component("python"))
+    part = linked.component.language.target.part("usage")
+    offer = part.offer(linked)
+    usage = part.read({"specificworker.py": SLIPS.replace("pass  # here", body)}, linked, offer)
+    assert [one.hint for one in judge(linked, usage, offer)] == [hint]
 
 
 def test_a_parameter_is_no_attribute_of_the_worker(link: Link) -> None:
