@@ -393,7 +393,7 @@ def test_nonsense_on_the_control_socket_is_ignored(place: Place) -> None:
     place.up(sleeper("a"))
     before = place.pids()
     for text in (b"\n", b"{}\n", b"GET / HTTP/1.1\r\n\r\n", b'{"id": 1, "do": "nothing"}\n', b"[]\n"):
-        connection = channel.connect(f"{place.folder}/state")
+        connection = channel.connect(f"{place.folder}/state", 5.0)
         assert connection
         with connection:
             connection.setblocking(True)

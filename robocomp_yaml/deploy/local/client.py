@@ -40,6 +40,11 @@ class Client:
     async def over(cls, connection: socket.socket) -> Client:
         return cls(*await asyncio.open_unix_connection(sock=connection, limit=LONGEST))
 
+    async def hello(self) -> dict[str, Any]:
+        """What the supervisor says of itself. Raises TimeoutError if it hangs, RequestFailed or SupervisorGone."""
+        async with asyncio.timeout(_PATIENCE):
+            return await self.ask("hello")
+
     async def ask(self, do: str, **facts: object) -> dict[str, Any]:
         """The answer to a request. Raises RequestFailed or SupervisorGone."""
         number = next(self._numbers)
@@ -83,8 +88,9 @@ class Client:
 
 
 def reach(folder: str) -> socket.socket | None:
-    """A connection to the supervisor, None if none runs. Raises OSError if the folder cannot be opened."""
-    return channel.connect(f"{folder}/state") if os.path.isdir(f"{folder}/state") else None
+    """A connection to the supervisor, None if none runs. Raises TimeoutError if it hangs, and another OSError if the
+    folder cannot be opened."""
+    return channel.connect(f"{folder}/state", _PATIENCE) if os.path.isdir(f"{folder}/state") else None
 
 
 async def revived(folder: str) -> socket.socket | None:
