@@ -16,6 +16,7 @@ from robocomp_yaml.deploy.local import channel, procfs, record
 from robocomp_yaml.deploy.local.service import LONGEST, RESTORE
 
 _LINES = 10
+_SPACE = 4096  # bytes
 _PATIENCE = 20.0  # seconds: far more than is needed, also on a busy machine
 
 
@@ -124,6 +125,9 @@ async def start(folder: str, *, tied: bool = False) -> socket.socket:
     command = [sys.executable, "-m", "robocomp_yaml.deploy.local.supervisor", folder]
     log = os.open(f"{folder}/state/supervisor.log", os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC, 0o600)
     try:
+        os.write(log, bytes(_SPACE))  # on a full disk, this fails here, and not in the supervisor
+        os.ftruncate(log, 0)
+        os.lseek(log, 0, os.SEEK_SET)
         # It goes on when this process ends, which therefore does not wait for it.
         keeper = subprocess.Popen(
             [*command, str(os.getpid())] if tied else command,
