@@ -327,10 +327,7 @@ class Deployment:
         chosen = self.chosen(names)
 
         async def work() -> list[str]:
-            if await self._engine.open(self.network, create=False):
-                return await operations.down(self._engine, chosen, report or _ignore, self.network.folder)
-            await operations.clear_up(self._engine, chosen, self.network.folder)
-            return []
+            return await operations.take_down(self._engine, self.network, chosen, report or _ignore)
 
         return self._run(work(), change=True)
 

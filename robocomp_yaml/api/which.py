@@ -17,6 +17,7 @@ from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.heading import component_in
 
 if TYPE_CHECKING:
+    from robocomp_yaml.deploy.registered import RegisteredDeployment
     from robocomp_yaml.pipeline import Analysis
 
 VALUES = os.path.join("etc", "config.yaml")
@@ -115,11 +116,18 @@ def deployment(path: str, include: tuple[str, ...]) -> str:
 
     if not os.path.isdir(path) or registered.of_folder(path):
         return path
-    found = deployments_of(path, include)
+    found = deployments_of(path, include) or _running_below(path, registered.every())
     if not found:
         what = "this folder" if os.path.normpath(path) == "." else f"'{path}'"
         raise Refused(f"{what} has no deployment document: `rcyaml new deployment NAME` writes one")
     return only_deployment(found)
+
+
+def _running_below(folder: str, running: Iterable[RegisteredDeployment]) -> list[str]:
+    """The documents below a folder whose deployments run, though they are gone."""
+    top = os.path.realpath(folder)
+    documents = [one.document for one in running if os.path.commonpath([top, os.path.realpath(one.document)]) == top]
+    return [os.path.relpath(path) for path in documents]
 
 
 def only_deployment(found: list[str]) -> str:

@@ -6,7 +6,7 @@ engine does by itself: it restarts a process that ended, by its `RestartRule`.
 
 from __future__ import annotations
 
-from collections.abc import AsyncGenerator, Collection, Iterable, Sequence
+from collections.abc import AsyncGenerator, Awaitable, Callable, Collection, Iterable, Sequence
 from typing import Protocol
 
 import msgspec
@@ -18,7 +18,7 @@ from robocomp_yaml.network.network import Network
 
 __all__ = [
     "ENDED", "GIVEN_UP", "LOST", "OWN", "RUNNING", "STARTED", "STOPPED", "STOP_WITHIN", "WAITING", "DeployFailed",
-    "Engine", "Line", "Running",
+    "Engine", "EngineHangs", "Line", "Running",
 ]  # fmt: skip
 
 OWN = "rcyaml: "
@@ -85,6 +85,14 @@ class DeployFailed(Exception):
         self.diagnostic = diagnostic
 
 
+class EngineHangs(DeployFailed):
+    """What runs the network is there, and does not answer. `end` kills it, with all its processes."""
+
+    def __init__(self, diagnostic: Diagnostic, end: Callable[[], Awaitable[None]]) -> None:
+        super().__init__(diagnostic)
+        self.end = end
+
+
 class Engine(Protocol):
     """One network's engine. Every method may raise DeployFailed; calls for different processes may run at once."""
 
@@ -94,7 +102,8 @@ class Engine(Protocol):
 
     async def open(self, network: Network, *, create: bool) -> bool:
         """Connects to what runs the network; with `create`, starts that if it is absent. Returns whether it is
-        connected: if not, no process of the network runs, and only `close` may be called."""
+        connected: if not, no process of the network runs, and only `close` may be called. May raise
+        EngineHangs, too."""
 
     async def observe(self, *, use: bool = False) -> dict[str, Running]:
         """The actual state of all processes that were passed to `prepare` and not to `forget`. With `use`, memory and

@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from robocomp_yaml.deploy import ice_ping, remains
 from robocomp_yaml.deploy.carry_out import Report, StartOutcome, carry_out, stop_all, undo
-from robocomp_yaml.deploy.engine import LOST, STOPPED, Engine, Running
+from robocomp_yaml.deploy.engine import LOST, STOPPED, Engine, EngineHangs, Running
 from robocomp_yaml.deploy.introspection import OwnState
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, plan, with_dependents
 from robocomp_yaml.deploy.readiness import holds, own_state, unmet
@@ -203,11 +203,22 @@ async def down(engine: Engine, names: Collection[str], report: Report, folder: s
     return alive
 
 
-async def clear_up(engine: Engine, names: Collection[str], folder: str) -> None:
-    """Removes what is left of a network whose engine was killed, and whose processes with it."""
+async def take_down(engine: Engine, network: Network, names: Collection[str], report: Report) -> list[str]:
+    """The same as `down`, whether the engine runs, was killed, or hangs; then it is killed, unless `names` are to stop
+    only. Raises DeployFailed."""
+    try:
+        is_running = await engine.open(network, create=False)
+    except EngineHangs as hanging:
+        if names:
+            raise
+        await hanging.end()
+        is_running = False
+    if is_running:
+        return await down(engine, names, report, network.folder)
     await engine.close(end=not names)
-    if not names:
-        remains.after_down(folder)
+    if not names:  # what is left of a network whose engine was killed, and whose processes with it
+        remains.after_down(network.folder)
+    return []
 
 
 def leaving(running: Mapping[str, Running], names: Collection[str]) -> set[str]:

@@ -156,8 +156,8 @@ def every() -> list[RegisteredDeployment]:
             one = _read(os.path.join(root(), name))
             if one and (one.is_supervised or os.path.isdir(f"{one.folder}/state") or one.engine != "local"):
                 found.append(one)
-            elif one:
-                forget(one.folder)
+            elif one:  # with its token: also if its folder was moved
+                shutil.rmtree(os.path.join(root(), name), ignore_errors=True)
     return sorted(found, key=lambda one: (one.name, one.folder))
 
 

@@ -10,7 +10,7 @@ import errno
 import os
 import socket
 import struct
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 if TYPE_CHECKING:
     from ssl import SSLContext
@@ -63,20 +63,25 @@ def _message(kind: int, body: bytes = b"") -> bytes:
     return _HEADER.pack(_MAGIC, kind, 0, _HEADER.size + len(body)) + body
 
 
-class Connection:
-    """A connection to an Ice server. Calls follow each other."""
+class Connection(asyncio.Protocol):
+    """A connection to an Ice server. Calls follow each other. When the server closes it, it is closed at once: a server
+    that ends waits for that."""
 
-    def __init__(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        self._reader, self._writer = reader, writer
+    def __init__(self) -> None:
+        self._transport: asyncio.Transport | None = None
+        self._buffer = bytearray()
+        self._is_valid = False
+        self._expected: asyncio.Future[bytes] | None = None
 
     @classmethod
     async def open(cls, host: str, port: int, tls: SSLContext | None = None) -> Connection:
         """Raises ConnectionError, or another OSError, if no Ice server listens there, or not one with a certificate
         that is valid for `tls`."""
-        connection = cls(*await _streams("127.0.0.1" if host == "localhost" else host, port, tls))
+        connection = cls()
+        valid = connection._expect()
         try:
-            if await connection._read() != (_VALIDATE, b""):
-                raise ConnectionError("the other end is not Ice")
+            await _connect(connection, "127.0.0.1" if host == "localhost" else host, port, tls)
+            await valid
         except BaseException:
             connection.close()
             raise
@@ -85,49 +90,87 @@ class Connection:
     async def answer(self, message: bytes) -> Reply:
         """The answer to the message of a call. Raises ConnectionError if the other end closes the connection, or sends
         something else. After a cancelled call, the connection must be closed."""
-        self._writer.write(message)
-        kind, reply = _VALIDATE, b""
-        while kind == _VALIDATE:  # a heartbeat of the other end
-            kind, reply = await self._read()
-        if kind != _REPLY or len(reply) < 5 or reply[:4] != struct.pack("<i", 1):
+        if self._transport is None:
+            raise ConnectionError("the other end closed the connection")
+        reply = self._expect()
+        self._transport.write(message)
+        found = await reply
+        if len(found) < 5 or found[:4] != struct.pack("<i", 1):
             raise ConnectionError("the other end does not answer the call")
-        return Reply(reply[4], content(reply[5:]) if reply[4] == OK else b"")
+        return Reply(found[4], content(found[5:]) if found[4] == OK else b"")
 
     def close(self) -> None:
-        if not self._writer.is_closing():
-            self._writer.write(_message(_CLOSE))  # Ice expects it before a connection is closed
-            if self._writer.get_extra_info("sslcontext") is None:
-                self._writer.close()
-            else:  # to close it in order would wait for the other end, which may hang
-                self._writer.transport.abort()
+        if self._transport is not None and self._is_valid:
+            self._transport.write(_message(_CLOSE))  # Ice expects it before a connection is closed
+        self._end("it is closed")
 
-    async def _read(self) -> tuple[int, bytes]:
-        """The kind and the body of the next message; (-1, b"") if it is not a message of Ice."""
-        try:
-            magic, kind, _, length = _HEADER.unpack(await self._reader.readexactly(_HEADER.size))
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        self._transport = cast("asyncio.Transport", transport)
+
+    def data_received(self, data: bytes) -> None:
+        self._buffer += data
+        while len(self._buffer) >= _HEADER.size:
+            magic, kind, _, length = _HEADER.unpack_from(self._buffer)
             if magic[:4] != _MAGIC[:4] or not _HEADER.size <= length <= _LONGEST:
-                return -1, b""
-            return kind, await self._reader.readexactly(length - _HEADER.size)
-        except asyncio.IncompleteReadError as error:
-            raise ConnectionError("the other end closed the connection") from error
+                self._end("the other end is not Ice")
+                return
+            if len(self._buffer) < length:
+                return
+            body = bytes(self._buffer[_HEADER.size : length])
+            del self._buffer[:length]
+            self._received(kind, body)
+
+    def connection_lost(self, error: Exception | None) -> None:
+        self._end("the other end closed the connection")
+
+    def _expect(self) -> asyncio.Future[bytes]:
+        self._expected = asyncio.get_running_loop().create_future()
+        return self._expected
+
+    def _received(self, kind: int, body: bytes) -> None:
+        if kind == _VALIDATE and not self._is_valid:
+            self._is_valid = True
+            self._has(body)
+        elif kind == _REPLY and self._is_valid:
+            self._has(body)
+        elif kind != _VALIDATE:  # which is a heartbeat
+            self._end("the other end closed the connection" if kind == _CLOSE else "the other end is not Ice")
+
+    def _has(self, body: bytes) -> None:
+        if self._expected and not self._expected.done():
+            self._expected.set_result(body)
+
+    def _end(self, why: str) -> None:
+        transport, self._transport = self._transport, None
+        self._buffer.clear()
+        if self._expected and not self._expected.done():
+            self._expected.set_exception(ConnectionError(why))
+            self._expected.exception()  # nobody may wait for it
+        if transport is not None:
+            if transport.get_extra_info("sslcontext") is None:
+                transport.close()
+            else:  # to close it in order would wait for the other end, which may hang
+                transport.abort()
 
 
-async def _streams(host: str, port: int, tls: SSLContext | None) -> tuple[asyncio.StreamReader, asyncio.StreamWriter]:
-    """A connection, by the shortest way to an address of IPv4: it is tried again and again while a process starts. To
+async def _connect(connection: Connection, host: str, port: int, tls: SSLContext | None) -> None:
+    """Connects by the shortest way to an address of IPv4: it is tried again and again while a process starts. To
     resolve a name takes a thread, which costs more than a call."""
+    loop = asyncio.get_running_loop()
     try:
         socket.inet_aton(host)
     except OSError:
-        return await asyncio.open_connection(host, port, ssl=tls)
+        await loop.create_connection(lambda: connection, host, port, ssl=tls)
+        return
     peer = socket.socket(socket.AF_INET, socket.SOCK_STREAM | socket.SOCK_NONBLOCK)
     try:
         error = peer.connect_ex((host, port))  # an address of this machine answers at once
         if error == errno.EINPROGRESS:
-            await asyncio.get_running_loop().sock_connect(peer, (host, port))
+            await loop.sock_connect(peer, (host, port))
         elif error:
             raise OSError(error, os.strerror(error))
         peer.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-        return await asyncio.open_connection(sock=peer, ssl=tls, server_hostname=host if tls else None)
+        await loop.create_connection(lambda: connection, sock=peer, ssl=tls, server_hostname=host if tls else None)
     except BaseException:
         peer.close()
         raise

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -74,6 +75,13 @@ def test_a_stuck_worker(rcyaml: Rcyaml, lamp: Path) -> None:
     assert now["pid"] != before["pid"] and now["last_exit"].startswith("not alive: its worker has shown no life for ")
     assert "free again" not in logs(rcyaml)
     assert rcyaml("deploy", "down", "robot.ddsl.yaml").exit_code == 0
+
+
+def test_a_component_that_is_asked_stops_at_once(rcyaml: Rcyaml, lamp: Path) -> None:
+    """It waits for the end of all its connections: that of its supervisor, too, which asks it twice a second."""
+    time.sleep(1.2)
+    assert rcyaml("deploy", "down", "robot.ddsl.yaml").exit_code == 0
+    assert "is running" in logs(rcyaml) and "a method is still running" not in logs(rcyaml)
 
 
 def test_a_worker_that_says_that_it_takes_long(rcyaml: Rcyaml, lamp: Path) -> None:

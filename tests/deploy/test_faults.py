@@ -22,7 +22,7 @@ from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy import json_data, operations
 from robocomp_yaml.deploy.carry_out import SKIPPED
 from robocomp_yaml.deploy.engine import GIVEN_UP, RUNNING, DeployFailed
-from robocomp_yaml.deploy.local import channel, procfs
+from robocomp_yaml.deploy.local import channel, procfs, record
 from robocomp_yaml.network.network import NEVER, Endpoint, EnvironmentVariable, Process, Readiness, RestartRule
 from small_networks import Place, config_of, is_alive, listener, shell, sleeper
 
@@ -393,12 +393,28 @@ def test_nonsense_on_the_control_socket_is_ignored(place: Place) -> None:
     place.up(sleeper("a"))
     before = place.pids()
     for text in (b"\n", b"{}\n", b"GET / HTTP/1.1\r\n\r\n", b'{"id": 1, "do": "nothing"}\n', b"[]\n"):
-        connection = channel.connect(f"{place.folder}/state")
+        connection = channel.connect(f"{place.folder}/state", 5.0)
         assert connection
         with connection:
             connection.setblocking(True)
             connection.sendall(text)
     assert place.pids() == before
+
+
+def test_on_a_full_disk_no_supervisor_starts(place: Place, small_disk: Path) -> None:
+    place.root = small_disk
+    assert not place.up(sleeper("a")).diagnostics
+    place.down()
+    with contextlib.suppress(OSError), open(small_disk / "ballast", "wb") as file:
+        while True:
+            file.write(bytes(4096))
+            file.flush()
+    with pytest.raises(DeployFailed) as failed:
+        place.up(sleeper("a"))
+    assert failed.value.diagnostic.code == "RC7005" and "no space left" in failed.value.diagnostic.message
+    assert not record.was_killed(place.folder) and not procfs.marked(place.folder)
+    (small_disk / "ballast").unlink()
+    assert not place.up(sleeper("a")).diagnostics and place.order("ready") == ["a"]
 
 
 def test_a_full_disk_changes_nothing(place: Place, small_disk: Path) -> None:

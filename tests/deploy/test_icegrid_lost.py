@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import shutil
+import signal
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -73,6 +75,26 @@ def test_an_up_after_such_a_down_adopts_the_host(talk: Deployment) -> None:
     talk.until_ready()
     assert "running" in talk.rcyaml("deploy", "ls")
     talk.deploy("down")
+
+
+def test_a_node_that_hangs(talk: Deployment) -> None:
+    """It counts as a host that does not answer: its processes go on, and `down` ends them as soon as it does."""
+    talk.hosts.need_a_network("so a node of this machine, which `down` kills")
+    pan = talk.status()["pan"]["pid"]
+    (node,) = [
+        pid for pid in procfs.marked(talk.folder)
+        if procfs.command(pid)[0] == "icegridnode" and "/nodes/arm/" in procfs.command_line(pid)
+    ]  # fmt: skip
+    os.kill(node, signal.SIGSTOP)
+    try:
+        until(lambda: talk.status()["pan"]["state"] == "lost", "its node does not answer")
+        said = talk.deploy("down", code=1)
+        assert "the host 'arm'" in said and "'pan' there is ended as soon as it does" in said
+        assert procfs.entry(pan) is not None and talk.copies("blink") == 0
+    finally:
+        os.kill(node, signal.SIGCONT)
+    until(lambda: procfs.entry(pan) is None, lambda: str(marked(talk)))
+    until(lambda: "no deployment" in talk.rcyaml("deploy", "ls"), lambda: talk.rcyaml("deploy", "ls"))
 
 
 def test_without_its_folder(talk: Deployment) -> None:

@@ -82,6 +82,18 @@ def test_with_the_path_of_a_document_that_is_gone(robot: Path, rcyaml: Rcyaml) -
     assert result.exit_code == 0 and "is gone: the running processes are used instead" in result.stderr
 
 
+def test_in_the_folder_of_a_document_that_is_gone(robot: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without a name: also in a folder above; not in another one."""
+    (robot / "robot.ddsl.yaml").unlink()
+    monkeypatch.chdir(robot)
+    assert "robot.ddsl.yaml is gone" in rcyaml("deploy", "status").stderr
+    (robot / "other").mkdir()
+    monkeypatch.chdir(robot / "other")
+    assert "has no deployment document" in rcyaml("deploy", "down").stderr
+    monkeypatch.chdir(robot.parent)
+    assert rcyaml("deploy", "down").stdout == "arm   stopped\nbase  stopped\n"
+
+
 def test_a_process_of_the_document_here_goes_first(
     robot: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch
 ) -> None:

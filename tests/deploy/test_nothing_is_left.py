@@ -14,8 +14,8 @@ import pytest
 from conftest import write_tree
 from processes import kill_left, until
 from robocomp_yaml.deploy import protection, registered
-from robocomp_yaml.deploy.local import procfs
-from small_networks import Place
+from robocomp_yaml.deploy.local import client, procfs
+from small_networks import Place, is_alive
 from test_roles import Rcyaml
 
 DOCUMENT = """\
@@ -75,6 +75,47 @@ def test_after_the_end_of_the_supervisor(
     place.wait_gone()
     assert rcyaml("deploy", "down", document).stdout == "Robot: nothing was running\n"
     assert left(place) == [] and rcyaml("deploy", "ls").stdout == "no deployment is running\n"
+
+
+@pytest.mark.parametrize("is_keeper_halted", [False, True])
+@pytest.mark.parametrize("has_document", [True, False])
+def test_after_the_supervisor_hangs(
+    place: Place, rcyaml: Rcyaml, robot: Callable[..., str], monkeypatch: pytest.MonkeyPatch, is_keeper_halted: bool,
+    has_document: bool,
+) -> None:  # fmt: skip
+    document = robot()
+    assert rcyaml("deploy", "up", document).exit_code == 0
+    monkeypatch.setattr(client, "_PATIENCE", 0.5)
+    pid = place.pids()["base"]
+    keeper, supervisor = place.keeper_and_supervisor()
+    for halted in (supervisor, *([keeper] if is_keeper_halted else [])):
+        os.kill(halted, signal.SIGSTOP)
+    if not has_document:
+        os.unlink(document)
+    for command in (["status"], ["logs"], ["down", "base"] if has_document else ["status"]):
+        said = rcyaml("deploy", *command[:1], "Robot" if not has_document else document, *command[1:])
+        assert said.exit_code == 1 and f"its supervisor (pid {supervisor}) does not answer" in said.stderr
+        assert "`rcyaml deploy down` ends it" in said.stderr
+    assert is_alive(pid) and rcyaml("deploy", "ls").stdout.count("running") == 1
+    said = rcyaml("deploy", "down", document if has_document else "Robot")
+    assert said.exit_code == 0 and "RC7007" in said.stderr
+    assert not is_alive(pid) and not procfs.marked(place.folder)
+    assert left(place) == [] and rcyaml("deploy", "ls").stdout == "no deployment is running\n"
+
+
+def test_after_its_folder_was_moved(
+    place: Place, rcyaml: Rcyaml, robot: Callable[..., str], tmp_path: Path
+) -> None:  # fmt: skip
+    document = Path(robot())
+    assert rcyaml("deploy", "up", str(document)).exit_code == 0
+    moved = tmp_path / "moved"
+    moved.mkdir()
+    for path in (document, tmp_path / "base.conf", tmp_path / ".rcyaml"):
+        path.rename(moved / path.name)
+    place.root = moved
+    assert rcyaml("deploy", "down", str(moved / document.name)).exit_code == 0
+    assert rcyaml("deploy", "ls").stdout == "no deployment is running\n"
+    assert left(place) == []
 
 
 def test_down_by_name_after_the_end_of_the_supervisor(

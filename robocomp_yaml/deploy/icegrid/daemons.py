@@ -57,6 +57,11 @@ def end(folder: str) -> None:
 def kill(folder: str) -> None:
     """Kills the daemon of this folder and its guard."""
     _signal(folder, "pid", f"{folder}/guard", signal.SIGKILL)
+    end_hung(folder)
+
+
+def end_hung(folder: str) -> None:
+    """Kills the daemon of this folder, which does not answer. Its guard starts it again."""
     _signal(folder, "program", f"--Ice.Config={folder}/settings", signal.SIGKILL)
 
 

@@ -254,7 +254,7 @@ class IceGridEngine:
 
     async def stop(self, name: str, within: float = STOP_WITHIN) -> None:
         await self._set_desired(self._desired - {name})
-        await self._beside(name, "stopped", self._reached().stop, name)
+        await self._beside(name, "stopped", start_up.stop, self._reached(), name, self._specs.get(name))
 
     async def _set_desired(self, names: set[str]) -> None:
         """Sets the desired processes. Returns when they are in the file, with those of concurrent calls."""

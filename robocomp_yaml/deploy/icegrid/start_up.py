@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import socket
+import threading
 import time
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -13,7 +14,7 @@ from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy import registered, ssh
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import DeployFailed
-from robocomp_yaml.deploy.here import is_here
+from robocomp_yaml.deploy.here import is_here, is_near
 from robocomp_yaml.deploy.icegrid import daemons, ending, settings
 from robocomp_yaml.deploy.icegrid.daemons import NodeStart, outcome
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry, free_port, registry_address
@@ -36,6 +37,7 @@ _BY_SYSTEMD = NodeStart(
     "systemd starts it there, and it does not reach the registry yet",
     hint="`systemctl status 'rcyaml-*'` on that host shows why (`systemctl --user` for the units of a user)",
 )
+_ENDING = threading.Lock()  # a node
 _PARALLEL = 8  # connections over SSH
 _RUN_WITHIN = 30.0  # seconds for the script of a node
 
@@ -85,6 +87,9 @@ def _session(files: GridFiles, registry: Registry, network: Network) -> GridSess
     except ImportError as error:
         raise _failed(network, str(error)) from error
     try:
+        with suppress(Unreachable):
+            return reach(files, registry, _PATIENCE)
+        daemons.end_hung(files.registry_folder)  # all processes go on without it
         return reach(files, registry, _PATIENCE)
     except Unreachable as error:
         raise _failed(network, daemons.last_words(files.registry_folder) or str(error)) from error
@@ -126,8 +131,8 @@ def ensure_nodes(
         hint = tried[host.name].hint
         by_hand_too = f"start it by hand, then try again: {daemons.by_hand(shown_path(scripts[host.name]), host)}"
         hint = f"{hint}; or {by_hand_too}" if hint else by_hand_too
-        if not reason and not until(lambda host=host: grid.has_node(host.name), _PATIENCE):  # type: ignore[misc]
-            own = f"{files.on(host.name).root}/nodes/{host.name}"
+        own = f"{files.on(host.name).root}/nodes/{host.name}"
+        if not reason and not (_has_node(grid, host) or (is_here(host) and _has_ended_hung(grid, host.name))):
             words = daemons.last_words(own) or f"see {own}/log on that host"
             reason = f"it was started, but does not reach the registry at {registry.address}:{registry.port}: {words}"
             hint = "all hosts must reach each other over TCP: check for a firewall between them"
@@ -138,6 +143,32 @@ def ensure_nodes(
                 where, name=host.name, address=host.address, reason=reason, hint=hint
             )  # fmt: skip
     return faults
+
+
+def _has_node(grid: GridSession, host: NetworkHost) -> bool:
+    return until(lambda: grid.has_node(host.name), _PATIENCE)
+
+
+def _has_ended_hung(grid: GridSession, host: str) -> bool:
+    """Kills the node of this machine, which does not answer, with its processes. Returns whether its guard has started
+    it again."""
+    daemons.end_hung(f"{grid.files.root}/nodes/{host}")
+    return until(lambda: grid.has_node(host), _PATIENCE)
+
+
+def stop(grid: GridSession, name: str, spec: ProcessSpec | None) -> None:
+    """Stops a process. A node of this machine that hangs does not prevent that: it is killed. Raises GridFailed."""
+    from robocomp_yaml.deploy.icegrid.grid import Unreachable
+
+    try:
+        return grid.stop(name)
+    except Unreachable:
+        if spec is None or not is_near(spec):
+            raise
+    with _ENDING:  # of several stops, the first one does it
+        if not grid.has_node(spec.process.host):
+            _has_ended_hung(grid, spec.process.host)
+    return grid.stop(name)
 
 
 def _started(hosts: Sequence[NetworkHost], scripts: Mapping[str, str]) -> dict[str, daemons.NodeStart]:

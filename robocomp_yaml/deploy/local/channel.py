@@ -40,12 +40,17 @@ def listen(folder: str) -> socket.socket:
     return server
 
 
-def connect(folder: str) -> socket.socket | None:
-    """A connection to the supervisor of this folder, None if none runs."""
+def connect(folder: str, within: float) -> socket.socket | None:
+    """A connection to the supervisor of this folder, None if none runs. Raises TimeoutError if one runs and accepts no
+    connection within so many seconds."""
     client = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+    client.settimeout(within)
     try:
         with _short_path(folder) as path:
             client.connect(path)
+    except TimeoutError:
+        client.close()
+        raise
     except OSError:
         client.close()
         return None

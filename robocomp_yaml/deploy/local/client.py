@@ -16,6 +16,7 @@ from robocomp_yaml.deploy.local import channel, procfs, record
 from robocomp_yaml.deploy.local.service import LONGEST, RESTORE
 
 _LINES = 10
+_SPACE = 4096  # bytes
 _PATIENCE = 20.0  # seconds: far more than is needed, also on a busy machine
 
 
@@ -39,6 +40,11 @@ class Client:
     @classmethod
     async def over(cls, connection: socket.socket) -> Client:
         return cls(*await asyncio.open_unix_connection(sock=connection, limit=LONGEST))
+
+    async def hello(self) -> dict[str, Any]:
+        """What the supervisor says of itself. Raises TimeoutError if it hangs, RequestFailed or SupervisorGone."""
+        async with asyncio.timeout(_PATIENCE):
+            return await self.ask("hello")
 
     async def ask(self, do: str, **facts: object) -> dict[str, Any]:
         """The answer to a request. Raises RequestFailed or SupervisorGone."""
@@ -83,8 +89,9 @@ class Client:
 
 
 def reach(folder: str) -> socket.socket | None:
-    """A connection to the supervisor, None if none runs. Raises OSError if the folder cannot be opened."""
-    return channel.connect(f"{folder}/state") if os.path.isdir(f"{folder}/state") else None
+    """A connection to the supervisor, None if none runs. Raises TimeoutError if it hangs, and another OSError if the
+    folder cannot be opened."""
+    return channel.connect(f"{folder}/state", _PATIENCE) if os.path.isdir(f"{folder}/state") else None
 
 
 async def revived(folder: str) -> socket.socket | None:
@@ -118,6 +125,9 @@ async def start(folder: str, *, tied: bool = False) -> socket.socket:
     command = [sys.executable, "-m", "robocomp_yaml.deploy.local.supervisor", folder]
     log = os.open(f"{folder}/state/supervisor.log", os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC, 0o600)
     try:
+        os.write(log, bytes(_SPACE))  # on a full disk, this fails here, and not in the supervisor
+        os.ftruncate(log, 0)
+        os.lseek(log, 0, os.SEEK_SET)
         # It goes on when this process ends, which therefore does not wait for it.
         keeper = subprocess.Popen(
             [*command, str(os.getpid())] if tied else command,

@@ -13,7 +13,7 @@ from typing import Any
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy import liveness, registered
 from robocomp_yaml.deploy.differences import shown_path
-from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
+from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, EngineHangs, Line, Running
 from robocomp_yaml.deploy.local import client, procfs, record
 from robocomp_yaml.deploy.local.client import Client, RequestFailed, SupervisorGone
 from robocomp_yaml.deploy.local.kernel import die_with
@@ -62,18 +62,34 @@ class LocalEngine:
             if connection is None and create:
                 own_folder.make(network.folder)
                 connection = await client.start(network.folder, tied=self._is_tied)
+            if connection is None:
+                return False
+            self._client = await Client.over(connection)
+            hello = await self._client.hello()
+        except TimeoutError as error:
+            await self._disconnect()
+            raise self._hangs() from error
         except OSError as error:
             raise self._folder_failed(network.folder, error.strerror or str(error)) from error
-        if connection is None:
-            return False
-        self._client = await Client.over(connection)
-        hello = await self._ask("", "hello")
+        except SupervisorGone as error:
+            raise self._gone() from error
         if hello["protocol"] != PROTOCOL:
             raise self._folder_failed(network.folder, "another version of rcyaml started what runs there")
         if create:
             with contextlib.suppress(OSError):  # a full or read-only disk
                 self._register(hello["pid"] if hello.get("restores") else 0)
         return True
+
+    def _hangs(self) -> EngineHangs:
+        pid = record.supervisor(self._network.folder)
+        who = f"its supervisor{f' (pid {pid})' if pid else ''} does not answer"
+        hint = "`rcyaml deploy down` ends it with all its processes"
+        failed = self._folder_failed(self._network.folder, f"{who}: {hint}")
+        return EngineHangs(failed.diagnostic, self._end_hung)
+
+    async def _end_hung(self) -> None:
+        await asyncio.to_thread(record.end_hung, self._network.folder)
+        self.notes.append(deploying.SUPERVISOR_KILLED.at(Span(self._network.path)))
 
     def _register(self, pid: int) -> None:
         found = procfs.entry(pid) if pid else None
@@ -167,10 +183,14 @@ class LocalEngine:
                 await self._ask("", "end")
                 await self._client.wait_closed()
                 await client.wait_gone(self._network.folder)
-            await self._client.close()
-            self._client = None
+            await self._disconnect()
         if end:
             registered.forget(self._network.folder)
+
+    async def _disconnect(self) -> None:
+        if self._client:
+            await self._client.close()
+            self._client = None
 
     async def _ask(self, about: str, do: str, **facts: object) -> dict[str, Any]:
         """An answer of the supervisor. An error is reported for the process of the name `about`, if there is one."""
@@ -181,8 +201,10 @@ class LocalEngine:
             where = self._network.span_of(about)
             raise DeployFailed(deploying.CANNOT.at(where, name=about, what=_DONE.get(do, do), reason=error)) from error
         except SupervisorGone as error:
-            killed = deploying.SUPERVISOR_KILLED.at(Span(self._network.path))
-            raise DeployFailed(killed.as_severity(ERROR)) from error
+            raise self._gone() from error
+
+    def _gone(self) -> DeployFailed:
+        return DeployFailed(deploying.SUPERVISOR_KILLED.at(Span(self._network.path)).as_severity(ERROR))
 
     def _folder_failed(self, path: str, reason: str) -> DeployFailed:
         return DeployFailed(deploying.FOLDER.at(Span(self._network.path), path=shown_path(path), reason=reason.lower()))

@@ -30,13 +30,36 @@ def remove(folder: str) -> None:
 
 def was_killed(folder: str) -> bool:
     """Whether the last supervisor and its keeper ended without removing the record."""
+    return is_there(folder) and _keeper(folder) is None
+
+
+def _keeper(folder: str) -> procfs.ProcessEntry | None:
+    """The running keeper of the record."""
     try:
         with open(f"{folder}/{_FILE}", encoding="ascii", errors="replace") as file:
             words = file.read().split()
     except OSError:
-        return False
+        return None
     keeper = procfs.entry(int(words[0])) if words and words[0].isdigit() else None
-    return keeper is None or keeper.is_dead or words[1:] != [str(keeper.start)]
+    return None if keeper is None or keeper.is_dead or words[1:] != [str(keeper.start)] else keeper
+
+
+def supervisor(folder: str) -> int:
+    """The pid of the running supervisor, 0 if it is unknown."""
+    keeper = _keeper(folder)
+    children = (one for one in procfs.table().values() if keeper and one.parent == keeper.pid)
+    return next((one.pid for one in children if procfs.mark_of(one.pid) == f"{folder}:"), 0)
+
+
+def end_hung(folder: str) -> None:
+    """Kills a supervisor that does not answer. Its keeper ends the processes; if that hangs, too, it is killed."""
+    if pid := supervisor(folder):
+        with contextlib.suppress(OSError):
+            os.kill(pid, signal.SIGKILL)
+        until = time.monotonic() + _PATIENCE
+        while _keeper(folder) and time.monotonic() < until:
+            time.sleep(0.01)
+    clear_up(folder)
 
 
 def is_there(folder: str) -> bool:

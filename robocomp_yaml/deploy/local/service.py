@@ -78,12 +78,12 @@ class _Service:
             record.remove(self.folder)
 
     async def _listen(self, keeper: int) -> None:
+        record.write(self.folder, keeper)  # before the first client: if it fails, nothing was started
         self._servers.append(
             await asyncio.start_unix_server(
                 self._serve_client, sock=channel.listen(f"{self.folder}/state"), limit=LONGEST
             )
         )
-        record.write(self.folder, keeper)
 
     async def _restore(self, keeper: int) -> None:
         """Makes the supervisor reachable again if its folder was deleted, and writes the logs again."""

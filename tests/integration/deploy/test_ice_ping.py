@@ -6,13 +6,16 @@ from __future__ import annotations
 import asyncio
 import socket
 import threading
+from contextlib import suppress
 
 import pytest
 
 from robocomp_yaml.deploy import ice_call, ice_ping
+from robocomp_yaml.wire.protocol import Connection, request
 
 VALIDATE = b"IceP\x01\x00\x01\x00\x03\x00\x0e\x00\x00\x00"
 OK = b"IceP\x01\x00\x01\x00\x02\x00\x19\x00\x00\x00" + b"\x01\x00\x00\x00" + b"\x00" + b"\x06\x00\x00\x00\x01\x01"
+CLOSE = b"IceP\x01\x00\x01\x00\x04\x00\x0e\x00\x00\x00"
 ABSENT = OK[:18] + b"\x02" + OK[19:]
 
 
@@ -36,8 +39,10 @@ def test_what_answers(said: bytes, is_there: bool) -> None:
 
         def serve() -> None:
             connection = server.accept()[0]
-            with connection:
-                connection.sendall(said)
+            with connection, suppress(ConnectionError):
+                connection.sendall(said[: len(VALIDATE)])
+                connection.recv(1000)
+                connection.sendall(said[len(VALIDATE) :])
                 while connection.recv(1000):
                     pass
 
@@ -46,6 +51,34 @@ def test_what_answers(said: bytes, is_there: bool) -> None:
         answer = asyncio.run(ice_ping.answers(f"laser:tcp -h 127.0.0.1 -p {port}", 0.5))
         thread.join()
     assert answer is is_there
+
+
+def test_a_connection_that_the_server_closes() -> None:
+    """A server that ends waits until the other end has closed, too: a connection without a call does so at once."""
+    has_ended = threading.Event()
+    with socket.create_server(("127.0.0.1", 0)) as server:
+
+        def serve() -> None:
+            with server.accept()[0] as connection:
+                connection.sendall(VALIDATE)
+                connection.recv(1000)
+                connection.sendall(OK + VALIDATE + CLOSE)
+                if not connection.recv(1000):
+                    has_ended.set()
+
+        async def call() -> None:
+            connection = await Connection.open("127.0.0.1", server.getsockname()[1])
+            message = request("laser", "ice_ping")
+            assert (await connection.answer(message)).status == 0
+            assert await asyncio.to_thread(has_ended.wait, 20)
+            with pytest.raises(ConnectionError):
+                await connection.answer(message)
+            connection.close()
+
+        thread = threading.Thread(target=serve)
+        thread.start()
+        asyncio.run(call())
+        thread.join()
 
 
 @pytest.mark.parametrize(
