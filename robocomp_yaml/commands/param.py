@@ -16,7 +16,8 @@ from robocomp_yaml.diag import terminal
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.addresses import Addresses
-    from robocomp_yaml.api.running_parameters import RunningParameters, RunningValue, Session
+    from robocomp_yaml.api.listed_values import RunningValue
+    from robocomp_yaml.api.running_parameters import RunningParameters, Session
 
 
 def _names(addresses: Addresses, incomplete: str) -> list[str]:
@@ -78,7 +79,8 @@ def list_(parameters: RunningParameters, session: Session, format_: str) -> None
         return
     width = max((min(len(_assignment(row)), 50) for row in rows), default=0)
     for row in rows:
-        terminal.say(f"{_assignment(row):<{width}}  # {row.type}{', editable' if row.editable else ''}")
+        about = [word for word in (row.type, "editable" if row.editable else "") if word]
+        terminal.say(f"{_assignment(row):<{width}}  # {', '.join(about)}")
 
 
 @command.command(short_help="Print one value of a running component.")
@@ -113,12 +115,16 @@ def set_(
 ) -> None:  # fmt: skip
     """Set the parameter at PATH to VALUE in a running COMPONENT, if its type and limits accept it: until the component
     ends. With --save also in the values document with which it starts; comments and layout of the document stay."""
-    from robocomp_yaml.api.running_parameters import in_line
+    from robocomp_yaml.api.listed_values import in_line
+    from robocomp_yaml.diag.errors import Refused
 
     change = parameters.saving(path, value) if save else None
     before, now = session.set(path, value)
     if change is not None:
-        change.apply()
+        try:
+            change.apply()
+        except Refused as error:
+            raise Refused(f"{parameters.name} has {path} = {in_line(now)} until it ends, but {error}") from None
     saved = change.file if change is not None else None
     if format_ == "json":
         terminal.data(
@@ -141,7 +147,7 @@ def watch(
     format_: str,
 ) -> None:  # fmt: skip
     """Print the values of a running COMPONENT, and then each change, until Ctrl-C. PATHs are parameters or groups."""
-    from robocomp_yaml.api.running_parameters import in_line
+    from robocomp_yaml.api.listed_values import in_line
 
     for path in paths:
         session.get(path)  # unknown ones are reported
@@ -169,7 +175,7 @@ def _is_in(path: str, paths: tuple[str, ...]) -> bool:
 
 
 def _assignment(row: RunningValue) -> str:
-    from robocomp_yaml.api.running_parameters import in_line
+    from robocomp_yaml.api.listed_values import in_line
 
     return f"{row.path} = {in_line(row.data)}" + (f" {row.unit}" if row.unit else "")
 
