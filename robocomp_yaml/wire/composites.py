@@ -50,7 +50,8 @@ class Members:
         """Sets the attributes of a value to what a mapping says, and to defaults."""
         for key, _ in node.items():
             if key.lexeme not in self.types:
-                hint = did_you_mean(key.lexeme, self.types) or f"there is {', '.join(self.types) or 'no member'}"
+                there = ", ".join(self.types) or ("no member" if path else "no argument")
+                hint = did_you_mean(key.lexeme, self.types) or f"there is {there}"
                 report(Fault(key.span, paths.in_words((*path, key.lexeme)), "is unknown", hint))
         for name, type_ in self.types.items():
             entry, default = node.entries.get(name), self._defaults.get(name)

@@ -77,7 +77,8 @@ def test_addresses_of_one_component(server: Server, rcyaml: Rcyaml) -> None:
     for address in (
         "arm.Arm.move", "arm.move", "arm.RoboCompArm.Arm.move", "Server.Arm.move", "server.Arm.move",
         "server/server.cdsl.yaml.Arm.move", f"localhost:{server.arm}.Arm.move", f"127.0.0.1:{server.arm}/Arm/move",
-        f"localhost:{server.arm}.move",
+        f"localhost:{server.arm}.move", "./server.Arm.move", "server/.Arm.move",
+        f"{os.path.abspath('server')}.Arm.move",
     ):  # fmt: skip
         assert result(rcyaml("call", address, f"{{{POSES}, fast: false}}", "--format", "json")) == expected, address
     words = ("call", "arm.move", "path=[]", "fast=false", "--deployment", "robot.ddsl.yaml", "--format", "json")
@@ -122,6 +123,7 @@ def test_exceptions_are_values(server: Server, rcyaml: Rcyaml) -> None:
         (["path: []", "fast: maybe"], ["argument 2:1:7", "'fast' must be true or false, but is maybe"]),
         (["path=[]\n- x", "fast=true"], ["argument 1:"]),
         (["path=", "fast=true"], ["argument 1:1:6", "'path' must be a list, but is missing"]),
+        (["path=[{x: 1e400, side: left}]", "fast=no"], ["argument 1:1:11", "a number that a ", "but is 1e400"]),
         (["-"], ["standard input:2:1", "'fats' is unknown", "did you mean 'fast'?"]),
     ],
 )
@@ -148,6 +150,13 @@ def test_wrong_arguments_are_not_sent(tmp_path: Path, rcyaml: Rcyaml, words: lis
         (["twin{i}.Arm.move"], "'twin{i}' means several processes; name one of twin0, twin1"),
         (["arm.Hand.grasp", "x"], "'x' is neither NAME=VALUE nor a mapping of arguments; write image=…"),
         (["arm.Hand.grasp", "image=[]", "--timeout", "soon"], "'soon' is not a duration"),
+        (["arm.Hand.grasp", "image=[]", "--timout", "3s"], "No such option '--timout'. Did you mean '--timeout'?"),
+        (["arm.Hand.grasp", "--image=[]"], "No such option '--image': write image=[], without `--`"),
+        (["arm.Hand.grasp", "-1"], "write image=…"),
+        (["nowhere.Arm.move"], "known are arm, twin0, twin1, Server, and HOST:PORT"),
+        (["./arn.Arm.move"], "has no component './arn.Arm.move'"),
+        (["localhost:70000.Arm.move"], "'70000' is not a TCP port: they are from 1 to 65535"),
+        (["localhost:9.Amr.move"], "these documents have no interface 'Amr'; did you mean 'Arm'?"),
         (["nowhere.Arm.move", "--deployment", "other.ddsl.yaml"], "other.ddsl.yaml"),
     ],
 )
