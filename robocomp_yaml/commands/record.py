@@ -145,7 +145,7 @@ def _info_lines(found: RecordingInfo) -> list[str]:
         f"from {at}" + (f", deployment {found.deployment}" if found.deployment else ""),
     ]
     if found.dropped is None:
-        lines.append("the recorder was killed: messages of its last seconds are missing")
+        lines.append("the recorder still runs, or was killed: the last seconds are missing")
     elif found.dropped:
         lines.append("dropped: " + ", ".join(f"{number} of {name}" for name, number in found.dropped.items()))
     for row in rows:
