@@ -37,6 +37,20 @@ def _complete_path(ctx: click.Context, param: click.Parameter, incomplete: str) 
     return _talking.completing(known)(ctx, param, incomplete)
 
 
+def _complete_value(ctx: click.Context, param: click.Parameter, incomplete: str) -> Any:
+    """The values that a parameter may have, if they can be listed."""
+
+    def known(addresses: Addresses, incomplete: str) -> list[str]:
+        from robocomp_yaml.api.completing.values import member_at, values_of
+        from robocomp_yaml.api.running_parameters import RunningParameters
+
+        root = RunningParameters(addresses, ctx.params.get("name") or "").root
+        member = member_at(root, [ctx.params.get("path") or ""]) if root is not None else None
+        return list(dict.fromkeys(one.text for one in values_of(member))) if member is not None else []
+
+    return _talking.completing(known)(ctx, param, incomplete)
+
+
 _name = click.argument("name", metavar="COMPONENT", shell_complete=_talking.completing(_names))
 _path = click.argument("path", shell_complete=_complete_path)
 
@@ -106,7 +120,7 @@ def get(ctx: click.Context, parameters: RunningParameters, session: Session, pat
                  context_settings={"ignore_unknown_options": True})  # fmt: skip
 @_name
 @_path
-@click.argument("value")
+@click.argument("value", shell_complete=_complete_value)
 @click.option("--save", is_flag=True, help="Also write it to the values document, for the next start.")
 @_running
 @click.pass_context

@@ -224,6 +224,7 @@ def test_one_that_hangs(server: Server, rcyaml: Rcyaml) -> None:
     server.running.process.send_signal(signal.SIGSTOP)
     done = rcyaml("call", "arm.state", "--timeout", "500ms")
     assert done.exit_code == 1 and "it does not answer within 0.5 s" in done.output
+    assert "or one with TLS (ssl:HOST:PORT) listens there" in done.output
     assert time.monotonic() - began < 10
 
 
@@ -277,13 +278,38 @@ def connections(port: int) -> str:
     return "".join("2" for row in rows if int(row[2].rpartition(":")[2], 16) == port and row[3] == "01")
 
 
-def test_names_complete(build: Build, tmp_path: Path) -> None:
-    build({**WORKSPACE, "server/server.cdsl.yaml": cdsl("Server", implements=["Arm"])})
-    write_tree(tmp_path, {"robot.ddsl.yaml": "deployment: R\ncomponents: {arm: {component: server}}\n"})
-    environment = {**os.environ, "_RCYAML_COMPLETE": "bash_complete", "COMP_WORDS": "rcyaml call ar", "COMP_CWORD": "2"}
+DIALS = "parameters:\n  mode: {type: Mode, default: slow}\n  on: {type: bool, default: true}\n"
+
+
+@pytest.mark.parametrize(
+    ("words", "names"),
+    [
+        ("call ar", [f"arm.Arm.{method}" for method in ("move", "state", "breakDown", "betray", "block")]),
+        ("call arm.CommonBehavior.getP", ["arm.CommonBehavior.getPeriod", "arm.CommonBehavior.getParameterList"]),
+        ("topic echo ", ["ArmEvents"]),
+        ("topic pub Arm", ["ArmEvents.moved", "ArmEvents.count"]),
+        ("record ", ["ArmEvents"]),
+        ("param get ", ["arm", "Server"]),
+        ("param set arm mo", ["mode"]),
+        ("param set arm mode ", ["slow", "fast"]),
+        ("param set arm on f", ["false"]),
+        ("param set arm nothing ", []),
+        ("top ", ["storm", "arm"]),
+    ],
+)
+def test_names_complete(tmp_path: Path, words: str, names: list[str]) -> None:
+    keys = {"implements": ["Arm"], "publishes": ["ArmEvents"], "parameters": "server.pdsl.yaml"}
+    write_tree(tmp_path, {
+        **WORKSPACE,
+        "server/server.cdsl.yaml": cdsl("Server", **keys),
+        "server/server.pdsl.yaml": f"component: server.cdsl.yaml\ntypes: {{Mode: {{enum: [slow, fast]}}}}\n{DIALS}",
+        "robot.ddsl.yaml": "deployment: R\nservices: {storm: {icestorm: }}\ncomponents: {arm: {component: server}}\n",
+    })  # fmt: skip
+    typed = f"rcyaml {words}"
+    environment = {**os.environ, "_RCYAML_COMPLETE": "bash_complete", "COMP_WORDS": typed,
+                   "COMP_CWORD": str(len(typed.split(" ")) - 1)}  # fmt: skip
     done = subprocess.run([RCYAML], cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
-    names = [line.partition(",")[2] for line in done.stdout.splitlines()]
-    assert names == [f"arm.Arm.{method}" for method in ("move", "state", "breakDown", "betray", "block")]
+    assert [line.partition(",")[2] for line in done.stdout.splitlines() if line] == names, done.stderr
 
 
 OPENSSL = """openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:P-256 -nodes -days 9 -subj /CN=robot \\
