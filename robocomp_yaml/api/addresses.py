@@ -106,10 +106,12 @@ class Addresses:
         return len(self._deployments) == 1
 
     def names(self) -> list[str]:
-        """Everybody who has a name: entries first."""
-        network = self.network
+        """Everybody who has a name: entries first, then closed groups, which are called instead of their gates."""
+        network, linked = self.network, self.linked
+        closed = [one.name for one in linked.groups.values() if one.is_closed] if network and linked else []
         processes = [one for one in network.processes.values() if one.is_ice] if network else []
-        entries = [one.name for one in processes if self._of_process(one, "").doors]
+        names = [one.name for one in processes if self._of_process(one, "").doors]
+        entries = [*(one for one in names if one.removesuffix(".gate") not in closed), *closed]
         own = [linked.component.name for linked in self.program.components.values()]
         return list(dict.fromkeys([*entries, *own]))
 
@@ -161,8 +163,7 @@ class Addresses:
         otherwise = (
             f"known are {some(known, _MOST)}, and HOST:PORT" if known else "name a HOST:PORT, such as localhost:10001"
         )
-        where = self.path or "this workspace"
-        raise Refused(f"{where} has no component '{first}'{meant(first, known, otherwise)}")
+        raise Refused(f"{self.path or 'this workspace'} has no component '{first}'{meant(first, known, otherwise)}")
 
     def _of_entry(self, text: str) -> Peer | None:
         network, linked = self.network, self.linked
@@ -325,10 +326,9 @@ class Addresses:
             if peer.component is not None:
                 self._refuse_errors({peer.component.component.path})
             known = [one.name for one in peer.doors]
-            others = [one.name for one in self.every_door()]
             verb = "it serves" if peer.span.file else "known are"
             otherwise = f"{verb} {', '.join(known)}" if known else "it serves no interface of these documents"
-            what = f"{peer.name} {'does not serve' if name in others or peer.doors else 'serves no interface'}"
+            what = f"{peer.name} {'does not serve' if peer.doors else 'serves no interface'}"
             what = what if peer.span.file else "these documents have no interface"  # at a port, all of them may be
             raise Refused(f"{what} '{'.'.join(words)}'{meant(name, known, otherwise)}")
         if len({(one.scope.module.path, one.proxy) for one in found}) > 1:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from functools import wraps
 from typing import TYPE_CHECKING, Any
 
@@ -21,7 +22,14 @@ if TYPE_CHECKING:
 
 
 def _names(addresses: Addresses, incomplete: str) -> list[str]:
-    return addresses.names()
+    from robocomp_yaml.addresses.port_numbers import COMMON_BEHAVIOR
+    from robocomp_yaml.diag.errors import Refused
+
+    names = []
+    for name in addresses.names():
+        with suppress(Refused):  # several components of a name
+            names += [name for one in addresses.peer(name).doors if one.name == COMMON_BEHAVIOR]
+    return names
 
 
 def _complete_path(ctx: click.Context, param: click.Parameter, incomplete: str) -> Any:

@@ -284,6 +284,7 @@ DIALS = "parameters:\n  mode: {type: Mode, default: slow}\n  on: {type: bool, de
 @pytest.mark.parametrize(
     ("words", "names"),
     [
+        ("call fo", [f"fore.Arm.{method}" for method in ("move", "state", "breakDown", "betray", "block")]),
         ("call ar", [f"arm.Arm.{method}" for method in ("move", "state", "breakDown", "betray", "block")]),
         ("call arm.CommonBehavior.getP", ["arm.CommonBehavior.getPeriod", "arm.CommonBehavior.getParameterList"]),
         ("topic echo ", ["ArmEvents"]),
@@ -294,7 +295,7 @@ DIALS = "parameters:\n  mode: {type: Mode, default: slow}\n  on: {type: bool, de
         ("param set arm mode ", ["slow", "fast"]),
         ("param set arm on f", ["false"]),
         ("param set arm nothing ", []),
-        ("top ", ["storm", "arm"]),
+        ("top ", ["storm", "arm", "fore.gate"]),
     ],
 )
 def test_names_complete(tmp_path: Path, words: str, names: list[str]) -> None:
@@ -303,7 +304,8 @@ def test_names_complete(tmp_path: Path, words: str, names: list[str]) -> None:
         **WORKSPACE,
         "server/server.cdsl.yaml": cdsl("Server", **keys),
         "server/server.pdsl.yaml": f"component: server.cdsl.yaml\ntypes: {{Mode: {{enum: [slow, fast]}}}}\n{DIALS}",
-        "robot.ddsl.yaml": "deployment: R\nservices: {storm: {icestorm: }}\ncomponents: {arm: {component: server}}\n",
+        "robot.ddsl.yaml": "deployment: R\nservices: {storm: {icestorm: }}\ncomponents: {arm: {component: server}}\n"
+        "groups: {fore: {components: [arm], expose: {Arm: {member: arm, rate: 5}}}}\n",
     })  # fmt: skip
     typed = f"rcyaml {words}"
     environment = {**os.environ, "_RCYAML_COMPLETE": "bash_complete", "COMP_WORDS": typed,
