@@ -137,6 +137,16 @@ def test_wrong_arguments_are_not_sent(tmp_path: Path, rcyaml: Rcyaml, words: lis
     assert "cannot be reached" not in done.output
 
 
+def test_a_misspelled_argument_is_one_fault(tmp_path: Path, rcyaml: Rcyaml) -> None:
+    write_tree(tmp_path, {**INTERFACES, "rcyaml.yaml": "interfaces: [.]\n"})
+    done = rcyaml("call", "localhost:9.Arm.move", "path=[{x: 1, sied: left}]", "fats=true")
+    assert done.output.count("error[RC9001]") == 2, done.output
+    assert "did you mean 'side'?" in done.output and "did you mean 'fast'?" in done.output
+    for stdin, said in (("", "'path' is missing"), ("[1]\n", "the value as a whole must be a mapping of arguments")):
+        done = rcyaml("call", "localhost:9.Arm.move", "-", stdin=stdin)
+        assert done.exit_code == 1 and said in done.output
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [
