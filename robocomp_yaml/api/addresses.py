@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import functools
 import os
+import re
 from collections.abc import Iterator, Sequence
 
 import msgspec
@@ -105,9 +106,12 @@ class Addresses:
         return len(self._deployments) == 1
 
     def names(self) -> list[str]:
-        """Everybody who has a name: entries first."""
-        network = self.network
-        entries = [one.name for one in network.processes.values() if one.is_ice] if network else []
+        """Everybody who has a name: entries first, then closed groups, which are called instead of their gates."""
+        network, linked = self.network, self.linked
+        closed = [one.name for one in linked.groups.values() if one.is_closed] if network and linked else []
+        processes = [one for one in network.processes.values() if one.is_ice] if network else []
+        names = [one.name for one in processes if self._of_process(one, "").doors]
+        entries = [*(one for one in names if one.removesuffix(".gate") not in closed), *closed]
         own = [linked.component.name for linked in self.program.components.values()]
         return list(dict.fromkeys([*entries, *own]))
 
@@ -120,14 +124,25 @@ class Addresses:
         """Who is meant by `speech`, `speech.Speech.say`, `components/speech` or `localhost:10001.Speech.say`. Raises
         Refused if nobody is, or more than one."""
         if at_port := _HOST.match(text):
-            endpoint = IceEndpoint(int(at_port[3]), at_port[1] or "tcp").reached_at(at_port[2].strip("[]"))
-            if not at_port[1] and (network := self.network_at(f"any:{endpoint}")) and network.is_tls:
-                endpoint = f"ssl{endpoint.removeprefix('tcp')}"
-            return self._at_port(text[: at_port.end(3)], endpoint, at_port[4] or "")
+            return self._at_port(text[: at_port.end(3)], self._endpoint(at_port), at_port[4] or "")
         peer = self._of_entry(text)
         if peer is None:
             self._refuse_several(text)
         return peer or self._of_component(text) or self._unknown(text)
+
+    def topic_manager(self, text: str) -> str:
+        """The proxy of an IceStorm's topic manager, of which the text may also be the HOST:PORT. Raises Refused."""
+        found = _HOST.match(text)
+        return text if found is None or found[4] is not None else f"IceStorm/TopicManager:{self._endpoint(found)}"
+
+    def _endpoint(self, found: re.Match[str]) -> str:
+        """The endpoint of a HOST:PORT; with TLS, if the network that is there has it. Raises Refused."""
+        if not 0 < int(found[3]) < 65536:
+            raise Refused(f"'{found[3]}' is not a TCP port: they are from 1 to 65535")
+        endpoint = IceEndpoint(int(found[3]), found[1] or "tcp").reached_at(found[2].strip("[]"))
+        if not found[1] and (network := self.network_at(f"any:{endpoint}")) and network.is_tls:
+            return f"ssl{endpoint.removeprefix('tcp')}"
+        return endpoint
 
     def _refuse_several(self, text: str) -> None:
         """Raises Refused for an entry of one of several deployments, unless it is the full name of a component."""
@@ -144,12 +159,11 @@ class Addresses:
             {path for path in self._deployments if os.path.realpath(path) not in self.analysis.networks}
         )
         known = self.names()
-        first = text.partition(".")[0]
+        first = text.partition(".")[0] or text
         otherwise = (
             f"known are {some(known, _MOST)}, and HOST:PORT" if known else "name a HOST:PORT, such as localhost:10001"
         )
-        where = self.path or "this workspace"
-        raise Refused(f"{where} has no component '{first}'{meant(first, known, otherwise)}")
+        raise Refused(f"{self.path or 'this workspace'} has no component '{first}'{meant(first, known, otherwise)}")
 
     def _of_entry(self, text: str) -> Peer | None:
         network, linked = self.network, self.linked
@@ -227,14 +241,17 @@ class Addresses:
             names = {linked.component.name, stem(path), os.path.basename(folder), os.path.relpath(folder or "."), path}
             for name in names - {"", "."}:
                 known.setdefault(name, []).append(linked)
-        name = next((one for one in _prefixes(text) if one in known), "")
-        if not name:
+        # ./arm, arm/ and the absolute path are arm, too
+        possible = {one: os.path.relpath(one) if os.sep in one else one for one in _prefixes(text)}
+        written = next((one for one, name in possible.items() if name in known), "")
+        if not written:
             return None
+        name = possible[written]
         exact = [linked for linked in known[name] if linked.component.name == name] or known[name]
         if len(exact) > 1:
             folders = sorted(os.path.relpath(os.path.dirname(one.component.path) or ".") for one in exact)
             raise Refused(f"several components have the name '{name}'; name one of the folders {', '.join(folders)}")
-        return self._own_address(exact[0], text[len(name) + 1 :])
+        return self._own_address(exact[0], text[len(written) + 1 :])
 
     def _own_address(self, linked: LinkedComponent, rest: str) -> Peer:
         """A component of the workspace, where its own configuration says."""
@@ -309,11 +326,11 @@ class Addresses:
             if peer.component is not None:
                 self._refuse_errors({peer.component.component.path})
             known = [one.name for one in peer.doors]
-            others = [one.name for one in self.every_door()]
-            verb = "serves" if peer.component or peer.instance else "can be asked for"
-            otherwise = f"it {verb} {', '.join(known)}" if known else "it serves no interface of these documents"
-            what = "does not serve" if name in others or peer.doors else "serves no interface"
-            raise Refused(f"{peer.name} {what} '{'.'.join(words)}'{meant(name, known, otherwise)}")
+            verb = "it serves" if peer.span.file else "known are"
+            otherwise = f"{verb} {', '.join(known)}" if known else "it serves no interface of these documents"
+            what = f"{peer.name} {'does not serve' if peer.doors else 'serves no interface'}"
+            what = what if peer.span.file else "these documents have no interface"  # at a port, all of them may be
+            raise Refused(f"{what} '{'.'.join(words)}'{meant(name, known, otherwise)}")
         if len({(one.scope.module.path, one.proxy) for one in found}) > 1:
             choices = ", ".join(f"{one.scope.module.name}.{one.name}" for one in found)
             raise Refused(f"several interfaces are called '{name}'; write one of {choices}")

@@ -89,8 +89,8 @@ class _Reader(msgspec.Struct):
             for key, value in root.items():
                 self._put([key], value)
         elif root is not None:
-            problem = "must be a mapping of arguments by their names"
-            self.faults.append(codes.WRONG_VALUE.at(root.span, path="", problem=problem, hint=self._example()))
+            problem, hint = "must be a mapping of arguments by their names", self._example()
+            self.faults.append(codes.WRONG_VALUE.at(root.span, path="as a whole", problem=problem, hint=hint))
 
     def _put(self, steps: Sequence[Scalar], node: Node) -> None:
         parts = self.parts
@@ -126,7 +126,7 @@ def read(scope: LinkedModule, method: Method, words: Sequence[str], stdin: str |
             raise Refused(f"{file} is not UTF-8")
         assigned = _ASSIGNED.match(word)
         if word == "-" or _MAPPING.match(word):
-            if text.strip() or method.inputs:
+            if text.strip():
                 reader.whole(file, text)
         elif assigned:
             reader.assign(file, assigned[1], assigned[2])

@@ -27,8 +27,10 @@ OURS, DROPPED = "rcyaml", "rcyaml.dropped"
 
 _SHORTEST, _LONGEST = 1.0, 10.0  # seconds between checkpoints
 _MOST_UNWRITTEN = 8 << 20  # bytes
-_ROOM = 512  # bytes for what is written at the end
-_HEAD = 31  # bytes of a message in a file, besides its data
+_CHUNK = 1 << 20  # bytes of messages that are compressed together
+_HEAD = 47  # bytes of a message in a file, besides its data: 31, and 16 in the index of its chunk
+_ROOM, _OF_TOPIC = 256, 32  # bytes for what is written at the end: in all, and for a topic besides its name
+_OF_CHUNK, _OF_CHANNEL = 160, 40  # bytes of a chunk and its index: in all, and for a channel
 
 
 def _require() -> None:
@@ -40,7 +42,8 @@ def _require() -> None:
 
 class Recorder:
     """Writes the messages of topics to a new file, which will have at most `max_size` bytes. Raises Refused if the file
-    exists, or cannot be created; later, methods raise OSError if it cannot be written."""
+    exists, or cannot be created, or would be too large without messages; later, methods raise OSError if it cannot be
+    written."""
 
     def __init__(
         self, path: str, topics: Sequence[KnownTopic], deployment: str = "", max_size: int | None = None
@@ -57,14 +60,19 @@ class Recorder:
         except OSError as error:
             raise cannot_write(path, error) from None
         self._stream = _Stream(self._file)
-        self._writer = Writer(self._stream, use_summary_offsets=False)
+        self._writer = Writer(self._stream, chunk_size=_CHUNK, use_summary_offsets=False)
         self._writer.start("", f"rcyaml {__version__}")
         self._writer.add_metadata(OURS, {"version": __version__, "deployment": deployment})
         self._types: dict[tuple[str, str, str], tuple[int, MessageType]] = {}
         self._began = self._written = time.monotonic()
         for topic in topics:
             self._register(topic)
+        self._at_end = _ROOM + sum(_OF_TOPIC + len(one.name.encode()) for one in topics)
         self.checkpoint()
+        if max_size is not None and (least := self._longest(0)) > max_size:
+            os.close(self._file)
+            os.unlink(path)
+            raise Refused(f"a file of these topics has at least {least} bytes: --max-size must be larger")
 
     def _register(self, topic: KnownTopic) -> None:
         from robocomp_yaml.api.topics import wire_interface
@@ -96,12 +104,18 @@ class Recorder:
 
     def _fits(self, more: int, most: int) -> bool:
         """Whether there is room for more bytes. How small the compressor makes them is known after a checkpoint."""
-        if self._stream.end + self._index + self._pending + more + _ROOM <= most:
+        if self._longest(more) <= most:
             return True
-        if self._pending < most // 100:
+        if not self.messages or self._pending < most // 100:
             return False
         self.checkpoint()
         return self._fits(more, most)
+
+    def _longest(self, more: int) -> int:
+        """The largest size that the file can have after `close`, with so many more bytes of messages."""
+        pending = self._pending + more
+        chunks = (pending // _CHUNK + 1) * (_OF_CHUNK + _OF_CHANNEL * len(self._types))
+        return self._stream.end + self._index + pending + chunks + self._at_end
 
     def checkpoint_if_due(self) -> None:
         """Writes a checkpoint each second, in long recordings less often, because each one contains the index."""
@@ -116,7 +130,8 @@ class Recorder:
         end = self._stream.end
         self._writer.finish()
         self._index = self._stream.end - end
-        self._pending = 0
+        # the first chunk also has the types, as the index does; MCAP writes no chunk before the first message
+        self._pending = 0 if self.messages else self._index
         self._stream.write_out(end)
         self._written = time.monotonic()
 
@@ -187,7 +202,7 @@ class RecordedTopic(msgspec.Struct, frozen=True):
 
 class RecordingInfo(msgspec.Struct, frozen=True):
     """What a file contains. Times are in seconds since the epoch. `dropped` are the numbers of messages that were
-    dropped, by topic; None if the recorder was killed, so that they are unknown."""
+    dropped, by topic; None if they are unknown, because the recorder still runs, or was killed."""
 
     path: str
     size: int

@@ -2,58 +2,47 @@
 
 from __future__ import annotations
 
-import math
+import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 
-import msgspec
-
 from robocomp_yaml.api.addresses import Addresses
 from robocomp_yaml.api.calling import TIMEOUT, MethodCalls, RemoteMethod, Reply
+from robocomp_yaml.api.listed_values import (
+    Listed,
+    RunningValue,
+    data_at,
+    flat,
+    missing_at,
+    names_in,
+    read,
+    same,
+    values,
+    with_value,
+    without_hidden,
+)
 from robocomp_yaml.api.refusals import meant
 from robocomp_yaml.api.values import VALUE, Change, Values, accepted, spells_text
-from robocomp_yaml.diag.errors import NoAnswer, Refused
+from robocomp_yaml.diag.diagnostic import has_errors
+from robocomp_yaml.diag.errors import Faulty, NoAnswer, Refused
+from robocomp_yaml.diag.listing import some
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.network.configuration_base import base_of, base_of_component
 from robocomp_yaml.parameters.editing import show
-from robocomp_yaml.parameters.types import (
-    BasicType,
-    ListType,
-    MapType,
-    RecordType,
-    Type,
-    is_secret,
-    leaves,
-    unit_of,
-)
-from robocomp_yaml.semantics import paths, secrecy, texts
-from robocomp_yaml.semantics.paths import Path, Step, dotted, in_words
+from robocomp_yaml.parameters.hidden import holds_secret
+from robocomp_yaml.parameters.layers.effective import broken_constraints
+from robocomp_yaml.parameters.types import ListType, MapType, Parameters, RecordType, Type, leaves
+from robocomp_yaml.semantics import paths
+from robocomp_yaml.semantics.paths import Path, dotted, in_words
 from robocomp_yaml.semantics.secrecy import HIDDEN
 from robocomp_yaml.source.tree import Mapping as Tree
 from robocomp_yaml.source.tree import Node, mapping_at, scalar_at, text_at
 from robocomp_yaml.source.yaml_text import flow
 
 _LOGGED = "(see the log of the component) "
-_ROUNDING = 1e-6  # relative: what a `float` changes in a number
-
-
-class RunningValue(msgspec.Struct, frozen=True):
-    """A plain value of a running component, or an empty list or map. Secrets are hidden."""
-
-    path: str
-    data: Any
-    type: str
-    unit: str = ""
-    editable: bool = False
-
-
-class Listed(msgspec.Struct, frozen=True):
-    """One entry of CommonBehavior's list."""
-
-    text: str
-    type: str
-    editable: bool
+_MOST = 8  # names in a message
 
 
 class RunningParameters:
@@ -66,9 +55,9 @@ class RunningParameters:
         if peer.rest:
             raise Refused(f"'{name}' has more than the name of a component; write {peer.name}")
         self.name, self._peer = peer.name, peer
-        component = peer.component
-        linked = component.parameters if component is not None else None
-        self.root: RecordType | None = linked.parameters.root if linked is not None and not linked.broken else None
+        linked = peer.component.parameters if peer.component is not None else None
+        self.defined: Parameters | None = linked.parameters if linked is not None and not linked.broken else None
+        self.root: RecordType | None = self.defined.root if self.defined is not None else None
 
     @contextmanager
     def connected(self, config: str = "", timeout: float = TIMEOUT) -> Iterator[Session]:
@@ -86,7 +75,8 @@ class RunningParameters:
         if type_ is None and (not steps or dotted(steps) not in known):
             names = [row.path for row in values(self.root, known)]
             groups = [name for name, _ in leaves(self.root, groups=True)] if self.root is not None else []
-            raise Refused(f"{self.name} has no parameter '{path}'{meant(path, [*names, *groups])}")
+            listed = f"known are {some(names, _MOST)}" if names else ""
+            raise Refused(f"{self.name} has no parameter '{path}'{meant(path, [*names, *groups], listed)}")
         return steps, type_
 
     def saving(self, path: str, value: str) -> Change:
@@ -103,7 +93,14 @@ class RunningParameters:
         program = self.addresses.program
         base = base_of(instance, program.disk) if instance is not None else base_of_component(component, program)
         if base.flat is not None:
-            raise Refused(f"{self.name} starts with {base.flat.path}, which is not a values document: change it there")
+            folder = os.path.dirname(component.component.path)
+            path_of_own = os.path.join(folder, which.VALUES)
+            if os.path.isfile(path_of_own) and has_errors((broken := Values(path_of_own)).diagnostics):
+                raise Faulty(broken.diagnostics, broken.documents_read)
+            change_it = f"change it there, or write one with `{typed('rcyaml', 'config', 'new', folder or os.curdir)}`"
+            raise Refused(f"{self.name} starts with {base.flat.path}, which is not a values document: {change_it}")
+        if base.values is None and instance is not None and instance.entry.config is not None:
+            raise Faulty(self.addresses.analysis.diagnostics, program.documents)  # the document that it names
         own = base.values.document.path if base.values is not None else which.values(component.component.path)
         document = Values(own)
         if kept := document.kept_reference(path, value):
@@ -127,13 +124,16 @@ class Session:
         return values(self._of.root, self.listed())
 
     def get(self, path: str) -> Any:
-        """The value at a path, as data: also of a group, a list or a record. Raises Refused and NoAnswer."""
+        """The value at a path, as data: also of a group, a list or a record; None if it has none. Raises Refused and
+        NoAnswer."""
         listed = self.listed()
         steps, type_ = self._of._steps(path, listed)
         if type_ is None:
             return next(one.data for one in values(None, listed) if one.path == dotted(steps))
-        assert self._of.root is not None
-        return _data(type_, tuple(show.typed(self._of.root, steps)), listed)
+        root = self._of.root
+        assert root is not None
+        is_there = missing_at(root, steps, listed) is None
+        return data_at(type_, tuple(show.typed(root, steps)), listed) if is_there else None
 
     def set(self, path: str, value: str) -> tuple[Any, Any]:
         """Changes a value in the running component, until it ends. Returns the value before, and now. Raises Refused,
@@ -144,7 +144,9 @@ class Session:
         changes = self._changes(path, steps, type_, value, listed)
         for key in changes:
             if key in listed and not listed[key].editable:
-                hint = "`editable: true` in its parameters allows it; `rcyaml config set` changes it for the next start"
+                hint = "it is a property of Ice, which the component reads when it starts"
+                if type_ is not None:
+                    hint = "`editable: true` in its parameters allows it; `rcyaml config set` sets it for the start"
                 raise NoAnswer(f"{path} of {self._of.name} cannot be changed while it runs: it is not editable", hint)
         types = {key: listed[key].type if key in listed else "string" for key in changes}
         root = _arguments({key: (text, types[key]) for key, text in changes.items()})
@@ -159,24 +161,59 @@ class Session:
         """The texts to set, by dotted paths."""
         if type_ is None:
             known = listed[dotted(steps)].type
-            if _read(known, value) is None:
+            if read(known, value) is None:
                 raise Refused(f"{path} must be {known}, but is '{value}'")
             return {dotted(steps): value}
         root = self._of.root
         assert root is not None
         if value == "null":
             raise Refused("`null` returns to the default in a document; a running component needs the value itself")
-        typed = tuple(show.typed(root, steps))
-        node = accepted(type_, typed, value, is_text=spells_text(type_, value), complete=True)
-        return dict(_flat(type_, node.data, typed))
+        where = tuple(show.typed(root, steps))
+        node = accepted(type_, where, value, is_text=spells_text(type_, value), complete=True)
+        grown = self._grown(root, steps, listed, node.data)
+        self._reject_broken(root, where, node.data, value, listed)
+        return {**grown, **dict(flat(type_, node.data, where))}
+
+    def _grown(self, root: RecordType, steps: list[str], listed: Mapping[str, Listed], data: Any) -> dict[str, str]:
+        """The new size of a list, or the new keys of a map, if the value is a further element of it. Raises Refused if
+        it is in an element that does not exist, and Faulty if there may be no further one."""
+        depth = missing_at(root, steps, listed)
+        if depth is None:
+            return {}
+        above = steps[:depth]
+        owner, where = show.type_at(root, above), tuple(show.typed(root, above))
+        assert isinstance(owner, (ListType, MapType))
+        key, names = dotted(where), names_in(owner, dotted(where), listed)
+        if depth + 1 < len(steps) or (isinstance(owner, ListType) and int(steps[depth]) != len(names)):
+            has = f"{len(names)} element{'' if len(names) == 1 else 's'}"
+            has = has if isinstance(owner, ListType) else f"no element '{steps[depth]}', which can be set as a whole"
+            what = in_words(show.typed(root, steps))
+            raise Refused(f"{self._of.name} cannot set {what}: {in_words(where)} has {has}")
+        if not holds_secret(owner):
+            whole = data_at(owner, where, listed)
+            whole = [*whole, data] if isinstance(owner, ListType) else {**whole, steps[depth]: data}
+            accepted(owner, where, flow(whole), is_text=False, complete=True)
+        if isinstance(owner, ListType):
+            return {f"{key}.size": str(len(names) + 1)}
+        return {f"{key}.keys": " ".join(paths.escaped(name) for name in (*map(str, names), steps[depth]))}
+
+    def _reject_broken(self, root: RecordType, path: Path, data: Any, value: str, listed: Mapping[str, Listed]) -> None:
+        """Raises Faulty if a constraint between parameters would not hold. Secrets are unknown in it."""
+        assert self._of.defined is not None
+        whole = with_value(without_hidden(data_at(root, (), listed)), path, data)
+        span = Span(VALUE, 1, 1, 1, len(value) + 1)
+        if faults := list(broken_constraints(self._of.defined, whole, None, span)):
+            raise Faulty(faults, None, {VALUE: value})
 
     def _verify(self, path: str, changes: Mapping[str, str], after: Mapping[str, Listed]) -> None:
         """Raises NoAnswer if the component did not take the values. A secret cannot be compared."""
         for key, text in changes.items():
             entry = after.get(key)
-            if entry is not None and entry.text != HIDDEN and not _same(entry.type, entry.text, text):
+            if entry is not None and entry.text != HIDDEN and not same(entry.type, entry.text, text):
                 hint = "its log has the reason, such as a constraint between parameters"
-                raise NoAnswer(f"{self._of.name} rejected {path} = {text}", hint)
+                root = self._of.root
+                shown = text if root is None else show.hidden_text(root, paths.parse(key), text)
+                raise NoAnswer(f"{self._of.name} rejected {path} = {shown}", hint)
 
 
 def _arguments(changes: Mapping[str, tuple[str, str]]) -> Tree:
@@ -192,109 +229,11 @@ def _arguments(changes: Mapping[str, tuple[str, str]]) -> Tree:
     })})  # fmt: skip
 
 
-def in_line(data: Any) -> str:
-    """A value as text in one line."""
-    return HIDDEN if data == HIDDEN else flow(data)
-
-
 def _returned(name: str, reply: Reply) -> Any:
     if reply.throws:
         why = str(reply.members.get("unknown", "")).removeprefix(_LOGGED)
         raise NoAnswer(f"{name}: {why}" if why else f"CommonBehavior of {name} raised {reply.throws}")
     return reply.returns
-
-
-def _read(type_: str, text: str) -> Any:
-    return text if text == HIDDEN else texts.read(type_, text)
-
-
-def _same(type_: str, left: str, right: str) -> bool:
-    first, second = texts.read(type_, left), texts.read(type_, right)
-    if isinstance(first, float) and isinstance(second, (int, float)):
-        return math.isclose(first, second, rel_tol=_ROUNDING)
-    return first == second
-
-
-def values(root: RecordType | None, listed: Mapping[str, Listed]) -> list[RunningValue]:
-    """The values of a list of CommonBehavior. `root` is None if no document defines the parameters."""
-    used = set[str]()
-    rows = list(_rows(root, (), listed, used)) if root is not None else []
-    for key, entry in listed.items():
-        if key not in used:
-            data = _read(entry.type, entry.text)
-            shown = data if not isinstance(data, str) else secrecy.shown(key.rpartition(".")[2], data)
-            rows.append(RunningValue(key, shown, entry.type, editable=entry.editable))
-    return rows
-
-
-def _rows(type_: Type, path: Path, listed: Mapping[str, Listed], used: set[str]) -> Iterator[RunningValue]:
-    key = dotted(path)
-    if isinstance(type_, RecordType):
-        for member in type_.members:
-            yield from _rows(member.type, (*path, member.name), listed, used)
-    elif isinstance(type_, (ListType, MapType)):
-        sizes = f"{key}.{'size' if isinstance(type_, ListType) else 'keys'}"
-        used.add(sizes)
-        names = _names(type_, key, listed)
-        for name in names:
-            yield from _rows(type_.element, (*path, name), listed, used)
-        if not names and sizes in listed:
-            empty: Any = [] if isinstance(type_, ListType) else {}
-            yield RunningValue(in_words(path), empty, "", editable=listed[sizes].editable)
-    elif key in listed:
-        used.add(key)
-        data = _shown(type_, path, listed[key].text)
-        yield RunningValue(in_words(path), data, type_.name, unit_of(type_), listed[key].editable)
-
-
-def _names(type_: ListType | MapType, key: str, listed: Mapping[str, Listed]) -> list[Step]:
-    if isinstance(type_, ListType):
-        entry = listed.get(f"{key}.size")
-        return list(range(texts.count(entry.text, 1_000_000) or 0)) if entry else []
-    entry = listed.get(f"{key}.keys")
-    return [paths.unescaped(name) for name in entry.text.split()] if entry else []
-
-
-def _data(type_: Type, path: Path, listed: Mapping[str, Listed]) -> Any:
-    """The values at a path; None if there is none."""
-    key = dotted(path)
-    if isinstance(type_, RecordType):
-        inner = {member.name: _data(member.type, (*path, member.name), listed) for member in type_.members}
-        return {name: value for name, value in inner.items() if value is not None}
-    if isinstance(type_, ListType):
-        return [_data(type_.element, (*path, name), listed) for name in _names(type_, key, listed)]
-    if isinstance(type_, MapType):
-        return {str(name): _data(type_.element, (*path, name), listed) for name in _names(type_, key, listed)}
-    return _shown(type_, path, listed[key].text) if key in listed else None
-
-
-def _shown(type_: Type, path: Path, text: str) -> Any:
-    """A plain value as it may be shown, also by a component that does not hide its secrets."""
-    if is_secret(type_):
-        return HIDDEN if text else text
-    data = _read(type_.name, text) if isinstance(type_, BasicType) else text
-    name = path[-1]
-    return secrecy.shown(name if isinstance(name, str) else "", data) if isinstance(data, str) else data
-
-
-def _flat(type_: Type, data: Any, path: Path) -> Iterator[tuple[str, str]]:
-    """Data as texts by dotted paths, as CommonBehavior lists them. What a record omits has its default."""
-    if isinstance(type_, RecordType):
-        for member in type_.members:
-            default = member.default.data if member.default is not None else None
-            value = data.get(member.name, default)
-            if value is not None:
-                yield from _flat(member.type, value, (*path, member.name))
-    elif isinstance(type_, ListType):
-        yield f"{dotted(path)}.size", str(len(data))
-        for at, item in enumerate(data):
-            yield from _flat(type_.element, item, (*path, at))
-    elif isinstance(type_, MapType):
-        yield f"{dotted(path)}.keys", " ".join(paths.escaped(name) for name in data)
-        for name, item in data.items():
-            yield from _flat(type_.element, item, (*path, name))
-    else:
-        yield dotted(path), texts.spelled(data)
 
 
 def _set_in(settings: Tree, steps: list[str]) -> Node | None:

@@ -42,6 +42,11 @@ class KnownTopic(msgspec.Struct, frozen=True):
     def type(self) -> str:
         return f"{self.scope.module.name}.{self.interface.name}" if self.scope and self.interface else ""
 
+    def inputs(self, message: str) -> list[str]:
+        """The names of the arguments of a message; of all its messages if none is named."""
+        methods = self.interface.methods if self.interface is not None else ()
+        return [each.name for one in methods if message in ("", one.name) for each in one.inputs]
+
 
 class Message(msgspec.Struct, frozen=True):
     """A message that arrived. `time` are seconds since the epoch, `clock` those of the monotonic clock. `values` are
@@ -65,11 +70,13 @@ class Message(msgspec.Struct, frozen=True):
 
 class Topics:
     """The topics of a deployment, or, without one, of the components of the workspace and of an IceStorm. `storm` is
-    the proxy of a topic manager instead of those of the documents; `config` a file with properties of Ice."""
+    the proxy of a topic manager, or its HOST:PORT, instead of those of the documents; `config` a file with properties
+    of Ice."""
 
     def __init__(self, addresses: Addresses, storm: str = "", config: str = "", timeout: float = TIMEOUT) -> None:
         without_ice()
-        self.addresses, self._storm, self._config, self._timeout = addresses, storm, config, timeout
+        self.addresses, self._config, self._timeout = addresses, config, timeout
+        self._storm = addresses.topic_manager(storm)
         self.documented: tuple[KnownTopic, ...] = tuple(self._of_documents())
 
     def _of_documents(self) -> Iterator[KnownTopic]:
@@ -188,6 +195,7 @@ class Topics:
         listed = (
             f"known are {', '.join(known or of_modules)}" if known or of_modules else "these documents have no topic"
         )
+        listed += "; --type says what another topic carries" if of_modules else ""
         raise Refused(f"unknown topic '{text}'{meant(text.partition('.')[0], [*known, *of_modules], listed)}")
 
     def _typed(self, text: str, type_: str) -> tuple[KnownTopic, str]:
@@ -195,7 +203,11 @@ class Topics:
         found = [(s, one) for s, one in every if type_ in (one.name, f"{s.module.name}.{one.name}")]
         if len(found) != 1:
             names = [f"{scope.module.name}.{one.name}" for scope, one in found or every]
-            raise Refused(f"'{type_}' is not one topic of these documents{meant(type_, names, ', '.join(names))}")
+            if found:
+                raise Refused(f"several topics of these documents are called '{type_}': {', '.join(names)}")
+            known = f"known are {', '.join(names)}" if names else "these documents have no topic"
+            what = f"'{type_}' is not a topic of these documents"
+            raise Refused(f"{what}{meant(type_, [*names, *(one.name for _, one in every)], known)}")
         scope, interface = found[0]
         name, dot, method = text.rpartition(".")
         if not (dot and any(one.name == method for one in interface.methods)):

@@ -255,16 +255,17 @@ class Values:
             raise Refused(f"{path} cannot be set in {self.file}:{error.node.span.line}: {error}") from None
         bom = raw[:3] if raw.startswith(b"\xef\xbb\xbf") else b""
         changed = bom + change.text.encode()
-        self._reject_new_errors(changed)
+        self._reject_new_errors(changed, {self._linked.document.path: change.text})
         shown, was = (show.hidden_text(of, named, text) for text in (value, change.was))
         return Change(self.file, path, shown, was, raw, changed)
 
-    def _reject_new_errors(self, changed: bytes) -> None:
+    def _reject_new_errors(self, changed: bytes, text: Mapping[str, str]) -> None:
+        """Raises Faulty. The locations are in the changed text, which is not written."""
         after = Values(self.file, self._include, {**self._overlay, os.path.realpath(self.file): changed})
         before = {(d.code, d.facts) for d in self.diagnostics}
         new = [d for d in after.diagnostics if d.severity == "error" and (d.code, d.facts) not in before]
         if new:
-            raise Faulty(new, after.documents_read)
+            raise Faulty(new, after.documents_read, text)
 
 
 def _is_flat(file: str) -> bool:

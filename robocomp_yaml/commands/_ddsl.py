@@ -70,6 +70,27 @@ def running_document(text: str) -> str:
     raise Refused(f"there is no document '{text}', and no running deployment of this name: see `rcyaml deploy ls`")
 
 
+def named_document(text: str) -> str:
+    """The document at a path, or that of the running deployment of this name, or the only one here of this name; '' if
+    there is none."""
+    if os.path.exists(text):
+        return text
+    is_path = "/" in text or text.endswith((".yaml", ".yml"))
+    return _running(text, is_path=is_path) or ("" if is_path else _of_name(text))
+
+
+def only_running() -> str:
+    """The document of the only deployment that runs, if there are no documents here; else ''."""
+    from robocomp_yaml.deploy import registered
+    from robocomp_yaml.link.workspace import root_above
+    from robocomp_yaml.source.discover import documents_below
+
+    if root_above("") or next(documents_below("."), ""):
+        return ""
+    found = [one.document for one in registered.every()]
+    return os.path.relpath(found[0]) if len(found) == 1 else ""
+
+
 def default_document() -> str:
     """This folder, if there are documents; else that of the only running deployment. Raises Refused if none runs, or
     several."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -17,9 +17,35 @@ if TYPE_CHECKING:
 
     from robocomp_yaml.api.addresses import Addresses
 
+
+class _Deployment(click.ParamType):  # type: ignore[type-arg]  # older ones are not generic
+    """A deployment: its document, or its name, as the path of the document."""
+
+    name = "ddsl"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        from robocomp_yaml.commands._ddsl import named_document
+
+        found = named_document(value)
+        if not found:
+            self.fail(f"there is no document '{value}', and no deployment of this name", param, ctx)
+        return found
+
+    def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+        return click.Path(exists=True).shell_complete(ctx, param, incomplete)
+
+
+def _default_deployment(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
+    """Where there are no documents, the only deployment that runs."""
+    from robocomp_yaml.commands._ddsl import only_running
+
+    return value or only_running() or None
+
+
 deployment = click.option(
-    "--deployment", metavar="DDSL", type=click.Path(exists=True),
-    help="The deployment; by default, the only one of the workspace.",
+    "--deployment", metavar="DDSL", type=_Deployment(), callback=_default_deployment,
+    help="The deployment: its document, or its name; by default, the only one of the workspace, and without "
+         "documents, the only one that runs.",
 )  # fmt: skip
 timeout = click.option("--timeout", type=Duration(), default="10s", metavar="TIME", show_default=True,
                        help="The longest time that a call may take.")  # fmt: skip
@@ -48,6 +74,19 @@ def completing(known: Callable[[Addresses, str], list[str]]) -> Any:
         return [CompletionItem(name) for name in names if name.startswith(incomplete)]
 
     return complete
+
+
+def reject_options(ctx: click.Context, words: Sequence[str], arguments: Collection[str]) -> None:
+    """Raises click's error for a word that was meant as an option, or as one of the `arguments`: words may begin with
+    `-`, so that click passes on what it does not know."""
+    for word in words:
+        option, _, value = word.partition("=")
+        if option.startswith("--") and option[2:].partition(".")[0] in arguments:
+            message = f"No such option '{option}': write {option[2:]}={value or '…'}, without `--`."
+            raise click.NoSuchOption(option, message, ctx=ctx)
+        if option.startswith("--"):
+            known = [name for one in ctx.command.get_params(ctx) for name in one.opts if name.startswith("--")]
+            raise click.NoSuchOption(option, possibilities=known, ctx=ctx)
 
 
 def methods(addresses: Addresses, incomplete: str) -> list[str]:

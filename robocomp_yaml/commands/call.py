@@ -46,6 +46,7 @@ def command(
     from robocomp_yaml.api.calling import RemoteMethod
 
     chosen = RemoteMethod(Addresses(deployment or "", include), method, identity)
+    _talking.reject_options(ctx, arguments, [one.name for one in chosen.method.inputs])
     stdin = _talking.standard_input() if "-" in arguments else None
     made = chosen.arguments(arguments, stdin)
     count = repeat if repeat or every else 1

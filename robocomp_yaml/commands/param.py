@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from functools import wraps
 from typing import TYPE_CHECKING, Any
 
@@ -16,11 +17,19 @@ from robocomp_yaml.diag import terminal
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.addresses import Addresses
-    from robocomp_yaml.api.running_parameters import RunningParameters, RunningValue, Session
+    from robocomp_yaml.api.listed_values import RunningValue
+    from robocomp_yaml.api.running_parameters import RunningParameters, Session
 
 
 def _names(addresses: Addresses, incomplete: str) -> list[str]:
-    return addresses.names()
+    from robocomp_yaml.addresses.port_numbers import COMMON_BEHAVIOR
+    from robocomp_yaml.diag.errors import Refused
+
+    names = []
+    for name in addresses.names():
+        with suppress(Refused):  # several components of a name
+            names += [name for one in addresses.peer(name).doors if one.name == COMMON_BEHAVIOR]
+    return names
 
 
 def _complete_path(ctx: click.Context, param: click.Parameter, incomplete: str) -> Any:
@@ -32,6 +41,20 @@ def _complete_path(ctx: click.Context, param: click.Parameter, incomplete: str) 
 
         root = RunningParameters(addresses, ctx.params.get("name") or "").root
         return [path for path, _ in leaves(root)] if root is not None else []
+
+    return _talking.completing(known)(ctx, param, incomplete)
+
+
+def _complete_value(ctx: click.Context, param: click.Parameter, incomplete: str) -> Any:
+    """The values that a parameter may have, if they can be listed."""
+
+    def known(addresses: Addresses, incomplete: str) -> list[str]:
+        from robocomp_yaml.api.completing.values import member_at, values_of
+        from robocomp_yaml.api.running_parameters import RunningParameters
+
+        root = RunningParameters(addresses, ctx.params.get("name") or "").root
+        member = member_at(root, [ctx.params.get("path") or ""]) if root is not None else None
+        return list(dict.fromkeys(one.text for one in values_of(member))) if member is not None else []
 
     return _talking.completing(known)(ctx, param, incomplete)
 
@@ -78,7 +101,8 @@ def list_(parameters: RunningParameters, session: Session, format_: str) -> None
         return
     width = max((min(len(_assignment(row)), 50) for row in rows), default=0)
     for row in rows:
-        terminal.say(f"{_assignment(row):<{width}}  # {row.type}{', editable' if row.editable else ''}")
+        about = [word for word in (row.type, "editable" if row.editable else "") if word]
+        terminal.say(f"{_assignment(row):<{width}}  # {', '.join(about)}")
 
 
 @command.command(short_help="Print one value of a running component.")
@@ -104,7 +128,7 @@ def get(ctx: click.Context, parameters: RunningParameters, session: Session, pat
                  context_settings={"ignore_unknown_options": True})  # fmt: skip
 @_name
 @_path
-@click.argument("value")
+@click.argument("value", shell_complete=_complete_value)
 @click.option("--save", is_flag=True, help="Also write it to the values document, for the next start.")
 @_running
 @click.pass_context
@@ -113,12 +137,16 @@ def set_(
 ) -> None:  # fmt: skip
     """Set the parameter at PATH to VALUE in a running COMPONENT, if its type and limits accept it: until the component
     ends. With --save also in the values document with which it starts; comments and layout of the document stay."""
-    from robocomp_yaml.api.running_parameters import in_line
+    from robocomp_yaml.api.listed_values import in_line
+    from robocomp_yaml.diag.errors import Refused
 
     change = parameters.saving(path, value) if save else None
     before, now = session.set(path, value)
     if change is not None:
-        change.apply()
+        try:
+            change.apply()
+        except Refused as error:
+            raise Refused(f"{parameters.name} has {path} = {in_line(now)} until it ends, but {error}") from None
     saved = change.file if change is not None else None
     if format_ == "json":
         terminal.data(
@@ -141,7 +169,7 @@ def watch(
     format_: str,
 ) -> None:  # fmt: skip
     """Print the values of a running COMPONENT, and then each change, until Ctrl-C. PATHs are parameters or groups."""
-    from robocomp_yaml.api.running_parameters import in_line
+    from robocomp_yaml.api.listed_values import in_line
 
     for path in paths:
         session.get(path)  # unknown ones are reported
@@ -169,7 +197,7 @@ def _is_in(path: str, paths: tuple[str, ...]) -> bool:
 
 
 def _assignment(row: RunningValue) -> str:
-    from robocomp_yaml.api.running_parameters import in_line
+    from robocomp_yaml.api.listed_values import in_line
 
     return f"{row.path} = {in_line(row.data)}" + (f" {row.unit}" if row.unit else "")
 

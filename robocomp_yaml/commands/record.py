@@ -16,6 +16,9 @@ from robocomp_yaml.commands.topic import topic_names, type_option, with_topics
 from robocomp_yaml.diag import terminal
 
 if TYPE_CHECKING:
+    from click.shell_completion import CompletionItem
+
+    from robocomp_yaml.api.addresses import Addresses
     from robocomp_yaml.api.recording import Recorder, RecordingInfo
     from robocomp_yaml.api.topics import Topics
     from robocomp_yaml.commands._arriving import Arriving
@@ -145,7 +148,7 @@ def _info_lines(found: RecordingInfo) -> list[str]:
         f"from {at}" + (f", deployment {found.deployment}" if found.deployment else ""),
     ]
     if found.dropped is None:
-        lines.append("the recorder was killed: messages of its last seconds are missing")
+        lines.append("the recorder still runs, or was killed: the last seconds are missing")
     elif found.dropped:
         lines.append("dropped: " + ", ".join(f"{number} of {name}" for name, number in found.dropped.items()))
     for row in rows:
@@ -155,9 +158,20 @@ def _info_lines(found: RecordingInfo) -> list[str]:
     return lines
 
 
+def _complete_recorded(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """The topics in the file."""
+    from robocomp_yaml.api import recording
+
+    def known(addresses: Addresses, incomplete: str) -> list[str]:
+        return sorted({one.topic for one in recording.info(ctx.params.get("file") or "").topics if one.topic})
+
+    found: list[CompletionItem] = _talking.completing(known)(ctx, param, incomplete)
+    return found
+
+
 @command.command(short_help="Publish what a file contains.", cls=LibraryCommand)
 @click.argument("file", type=click.Path(exists=True, dir_okay=False))
-@click.argument("names", nargs=-1, metavar="[TOPIC]...")
+@click.argument("names", nargs=-1, metavar="[TOPIC]...", shell_complete=_complete_recorded)
 @click.option("--rate", type=click.FloatRange(0), default=1.0, show_default=True, metavar="N",
               help="N times as fast; 0: as fast as possible.")  # fmt: skip
 @with_topics

@@ -31,8 +31,8 @@ def _message_names(addresses: Addresses, incomplete: str) -> list[str]:
     return [f"{one.name}.{method.name}" for one in known if one.interface for method in one.interface.methods]
 
 
-_storm = click.option("--storm", default="", metavar="PROXY", help="IceStorm's topic manager; by default, that of "
-                      "the deployment, else at port 9999.")  # fmt: skip
+_storm = click.option("--storm", default="", metavar="PROXY", help="IceStorm's topic manager, or its HOST:PORT; "
+                      "by default, that of the deployment, else at port 9999.")  # fmt: skip
 type_option = click.option(
     "--type", "type_", default="", metavar="NAME",
     help="The topic of the documents that it carries, if its name does not say it.",
@@ -191,6 +191,7 @@ def pub(
     from robocomp_yaml.diag import terminal
 
     topic, method = topics.find(name, type_)
+    _talking.reject_options(ctx, arguments, topic.inputs(method))
     stdin = _talking.standard_input() if "-" in arguments else None
     message = topics.message(topic, method, arguments, stdin)
     sent = 0

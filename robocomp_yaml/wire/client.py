@@ -139,6 +139,8 @@ def reason_of(error: Exception) -> str:
         return "nothing listens there"
     if isinstance(error, Ice.ConnectTimeoutException):
         return "it does not answer in time"
+    if isinstance(error, Ice.ObjectNotExistException):
+        return f"there is no object '{Ice.identityToString(error.id)}'"
     if isinstance(error, Ice.DNSException):
         return f"unknown host '{error.host}'"
     if isinstance(error, Ice.SyscallException) and error.error:

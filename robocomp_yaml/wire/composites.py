@@ -8,7 +8,7 @@ from typing import Any
 import IcePy
 
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.diag.suggest import did_you_mean
+from robocomp_yaml.diag.suggest import did_you_mean, suggest
 from robocomp_yaml.model import interface as model
 from robocomp_yaml.semantics import paths
 from robocomp_yaml.semantics.paths import Path
@@ -47,10 +47,14 @@ class Members:
         return tuple((self.attributes[name], (), type_.ice, *more) for name, type_ in self.types.items())
 
     def fill(self, made: Any, node: tree.Mapping, path: Path, report: Report) -> None:
-        """Sets the attributes of a value to what a mapping says, and to defaults."""
+        """Sets the attributes of a value to what a mapping says, and to defaults. A misspelled member is one fault."""
+        absent = [name for name in self.types if name not in node.entries]
+        meant = set[str | None]()
         for key, _ in node.items():
             if key.lexeme not in self.types:
-                hint = did_you_mean(key.lexeme, self.types) or f"there is {', '.join(self.types) or 'no member'}"
+                meant.add(suggest(key.lexeme, absent))
+                there = ", ".join(self.types) or ("no member" if path else "no argument")
+                hint = did_you_mean(key.lexeme, absent) or f"there is {there}"
                 report(Fault(key.span, paths.in_words((*path, key.lexeme)), "is unknown", hint))
         for name, type_ in self.types.items():
             entry, default = node.entries.get(name), self._defaults.get(name)
@@ -58,6 +62,8 @@ class Members:
                 value = type_.to_ice(entry[1], (*path, name), report)
             elif default is not None:
                 value = type_.to_ice(tree.scalar_at(node.span, default.lexeme), (*path, name), report)
+            elif name in meant:
+                value = None
             else:
                 value = None
                 article = "an" if type_.name[:1].lower() in "aeiou" else "a"

@@ -49,7 +49,9 @@ def no_answer(
         case NotConnected():
             where = f"{called.who} cannot be reached at {called.where}"
             if error.error is None:
-                hint = "it hangs, its host is off, or another program listens there"
+                plain = called.where.startswith(("tcp ", "ws "))
+                what = "another program" + (" or one with TLS (ssl:HOST:PORT)" if plain else "")
+                hint = f"it hangs, its host is off, or {what} listens there"
                 return NoAnswer(f"{where}: it does not answer within {limit:g} s", hint)
             return NoAnswer(f"{where}: {_why(error.error)}", called.not_running)
         case OutOfTime():

@@ -20,11 +20,13 @@ def topic_manager(communicator: Any, text: str, patience: int = PATIENCE) -> Any
     """The topic manager of a proxy. Raises NoAnswer, and Refused if the text is not a proxy."""
     proxy = proxy_of(communicator, text).ice_invocationTimeout(patience)
     try:
-        proxy.ice_ping()
+        manager = IceStorm.TopicManagerPrx.checkedCast(proxy)
+        reason = "" if manager is not None else "what answers there is not its topic manager"
     except Ice.Exception as error:
         reason = "it does not answer in time" if isinstance(error, Ice.TimeoutException) else reason_of(error)
-        raise NoAnswer(f"IceStorm, which carries topics, does not answer at '{text}': {reason}") from None
-    return IceStorm.TopicManagerPrx.uncheckedCast(proxy)
+    if reason:
+        raise NoAnswer(f"IceStorm, which carries topics, does not answer at '{text}': {reason}")
+    return manager
 
 
 def topic(manager: Any, name: str) -> Any:

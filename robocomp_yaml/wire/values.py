@@ -23,6 +23,7 @@ from robocomp_yaml.diag.fix import Hint
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.model import interface as model
+from robocomp_yaml.patterns import pattern
 from robocomp_yaml.semantics import paths
 from robocomp_yaml.semantics.paths import Path
 from robocomp_yaml.source import tree
@@ -34,6 +35,7 @@ Data = Any
 _INTEGERS = {"byte": (0, 2**8 - 1), "short": (-(2**15), 2**15 - 1), "int": (-(2**31), 2**31 - 1)}
 _INTEGERS["long"] = (-(2**63), 2**63 - 1)
 _SHOWN = 60  # characters of a wrong value in a message
+_DIGIT = pattern(r"\d")  # infinities have none, unless they are numbers that are too large
 
 
 Shape = tuple[Any, ...]
@@ -144,9 +146,11 @@ class Real(WireType):
             return self._wrong(node, path, report, "a number")
         try:
             struct.pack("<f" if self.name == "float" else "<d", data)
-            return float(data)
+            if math.isfinite(data) or not isinstance(node, tree.Scalar) or not _DIGIT.search(node.lexeme):
+                return float(data)
         except OverflowError:
-            return self._wrong(node, path, report, f"a number that a {self.name} can hold")
+            pass
+        return self._wrong(node, path, report, f"a number that a {self.name} can hold")
 
     def to_data(self, value: Any) -> Data:
         """A float as the shortest number that is the same one in 32 bits: 0.1, not 0.10000000149011612."""

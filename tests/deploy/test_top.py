@@ -152,7 +152,19 @@ def test_by_its_name_from_anywhere(
     for words in ([], ["Robot"], ["--deployment", "Robot"], ["Robot", "idle"], ["--deployment", "Robot", "idle"]):
         (sample,) = sampled(rcyaml, "--count", "1", *words)
         assert list(by_name(sample)) == (["idle"] if "idle" in words else ["spin", "idle"])
+    for words in ([], ["--deployment", "Robot"]):  # so do the commands that talk to its components
+        done = rcyaml("call", "idle.Arm.move", *words)
+        assert done.exit_code == 2 and "idle serves no interface 'Arm'" in done.output
+        assert rcyaml("topic", "echo", "Lit", *words).exit_code == 2
+        done = rcyaml("param", "list", "idel", *words)
+        assert done.exit_code == 2 and "robot.ddsl.yaml has no component 'idel'" in done.output
+    monkeypatch.chdir(robot)
+    assert "idle serves no" in rcyaml("call", "idle.Arm.move", "--deployment", "Robot").output
+    assert "there is no document 'Robto', and no" in rcyaml("call", "idle.Arm.move", "--deployment", "Robto").output
+    monkeypatch.chdir(tmp_path / "elsewhere")
     os.unlink(robot / "robot.ddsl.yaml")
+    done = rcyaml("call", "idle.Arm.move")
+    assert done.exit_code == 1 and "robot.ddsl.yaml" in done.output and "error[RC0" in done.output, done.output
     assert list(by_name(sampled(rcyaml, "--once", "Robot")[0])) == ["spin", "idle"]
 
 

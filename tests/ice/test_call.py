@@ -77,7 +77,8 @@ def test_addresses_of_one_component(server: Server, rcyaml: Rcyaml) -> None:
     for address in (
         "arm.Arm.move", "arm.move", "arm.RoboCompArm.Arm.move", "Server.Arm.move", "server.Arm.move",
         "server/server.cdsl.yaml.Arm.move", f"localhost:{server.arm}.Arm.move", f"127.0.0.1:{server.arm}/Arm/move",
-        f"localhost:{server.arm}.move",
+        f"localhost:{server.arm}.move", "./server.Arm.move", "server/.Arm.move",
+        f"{os.path.abspath('server')}.Arm.move",
     ):  # fmt: skip
         assert result(rcyaml("call", address, f"{{{POSES}, fast: false}}", "--format", "json")) == expected, address
     words = ("call", "arm.move", "path=[]", "fast=false", "--deployment", "robot.ddsl.yaml", "--format", "json")
@@ -122,6 +123,7 @@ def test_exceptions_are_values(server: Server, rcyaml: Rcyaml) -> None:
         (["path: []", "fast: maybe"], ["argument 2:1:7", "'fast' must be true or false, but is maybe"]),
         (["path=[]\n- x", "fast=true"], ["argument 1:"]),
         (["path=", "fast=true"], ["argument 1:1:6", "'path' must be a list, but is missing"]),
+        (["path=[{x: 1e400, side: left}]", "fast=no"], ["argument 1:1:11", "a number that a ", "but is 1e400"]),
         (["-"], ["standard input:2:1", "'fats' is unknown", "did you mean 'fast'?"]),
     ],
 )
@@ -133,6 +135,16 @@ def test_wrong_arguments_are_not_sent(tmp_path: Path, rcyaml: Rcyaml, words: lis
     for part in said:
         assert part in done.output
     assert "cannot be reached" not in done.output
+
+
+def test_a_misspelled_argument_is_one_fault(tmp_path: Path, rcyaml: Rcyaml) -> None:
+    write_tree(tmp_path, {**INTERFACES, "rcyaml.yaml": "interfaces: [.]\n"})
+    done = rcyaml("call", "localhost:9.Arm.move", "path=[{x: 1, sied: left}]", "fats=true")
+    assert done.output.count("error[RC9001]") == 2, done.output
+    assert "did you mean 'side'?" in done.output and "did you mean 'fast'?" in done.output
+    for stdin, said in (("", "'path' is missing"), ("[1]\n", "the value as a whole must be a mapping of arguments")):
+        done = rcyaml("call", "localhost:9.Arm.move", "-", stdin=stdin)
+        assert done.exit_code == 1 and said in done.output
 
 
 @pytest.mark.parametrize(
@@ -148,6 +160,13 @@ def test_wrong_arguments_are_not_sent(tmp_path: Path, rcyaml: Rcyaml, words: lis
         (["twin{i}.Arm.move"], "'twin{i}' means several processes; name one of twin0, twin1"),
         (["arm.Hand.grasp", "x"], "'x' is neither NAME=VALUE nor a mapping of arguments; write image=…"),
         (["arm.Hand.grasp", "image=[]", "--timeout", "soon"], "'soon' is not a duration"),
+        (["arm.Hand.grasp", "image=[]", "--timout", "3s"], "No such option '--timout'. Did you mean '--timeout'?"),
+        (["arm.Hand.grasp", "--image=[]"], "No such option '--image': write image=[], without `--`"),
+        (["arm.Hand.grasp", "-1"], "write image=…"),
+        (["nowhere.Arm.move"], "known are arm, twin0, twin1, Server, and HOST:PORT"),
+        (["./arn.Arm.move"], "has no component './arn.Arm.move'"),
+        (["localhost:70000.Arm.move"], "'70000' is not a TCP port: they are from 1 to 65535"),
+        (["localhost:9.Amr.move"], "these documents have no interface 'Amr'; did you mean 'Arm'?"),
         (["nowhere.Arm.move", "--deployment", "other.ddsl.yaml"], "other.ddsl.yaml"),
     ],
 )
@@ -215,6 +234,7 @@ def test_one_that_hangs(server: Server, rcyaml: Rcyaml) -> None:
     server.running.process.send_signal(signal.SIGSTOP)
     done = rcyaml("call", "arm.state", "--timeout", "500ms")
     assert done.exit_code == 1 and "it does not answer within 0.5 s" in done.output
+    assert "or one with TLS (ssl:HOST:PORT) listens there" in done.output
     assert time.monotonic() - began < 10
 
 
@@ -268,13 +288,40 @@ def connections(port: int) -> str:
     return "".join("2" for row in rows if int(row[2].rpartition(":")[2], 16) == port and row[3] == "01")
 
 
-def test_names_complete(build: Build, tmp_path: Path) -> None:
-    build({**WORKSPACE, "server/server.cdsl.yaml": cdsl("Server", implements=["Arm"])})
-    write_tree(tmp_path, {"robot.ddsl.yaml": "deployment: R\ncomponents: {arm: {component: server}}\n"})
-    environment = {**os.environ, "_RCYAML_COMPLETE": "bash_complete", "COMP_WORDS": "rcyaml call ar", "COMP_CWORD": "2"}
+DIALS = "parameters:\n  mode: {type: Mode, default: slow}\n  on: {type: bool, default: true}\n"
+
+
+@pytest.mark.parametrize(
+    ("words", "names"),
+    [
+        ("call fo", [f"fore.Arm.{method}" for method in ("move", "state", "breakDown", "betray", "block")]),
+        ("call ar", [f"arm.Arm.{method}" for method in ("move", "state", "breakDown", "betray", "block")]),
+        ("call arm.CommonBehavior.getP", ["arm.CommonBehavior.getPeriod", "arm.CommonBehavior.getParameterList"]),
+        ("topic echo ", ["ArmEvents"]),
+        ("topic pub Arm", ["ArmEvents.moved", "ArmEvents.count"]),
+        ("record ", ["ArmEvents"]),
+        ("param get ", ["arm", "Server"]),
+        ("param set arm mo", ["mode"]),
+        ("param set arm mode ", ["slow", "fast"]),
+        ("param set arm on f", ["false"]),
+        ("param set arm nothing ", []),
+        ("top ", ["storm", "arm", "fore.gate"]),
+    ],
+)
+def test_names_complete(tmp_path: Path, words: str, names: list[str]) -> None:
+    keys = {"implements": ["Arm"], "publishes": ["ArmEvents"], "parameters": "server.pdsl.yaml"}
+    write_tree(tmp_path, {
+        **WORKSPACE,
+        "server/server.cdsl.yaml": cdsl("Server", **keys),
+        "server/server.pdsl.yaml": f"component: server.cdsl.yaml\ntypes: {{Mode: {{enum: [slow, fast]}}}}\n{DIALS}",
+        "robot.ddsl.yaml": "deployment: R\nservices: {storm: {icestorm: }}\ncomponents: {arm: {component: server}}\n"
+        "groups: {fore: {components: [arm], expose: {Arm: {member: arm, rate: 5}}}}\n",
+    })  # fmt: skip
+    typed = f"rcyaml {words}"
+    environment = {**os.environ, "_RCYAML_COMPLETE": "bash_complete", "COMP_WORDS": typed,
+                   "COMP_CWORD": str(len(typed.split(" ")) - 1)}  # fmt: skip
     done = subprocess.run([RCYAML], cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
-    names = [line.partition(",")[2] for line in done.stdout.splitlines()]
-    assert names == [f"arm.Arm.{method}" for method in ("move", "state", "breakDown", "betray", "block")]
+    assert [line.partition(",")[2] for line in done.stdout.splitlines() if line] == names, done.stderr
 
 
 OPENSSL = """openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:P-256 -nodes -days 9 -subj /CN=robot \\

@@ -72,7 +72,9 @@ def test_in_each_language(component: Component, start: Start, rcyaml: Rcyaml, mo
         ("basicPeriod", "7", 7),
         ("mode", "fast", "fast"),
         ("gains", "[1, 2.5]", [1, 2.5]),
+        ("gains[2]", "-3", -3),
         ("offsets", '{a: 1, "b c": -0.1}', {"a": 1, "b c": -0.1}),
+        ('offsets["d.e"]', "4", 4),
         ("Yolo.useGpu", "false", False),
         ("server", "a b: c", "a b: c"),
         ("motors[0].min", "-2.5", -2.5),
@@ -80,6 +82,8 @@ def test_in_each_language(component: Component, start: Start, rcyaml: Rcyaml, mo
         ("pin", "1234", "***"),
     ):
         assert set_and_read(rcyaml, "ParaComp", path, value) == now, path
+    for path, whole in (("gains", [1, 2.5, -3]), ("offsets", {"a": 1, "b c": -0.1, "d.e": 4})):
+        assert json.loads(rcyaml("param", "get", "ParaComp", path, "--format", "json").stdout)["value"] == whole
 
 
 @pytest.fixture
@@ -107,7 +111,19 @@ REJECTED = (
     ("motors", "[{name: z, min: 0}]", 1, "motors[0].max"),
     ("basicPerod", "1", 2, "did you mean 'basicPeriod'?"),
     ("device", "/dev/x", 1, "it is not editable"),
-    ("motors[0].min", "2", 1, "ParaComp rejected motors[0].min = 2"),
+    ("motors[0].min", "2", 1, "a motor's min must be below its max"),
+    ("nothing", "1", 2, "known are mode, device"),
+    ("gains[7]", "1", 2, "ParaComp cannot set gains[7]: gains has 1 element"),
+    ("motors[1].vel", "1", 2, "motors has 1 element"),
+    ("motors[1]", "{name: b}", 1, "motors[1].min"),
+    (
+        "motors",
+        "[{name: a, min: 0, max: 1}, {name: a, min: 0, max: 1}, {name: a, min: 0, max: 1}, "
+        "{name: a, min: 0, max: 1}, {name: a, min: 0, max: 1}]",
+        1,
+        "motors has 5 elements",
+    ),
+    ("CommonBehavior.Endpoints", "tcp", 1, "it is a property of Ice"),
     ("gains", "[1", 1, "value:1:1"),
     ("pin", "12345", 1, "pin is ***"),
     ("basicPeriod", "null", 2, "needs the value itself"),
@@ -124,6 +140,45 @@ def test_what_is_rejected_changes_nothing(python: Built, rcyaml: Rcyaml) -> None
         assert rcyaml("param", "set", "ParaComp", path, value, "--save").exit_code in (1, 2)
     assert rcyaml("param", "list", "ParaComp").stdout == before
     assert Path("para/etc/config.yaml").read_text() == document
+
+
+def test_a_list_has_no_more_elements_than_it_may_have(python: Built, rcyaml: Rcyaml) -> None:
+    for number in (1, 2, 3):
+        assert rcyaml("param", "set", "ParaComp", f"motors[{number}]", "{name: x, min: 0, max: 1}").exit_code == 0
+    done = rcyaml("param", "set", "ParaComp", "motors[4]", "{name: x, min: 0, max: 1}")
+    assert done.exit_code == 1 and "motors has 5 elements, and must have 1 to 4" in done.output
+
+
+def test_what_has_no_value(python: Built, rcyaml: Rcyaml) -> None:
+    for path in ("motors[9]", "motors[9].vel", "offsets.nothing", "server"):
+        done = rcyaml("param", "get", "ParaComp", path)
+        assert (done.exit_code, done.output) == (1, f"{path} has no value\n")
+    assert "offsets = {}" in (listed := rcyaml("param", "list", "ParaComp").stdout) and "# map, editable" in listed
+
+
+def test_a_document_that_cannot_be_saved(python: Built, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The document has errors, is not there, or cannot be written; the last is known only after the value was set."""
+    document = Path("para/etc/config.yaml")
+    before = document.read_text()
+    at = f"127.0.0.1:{before.rpartition('-p ')[2].strip(' }' + chr(10))}"
+    write_tree(Path(), {"r.ddsl.yaml": "deployment: R\ncomponents:\n  arm: {component: para, "
+                        f"ports: {{CommonBehavior: {at.rpartition(':')[2]}}}}}\n"})  # fmt: skip
+    document.write_text("parameters: [\n")
+    done = rcyaml("param", "set", "arm", "mode", "fast", "--save")
+    assert done.exit_code == 1 and "error[RC0101]" in done.output and "etc/config.yaml:1:14" in done.output
+    document.unlink()
+    done = rcyaml("param", "set", "arm", "mode", "fast", "--save")
+    assert done.exit_code == 2 and "write one with `rcyaml config new para`" in done.output
+    assert '"slow"' in rcyaml("param", "get", "arm", "mode", "--format", "json").stdout
+    document.write_text(before)
+
+    def full(path: str, data: bytes) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("robocomp_yaml.transactions.whole_file.replace", full)
+    done = rcyaml("param", "set", "ParaComp", "mode", "fast", "--save")
+    assert done.exit_code == 2 and "ParaComp has mode = fast until it ends, but cannot write" in done.output
+    assert document.read_text() == before
 
 
 def test_save_changes_the_document_too(python: Built, rcyaml: Rcyaml) -> None:

@@ -188,7 +188,10 @@ print("sent in", time.monotonic() - began)
     [
         (["echo", "ArmEvent"], 2, "unknown topic 'ArmEvent'; did you mean"),
         (["echo", "ArmEvents.mooved"], 2, "did you mean 'moved'?"),
-        (["echo", "Other", "--type", "Nothing"], 2, "'Nothing' is not one topic of these documents"),
+        (["echo", "Other", "--type", "Nothing"], 2, "'Nothing' is not a topic of these documents; known are RoboComp"),
+        (["echo", "Other", "--type", "ArmEvent"], 2, "did you mean 'ArmEvents'?"),
+        (["echo", "Other"], 2, "--type says what another topic carries"),
+        (["pub", "ArmEvents.count", "n=1", "--rat", "5"], 2, "No such option '--rat'"),
         (["pub", "ArmEvents"], 2, "name the message: ArmEvents.moved, ArmEvents.count"),
         (["pub", "ArmEvents.count", "n=x"], 1, "argument 1:1:3"),
         (["pub", "ArmEvents.count", "n=1"], 1, "does not answer at 'IceStorm/TopicManager:tcp -h localhost -p 9"),
@@ -204,6 +207,18 @@ def test_what_cannot_be_done(rcyaml: Rcyaml, tmp_path: Path, words: list[str], c
     done = rcyaml("topic", *words, "--storm", "IceStorm/TopicManager:tcp -h localhost -p 9")
     assert done.exit_code == code
     assert said in done.output
+
+
+def test_what_is_not_an_icestorm(talk: Talk, rcyaml: Rcyaml) -> None:
+    """By HOST:PORT, which is enough for one that is; by an identity that nobody has; and something else."""
+    endpoint = talk.manager.partition(":")[2]
+    at = f"127.0.0.1:{endpoint.rpartition('-p ')[2].split()[0]}"
+    done = rcyaml("topic", "pub", f"{talk.name}.count", "n=1", "--storm", at)
+    assert done.exit_code == 0, done.output
+    done = rcyaml("topic", "list", "--storm", f"Storm/TopicManager:{endpoint}")
+    assert done.exit_code == 1 and "there is no object 'Storm/TopicManager'" in done.output
+    done = rcyaml("topic", "list", "--storm", f"IceStorm/topic.{talk.name}:{endpoint}")
+    assert done.exit_code == 1 and "what answers there is not its topic manager" in done.output
 
 
 @pytest.fixture

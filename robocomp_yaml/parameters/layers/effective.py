@@ -64,7 +64,7 @@ def effective(values: LayeredValues) -> tuple[Effective | None, Sequence[Diagnos
     if found or values.broken or not is_usable(linked):
         return None, found
     whole = completed(linked, data) if whole is None else whole
-    found += _broken_constraints(linked.parameters, whole, merged_value, head)
+    found += broken_constraints(linked.parameters, whole, merged_value, head)
     return (None if found else Effective(whole, merged_value, linked.parameters)), found
 
 
@@ -122,9 +122,10 @@ def _without_null(node: Node) -> Node:
     return sequence_at(node.span, [_without_null(item) for item in node.items]) if isinstance(node, List) else node
 
 
-def _broken_constraints(
+def broken_constraints(
     parameters: Parameters, data: dict[str, Any], merged_value: MergedValue | None, head: Span
 ) -> Iterator[Diagnostic]:
+    """The constraints that complete values break, at the value that one of them names, else at `head`."""
     if not parameters.constraints:
         return
     from robocomp_yaml.parameters.expressions import evaluate
