@@ -38,12 +38,13 @@ QT5, EIGEN = list(Path("/usr/lib").glob("*/cmake/Qt5/Qt5Config.cmake")), Path("/
 pytestmark = [needs_cpp, pytest.mark.slow]
 
 
-def commands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, headers: str, lists: str) -> str:
-    """The commands that compile a worker with these lines."""
+def commands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, headers: str, lists: str, more: str = "") -> str:
+    """The commands that compile a worker with these lines; `more` is the generic part that RoboComp's tool left."""
     write_tree(tmp_path, {
         **CLASSES, "bot/bot.cdsl.yaml": "component: Bot\nlanguage: cpp\ncompatibility: robocomp\n",
         "bot/src/specificworker.h": WORKER.format(headers), "bot/src/CMakeListsSpecific.txt": lists,
         "bot/src/specificworker.cpp": '#include "specificworker.h"\n',
+        **({"bot/src/genericworker.h": more} if more else {}),
     })  # fmt: skip
     monkeypatch.setenv("ROBOCOMP", str(tmp_path / "robocomp"))
     assert CliRunner().invoke(group, ["compile", str(tmp_path / "bot")]).exit_code == 0
@@ -90,3 +91,12 @@ def test_headers_of_qt_4_are_found(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     words = ["g++", "-fPIC", "-E", *folders, tmp_path / "x.cpp"]
     done = subprocess.run(words, capture_output=True, text=True, timeout=120, check=False)
     assert done.returncode == 0 and "QFrame :" in done.stdout, done.stderr
+
+
+@pytest.mark.parametrize(("more", "is_used"), [
+    ("", False), ("using namespace std;\nclass GenericWorker {};\n", False),
+    ("using namespace std;\nusing namespace RoboCompLaser;\nclass GenericWorker {};\n", True),
+])  # fmt: skip
+def test_types_without_their_module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, more: str, is_used: bool) -> None:
+    """The first generation with TuplePrx had `using namespace`, as the one with MapPrx."""
+    assert ("ROBOCOMP_UNQUALIFIED" in commands(tmp_path, monkeypatch, "", "", more)) == is_used
