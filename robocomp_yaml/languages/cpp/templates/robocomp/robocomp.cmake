@@ -85,25 +85,28 @@ if(OpenCV_FOUND AND OpenCV_VERSION VERSION_GREATER_EQUAL 4)
   endforeach()
 endif()
 
-# Libraries of RoboComp's agents, which no distribution has: they are named before the compiler misses a header.
+# Libraries of RoboComp's agents, which no distribution has: they are named before the compiler misses a header, or a type
+# whose header RoboComp's generic part included.
 get_directory_property(component_folders INCLUDE_DIRECTORIES)
 file(GLOB_RECURSE component_code
   "${component_root}/src/*.h" "${component_root}/src/*.hpp" "${component_root}/src/*.cpp")
 foreach(row IN ITEMS
-    "dsr/api/dsr_api.h|dsr/|the DSR library of RoboComp's agents (https://github.com/robocomp/cortex)"
-    "agm.h|agm[_.a-zA-Z]*|AGM (https://github.com/ljmanso/AGM)")
+    "dsr/api/dsr_api.h|dsr/|DSR::|the DSR library of RoboComp's agents (https://github.com/robocomp/cortex)"
+    "agm.h|agm[_.a-zA-Z]*|AGM[MI][a-z]+|AGM (https://github.com/ljmanso/AGM)")
   string(REPLACE "|" ";" row "${row}")
   list(GET row 0 header)
   list(GET row 1 beginning)
-  list(GET row 2 library)
+  list(GET row 2 name)
+  list(GET row 3 library)
   string(MAKE_C_IDENTIFIER "component_folder_of_${header}" found)
   find_path(${found} ${header} PATHS ${component_folders} "${component_root}/src" "${component_robocomp}/include"
     /usr/local/include /opt/robocomp/include)
   mark_as_advanced(${found})
   foreach(file IN LISTS component_code)
-    file(STRINGS "${file}" lines REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"]${beginning}")
+    file(STRINGS "${file}" lines REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"]${beginning}|^[^/*\"]*(^|[^A-Za-z0-9_])${name}")
     if(lines AND NOT ${found} AND NOT file MATCHES "/(generic|common|specificmonitor)[A-Za-z]*[.](h|cpp)$")
       list(GET lines 0 line)
+      string(STRIP "${line}" line)
       file(RELATIVE_PATH file "${component_root}" "${file}")
       message(FATAL_ERROR "${component_name} needs ${library}, which is not installed: ${file} has ${line}")
     endif()
