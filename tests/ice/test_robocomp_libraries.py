@@ -34,6 +34,12 @@ CLASSES = {
     "robocomp/classes/plain/plain.cpp": '#include "plain.h"\n',
 }
 
+LIBRARY = {
+    "robocomp/libs/CMakeLists.txt": "project(libs LANGUAGES CXX)\nadd_library(innermodel SHARED model.cpp)\n",
+    "robocomp/libs/model.cpp": "int model() { return 1; }\n",
+    "robocomp/libs/innermodel/include/innermodel/innermodel.h": "struct InnerModel {};\n",
+}
+OSG = Path("/usr/include/osg/Node").exists() and Path("/usr/include/gsl/gsl_math.h").exists()
 QT5, EIGEN = list(Path("/usr/lib").glob("*/cmake/Qt5/Qt5Config.cmake")), Path("/usr/include/eigen3").exists()
 pytestmark = [needs_cpp, pytest.mark.slow]
 
@@ -50,9 +56,11 @@ def commands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, headers: str, list
     assert CliRunner().invoke(group, ["compile", str(tmp_path / "bot")]).exit_code == 0
     words = ["cmake", "-S", tmp_path / "bot", "-B", tmp_path / "b", "-G", "Ninja", "-DCMAKE_EXPORT_COMPILE_COMMANDS=1"]
     done = subprocess.run(words, capture_output=True, text=True, timeout=120, check=False)
-    assert done.returncode == 0, done.stdout + done.stderr
+    if done.returncode:
+        return " ".join(done.stderr.split())
     found = json.loads((tmp_path / "b/compile_commands.json").read_text())
-    return "".join(one["command"] for one in found if one["file"].startswith(str(tmp_path / "bot/src")))
+    own = (str(tmp_path / "bot/src"), str(tmp_path / "robocomp"))
+    return "".join(one["command"] for one in found if one["file"].startswith(own))
 
 
 @pytest.mark.skipif(not QT5, reason="qtbase5-dev is not installed")
@@ -100,3 +108,22 @@ def test_headers_of_qt_4_are_found(tmp_path: Path, monkeypatch: pytest.MonkeyPat
 def test_types_without_their_module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, more: str, is_used: bool) -> None:
     """The first generation with TuplePrx had `using namespace`, as the one with MapPrx."""
     assert ("ROBOCOMP_UNQUALIFIED" in commands(tmp_path, monkeypatch, "", "", more)) == is_used
+
+
+@pytest.mark.skipif(not (QT5 and OSG), reason="qtbase5-dev, libopenscenegraph-dev or libgsl-dev is not installed")
+@pytest.mark.parametrize(("member", "is_used"), [("InnerModel *model;", True), ("// InnerModel *model;", False)])
+def test_robocomp_libraries_that_are_not_installed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, member: str, is_used: bool
+) -> None:
+    """They are compiled from RoboComp's sources, for code that uses them."""
+    write_tree(tmp_path, LIBRARY)
+    commands(tmp_path, monkeypatch, f"#include <innermodel/innermodel.h>\n{member}", "")
+    assert ("robocomp_libs/libinnermodel.so" in (tmp_path / "b/build.ninja").read_text()) == is_used
+
+
+def test_paths_of_another_machine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """RoboComp was in another folder there: its sources are found, and a header by such a path is named."""
+    lists = "SET(SOURCES specificworker.cpp /home/nobody/robocomp/classes/plain/plain.cpp)\n"
+    assert str(tmp_path / "robocomp/classes/plain/plain.cpp") in commands(tmp_path, monkeypatch, "", lists)
+    said = commands(tmp_path, monkeypatch, "#include </home/nobody/robocomp/classes/plain/plain.h>", "")
+    assert "write <plain/plain.h>, or make /home/nobody/robocomp a link to RoboComp: sudo ln -s" in said
