@@ -44,13 +44,14 @@ QT5, EIGEN = list(Path("/usr/lib").glob("*/cmake/Qt5/Qt5Config.cmake")), Path("/
 pytestmark = [needs_cpp, pytest.mark.slow]
 
 
-def commands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, headers: str, lists: str, more: str = "") -> str:
-    """The commands that compile a worker with these lines; `more` is the generic part that RoboComp's tool left."""
+def commands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, headers: str, lists: str, **more: str) -> str:
+    """The commands that compile a worker with these lines; `more` are further files in its folder `src`, by the names
+    of their headers."""
     write_tree(tmp_path, {
         **CLASSES, "bot/bot.cdsl.yaml": "component: Bot\nlanguage: cpp\ncompatibility: robocomp\n",
         "bot/src/specificworker.h": WORKER.format(headers), "bot/src/CMakeListsSpecific.txt": lists,
         "bot/src/specificworker.cpp": '#include "specificworker.h"\n',
-        **({"bot/src/genericworker.h": more} if more else {}),
+        **{f"bot/src/{name}.h": text for name, text in more.items()},
     })  # fmt: skip
     monkeypatch.setenv("ROBOCOMP", str(tmp_path / "robocomp"))
     assert CliRunner().invoke(group, ["compile", str(tmp_path / "bot")]).exit_code == 0
@@ -107,7 +108,7 @@ def test_headers_of_qt_4_are_found(tmp_path: Path, monkeypatch: pytest.MonkeyPat
 ])  # fmt: skip
 def test_types_without_their_module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, more: str, is_used: bool) -> None:
     """The first generation with TuplePrx had `using namespace`, as the one with MapPrx."""
-    assert ("ROBOCOMP_UNQUALIFIED" in commands(tmp_path, monkeypatch, "", "", more)) == is_used
+    assert ("ROBOCOMP_UNQUALIFIED" in commands(tmp_path, monkeypatch, "", "", genericworker=more)) == is_used
 
 
 @pytest.mark.skipif(not (QT5 and OSG), reason="qtbase5-dev, libopenscenegraph-dev or libgsl-dev is not installed")
@@ -127,3 +128,13 @@ def test_paths_of_another_machine(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     assert str(tmp_path / "robocomp/classes/plain/plain.cpp") in commands(tmp_path, monkeypatch, "", lists)
     said = commands(tmp_path, monkeypatch, "#include </home/nobody/robocomp/classes/plain/plain.h>", "")
     assert "write <plain/plain.h>, or make /home/nobody/robocomp a link to RoboComp: sudo ln -s" in said
+
+
+def test_files_that_slice2cpp_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """They declare everything a second time."""
+    left = "// Generated from file `CommonBehavior.ice'\n#ifndef __CommonBehavior_h__\n#define __CommonBehavior_h__\n#endif\n"
+    write_tree(tmp_path, {"bot/src/CommonBehavior.cpp": "#error second time\n"})
+    made = commands(tmp_path, monkeypatch, "#include <CommonBehavior.h>", "", CommonBehavior=left)
+    assert "-D__CommonBehavior_h__" in made and "CommonBehavior.cpp" not in made
+    mine = commands(tmp_path, monkeypatch, "#include <CommonBehavior.h>", "", CommonBehavior="// mine\n")
+    assert "-D__" not in mine and "CommonBehavior.cpp" in mine
