@@ -44,11 +44,13 @@ QT5, EIGEN = list(Path("/usr/lib").glob("*/cmake/Qt5/Qt5Config.cmake")), Path("/
 pytestmark = [needs_cpp, pytest.mark.slow]
 
 
-def commands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, headers: str, lists: str, **more: str) -> str:
+def commands(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, headers: str, lists: str, uses: str = "", **more: str
+) -> str:
     """The commands that compile a worker with these lines; `more` are further files in its folder `src`, by the names
     of their headers."""
     write_tree(tmp_path, {
-        **CLASSES, "bot/bot.cdsl.yaml": "component: Bot\nlanguage: cpp\ncompatibility: robocomp\n",
+        **CLASSES, "bot/bot.cdsl.yaml": "component: Bot\nlanguage: cpp\ncompatibility: robocomp\n" + uses,
         "bot/src/specificworker.h": WORKER.format(headers), "bot/src/CMakeListsSpecific.txt": lists,
         "bot/src/specificworker.cpp": '#include "specificworker.h"\n',
         **{f"bot/src/{name}.h": text for name, text in more.items()},
@@ -138,3 +140,25 @@ def test_files_that_slice2cpp_left(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     assert "-D__CommonBehavior_h__" in made and "CommonBehavior.cpp" not in made
     mine = commands(tmp_path, monkeypatch, "#include <CommonBehavior.h>", "", CommonBehavior="// mine\n")
     assert "-D__" not in mine and "CommonBehavior.cpp" in mine
+
+
+def test_a_library_that_describes_itself(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """RoboComp's module for it is of another time."""
+    write_tree(tmp_path, {
+        "robocomp/cmake/modules/FindCloud.cmake": "message(FATAL_ERROR old)\n",
+        "cloud/CloudConfig.cmake": "add_definitions(-DCLOUD)\nset(Cloud_FOUND TRUE)\n",
+        "cloud/CloudConfigVersion.cmake": "set(PACKAGE_VERSION 1.13)\nset(PACKAGE_VERSION_COMPATIBLE TRUE)\n",
+    })  # fmt: skip
+    monkeypatch.setenv("Cloud_DIR", str(tmp_path / "cloud"))
+    assert "-DCLOUD" in commands(tmp_path, monkeypatch, "", "find_package(Cloud 1.7 REQUIRED)\n# ENV{ROBOCOMP}\n")
+
+
+def test_classes_and_modules_of_robocomp_that_a_document_lists(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """`RoboCompClasses` and `RoboCompModules` named what is in RoboComp's own folder."""
+    write_tree(tmp_path, {"robocomp/cmake/modules/cloud.cmake": "add_definitions(-DCLOUD)\n"})
+    uses = "uses:\n  sources: [classes/plain/plain.h, classes/plain/plain.cpp]\n  libraries: [{link: cloud}]\n"
+    made = commands(tmp_path, monkeypatch, "", "", uses)
+    assert "-DCLOUD" in made and str(tmp_path / "robocomp/classes/plain/plain.cpp") in made
+    assert "the library fog: the linker has no libfog" in commands(
+        tmp_path, monkeypatch, "", "", uses.replace("cloud", "fog")
+    )
