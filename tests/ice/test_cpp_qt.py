@@ -92,7 +92,7 @@ def _configs(arm: int, hand: int, behavior: int, icestorm: Storm) -> tuple[dict[
         "Limits.Force": 9.5,
         "Fast": "True",
         "Gains": "[0.5, -2,]",
-        "Labels": "\"a, b\", c",
+        "Labels": '"a, b", c',
     }
     return {**common, **server}, {**common, **client}
 
