@@ -474,6 +474,13 @@ void SpecificWorker::initialize()
 	std::cout << "configured " << this->configLoader.get<int>("Period.Compute") << " "
 		<< configLoader.get<double>("Limits.Force") + 1 << " " << configLoader.get<std::string>("Owner") << " "
 		<< configLoader.get<bool>("Fast") << std::endl;
+	for (const double gain : configLoader.get<std::vector<double>>("Gains"))
+		std::cout << gain << " ";
+	for (const auto& label : configLoader.get<std::vector<std::string>>("Labels"))
+		std::cout << label << ";";
+	std::cout << configLoader.get<unsigned>("Period.Compute") << std::endl;
+	try { configLoader.get<std::vector<int>>("Gains"); }
+	catch (const std::exception& e) { std::cout << e.what() << std::endl; }
 	try { configLoader.get<int>("Nothing"); }
 	catch (const std::exception& e) { std::cout << e.what() << std::endl; }
 }

@@ -91,6 +91,8 @@ def _configs(arm: int, hand: int, behavior: int, icestorm: Storm) -> tuple[dict[
         "HandProxy": f"hand:tcp -h 127.0.0.1 -p {hand}",
         "Limits.Force": 9.5,
         "Fast": "True",
+        "Gains": "[0.5, -2,]",
+        "Labels": '"a, b", c',
     }
     return {**common, **server}, {**common, **client}
 
@@ -107,7 +109,8 @@ def test_robocomps_generations(
     calling = start(qt_programs("Latest").command(tmp_path, client))
     serving = start(qt_programs(name).command(tmp_path, server))
     said = calling.wait_for("that is all").output
-    assert "configured 20 10.5 Shelly 1\nthe config has no Nothing\n" in said
+    assert "configured 20 10.5 Shelly 1\n0.5 -2 a, b;c;20\n" in said
+    assert "Gains is '0.5' in the config, which is not a number of this type\nthe config has no Nothing\n" in said
     assert "move 2 1\n" in said
     assert "state 1 8 home\n" in said
     assert "grasp cba\n" in said

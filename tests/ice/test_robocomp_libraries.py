@@ -34,24 +34,36 @@ CLASSES = {
     "robocomp/classes/plain/plain.cpp": '#include "plain.h"\n',
 }
 
+LIBRARY = {
+    "robocomp/libs/CMakeLists.txt": "project(libs LANGUAGES CXX)\nadd_library(innermodel SHARED model.cpp)\n",
+    "robocomp/libs/model.cpp": "int model() { return 1; }\n",
+    "robocomp/libs/innermodel/include/innermodel/innermodel.h": "struct InnerModel {};\n",
+}
+OSG = Path("/usr/include/osg/Node").exists() and Path("/usr/include/gsl/gsl_math.h").exists()
 QT5, EIGEN = list(Path("/usr/lib").glob("*/cmake/Qt5/Qt5Config.cmake")), Path("/usr/include/eigen3").exists()
 pytestmark = [needs_cpp, pytest.mark.slow]
 
 
-def commands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, headers: str, lists: str) -> str:
-    """The commands that compile a worker with these lines."""
+def commands(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, headers: str, lists: str, uses: str = "", **more: str
+) -> str:
+    """The commands that compile a worker with these lines; `more` are further files in its folder `src`, by the names
+    of their headers."""
     write_tree(tmp_path, {
-        **CLASSES, "bot/bot.cdsl.yaml": "component: Bot\nlanguage: cpp\ncompatibility: robocomp\n",
+        **CLASSES, "bot/bot.cdsl.yaml": "component: Bot\nlanguage: cpp\ncompatibility: robocomp\n" + uses,
         "bot/src/specificworker.h": WORKER.format(headers), "bot/src/CMakeListsSpecific.txt": lists,
         "bot/src/specificworker.cpp": '#include "specificworker.h"\n',
+        **{f"bot/src/{name}.h": text for name, text in more.items()},
     })  # fmt: skip
     monkeypatch.setenv("ROBOCOMP", str(tmp_path / "robocomp"))
     assert CliRunner().invoke(group, ["compile", str(tmp_path / "bot")]).exit_code == 0
     words = ["cmake", "-S", tmp_path / "bot", "-B", tmp_path / "b", "-G", "Ninja", "-DCMAKE_EXPORT_COMPILE_COMMANDS=1"]
     done = subprocess.run(words, capture_output=True, text=True, timeout=120, check=False)
-    assert done.returncode == 0, done.stdout + done.stderr
+    if done.returncode:
+        return " ".join(done.stderr.split())
     found = json.loads((tmp_path / "b/compile_commands.json").read_text())
-    return "".join(one["command"] for one in found if one["file"].startswith(str(tmp_path / "bot/src")))
+    own = (str(tmp_path / "bot/src"), str(tmp_path / "robocomp"))
+    return "".join(one["command"] for one in found if one["file"].startswith(own))
 
 
 @pytest.mark.skipif(not QT5, reason="qtbase5-dev is not installed")
@@ -90,3 +102,63 @@ def test_headers_of_qt_4_are_found(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     words = ["g++", "-fPIC", "-E", *folders, tmp_path / "x.cpp"]
     done = subprocess.run(words, capture_output=True, text=True, timeout=120, check=False)
     assert done.returncode == 0 and "QFrame :" in done.stdout, done.stderr
+
+
+@pytest.mark.parametrize(("more", "is_used"), [
+    ("", False), ("using namespace std;\nclass GenericWorker {};\n", False),
+    ("using namespace std;\nusing namespace RoboCompLaser;\nclass GenericWorker {};\n", True),
+])  # fmt: skip
+def test_types_without_their_module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, more: str, is_used: bool) -> None:
+    """The first generation with TuplePrx had `using namespace`, as the one with MapPrx."""
+    assert ("ROBOCOMP_UNQUALIFIED" in commands(tmp_path, monkeypatch, "", "", genericworker=more)) == is_used
+
+
+@pytest.mark.skipif(not (QT5 and OSG), reason="qtbase5-dev, libopenscenegraph-dev or libgsl-dev is not installed")
+@pytest.mark.parametrize(("member", "is_used"), [("InnerModel *model;", True), ("// InnerModel *model;", False)])
+def test_robocomp_libraries_that_are_not_installed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, member: str, is_used: bool
+) -> None:
+    """They are compiled from RoboComp's sources, for code that uses them."""
+    write_tree(tmp_path, LIBRARY)
+    commands(tmp_path, monkeypatch, f"#include <innermodel/innermodel.h>\n{member}", "")
+    assert ("robocomp_libs/libinnermodel.so" in (tmp_path / "b/build.ninja").read_text()) == is_used
+
+
+def test_paths_of_another_machine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """RoboComp was in another folder there: its sources are found, and a header by such a path is named."""
+    lists = "SET(SOURCES specificworker.cpp /home/nobody/robocomp/classes/plain/plain.cpp)\n"
+    assert str(tmp_path / "robocomp/classes/plain/plain.cpp") in commands(tmp_path, monkeypatch, "", lists)
+    said = commands(tmp_path, monkeypatch, "#include </home/nobody/robocomp/classes/plain/plain.h>", "")
+    assert "write <plain/plain.h>, or make /home/nobody/robocomp a link to RoboComp: sudo ln -s" in said
+
+
+def test_files_that_slice2cpp_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """They declare everything a second time."""
+    left = "// Generated from file `CommonBehavior.ice'\n#ifndef __CommonBehavior_h__\n#define __CommonBehavior_h__\n#endif\n"
+    write_tree(tmp_path, {"bot/src/CommonBehavior.cpp": "#error second time\n"})
+    made = commands(tmp_path, monkeypatch, "#include <CommonBehavior.h>", "", CommonBehavior=left)
+    assert "-D__CommonBehavior_h__" in made and "CommonBehavior.cpp" not in made
+    mine = commands(tmp_path, monkeypatch, "#include <CommonBehavior.h>", "", CommonBehavior="// mine\n")
+    assert "-D__" not in mine and "CommonBehavior.cpp" in mine
+
+
+def test_a_library_that_describes_itself(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """RoboComp's module for it is of another time."""
+    write_tree(tmp_path, {
+        "robocomp/cmake/modules/FindCloud.cmake": "message(FATAL_ERROR old)\n",
+        "cloud/CloudConfig.cmake": "add_definitions(-DCLOUD)\nset(Cloud_FOUND TRUE)\n",
+        "cloud/CloudConfigVersion.cmake": "set(PACKAGE_VERSION 1.13)\nset(PACKAGE_VERSION_COMPATIBLE TRUE)\n",
+    })  # fmt: skip
+    monkeypatch.setenv("Cloud_DIR", str(tmp_path / "cloud"))
+    assert "-DCLOUD" in commands(tmp_path, monkeypatch, "", "find_package(Cloud 1.7 REQUIRED)\n# ENV{ROBOCOMP}\n")
+
+
+def test_classes_and_modules_of_robocomp_that_a_document_lists(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """`RoboCompClasses` and `RoboCompModules` named what is in RoboComp's own folder."""
+    write_tree(tmp_path, {"robocomp/cmake/modules/cloud.cmake": "add_definitions(-DCLOUD)\n"})
+    uses = "uses:\n  sources: [classes/plain/plain.h, classes/plain/plain.cpp]\n  libraries: [{link: cloud}]\n"
+    made = commands(tmp_path, monkeypatch, "", "", uses)
+    assert "-DCLOUD" in made and str(tmp_path / "robocomp/classes/plain/plain.cpp") in made
+    assert "the library fog: the linker has no libfog" in commands(
+        tmp_path, monkeypatch, "", "", uses.replace("cloud", "fog")
+    )

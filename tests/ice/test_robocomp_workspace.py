@@ -118,7 +118,8 @@ def test_a_constructor_that_does_not_call_the_base(tmp_path: Path) -> None:
 
 AGENT = """\
 #include <genericworker.h>
-#include {}
+// AGMModel is a class of AGM
+{}
 class SpecificWorker : public GenericWorker {{
 Q_OBJECT
 public:
@@ -131,20 +132,21 @@ public slots:
 
 @needs_cpp
 @pytest.mark.slow
-@pytest.mark.parametrize(("header", "library"), [
-    ("<dsr/api/dsr_api.h>", "the DSR library of RoboComp's agents (https://github.com/robocomp/cortex)"),
-    ('"agm.h"', "AGM (https://github.com/ljmanso/AGM)"),
+@pytest.mark.parametrize(("line", "library"), [
+    ("#include <dsr/api/dsr_api.h>", "the DSR library of RoboComp's agents (https://github.com/robocomp/cortex)"),
+    ('#include "agm.h"', "AGM (https://github.com/ljmanso/AGM)"),
+    ("void changed(const AGMModel::SPtr &model);", "AGM (https://github.com/ljmanso/AGM)"),
 ])  # fmt: skip
 def test_a_missing_library_of_agents_is_named(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, header: str, library: str
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, line: str, library: str
 ) -> None:
     write_tree(tmp_path, {
         "agent.cdsl.yaml": "component: Agent\nlanguage: cpp\ncompatibility: robocomp\noptions: [dsr]\n",
-        "src/specificworker.h": AGENT.format(header), "src/specificworker.cpp": '#include "specificworker.h"\n',
+        "src/specificworker.h": AGENT.format(line), "src/specificworker.cpp": '#include "specificworker.h"\n',
     })  # fmt: skip
     monkeypatch.chdir(tmp_path)
     runner = CliRunner()
     assert runner.invoke(group, ["compile"]).exit_code == 0
     built = runner.invoke(group, ["build"])
     assert built.exit_code == 1 and built.output.count("error[") == 1
-    assert f"Agent needs {library}, which is not installed: src/specificworker.h has #include {header}" in built.output
+    assert f"Agent needs {library}, which is not installed: src/specificworker.h has {line}" in built.output

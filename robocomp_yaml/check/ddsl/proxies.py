@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from robocomp_yaml.addresses import impossible_proxies
 from robocomp_yaml.diag.codes import networks as codes
-from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.network.network import PROXY, Connection, Network, is_loopback
 from robocomp_yaml.source.ice_proxy import Proxy, proxy_at
@@ -37,8 +37,10 @@ def _identity(network: Network, connection: Connection, proxy: Proxy) -> Iterato
                 continue
             served = [one.identity for one in process.endpoints if one.port == endpoint.port and one.identity]
             if served and proxy.identity not in served:
-                yield codes.OTHER_IDENTITY.at(
+                fault = codes.OTHER_IDENTITY.at(
                     connection.span, identity=proxy.identity, target=process.name,
                     served=", ".join(f"'{one}'" for one in served), number=endpoint.port,
                     hint=did_you_mean(proxy.identity, served, otherwise=f"write {served[0]}"),
                 )  # fmt: skip
+                # RCManager starts such networks, and the error may be one of years.
+                yield fault.as_severity(WARNING) if network.processes[connection.source].extra else fault

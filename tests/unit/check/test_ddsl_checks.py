@@ -188,6 +188,14 @@ def test_repetitions_by_several_includes_are_reported_once(found: Check) -> None
     assert sorted(codes) == ["RC3303", "RC4303"]
 
 
+@pytest.mark.parametrize(("more", "severity"), [("", "error"), (", x-rcmanager: {xpos: 1}", "warning")])
+def test_an_object_that_a_process_does_not_serve(found: Check, more: str, severity: str) -> None:
+    """What RCManager started can be planned."""
+    speech = f'{{component: speech, connect: {{Mouth: "mouht:tcp -p 10001"}}{more}}}'
+    files = deployed(f"components:\n  mouth: {{component: mouth, port: 10001}}\n  speech: {speech}\n")
+    assert found(files) == [("RC4313", severity, "robot.ddsl.yaml", 4, 48)]
+
+
 def test_lint_may_lower_the_severity(found: Check) -> None:
     files = deployed("components: {speech: {component: speech}}\n")
     assert [fault[0] for fault in found(files)] == ["RC4201"]

@@ -107,11 +107,20 @@ macro(rcyaml_use_module name)
   endif()
 endmacro()
 
-# A library of the linker's search path.
+# A library of the linker's search path; in code for RoboComp's own tool also one of the modules of RoboComp's build, which
+# its documents named.
 macro(rcyaml_use_library name)
   string(MAKE_C_IDENTIFIER "component_${name}_library" component_variable)
   find_library(${component_variable} NAMES ${name})
-  if(NOT ${component_variable})
+  if(NOT ${component_variable} AND component_robocomp AND EXISTS "${component_robocomp}/cmake/modules/${name}.cmake")
+    set(LIBS)
+    set(component_reads_lists TRUE)
+    set(CMAKE_FIND_PACKAGE_PREFER_CONFIG TRUE)
+    include("${component_robocomp}/cmake/modules/${name}.cmake")
+    set(CMAKE_FIND_PACKAGE_PREFER_CONFIG)
+    set(component_reads_lists)
+    list(APPEND component_linked ${LIBS})
+  elseif(NOT ${component_variable})
     list(APPEND component_missing
       "the library ${name}: the linker has no lib${name}. If it is installed: cmake -DCMAKE_LIBRARY_PATH=FOLDER ...")
   else()

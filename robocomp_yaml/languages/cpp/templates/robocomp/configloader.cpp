@@ -35,6 +35,72 @@ T number(const std::string& key, const std::string& text)
     return result;
 }
 
+bool truth(const std::string& key, const std::string& text)
+{
+    if (text == "true" || text == "True" || text == "false" || text == "False")
+    {
+        return text == "true" || text == "True";
+    }
+    throw std::runtime_error(key + " is '" + text + "' in the config, which is neither true nor false");
+}
+
+std::string stripped(const std::string& text)
+{
+    const char* const blanks = " \t\r\n";
+    const auto first = text.find_first_not_of(blanks);
+    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+/// The elements of a list, without quotes. A comma in quotes separates nothing.
+std::vector<std::string> elements(const std::string& text)
+{
+    std::string list = stripped(text);
+    if (list.size() > 1 && list.front() == '[' && list.back() == ']')
+    {
+        list = stripped(list.substr(1, list.size() - 2));
+    }
+    std::vector<std::string> result;
+    std::string element;
+    char quote = 0;
+    const auto add = [&]
+    {
+        element = stripped(element);
+        const bool isQuoted = element.size() > 1 && element.front() == element.back()
+                              && (element.front() == '"' || element.front() == '\'');
+        result.push_back(isQuoted ? element.substr(1, element.size() - 2) : element);
+        element.clear();
+    };
+    for (const char c : list)
+    {
+        if (c == ',' && !quote)
+        {
+            add();
+            continue;
+        }
+        if ((c == '"' || c == '\'') && (!quote || quote == c))
+        {
+            quote = quote ? 0 : c;
+        }
+        element += c;
+    }
+    if (!stripped(element).empty())
+    {
+        add();
+    }
+    return result;
+}
+
+template <typename T, typename Read>
+std::vector<T> list(const std::string& key, const std::string& text, Read read)
+{
+    std::vector<T> result;
+    for (const auto& element : elements(text))
+    {
+        result.push_back(read(key, element));
+    }
+    return result;
+}
+
 }
 
 template <>
@@ -46,12 +112,7 @@ std::string ConfigLoader::get(const std::string& key) const
 template <>
 bool ConfigLoader::get(const std::string& key) const
 {
-    const auto& text = value(key);
-    if (text == "true" || text == "True" || text == "false" || text == "False")
-    {
-        return text == "true" || text == "True";
-    }
-    throw std::runtime_error(key + " is '" + text + "' in the config, which is neither true nor false");
+    return truth(key, value(key));
 }
 
 template <>
@@ -61,9 +122,27 @@ int ConfigLoader::get(const std::string& key) const
 }
 
 template <>
+unsigned ConfigLoader::get(const std::string& key) const
+{
+    return number<unsigned>(key, value(key));
+}
+
+template <>
 long ConfigLoader::get(const std::string& key) const
 {
     return number<long>(key, value(key));
+}
+
+template <>
+unsigned long ConfigLoader::get(const std::string& key) const
+{
+    return number<unsigned long>(key, value(key));
+}
+
+template <>
+long long ConfigLoader::get(const std::string& key) const
+{
+    return number<long long>(key, value(key));
 }
 
 template <>
@@ -76,4 +155,40 @@ template <>
 double ConfigLoader::get(const std::string& key) const
 {
     return number<double>(key, value(key));
+}
+
+template <>
+std::vector<std::string> ConfigLoader::get(const std::string& key) const
+{
+    return elements(value(key));
+}
+
+template <>
+std::vector<bool> ConfigLoader::get(const std::string& key) const
+{
+    return list<bool>(key, value(key), truth);
+}
+
+template <>
+std::vector<int> ConfigLoader::get(const std::string& key) const
+{
+    return list<int>(key, value(key), number<int>);
+}
+
+template <>
+std::vector<long> ConfigLoader::get(const std::string& key) const
+{
+    return list<long>(key, value(key), number<long>);
+}
+
+template <>
+std::vector<float> ConfigLoader::get(const std::string& key) const
+{
+    return list<float>(key, value(key), number<float>);
+}
+
+template <>
+std::vector<double> ConfigLoader::get(const std::string& key) const
+{
+    return list<double>(key, value(key), number<double>);
 }

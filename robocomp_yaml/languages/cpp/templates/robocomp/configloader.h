@@ -4,8 +4,10 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
-/// The component's properties, as RoboComp's latest tool passes them to the worker: `get<int>("Period.Compute")`.
+/// The component's properties, as RoboComp's latest tool passes them to the worker: `get<int>("Period.Compute")`. A list
+/// is written with or without brackets: `get<std::vector<double>>("Extrinsic")` of `[0.5, 1]` or `0.5, 1`.
 class ConfigLoader
 {
 public:
@@ -29,10 +31,28 @@ bool ConfigLoader::get(const std::string& key) const;
 template <>
 int ConfigLoader::get(const std::string& key) const;
 template <>
+unsigned ConfigLoader::get(const std::string& key) const;
+template <>
 long ConfigLoader::get(const std::string& key) const;
+template <>
+unsigned long ConfigLoader::get(const std::string& key) const;
+template <>
+long long ConfigLoader::get(const std::string& key) const;
 template <>
 float ConfigLoader::get(const std::string& key) const;
 template <>
 double ConfigLoader::get(const std::string& key) const;
+template <>
+std::vector<std::string> ConfigLoader::get(const std::string& key) const;
+template <>
+std::vector<bool> ConfigLoader::get(const std::string& key) const;
+template <>
+std::vector<int> ConfigLoader::get(const std::string& key) const;
+template <>
+std::vector<long> ConfigLoader::get(const std::string& key) const;
+template <>
+std::vector<float> ConfigLoader::get(const std::string& key) const;
+template <>
+std::vector<double> ConfigLoader::get(const std::string& key) const;
 
 #endif

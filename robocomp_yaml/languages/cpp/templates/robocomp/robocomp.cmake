@@ -29,6 +29,16 @@ if(NOT COMMAND _find_package)
   endmacro()
 endif()
 
+# RoboComp's module for OpenNI needs its folders in the environment: those of the distribution, unless there are others.
+find_path(component_openni OpenNI.h PATH_SUFFIXES openni2)
+find_library(component_library_OpenNI2 OpenNI2)
+mark_as_advanced(component_openni component_library_OpenNI2)
+if(component_openni AND component_library_OpenNI2 AND NOT DEFINED ENV{OPENNI2_INCLUDE})
+  set(ENV{OPENNI2_INCLUDE} "${component_openni}")
+  get_filename_component(component_openni_folder "${component_library_OpenNI2}" DIRECTORY)
+  set(ENV{OPENNI2_LINK} "${component_openni_folder}")
+endif()
+
 # The files in which the user lists libraries, sources and options for RoboComp's own tool.
 set(component_lists "${component_root}/src/CMakeListsSpecific.txt")
 if(EXISTS "${component_root}/src/CMakeLists.txt")
@@ -53,11 +63,16 @@ foreach(component_list IN LISTS component_lists)
       string(APPEND component_flags "${component_text}\n")
       list(APPEND CMAKE_MODULE_PATH "${component_robocomp}/cmake/modules")
       set(component_reads_lists TRUE)
+      # RoboComp's modules for libraries are older than what today's libraries say of themselves.
+      set(CMAKE_FIND_PACKAGE_PREFER_CONFIG TRUE)
       include("${component_list}")
+      set(CMAKE_FIND_PACKAGE_PREFER_CONFIG)
       set(component_reads_lists)
     endif()
   endif()
 endforeach()
+
+set(CMAKE_CURRENT_SOURCE_DIR "${component_here}")
 
 # OpenCV 4 has the constants of earlier versions in headers of their own, and no folder opencv/.
 set(component_opencv)
@@ -85,34 +100,54 @@ if(OpenCV_FOUND AND OpenCV_VERSION VERSION_GREATER_EQUAL 4)
   endforeach()
 endif()
 
-# Libraries of RoboComp's agents, which no distribution has: they are named before the compiler misses a header.
+# Libraries of RoboComp's agents, which no distribution has: they are named before the compiler misses a header, or a type
+# whose header RoboComp's generic part included.
 get_directory_property(component_folders INCLUDE_DIRECTORIES)
 file(GLOB_RECURSE component_code
   "${component_root}/src/*.h" "${component_root}/src/*.hpp" "${component_root}/src/*.cpp")
 foreach(row IN ITEMS
-    "dsr/api/dsr_api.h|dsr/|the DSR library of RoboComp's agents (https://github.com/robocomp/cortex)"
-    "agm.h|agm[_.a-zA-Z]*|AGM (https://github.com/ljmanso/AGM)")
+    "dsr/api/dsr_api.h|dsr/|DSR::|the DSR library of RoboComp's agents (https://github.com/robocomp/cortex)"
+    "agm.h|agm[_.a-zA-Z]*|AGM[MI][a-z]+|AGM (https://github.com/ljmanso/AGM)")
   string(REPLACE "|" ";" row "${row}")
   list(GET row 0 header)
   list(GET row 1 beginning)
-  list(GET row 2 library)
+  list(GET row 2 name)
+  list(GET row 3 library)
   string(MAKE_C_IDENTIFIER "component_folder_of_${header}" found)
   find_path(${found} ${header} PATHS ${component_folders} "${component_root}/src" "${component_robocomp}/include"
     /usr/local/include /opt/robocomp/include)
   mark_as_advanced(${found})
   foreach(file IN LISTS component_code)
-    file(STRINGS "${file}" lines REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"]${beginning}")
+    file(STRINGS "${file}" lines REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"]${beginning}|^[^/*\"]*(^|[^A-Za-z0-9_])${name}")
     if(lines AND NOT ${found} AND NOT file MATCHES "/(generic|common|specificmonitor)[A-Za-z]*[.](h|cpp)$")
       list(GET lines 0 line)
+      string(STRIP "${line}" line)
       file(RELATIVE_PATH file "${component_root}" "${file}")
       message(FATAL_ERROR "${component_name} needs ${library}, which is not installed: ${file} has ${line}")
     endif()
   endforeach()
 endforeach()
 
+# A header by its path on another machine, where RoboComp was in another folder: no option of a compiler helps there.
+foreach(line IN LISTS component_lines)
+  if(line MATCHES "include[ \t]*[<\"](/[^>\"]*/robocomp)/([^>\"]+)")
+    set(component_folder "${CMAKE_MATCH_1}")
+    set(header "${CMAKE_MATCH_2}")
+    if(NOT EXISTS "${component_folder}/${header}" AND EXISTS "${component_robocomp}/${header}")
+      string(REGEX REPLACE "^(classes|libs)/" "" short "${header}")
+      message(FATAL_ERROR
+        "${component_name} includes ${component_folder}/${header}, which does not exist here: write <${short}>, or make "
+        "${component_folder} a link to RoboComp: sudo ln -s ${component_robocomp} ${component_folder}")
+    endif()
+  endif()
+endforeach()
+
 # The sources: those that are listed, else all of them; without the files that RoboComp's own tool generated.
 set(component_listed)
 foreach(file IN LISTS SOURCES)
+  if(NOT EXISTS "${file}" AND file MATCHES "^/.*/robocomp/(.+)$")
+    set(file "${component_robocomp}/${CMAKE_MATCH_1}") # RoboComp was in another folder on another machine
+  endif()
   get_filename_component(file "${file}" ABSOLUTE BASE_DIR "${component_root}/src")
   if(EXISTS "${file}" AND file MATCHES "[.](c|cc|cpp|cxx)$")
     list(APPEND component_listed "${file}")
@@ -124,10 +159,25 @@ if(component_listed)
   list(REMOVE_DUPLICATES component_specific)
   list(REMOVE_ITEM component_unlisted ${component_specific})
 endif()
+# What slice2cpp left in src/ has everything a second time: its sources are not compiled, its guards make it empty.
+set(component_guards)
+set(component_copies)
+foreach(stem IN LISTS component_stems)
+  if(EXISTS "${component_root}/src/${stem}.h")
+    file(READ "${component_root}/src/${stem}.h" component_text LIMIT 3000)
+    if(component_text MATCHES "Generated from file" AND component_text MATCHES "#ifndef +(__[A-Za-z0-9_]+)")
+      list(APPEND component_guards "${CMAKE_MATCH_1}")
+      list(APPEND component_copies "${stem}.cpp")
+    endif()
+  endif()
+endforeach()
 set(component_kept)
 foreach(file IN LISTS component_specific)
   get_filename_component(folder "${file}" DIRECTORY)
   get_filename_component(name "${file}" NAME)
+  if(name IN_LIST component_copies AND folder STREQUAL "${component_root}/src")
+    continue()
+  endif()
   if(NOT name MATCHES "^(main|monitor|genericworker|genericmonitor|specificmonitor|${component_legacy})[.]cpp$"
       OR NOT (folder STREQUAL "${component_root}/src" OR folder STREQUAL "${component_root}/generated"))
     list(APPEND component_kept "${file}")
@@ -201,14 +251,47 @@ endif()
 # The libraries that RoboComp's build linked to all components, as far as they are installed: its own, by their newer and
 # older names, and those that they use. The linker drops the ones without a use.
 set(component_usual)
+set(component_robocomp_library)
 foreach(name IN ITEMS innermodel osgviewer qmat robocomp_innermodel robocomp_osgviewer robocomp_qmat
     osg osgUtil osgGA osgDB osgViewer osgText OpenThreads boost_system)
   find_library(component_library_${name} ${name} HINTS "${component_robocomp}/lib" /opt/robocomp/lib)
   mark_as_advanced(component_library_${name})
   if(component_library_${name})
     list(APPEND component_usual "${component_library_${name}}")
+    if(name MATCHES "innermodel")
+      set(component_robocomp_library "${component_library_${name}}")
+    endif()
   endif()
 endforeach()
+
+# RoboComp's own libraries, if they are not installed, are compiled from its sources, once in a tree: most code includes
+# their headers, because RoboComp's tool wrote that line, and some uses them.
+set(component_robocomp_users)
+if(NOT component_robocomp_library AND EXISTS "${component_robocomp}/libs/CMakeLists.txt")
+  foreach(file IN LISTS component_code)
+    if(NOT file MATCHES "/(main|generic[a-z]*|specificmonitor|commonbehaviorI)[.](h|cpp)$")
+      file(STRINGS "${file}" lines REGEX
+        "^[^/*\"]*(^|[^A-Za-z0-9_])(InnerModel|QVec|QMat|RTMat|Rot[23]D|OsgView|QLine2D|QExtrinsics|QCamera|QHomo)")
+      if(lines)
+        set(component_robocomp_users TRUE)
+      endif()
+    endif()
+  endforeach()
+endif()
+if(component_robocomp_users AND NOT TARGET innermodel)
+  find_package(Qt5 QUIET COMPONENTS Core Gui Xml OpenGL Widgets)
+  find_package(OpenSceneGraph QUIET COMPONENTS osg osgDB osgGA osgUtil osgViewer osgText)
+  find_library(component_library_gsl gsl)
+  mark_as_advanced(component_library_gsl)
+  if(Qt5_FOUND AND OPENSCENEGRAPH_FOUND AND component_library_gsl)
+    add_subdirectory("${component_robocomp}/libs" "${CMAKE_BINARY_DIR}/robocomp_libs" EXCLUDE_FROM_ALL)
+  else()
+    message(WARNING
+      "${component_name} uses RoboComp's libraries, which are not installed, and cannot be compiled from "
+      "${component_robocomp}/libs.\n"
+      "On Debian and Ubuntu: sudo apt install qtbase5-dev libqt5opengl5-dev libopenscenegraph-dev libgsl-dev")
+  endif()
+endif()
 
 # Headers of Slice files by the names that slice2cpp gives them by default: `Laser.h` for `Laser.ice.h`.
 foreach(stem IN LISTS component_stems)
@@ -223,6 +306,7 @@ function(component_as_robocomp target)
   if(component_standard GREATER 17)
     set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)
   endif()
+  target_compile_definitions(${target} PRIVATE ${component_guards})
   target_include_directories(${target} PRIVATE "${component_headers}")
   foreach(folder IN ITEMS classes libs include libs/innermodel/include libs/qmat/include libs/osgviewer/include .)
     if(component_robocomp AND IS_DIRECTORY "${component_robocomp}/${folder}")
@@ -244,6 +328,15 @@ function(component_as_robocomp target)
     target_compile_options(${target} PRIVATE "$<$<COMPILE_LANGUAGE:CXX>:SHELL:-include ${component_opencv_first}>")
   endif()
   target_link_libraries(${target} PRIVATE ${component_qt_used} ${component_eigen} ${LIBS} ${SPECIFIC_LIBS} ${component_usual})
+  if(component_robocomp_users AND TARGET innermodel)
+    # Without their options, which are those of another standard.
+    foreach(library IN ITEMS innermodel osgviewer qmat)
+      if(TARGET ${library})
+        add_dependencies(${target} ${library})
+        target_link_libraries(${target} PRIVATE "$<TARGET_FILE:${library}>")
+      endif()
+    endforeach()
+  endif()
   target_link_options(${target} PRIVATE "LINKER:--as-needed")
   # Other forms than that of the window.
   file(GLOB forms "${component_root}/src/*.ui")
