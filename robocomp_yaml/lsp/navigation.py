@@ -9,6 +9,7 @@ from lsprotocol import types
 
 from robocomp_yaml.api.completing import schema_keys
 from robocomp_yaml.api.completing.places import typed_at
+from robocomp_yaml.api.completing.proposals import kind_at
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.lsp.from_code import name_in_code
 from robocomp_yaml.lsp.messages import Messages, real_path
@@ -19,7 +20,6 @@ from robocomp_yaml.naming import names
 from robocomp_yaml.naming.in_generated import places_in_generated
 from robocomp_yaml.naming.names import DefinedName, Key
 from robocomp_yaml.naming.places_in_code import places_in_code
-from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.disk import Disk
 
 _Answer = TypeVar("_Answer")
@@ -128,7 +128,7 @@ def add(server: Server) -> None:
             return None
         lines = server.lines(document.text)
         place = typed_at(document.text, *lines.place(params.position))
-        kind = kind_of(path, Disk({path: document.raw})) or "workspace"
+        kind = kind_at(path, Disk({path: document.raw}))
         if place is None or place.column == place.end_column:
             return None
         word = lines.line(place.line)[place.column - 1 : place.end_column - 1]

@@ -25,7 +25,7 @@ from robocomp_yaml.lsp.moved import moved
 from robocomp_yaml.naming.analysis import names_of
 from robocomp_yaml.naming.names import Names
 from robocomp_yaml.pipeline import Analysis
-from robocomp_yaml.source.discover import WORKSPACE_FILE, kind_of
+from robocomp_yaml.source.discover import WORKSPACE_FILE, is_script, kind_of
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.spelled import DocumentTexts
 
@@ -165,9 +165,11 @@ class Session:
         return self.workspaces[root]
 
     def is_document(self, path: str) -> bool:
-        """Whether rcyaml has something to say about a file: it is a document, or the settings of a workspace."""
+        """Whether rcyaml has something to say about a file: it is a document, a mock script, or the settings of a
+        workspace."""
         overlay = {one.path: one.raw for one in self.open.values()}
-        return kind_of(path, Disk(overlay)) is not None or os.path.basename(path) == WORKSPACE_FILE
+        is_other = os.path.basename(path) == WORKSPACE_FILE or is_script(path)
+        return is_other or kind_of(path, Disk(overlay)) is not None
 
     def of_document(self, path: str, *, at_rest: bool = False) -> tuple[list[Diagnostic], DocumentTexts]:
         """The diagnostics of an open document and of what it names, at once, with those that only its whole workspace
