@@ -19,6 +19,7 @@ from robocomp_yaml.lsp.users import described
 from robocomp_yaml.naming import names
 from robocomp_yaml.naming.in_generated import places_in_generated
 from robocomp_yaml.naming.names import DefinedName, Key
+from robocomp_yaml.naming.of_files import named_files
 from robocomp_yaml.naming.places_in_code import places_in_code
 from robocomp_yaml.source.disk import Disk
 
@@ -66,7 +67,23 @@ def add(server: Server) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_DEFINITION)
     async def definition(params: types.DefinitionParams) -> types.Location | None:
-        return await asked(params, lambda one, _, known, messages: messages.location(one.span))
+        return await asked(params, lambda one, _, known, messages: messages.location(one.span)) or await linked(params)
+
+    async def linked(params: types.DefinitionParams) -> types.Location | None:
+        """The file that a path in a document means."""
+        path = real_path(params.text_document.uri)
+
+        def job() -> types.Location | None:
+            if path not in server.session.open or path is None or not server.session.is_document(path):
+                return None
+            known = server.session.names_around(path)
+            line, column = server.lines(server.session.text_of(path)).place(params.position)
+            for span, file in named_files(known.analysis, known.names, path):
+                if span.line == line == span.end_line and span.column <= column <= span.end_column:
+                    return server.messages(known.texts).location(Span(file))
+            return None
+
+        return await server.run(job)
 
     @server.feature(types.TEXT_DOCUMENT_REFERENCES)
     async def references(params: types.ReferenceParams) -> list[types.Location] | None:
