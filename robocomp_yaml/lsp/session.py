@@ -33,6 +33,7 @@ _MODELINE = re.compile(r"^#\s*yaml-language-server\s*:.*\$schema", re.MULTILINE)
 _HEAD = 10_000  # characters that editors search
 _SETTINGS = (".vscode/settings.json", ".yamlls.json", ".helix/languages.toml")
 LONG = 0.06  # seconds of CPU that a key may take
+FEW = 1000  # documents whose names are collected before anybody asks for them
 MANY = 500  # lines of a deployment that probably takes longer
 _ALONE = ("RC01", "RC02")  # codes of syntax and shape
 Found = dict[str, list[Diagnostic]]
@@ -92,6 +93,7 @@ class OpenWorkspace:
     def __init__(self, root: str, include: Iterable[str]) -> None:
         self.root, self.living = root, LivingWorkspace((root,), include)
         self.is_known = False  # whether it was analysed as a whole
+        self.is_idle = False  # whether none of its documents is open
         self.found: Found = {}
         self.whole: Analysis | None = None
         self.names: KnownNames | None = None
@@ -119,18 +121,26 @@ class Session:
             workspace.living.edit(document.path, document.raw)
 
     def close(self, path: str) -> list[str]:
-        """A document was closed. Returns the paths whose diagnostics go with it."""
+        """A document was closed. Returns the paths whose diagnostics go with it. The workspace of the last document is
+        kept, because most people open another one of it next."""
         self._forget_names()
+        root = self.root_of(path)
         self.open.pop(path, None)
         for workspace in self.workspaces.values():
             workspace.looks.pop(path, None)
             workspace.living.edit(path, None)
-        return self._drop_unused()
+        return self._drop_unused(root if root != path else "")
 
-    def _drop_unused(self) -> list[str]:
+    def _drop_unused(self, last: str) -> list[str]:
         used = {self.root_of(path) for path in self.open}
-        gone = [self.workspaces.pop(root) for root in list(self.workspaces) if root not in used]
-        return [path for workspace in gone for path in (*workspace.found, workspace.root)]
+        gone: list[str] = []
+        for root in self.workspaces.keys() - used:
+            workspace = self.workspaces[root]
+            gone += (*workspace.found, root)
+            workspace.found, workspace.beyond, workspace.is_idle = {}, {}, True
+            if root != last:
+                del self.workspaces[root]
+        return gone
 
     def refresh(self) -> None:
         """Files may have changed on the disk."""
@@ -162,7 +172,11 @@ class Session:
             workspace = self.workspaces[root] = OpenWorkspace(root, self.include)
             for document in self.open.values():
                 workspace.living.edit(document.path, document.raw)
-        return self.workspaces[root]
+        workspace = self.workspaces[root]
+        if workspace.is_idle:
+            workspace.is_idle = False
+            workspace.living.refresh()  # nobody told of changes on the disk
+        return workspace
 
     def is_document(self, path: str) -> bool:
         """Whether rcyaml has something to say about a file: it is a document, a mock script, or the settings of a
@@ -277,7 +291,7 @@ class Session:
         for one in whole.check():
             workspace.found.setdefault(one.span.file, []).append(one)
         workspace.texts, workspace.is_known, workspace.whole = whole.analysis.texts, True, whole.analysis
-        if workspace.last_names is not None:  # they are asked for
+        if workspace.last_names is not None or len(whole.analysis.documents) <= FEW:  # they are, or will be, asked for
             self._collect_names(workspace, whole.analysis)
         workspace.beyond = {path: self._beyond(workspace, path) for path in self._in(root)}
         return {**{path: [] for path in (*before, *self._in(root))}, **workspace.found}
