@@ -56,6 +56,14 @@ class EditedText(msgspec.Struct):
     def raw(self) -> bytes:
         return self.text.encode("utf-8", "surrogatepass")  # half a pair is an error of the document, not of ours
 
+    @property
+    def is_saved(self) -> bool:
+        try:
+            with open(self.path, "rb") as file:
+                return file.read() == self.raw
+        except OSError:
+            return False
+
 
 class KnownNames(msgspec.Struct, frozen=True):
     """The names of a program, with the texts in which they are."""
@@ -110,6 +118,7 @@ class Session:
         self.folders = [os.path.realpath(folder) for folder in folders]
         self.include = tuple(include)
         self.open: dict[str, EditedText] = {}
+        self.code: dict[str, EditedText] = {}  # the user's code, of which only what is saved is checked
         self.workspaces: dict[str, OpenWorkspace] = {}
         self._has_settings: dict[str, bool] = {}
 
@@ -252,7 +261,7 @@ class Session:
 
     def text_of(self, path: str) -> str:
         """The text of a file that is no document; '' if it cannot be read."""
-        document = self.open.get(path)
+        document = self.open.get(path) or self.code.get(path)
         raw = document.raw if document is not None else Disk().read(path)[0]
         return raw.decode("utf-8-sig", "replace") if raw is not None else ""
 
@@ -270,6 +279,13 @@ class Session:
         """The names of the documents that a document can import."""
         search = self.names_around(path, may_be_old=True).search
         return search.known(path, above(path, search.disk)[0])
+
+    def of_code(self, path: str) -> tuple[list[Diagnostic], DocumentTexts]:
+        """The diagnostics of open code, which is checked with its workspace; none if it is not saved."""
+        workspace, code = self.workspaces.get(self.root_of(path)), self.code.get(path)
+        if workspace is None or code is None or not code.is_saved:
+            return [], DocumentTexts({}, {})
+        return workspace.found.get(path, []), workspace.texts
 
     def names_everywhere(self) -> list[KnownNames]:
         return [self.names_around(path) for path in {self.root_of(path): path for path in self.open}.values()]
