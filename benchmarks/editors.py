@@ -64,7 +64,7 @@ ROWS = [START, *OF_LINES.values(), *OF_KINDS.values(), WHOLE, COMPLETION, FIRST,
 
 
 class Server(LanguageServer):
-    TIMEOUT = 60.0
+    TIMEOUT = 180.0
 
     def cpu(self) -> float:
         """Milliseconds of all threads until now."""
@@ -134,11 +134,11 @@ def started(command: list[str], folder: Path) -> tuple[Server, tuple[float, floa
 
 
 def measured(command: list[str], small: Path, large: Path, runs: int) -> Figures:
-    """The figures of a server."""
+    """The figures of a server. The long documents are in a workspace of their own, beside the small one."""
     found: Figures = {}
     server, found[START] = started(command, small)
     for lines, row in OF_LINES.items():
-        opened(server, path := small / f"Long{lines}.idsl.yaml")
+        opened(server, path := small.with_name("long") / f"Long{lines}.idsl.yaml")
         found[row] = keys(server, path, runs)
         server.close(path)
     for kind, row in OF_KINDS.items():
@@ -169,14 +169,16 @@ def measured(command: list[str], small: Path, large: Path, runs: int) -> Figures
 
 def documents(folder: Path) -> tuple[Path, Path]:
     """Two workspaces, whose documents name the schemas for yaml-language-server."""
-    small, large = folder / "small", folder / "large"
+    small, large, long = folder / "small", folder / "large", folder / "long"
+    long.mkdir()
+    (long / "rcyaml.yaml").write_text("interfaces: [.]\n")
     for place, count in ((small, SMALL), (large, LARGE)):
         workspace(place, count)
     for lines in LINES:
         methods = "\n".join(f"      call{n}: {{in: {{a: int, b: string}}, returns: bool}}" for n in range(8))
         interfaces = "\n".join(f"  I{n}:\n    methods:\n{methods}" for n in range(lines // 10))
-        (small / f"Long{lines}.idsl.yaml").write_text(f"module: RoboCompLong{lines}\ninterfaces:\n{interfaces}\n")
-    named = [*(small / f"Long{lines}.idsl.yaml" for lines in LINES)]
+        (long / f"Long{lines}.idsl.yaml").write_text(f"module: RoboCompLong{lines}\ninterfaces:\n{interfaces}\n")
+    named = [*(long / f"Long{lines}.idsl.yaml" for lines in LINES)]
     named += [place / name for place in (small, large) for name in KINDS.values()]
     for path in named:
         kind = "config" if path.name == "config.yaml" else path.name.split(".")[-2]

@@ -190,7 +190,7 @@ class _ProcessEnd:
 
     def at_once(self) -> None:
         """Ends the process without freeing its objects one by one, which takes as long as a small run."""
-        with suppress(OSError):  # Python reports what cannot be written
+        with suppress(OSError, ValueError):  # Python reports what cannot be written; a server has closed its stream
             sys.stdout.flush()
             sys.stderr.flush()
             if self.code is not None:

@@ -175,6 +175,8 @@ def alone(path: str, overlay: Mapping[str, bytes], memory: Memory, files: Files)
     allowed = Allowances.of(texts, commented_in(disk.contents), workspaces.plugins_of)
     judged = allowed.judge(read.diagnostics, lambda file: workspaces.of(file).lint)
     shown = list(spelled(_with_lint(judged.reported, workspaces), texts))
+    if not shown:
+        return []
     from robocomp_yaml.check import secrets
 
     hidden = secrets.hidden(Program(disk=disk), [document], {path})

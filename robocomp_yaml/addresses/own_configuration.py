@@ -43,17 +43,17 @@ def chosen(linked: LinkedComponent, values: LinkedValues | None, disk: Disk) -> 
 
 def own_values(linked: LinkedComponent, program: Program) -> LinkedValues | None:
     """The `etc/config.yaml` of a component."""
-    values = program.values.get(_document(linked))
+    values = program.values.get(own_document(linked))
     return values if values is not None and values.parameters and values.parameters.component is linked else None
 
 
 def is_own(values: LinkedValues) -> bool:
     """Whether a values document is the `etc/config.yaml` of its component."""
     component = values.parameters.component if values.parameters else None
-    return component is not None and _document(component) == os.path.realpath(values.document.path)
+    return component is not None and own_document(component) == os.path.realpath(values.document.path)
 
 
-def _document(linked: LinkedComponent) -> str:
+def own_document(linked: LinkedComponent) -> str:
     """The real path of a component's own values document."""
     return os.path.realpath(os.path.join(os.path.dirname(linked.component.path), "etc", "config.yaml"))
 

@@ -27,30 +27,35 @@ def command(ctx: click.Context, paths: tuple[str, ...], check: bool, diff: bool,
     """Lay out the documents at PATHs (by default, below this folder): indentation, blanks, quotes, blank lines.
 
     Comments, the order of keys, line breaks and the spelling of numbers stay, and so does what the documents mean.
-    With "-", a document is read from standard input, and printed.
+    With "-", a document is read from standard input, and printed; with --check or --diff, as for files.
     """
     from robocomp_yaml.api.formatting import Formatting
 
     if STDIN in paths:
-        if len(paths) > 1 or check or diff:
-            raise click.UsageError(f"'{STDIN}' stands alone: it reads one document, and prints it")
-        _filter(ctx)
+        if len(paths) > 1 or format_ != "text":
+            raise click.UsageError(f"'{STDIN}' stands alone: it reads one document, and prints text")
+        _filter(ctx, check=check, diff=diff)
     formatting = Formatting(paths or (".",))
     if not (check or diff):
         formatting.apply()
     _report(ctx, formatting, format_, check=check, diff=diff)
 
 
-def _filter(ctx: click.Context) -> None:
+def _filter(ctx: click.Context, *, check: bool, diff: bool) -> None:
     from robocomp_yaml.api.formatting import layout
     from robocomp_yaml.diag import terminal
     from robocomp_yaml.source.formatting import Unformattable
+    from robocomp_yaml.transactions.changes import unified
 
     raw = sys.stdin.buffer.read()
     after, faults = layout("<stdin>", raw)
     if isinstance(after, bytes):
-        terminal.data(after.decode())
-        ctx.exit(0)
+        if diff and after != raw:
+            changed = unified(raw.decode(), after.decode(), "a/<stdin>", "b/<stdin>")
+            terminal.diff([changed], _options.colored(ctx))
+        elif not check and not diff:
+            terminal.data(after.decode())
+        ctx.exit(1 if check and after != raw else 0)
     # there is no file whose line could be shown
     terminal.say(*(f"{one}; {one.hint}" if one.hint else str(one) for one in faults), err=True)
     if isinstance(after, Unformattable):

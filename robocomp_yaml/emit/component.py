@@ -50,7 +50,7 @@ def component_plan(
             is_robocomp = bool(component.compatibility)
             files += (
                 replace(file, takes_over=is_robocomp and file.path.startswith(f"{GENERATED}/"))
-                for file in of_language(linked, layout)
+                for file in _kept_of_language(linked, layout, program, options)
             )
             if component.sources or component.libraries:
                 from robocomp_yaml.emit import uses
@@ -73,6 +73,23 @@ def component_plan(
         files += _docs(linked)
     owner = os.path.relpath(component.path, root)
     return RootPlan(root, owner, tuple(files), partial=bool(options.targets))
+
+
+def _kept_of_language(
+    linked: LinkedComponent, layout: Layout, program: Program, options: EmitOptions
+) -> list[FilePlan]:  # fmt: skip
+    """The files of the component's language, which are kept as long as its documents and those of its modules are the
+    same: after an edit, most are. Machines and forms may be in files of their own, and plug-ins may read anything."""
+    component = linked.component
+    plugins = options.workspace_of(component.path).plugins.of(LANGUAGES)
+    if linked.machine or component.gui or component.language.name in plugins:
+        return of_language(linked, layout)
+    modules = (scope.module for scope in linked.modules())
+    causes = (
+        component, linked.parameters.parameters, linked.parameters.document, layout.slice, layout.runtime,
+        layout.made_for, *modules,
+    )  # fmt: skip
+    return program.memory.result(("language", component.path), causes, lambda: of_language(linked, layout))
 
 
 def of_language(linked: LinkedComponent, layout: Layout = ALONE) -> list[FilePlan]:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping
 
 import msgspec
 
-from robocomp_yaml.addresses.own_configuration import own_configuration, own_values, stated_in, users_keys
+from robocomp_yaml.addresses.own_configuration import own_configuration, own_document, own_values, stated_in, users_keys
 from robocomp_yaml.addresses.table import PortTable
 from robocomp_yaml.emit import config
 from robocomp_yaml.emit.layout import CONFIG
@@ -35,17 +35,14 @@ def documents_of(linked: LinkedComponent, program: Program) -> list[LinkedValues
     their own."""
     folder = os.path.realpath(os.path.join(os.path.dirname(linked.component.path), "etc"))
     own = own_values(linked, program)
-    documents = [
-        values
-        for real, values in sorted(program.values.items())
-        if values is own
-        or (
-            os.path.dirname(real) == folder
-            and values.parameters is not None
-            and values.parameters.component is linked
-            and legacy_file(values)
-        )
-    ]
+    beside = {
+        real: values
+        for real, values in program.values_in(folder).items()
+        if values.parameters is not None and values.parameters.component is linked and legacy_file(values)
+    }
+    if own is not None:  # perhaps a link to another folder
+        beside[own_document(linked)] = own
+    documents = [values for _, values in sorted(beside.items())]
     joined = {str(layer.value) for values in documents for layer in values.document.extends}
     # The first document of a pair is part of the file of the second one.
     return [values for values in documents if os.path.basename(values.document.path) not in joined]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from typing import TYPE_CHECKING
 
@@ -174,6 +175,14 @@ class Program(msgspec.Struct, frozen=True):
     plugins_of: Callable[[str], Plugins] = lambda path: NONE
     memory: Memory = msgspec.field(default_factory=Memory)
     _effective: dict[LayeredValues, tuple[Effective | None, Sequence[Diagnostic]]] = {}
+    _values: dict[str, dict[str, LinkedValues]] = {}
+
+    def values_in(self, folder: str) -> Mapping[str, LinkedValues]:
+        """The values documents in a folder, a real path, by their real paths."""
+        if not self._values:
+            for real, linked in self.values.items():
+                self._values.setdefault(os.path.dirname(real), {})[real] = linked
+        return self._values.get(folder, {})
 
     def effective(self, values: LayeredValues) -> tuple[Effective | None, Sequence[Diagnostic]]:
         """The effective values of a values document, None if there are errors, and their diagnostics. They are computed

@@ -64,8 +64,8 @@ def _run(server: Server, path: str, *, merge: bool) -> tuple[types.MessageType, 
     if path not in session.open:
         raise Refused(f"{path or 'the document'} is not open")
     root = session.root_of(path)
-    for one in session.open.values():
-        if session.root_of(one.path) == root and _is_unsaved(one.path, one.raw):
+    for one in (*session.open.values(), *session.code.values()):
+        if session.root_of(one.path) == root and not one.is_saved:
             raise Refused(f"save {one.path} first: files on the disk are compiled")
     compiled = api.load(root, include=session.include).compile(merge=merge)
     errors = [one for one in compiled.diagnostics if one.severity == api.ERROR]
@@ -78,11 +78,3 @@ def _run(server: Server, path: str, *, merge: bool) -> tuple[types.MessageType, 
     count = sum(one.action in CHANGED for one in outcome.files)
     done = f"compiled, {count} file{'' if count == 1 else 's'} written" if count else "compiled, nothing has changed"
     return types.MessageType.Info, done
-
-
-def _is_unsaved(path: str, raw: bytes) -> bool:
-    try:
-        with open(path, "rb") as file:
-            return file.read() != raw
-    except OSError:
-        return True

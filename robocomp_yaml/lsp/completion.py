@@ -6,7 +6,7 @@ from lsprotocol import types
 
 from robocomp_yaml.api.completing import schema_keys
 from robocomp_yaml.api.completing.places import typed_at
-from robocomp_yaml.api.completing.proposal import CODE, VALUE, Proposal
+from robocomp_yaml.api.completing.proposal import CODE, PATH, VALUE, Proposal
 from robocomp_yaml.api.completing.proposals import codes_at, importing, of_schema_server, proposals
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.lsp.messages import real_path
@@ -18,7 +18,7 @@ _KINDS = {
     names.TOPIC: types.CompletionItemKind.Event, names.TYPE: types.CompletionItemKind.Struct,
     names.EXCEPTION: types.CompletionItemKind.Struct, names.COMPONENT: types.CompletionItemKind.Class,
     names.PARAMETER: types.CompletionItemKind.Property, names.STATE: types.CompletionItemKind.EnumMember,
-    VALUE: types.CompletionItemKind.Value, CODE: types.CompletionItemKind.Constant,
+    VALUE: types.CompletionItemKind.Value, CODE: types.CompletionItemKind.Constant, PATH: types.CompletionItemKind.File,
     schema_keys.KEY: types.CompletionItemKind.Property, schema_keys.SNIPPET: types.CompletionItemKind.Snippet,
 }  # fmt: skip
 

@@ -86,10 +86,14 @@ def make(include: Iterable[str] = ()) -> Server:
         path, only = real_path(params.text_document.uri) or "", params.context.only
 
         def job() -> list[types.CodeAction]:
+            made: list[types.CodeAction] = []
+            is_asked = only is None or any("quickfix".startswith(one) for one in only)
+            if path in server.session.code:
+                found, texts = server.session.of_code(path)
+                return server.messages(texts).actions(found, params.range) if is_asked else []
             if path not in server.session.open:
                 return []
-            made: list[types.CodeAction] = []
-            if only is None or any("quickfix".startswith(one) for one in only):
+            if is_asked:
                 found, texts = server.session.of_document(path)
                 if any(one.code in MORE for one in found):
                     known = server.session.names_around(path)

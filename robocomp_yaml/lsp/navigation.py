@@ -9,6 +9,7 @@ from lsprotocol import types
 
 from robocomp_yaml.api.completing import schema_keys
 from robocomp_yaml.api.completing.places import typed_at
+from robocomp_yaml.api.completing.proposals import kind_at
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.lsp.from_code import name_in_code
 from robocomp_yaml.lsp.messages import Messages, real_path
@@ -18,8 +19,8 @@ from robocomp_yaml.lsp.users import described
 from robocomp_yaml.naming import names
 from robocomp_yaml.naming.in_generated import places_in_generated
 from robocomp_yaml.naming.names import DefinedName, Key
+from robocomp_yaml.naming.of_files import named_files
 from robocomp_yaml.naming.places_in_code import places_in_code
-from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.disk import Disk
 
 _Answer = TypeVar("_Answer")
@@ -66,7 +67,23 @@ def add(server: Server) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_DEFINITION)
     async def definition(params: types.DefinitionParams) -> types.Location | None:
-        return await asked(params, lambda one, _, known, messages: messages.location(one.span))
+        return await asked(params, lambda one, _, known, messages: messages.location(one.span)) or await linked(params)
+
+    async def linked(params: types.DefinitionParams) -> types.Location | None:
+        """The file that a path in a document means."""
+        path = real_path(params.text_document.uri)
+
+        def job() -> types.Location | None:
+            if path not in server.session.open or path is None or not server.session.is_document(path):
+                return None
+            known = server.session.names_around(path)
+            line, column = server.lines(server.session.text_of(path)).place(params.position)
+            for span, file in named_files(known.analysis, known.names, path):
+                if span.line == line == span.end_line and span.column <= column <= span.end_column:
+                    return server.messages(known.texts).location(Span(file))
+            return None
+
+        return await server.run(job)
 
     @server.feature(types.TEXT_DOCUMENT_REFERENCES)
     async def references(params: types.ReferenceParams) -> list[types.Location] | None:
@@ -128,7 +145,7 @@ def add(server: Server) -> None:
             return None
         lines = server.lines(document.text)
         place = typed_at(document.text, *lines.place(params.position))
-        kind = kind_of(path, Disk({path: document.raw})) or "workspace"
+        kind = kind_at(path, Disk({path: document.raw}))
         if place is None or place.column == place.end_column:
             return None
         word = lines.line(place.line)[place.column - 1 : place.end_column - 1]

@@ -28,7 +28,7 @@ from robocomp_yaml.source.spelled import DocumentTexts
 AUTO, YES, NO = "auto", "yes", "no"
 AT_ONCE, AT_REST = 0.02, 0.25  # seconds after the last key
 MANY_JOBS = 300  # after so many, garbage is collected
-_CODE = "**/{src,generated}/**/*.{py,pyi,cpp,h,hpp,java}"
+_CODE, _SOURCES = "**/{src,generated}/**/*.{py,pyi,cpp,h,hpp,java}", "**/src/**/*.{py,cpp,h,hpp,java}"
 _WATCHED = "**/*"
 SHAPE = frozenset(
     code.id for code in (codes.UNKNOWN_KEY, codes.MISSING_KEY, codes.WRONG_SHAPE, codes.NOT_A_MAPPING, codes.WRONG_NAME)
@@ -39,7 +39,7 @@ Versions = dict[str, int | None]
 
 
 class Server(LanguageServer):
-    """The server with its session. `session` is used only in the thread of analyses."""
+    """The server with its session. `session` is used only in the thread of analyses, but for the texts of code."""
 
     def __init__(self) -> None:
         super().__init__(SOURCE, __version__, types.TextDocumentSyncKind.Full)
@@ -88,11 +88,17 @@ class Server(LanguageServer):
         return self.session.is_for_schema_server(path)
 
     async def edited(self, document: EditedText) -> None:
+        """A document, or a file of the user's code, was opened or changed."""
+        if is_code(document.path):
+            self.session.code[document.path] = document
+            return
         await self.run(lambda: self.session.edit(document))
         self._later(self._at_once, document.path, AT_ONCE, self._check_document)
         await self._check_later()
 
     async def closed(self, path: str) -> None:
+        if self.session.code.pop(path, None) is not None:
+            return
         gone = await self.run(lambda: self.session.close(path))
         for one in gone:
             self._publish(one, [], DocumentTexts({}, {}), {})
@@ -200,12 +206,17 @@ class Server(LanguageServer):
         return TextLines(text, str(getattr(encoding, "value", encoding)) if encoding else UTF16)
 
     def uri_of(self, path: str) -> str:
-        document = self.session.open.get(path)
+        document = self.session.open.get(path) or self.session.code.get(path)
         return document.uri if document is not None else uri_of_path(path)
 
     def version_of(self, path: str) -> int | None:
-        document = self.session.open.get(path)
+        document = self.session.open.get(path) or self.session.code.get(path)
         return document.version if document is not None else None
+
+
+def is_code(path: str) -> bool:
+    """Whether it may be the user's code."""
+    return path.endswith((".py", ".cpp", ".h", ".hpp", ".java"))
 
 
 def watchers() -> types.DidChangeWatchedFilesRegistrationOptions:
@@ -230,3 +241,16 @@ def of_code(capabilities: types.ClientCapabilities) -> Iterator[types.Registrati
     if known.references is not None and known.references.dynamic_registration:
         more = types.ReferenceRegistrationOptions(selector)
         yield types.Registration("rcyaml-references", types.TEXT_DOCUMENT_REFERENCES, more)
+    sync, actions = known.synchronization, known.code_action
+    if sync is not None and sync.dynamic_registration and actions is not None and actions.dynamic_registration:
+        sources: list[types.TextDocumentFilter] = [types.TextDocumentFilterPattern(pattern=_SOURCES, scheme="file")]
+        kinds = [types.CodeActionKind.QuickFix]
+        for method, made in (
+            (types.TEXT_DOCUMENT_DID_OPEN, types.TextDocumentRegistrationOptions(sources)),
+            (types.TEXT_DOCUMENT_DID_CHANGE,
+             types.TextDocumentChangeRegistrationOptions(types.TextDocumentSyncKind.Full, sources)),
+            (types.TEXT_DOCUMENT_DID_SAVE, types.TextDocumentSaveRegistrationOptions(sources)),
+            (types.TEXT_DOCUMENT_DID_CLOSE, types.TextDocumentRegistrationOptions(sources)),
+            (types.TEXT_DOCUMENT_CODE_ACTION, types.CodeActionRegistrationOptions(sources, kinds)),
+        ):  # fmt: skip
+            yield types.Registration(f"rcyaml-{method.rpartition('/')[2]}", method, made)

@@ -25,7 +25,7 @@ from robocomp_yaml.lsp.moved import moved
 from robocomp_yaml.naming.analysis import names_of
 from robocomp_yaml.naming.names import Names
 from robocomp_yaml.pipeline import Analysis
-from robocomp_yaml.source.discover import WORKSPACE_FILE, kind_of
+from robocomp_yaml.source.discover import WORKSPACE_FILE, is_script, kind_of
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.spelled import DocumentTexts
 
@@ -33,6 +33,7 @@ _MODELINE = re.compile(r"^#\s*yaml-language-server\s*:.*\$schema", re.MULTILINE)
 _HEAD = 10_000  # characters that editors search
 _SETTINGS = (".vscode/settings.json", ".yamlls.json", ".helix/languages.toml")
 LONG = 0.06  # seconds of CPU that a key may take
+FEW = 1000  # documents whose names are collected before anybody asks for them
 MANY = 500  # lines of a deployment that probably takes longer
 _ALONE = ("RC01", "RC02")  # codes of syntax and shape
 Found = dict[str, list[Diagnostic]]
@@ -54,6 +55,14 @@ class EditedText(msgspec.Struct):
     @property
     def raw(self) -> bytes:
         return self.text.encode("utf-8", "surrogatepass")  # half a pair is an error of the document, not of ours
+
+    @property
+    def is_saved(self) -> bool:
+        try:
+            with open(self.path, "rb") as file:
+                return file.read() == self.raw
+        except OSError:
+            return False
 
 
 class KnownNames(msgspec.Struct, frozen=True):
@@ -92,6 +101,7 @@ class OpenWorkspace:
     def __init__(self, root: str, include: Iterable[str]) -> None:
         self.root, self.living = root, LivingWorkspace((root,), include)
         self.is_known = False  # whether it was analysed as a whole
+        self.is_idle = False  # whether none of its documents is open
         self.found: Found = {}
         self.whole: Analysis | None = None
         self.names: KnownNames | None = None
@@ -108,6 +118,7 @@ class Session:
         self.folders = [os.path.realpath(folder) for folder in folders]
         self.include = tuple(include)
         self.open: dict[str, EditedText] = {}
+        self.code: dict[str, EditedText] = {}  # the user's code, of which only what is saved is checked
         self.workspaces: dict[str, OpenWorkspace] = {}
         self._has_settings: dict[str, bool] = {}
 
@@ -119,18 +130,26 @@ class Session:
             workspace.living.edit(document.path, document.raw)
 
     def close(self, path: str) -> list[str]:
-        """A document was closed. Returns the paths whose diagnostics go with it."""
+        """A document was closed. Returns the paths whose diagnostics go with it. The workspace of the last document is
+        kept, because most people open another one of it next."""
         self._forget_names()
+        root = self.root_of(path)
         self.open.pop(path, None)
         for workspace in self.workspaces.values():
             workspace.looks.pop(path, None)
             workspace.living.edit(path, None)
-        return self._drop_unused()
+        return self._drop_unused(root if root != path else "")
 
-    def _drop_unused(self) -> list[str]:
+    def _drop_unused(self, last: str) -> list[str]:
         used = {self.root_of(path) for path in self.open}
-        gone = [self.workspaces.pop(root) for root in list(self.workspaces) if root not in used]
-        return [path for workspace in gone for path in (*workspace.found, workspace.root)]
+        gone: list[str] = []
+        for root in self.workspaces.keys() - used:
+            workspace = self.workspaces[root]
+            gone += (*workspace.found, root)
+            workspace.found, workspace.beyond, workspace.is_idle = {}, {}, True
+            if root != last:
+                del self.workspaces[root]
+        return gone
 
     def refresh(self) -> None:
         """Files may have changed on the disk."""
@@ -162,12 +181,18 @@ class Session:
             workspace = self.workspaces[root] = OpenWorkspace(root, self.include)
             for document in self.open.values():
                 workspace.living.edit(document.path, document.raw)
-        return self.workspaces[root]
+        workspace = self.workspaces[root]
+        if workspace.is_idle:
+            workspace.is_idle = False
+            workspace.living.refresh()  # nobody told of changes on the disk
+        return workspace
 
     def is_document(self, path: str) -> bool:
-        """Whether rcyaml has something to say about a file: it is a document, or the settings of a workspace."""
+        """Whether rcyaml has something to say about a file: it is a document, a mock script, or the settings of a
+        workspace."""
         overlay = {one.path: one.raw for one in self.open.values()}
-        return kind_of(path, Disk(overlay)) is not None or os.path.basename(path) == WORKSPACE_FILE
+        is_other = os.path.basename(path) == WORKSPACE_FILE or is_script(path)
+        return is_other or kind_of(path, Disk(overlay)) is not None
 
     def of_document(self, path: str, *, at_rest: bool = False) -> tuple[list[Diagnostic], DocumentTexts]:
         """The diagnostics of an open document and of what it names, at once, with those that only its whole workspace
@@ -236,7 +261,7 @@ class Session:
 
     def text_of(self, path: str) -> str:
         """The text of a file that is no document; '' if it cannot be read."""
-        document = self.open.get(path)
+        document = self.open.get(path) or self.code.get(path)
         raw = document.raw if document is not None else Disk().read(path)[0]
         return raw.decode("utf-8-sig", "replace") if raw is not None else ""
 
@@ -254,6 +279,13 @@ class Session:
         """The names of the documents that a document can import."""
         search = self.names_around(path, may_be_old=True).search
         return search.known(path, above(path, search.disk)[0])
+
+    def of_code(self, path: str) -> tuple[list[Diagnostic], DocumentTexts]:
+        """The diagnostics of open code, which is checked with its workspace; none if it is not saved."""
+        workspace, code = self.workspaces.get(self.root_of(path)), self.code.get(path)
+        if workspace is None or code is None or not code.is_saved:
+            return [], DocumentTexts({}, {})
+        return workspace.found.get(path, []), workspace.texts
 
     def names_everywhere(self) -> list[KnownNames]:
         return [self.names_around(path) for path in {self.root_of(path): path for path in self.open}.values()]
@@ -275,7 +307,7 @@ class Session:
         for one in whole.check():
             workspace.found.setdefault(one.span.file, []).append(one)
         workspace.texts, workspace.is_known, workspace.whole = whole.analysis.texts, True, whole.analysis
-        if workspace.last_names is not None:  # they are asked for
+        if workspace.last_names is not None or len(whole.analysis.documents) <= FEW:  # they are, or will be, asked for
             self._collect_names(workspace, whole.analysis)
         workspace.beyond = {path: self._beyond(workspace, path) for path in self._in(root)}
         return {**{path: [] for path in (*before, *self._in(root))}, **workspace.found}

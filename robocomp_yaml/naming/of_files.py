@@ -47,6 +47,15 @@ def edits_of_moves(analysis: Analysis, names: Names, moves: Mapping[str, str]) -
     return list(_Moved(analysis, names, _Moves(moves, analysis.disk)).edits())
 
 
+def named_files(analysis: Analysis, names: Names, path: str) -> Iterator[tuple[Span, str]]:
+    """The paths in a document that lead to a file, each with that file; imports are names."""
+    unmoved = _Moved(analysis, names, _Moves({}, analysis.disk))
+    for shown, real, kind, tree in unmoved.documents():
+        for use in _paths(tree, kind) if shown == path else ():
+            if use.key != _IMPORTS and (file := unmoved.file(use, real)):
+                yield use.node.span, file
+
+
 class _Moves(msgspec.Struct, frozen=True):
     moves: Mapping[str, str]
     disk: Disk
@@ -83,7 +92,7 @@ class _Moved:
 
     def edits(self) -> Iterator[NameEdit]:
         imports: set[Span] = set()
-        for path, real, kind, tree in self._documents():
+        for path, real, kind, tree in self.documents():
             for use in _paths(tree, kind):
                 if use.key == _IMPORTS:
                     imports.add(use.node.span)
@@ -94,7 +103,7 @@ class _Moved:
                     yield from self._spelled(path, use.node.span, use.node.lexeme, new)
         yield from self._qualifiers(imports)
 
-    def _documents(self) -> Iterator[tuple[str, str, str, Node]]:
+    def documents(self) -> Iterator[tuple[str, str, str, Node]]:
         for real, document in self.analysis.documents.items():
             if document.tree is not None:
                 yield document.path, real, document.kind, document.tree
@@ -103,6 +112,11 @@ class _Moved:
             tree, _ = read_tree(path, self.disk)
             if tree is not None:
                 yield path, self.disk.real(path), "workspace", tree
+
+    def file(self, use: _PathUse, document: str) -> str:
+        """The real path of the file that a path means; '' if there is none."""
+        found = (self._real(os.path.join(base, use.node.lexeme)) for base, _ in self._bases(use, document))
+        return next((real for real in found if self.disk.state(real) not in (NOTHING, FOLDER)), "")
 
     def _path(self, use: _PathUse, document: str) -> str | None:
         text = use.node.lexeme

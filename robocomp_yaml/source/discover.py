@@ -142,9 +142,9 @@ def documents_below(
     scripts: list[str] | None = None,
     misnamed: list[str] | None = None,
 ) -> Iterator[str]:
-    """Every document below a folder, sorted within each folder; links to folders are not followed. Folders that have a
-    manifest are appended to `roots`, mock scripts to `scripts`, documents with the suffix `.yml` to `misnamed`;
-    `on_error` is called for folders that cannot be read."""
+    """Every document below a folder, sorted within each folder; links to folders are not followed, and hidden files are
+    skipped. Folders that have a manifest are appended to `roots`, mock scripts to `scripts`, documents with the suffix
+    `.yml` to `misnamed`; `on_error` is called for folders that cannot be read."""
     disk = disk or Disk()
     documents: list[str] = []
     for where, folders, names in disk.walk(folder, on_error):
@@ -152,6 +152,8 @@ def documents_below(
             roots.append(os.path.normpath(where))
         folders[:] = [name for name in folders if not is_skipped(name)]
         for name in names:
+            if name.startswith("."):
+                continue  # see `documents_in`
             if name.endswith(".yaml") and kind_of(path := os.path.normpath(os.path.join(where, name)), disk):
                 documents.append(path)
                 yield path

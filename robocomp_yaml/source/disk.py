@@ -258,8 +258,9 @@ class Disk:
 
 
 def documents_in(names: Iterable[str]) -> list[str]:
-    """Those of the names that may be documents, in upper or lower case, sorted."""
-    return sorted(name for name in names if name.lower().endswith(".yaml"))
+    """Those of the names that may be documents, in upper or lower case, sorted. Hidden files are none: editors make
+    them beside documents, such as Emacs' locks (`.#Speech.idsl.yaml`)."""
+    return sorted(name for name in names if name.lower().endswith(".yaml") and not name.startswith("."))
 
 
 def _documents_of(folder: str) -> list[str]:

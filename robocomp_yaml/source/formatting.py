@@ -239,7 +239,8 @@ class _Layout:
         header_end = _line_end(self.source, start)
         header = _HEADER.match(self.source[start:header_end])
         assert header is not None
-        body, self_end = _body(self.source, header_end, token.value, keeps="+" in header[2] + header[4])
+        said = (self.blocks[-1].old if self.blocks else 0) + int(header[3]) if header[3] else -1
+        body, self_end = _body(self.source, header_end, token.value, said, keeps="+" in header[2] + header[4])
         inner = self._inner()
         needs_digit = next((line for line in body if line), "").startswith(" ")
         digit = str(inner - (self.blocks[-1].new if self.blocks else 0)) if needs_digit else ""
@@ -315,12 +316,12 @@ def _line_end(source: str, start: int) -> int:
     return len(source) if end < 0 else end
 
 
-def _body(source: str, start: int, value: str, *, keeps: bool) -> tuple[list[str], int]:
-    """The lines of a block scalar without their indentation, and where they end. `start` is the end of its header;
-    `keeps`: the blank lines at its end belong to it."""
+def _body(source: str, start: int, value: str, said: int, *, keeps: bool) -> tuple[list[str], int]:
+    """The lines of a block scalar without their indentation, and where they end. `start` is the end of its header,
+    `said` the column that the header gives, or -1; `keeps`: the blank lines at its end belong to it."""
     first = next((line for line in value.split("\n") if line.strip()), "")
     lines: list[str] = []
-    indent, end, last = -1, start, start
+    indent, end, last = said, start, start
     while end + 1 < len(source):
         line = source[end + 1 : (line_end := _line_end(source, end + 1))]
         if line.strip(" "):

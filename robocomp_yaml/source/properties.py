@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable
+from functools import lru_cache
 
 import msgspec
 
@@ -83,7 +84,12 @@ def last(entries: Iterable[IceProperty]) -> dict[str, IceProperty]:
     return effective
 
 
+@lru_cache(maxsize=512)  # a run reads each file several times, and `--watch` the same files again and again
 def read(text: str) -> Properties:
+    return _read(text)
+
+
+def _read(text: str) -> Properties:
     lines: list[PropertyLine] = []
     start = len(text) - len(text.removeprefix("\ufeff"))
     for number, line in enumerate(text[start:].split("\n"), 1):
@@ -96,7 +102,7 @@ def read(text: str) -> Properties:
 def without_secret(line: str, names: Collection[str] = ()) -> str:
     """A line (without its end) in which the value and all text after it is hidden if the key is secret, or is one of
     `names`."""
-    for entry in read(line).entries:
+    for entry in _read(line).entries:
         if secrets.value(entry.key, entry.value, names) == secrets.HIDDEN:
             return f"{line[: entry.at]}{secrets.HIDDEN}"
     return line

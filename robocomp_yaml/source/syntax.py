@@ -123,7 +123,9 @@ def compose(path: str, text: str, *, by_libyaml: bool = False) -> Node | None:
 
 
 def tokens(text: str) -> Iterator[object]:
-    """The tokens of a text, by libyaml; Raises MarkedYAMLError."""
+    """The tokens of a text, by libyaml. Raises MarkedYAMLError, also for a text that only libyaml's parser refuses: its
+    scanner reads `[a?b]` as something else."""
+    _Composer(text).get_single_node()
     parser = CParser(text)
     while parser.check_token():
         yield parser.get_token()

@@ -57,7 +57,9 @@ class Editor:
         capabilities = types.ClientCapabilities(
             general=types.GeneralClientCapabilities(position_encodings=[types.PositionEncodingKind(e) for e in encodings]),
             text_document=types.TextDocumentClientCapabilities(
-                definition=types.DefinitionClientCapabilities(dynamic_registration=True)
+                definition=types.DefinitionClientCapabilities(dynamic_registration=True),
+                synchronization=types.TextDocumentSyncClientCapabilities(dynamic_registration=True),
+                code_action=types.CodeActionClientCapabilities(dynamic_registration=True),
             ),
             workspace=types.WorkspaceClientCapabilities(
                 file_operations=types.FileOperationClientCapabilities(will_rename=True, did_rename=True),

@@ -213,6 +213,66 @@ def test_several_workspaces_and_a_file_outside_of_any(tmp_path: Path) -> None:
     edited(test)
 
 
+def test_a_workspace_without_an_open_document_is_known_when_the_next_is_opened(ws: Path) -> None:
+    """Its marks go with its last document, and what changed on the disk meanwhile counts."""
+    interface, component = ws / "interfaces/Speech.idsl.yaml", ws / "speech/speech.cdsl.yaml"
+
+    async def test(editor: Editor) -> None:
+        await editor.start(ws)
+        editor.open(interface, SPEECH.replace("  Speech:", "  Talk:"))
+        await editor.until_codes(component, "RC2003")
+        editor.close(interface)
+        await editor.until_codes(component)
+        interface.write_text(SPEECH.replace("  Speech:", "  Voice:"))
+        editor.open(component)
+        (found,) = await editor.until_codes(component, "RC2003")
+        assert "Voice" in found.message
+        await editor.rest()
+        assert editor.codes(component) == ["RC2003"] and not editor.messages
+
+    edited(test)
+
+
+@pytest.mark.parametrize("place", ["rcyaml.yaml", "robot.mock.yaml"])
+def test_mock_scripts_and_settings_are_checked_and_completed(ws: Path, place: str) -> None:
+    path = ws / place
+    key, wrong = ("interfaces", "RC0204") if place == "rcyaml.yaml" else ("interfaces", "")
+
+    async def test(editor: Editor) -> None:
+        await editor.start(ws, schema_server="no")
+        editor.open(path, f"{key}: 3\n")
+        await editor.until(lambda: editor.codes(path), "a mark")
+        assert not wrong or editor.codes(path) == [wrong]
+        editor.change(path, "inter\n")
+        named = types.TextDocumentIdentifier(path.as_uri())
+        found = await editor.client.text_document_completion_async(types.CompletionParams(named, types.Position(0, 5)))
+        assert isinstance(found, list) and key in {one.label for one in found}
+        editor.change(path, f"{key}: []\n" if place == "rcyaml.yaml" else f"{key}: {{Speech: {{}}}}\n")
+        await editor.until(lambda: not editor.codes(path), "no mark")
+        assert not editor.messages
+
+    edited(test)
+
+
+def test_paths_lead_to_their_files(ws: Path) -> None:
+    write_tree(ws, {"speech/own.pdsl.yaml": "parameters: {}\n", "speech/speech.cdsl.yaml": f"{COMPONENT}parameters: own.pdsl.yaml\n",
+                    "robot.ddsl.yaml": "deployment: R\ninclude: [arm.ddsl.yaml]\n", "arm.ddsl.yaml": "deployment: A\n"})  # fmt: skip
+
+    async def test(editor: Editor) -> None:
+        await editor.start(ws)
+        for name, place, file in (
+            ("speech/speech.cdsl.yaml", types.Position(4, 14), "speech/own.pdsl.yaml"),
+            ("robot.ddsl.yaml", types.Position(1, 12), "arm.ddsl.yaml"),
+        ):
+            editor.open(ws / name)
+            named = types.TextDocumentIdentifier((ws / name).as_uri())
+            where = await editor.client.text_document_definition_async(types.DefinitionParams(named, place))
+            assert isinstance(where, types.Location)
+            assert (where.uri, where.range) == ((ws / file).as_uri(), at(0, 0, 0))
+
+    edited(test)
+
+
 def test_other_files_are_left_alone(ws: Path) -> None:
     async def test(editor: Editor) -> None:
         await editor.start(ws)

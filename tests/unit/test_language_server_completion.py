@@ -23,7 +23,8 @@ WORKSPACE = {
     "eye/eye.cdsl.yaml": "component: EyeComp\nlanguage: python\nimports: [Eye]\nimplements: [Eye]\n",
 }  # fmt: skip
 IMPORTABLE = ["Arm", "Eye", "Pose"]
-NAMES = names_of(analysed(WORKSPACE))
+ANALYSIS = analysed(WORKSPACE)
+NAMES = names_of(ANALYSIS)
 
 IDSL = "module: RoboCompLeg\nimports: [Pose]\ntypes: {Own: {enum: [a]}}\n"
 CDSL = "component: C\nlanguage: python\nimports: [Arm]\n"
@@ -56,9 +57,9 @@ ROWS = [
     ("robot.ddsl.yaml", f"{DDSL}services: {{storm: {{icestorm: {{host: |}}}}}}\n", ["left", "right"]),
     ("robot.ddsl.yaml", f"{DDSL}  two: {{component: eye, connect: {{Arm: |}}}}\n", ["one"]),
     ("robot.ddsl.yaml", f"{DDSL}  two: {{component: eye, after: [|]}}\nservices: {{storm: {{icestorm: }}}}\n", ["one", "storm"]),
-    ("robot.ddsl.yaml", f"{DDSL}  two: {{component: eye}}\ngroups: {{g: {{components: [one, |]}}}}\n", ["one", "two"]),
-    ("robot.ddsl.yaml", f"{DDSL}  two: {{component: arm, set: {{|}}}}\n", ["speed", "camera"]),
-    ("robot.ddsl.yaml", f"{DDSL}  two:\n    component: arm\n    set:\n      sp|\n", ["speed", "camera"]),
+    ("robot.ddsl.yaml", f"{DDSL}  two: {{component: eye}}\ngroups: {{g: {{components: [one, |]}}}}\n", ["two"]),
+    ("robot.ddsl.yaml", f"{DDSL}  two: {{component: arm, set: {{|}}}}\n", ["speed", "camera", "period"]),
+    ("robot.ddsl.yaml", f"{DDSL}  two:\n    component: arm\n    set:\n      sp|\n", ["speed", "camera", "period"]),
     ("robot.ddsl.yaml", f"{DDSL}  two: {{component: arm, set: |}}\n", []),
     ("robot.ddsl.yaml", f"{DDSL}  two: {{component: arm/arm.cdsl.yaml, set: {{camera: {{w|: 3}}}}}}\n", ["width"]),
     ("robot.ddsl.yaml", "deployment: |\n", []),
@@ -71,7 +72,7 @@ def test_what_is_offered(file: str, marked: str, expected: list[str], end: str) 
     before, _, behind = marked.replace("\n", end).partition("|")
     line, column = before.count("\n") + 1, len(before) - before.rfind("\n")
     place = typed_at(before + behind, line, column)
-    found = proposals(f"{ROOT}/{file}", place, NAMES, IMPORTABLE) if place is not None else []
+    found = proposals(f"{ROOT}/{file}", place, NAMES, IMPORTABLE, ANALYSIS.program) if place is not None else []
     assert sorted(f"{one.text} +{one.imports}" if one.imports else one.text for one in found) == sorted(expected)
 
 
@@ -138,6 +139,93 @@ def offered(file: str, marked: str, *, with_schema: bool = False) -> list[str]:
 @pytest.mark.parametrize(("file", "marked", "expected"), OF_VALUES)
 def test_values_states_and_ports_are_offered(file: str, marked: str, expected: list[str]) -> None:
     assert offered(file, marked) == expected
+
+
+def test_names_are_offered_once_and_a_list_with_its_brackets() -> None:
+    arm = "component: C\nlanguage: python\nimports: [Arm, Eye]\n"
+    assert offered("leg/leg.cdsl.yaml", f"{arm}implements: [Arm, |]\n") == ["Eye"]
+    assert offered("leg/leg.cdsl.yaml", f"{arm}implements:\n  - Arm\n  - |\n") == ["Eye"]
+    for place in ("implements: |", "implements: A|"):
+        assert sorted(inserted("leg/leg.cdsl.yaml", f"{arm}{place}\n")) == ["[Arm]", "[Eye]"]
+    assert sorted(inserted("leg/leg.cdsl.yaml", f"{arm}implements: [|\n")) == ["Arm", "Eye"]
+    assert inserted("robot.ddsl.yaml", f"{DDSL}  two: {{component: eye, host: |}}\n") == ["left", "right"]
+    assert inserted("robot.ddsl.yaml", f"{DDSL}  two: {{component: eye, after: |}}\n") == ["[one]"]
+
+
+@pytest.mark.parametrize(
+    ("marked", "expected", "replaced"),
+    [
+        ("mode: '|'", ["slow", "fast"], ""), ('mode: "sl|', ["slow", "fast"], "sl"), ("mode: a b|", ["slow", "fast"], "a b"),
+        ("mode: 'a |c'", ["slow", "fast"], "a c"), ("wheels: [{|}]", ["size: "], ""), ("wheels:\n  - |", ["size: "], ""),
+        ("wheels:\n  - si|", ["size: "], "si"), ("wheels: [{size: |", ["3", "5"], ""), ("camera.|", ["camera.width: "], "camera."),
+        ("mo|de: slow", ["mode", "is_on", "speed", "wheels", "token", "camera", "period"], "mode"), ("mode:|", [], ""),
+    ],
+)  # fmt: skip
+def test_half_typed_values_and_keys(marked: str, expected: list[str], replaced: str) -> None:
+    """In quotes, also open ones, in texts with blanks, in records of lists, behind dots, and in keys that are there."""
+    below = marked.replace("\n", "\n      ")
+    for file, text in (
+        ("robot.ddsl.yaml", f"{DDSL}  two:\n    component: arm\n    set:\n      {below}\n"),
+        ("arm/etc/config.yaml", f"component: ../arm.cdsl.yaml\nparameters:\n      {below}\n"),
+    ):
+        before, _, behind = text.partition("|")
+        line, column = before.count("\n") + 1, len(before) - before.rfind("\n")
+        place = typed_at(before + behind, line, column)
+        found = inserted(file, text, with_schema=True)
+        assert found[: len(expected)] == expected, file
+        if expected:
+            assert place is not None
+            assert (before + behind).split("\n")[line - 1][place.column - 1 : place.end_column - 1] == replaced
+
+
+def inserted(file: str, marked: str, *, with_schema: bool = False) -> list[str]:
+    before, _, behind = marked.partition("|")
+    line, column = before.count("\n") + 1, len(before) - before.rfind("\n")
+    place = typed_at(before + behind, line, column)
+    found = proposals(f"{ROOT}/{file}", place, NAMES, IMPORTABLE, PROGRAM, with_schema=with_schema) if place else []
+    return [one.snippet or one.text for one in found]
+
+
+def test_values_in_quotes_keep_these() -> None:
+    pdsl = "parameters: {a: {type: string, values: ['1', \"it's\", b c], default: %s}}\n"
+    assert inserted("leg/leg.pdsl.yaml", pdsl % "|") == ['"1"', '"it\'s"', "b c"]
+    assert inserted("leg/leg.pdsl.yaml", pdsl % '"|"') == ["1", "it's", "b c"]
+    assert inserted("leg/leg.pdsl.yaml", pdsl % "'|'") == ["1", "it''s", "b c"]
+
+
+def test_paths_of_documents_are_offered() -> None:
+    assert offered("leg/leg.cdsl.yaml", "component: C\nparameters: |\n") == ["../arm/arm.pdsl.yaml"]
+    assert offered("arm/etc/more.config.yaml", "extends: [|]\n") == ["config.yaml"]
+    assert offered("robot.ddsl.yaml", f"{DDSL}  two: {{component: arm, config: |}}\n") == ["etc/config.yaml"]
+    for text in ("include: [|]", "include: {left: |}", "groups: {g: {include: |}}"):
+        assert offered("lab/lab.ddsl.yaml", f"deployment: D\n{text}\n") == ["../robot.ddsl.yaml"]
+        assert offered("robot.ddsl.yaml", f"deployment: D\n{text}\n") == []
+
+
+def test_mock_scripts_settings_and_ports_of_values() -> None:
+    assert set(offered("a.mock.yaml", "interfaces: {|}\n")) == {"Arm", "Eye"}
+    assert offered("a.mock.yaml", "interfaces:\n  Arm:\n    methods:\n      |\n") == ["stop"]
+    assert offered("a.mock.yaml", "topics: {Moved: {messages: [|]}}\n") == ["moved2"]
+    assert {"interfaces: ", "topics: "} <= set(offered("a.mock.yaml", "|\n", with_schema=True))
+    assert {"interfaces: ", "lint: "} <= set(offered("rcyaml.yaml", "|\n", with_schema=True))
+    assert "RC2003" in offered("rcyaml.yaml", "lint: {|}\n", with_schema=True)
+    values = "component: ../arm.cdsl.yaml\n"
+    assert offered("arm/etc/config.yaml", f"{values}proxies: {{|}}\n", with_schema=True)[0] == "Left"
+    assert offered("arm/etc/config.yaml", f"{values}endpoints: {{|}}\n", with_schema=True)[:2] == [
+        "Arm",
+        "CommonBehavior",
+    ]
+    assert offered("arm/etc/config.yaml", f"{values}topics: {{name: {{|}}}}\n", with_schema=True)[0] == "Moved"
+
+
+def test_defaults_are_those_of_the_type() -> None:
+    own = "module: M\nimports: [Pose]\ntypes:\n  E: {enum: [a, b]}\n  P: {struct: {e: {type: %s, default: |}}}\n"
+    assert offered("interfaces/Leg.idsl.yaml", own % "E") == ["a", "b"]
+    assert offered("interfaces/Leg.idsl.yaml", own % "bool") == ["true", "false"]
+    assert offered("interfaces/Leg.idsl.yaml", own % "Pose.Pose") == []
+    assert "E" in offered(
+        "interfaces/Leg.idsl.yaml", "module: M\ntypes: {E: {enum: [a]}, T: {map: {key: int, value: |}}}\n"
+    )
 
 
 def test_without_a_server_of_schemas_keys_and_values_of_the_schema_are_offered_too() -> None:

@@ -18,7 +18,10 @@ _OPENED = {"[": "]", "{": "}"}
 class TypedPlace(msgspec.Struct, frozen=True):
     """`keys` are the keys around the cursor, with '' for an item of a list; `is_key` says that a key is typed there,
     and not a value: one with a colon, in braces, or in a line of its own below a key. The word at the cursor is in
-    these columns of the line. `root` is the document with a mark instead of the word, and `text` its text."""
+    these columns of the line; if it is in a text with blanks, that is the whole text, without its quotes. `quote` is
+    the quote before it, or ''; `word` is what is typed before the cursor. `around` is the mapping in which a key is
+    typed, or the list in which an element is; `has_colon`: the key has its colon already. `root` is the document with a
+    mark instead of the word, and `text` its text."""
 
     keys: tuple[str, ...]
     is_key: bool
@@ -27,6 +30,10 @@ class TypedPlace(msgspec.Struct, frozen=True):
     end_column: int
     root: Mapping
     text: str
+    quote: str = ""
+    word: str = ""
+    around: Mapping | Sequence | None = None
+    has_colon: bool = False
 
 
 def typed_at(text: str, line: int, column: int) -> TypedPlace | None:
@@ -55,35 +62,52 @@ def typed_at(text: str, line: int, column: int) -> TypedPlace | None:
         root, _ = parse("", attempt)
         keys = _keys_around(root) if isinstance(root, Mapping) else None
         if keys is not None and isinstance(root, Mapping):
-            around, is_key = keys
-            is_key = is_key or (not own.strip() and around[-1:] != ("",))
-            start = begin.start() - starts[line - 1] + 1
-            return TypedPlace(around, is_key, line, start, start + end.end() - begin.start(), root, attempt)
+            steps, is_key, node, around = keys
+            is_key = is_key or (not own.strip() and steps[-1:] != ("",))
+            start, size = begin.start() - starts[line - 1] + 1, end.end() - begin.start()
+            stop = start + size
+            if node.lexeme != MARK:
+                start = node.span.column + node.quoted
+                stop = node.span.end_column - node.quoted - len(MARK) + size
+            quote = attempt[node.start] if node.quoted else ""
+            word = text[starts[line - 1] + start - 1 : index]
+            has_colon = is_key and behind.lstrip(" \t\"'").startswith(":")
+            return TypedPlace(steps, is_key, line, start, stop, root, attempt, quote, word, around, has_colon)
     return None
 
 
 def _closing(line: str) -> str:
-    """The brackets that close those which are open at the end of a line."""
-    opened = ""
+    """The quote and the brackets that close those which are open at the end of a line."""
+    opened, quote, before = "", "", " "
     for character in line:
-        if character in _OPENED:
+        if quote:
+            quote = "" if character == quote else quote
+        elif character in "\"'" and before in " \t[{,":
+            quote = character
+        elif character in _OPENED:
             opened = _OPENED[character] + opened
         elif opened and character == opened[0]:
             opened = opened[1:]
-    return opened
+        before = character
+    return quote + opened
 
 
-def _keys_around(node: Node, outer: tuple[str, ...] = ()) -> tuple[tuple[str, ...], bool] | None:
+_Found = tuple[tuple[str, ...], bool, Scalar, Mapping | Sequence | None]
+
+
+def _keys_around(node: Node, outer: tuple[str, ...] = ()) -> _Found | None:
+    """The keys around the mark, whether it is a key, its node, and the mapping of the key or list of the element."""
     if isinstance(node, Scalar):
-        return (outer, False) if node.lexeme == MARK else None
+        is_there = MARK in node.lexeme and f":{MARK}" not in node.lexeme and node.span.line == node.span.end_line
+        return (outer, False, node, None) if is_there else None
     if isinstance(node, Mapping):
         for key, value in node.items():
             if key.lexeme == MARK:
-                return outer, True
+                return outer, True, key, node
             if found := _keys_around(value, (*outer, key.lexeme)):
                 return found
     if isinstance(node, Sequence):
         for item in node.items:
             if found := _keys_around(item, (*outer, "")):
-                return found
+                return (*found[:3], node) if found[2] is item else found
     return None

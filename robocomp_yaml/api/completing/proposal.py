@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import msgspec
 
-VALUE, CODE = "value", "code"
+VALUE, CODE, PATH = "value", "code", "path"
 
 
 class Proposal(msgspec.Struct, frozen=True):

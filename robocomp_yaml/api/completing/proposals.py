@@ -4,15 +4,20 @@ server of the schemas; if there is none, from the schemas too."""
 
 from __future__ import annotations
 
+import json
 import os
 import re
 from collections.abc import Iterable, Iterator
 from itertools import chain
 
-from robocomp_yaml.api.completing import machines, schema_keys, values
+from msgspec.structs import replace
+
+from robocomp_yaml.api.completing import machines, others, schema_keys, values
+from robocomp_yaml.api.completing.paths import paths
 from robocomp_yaml.api.completing.places import MARK, TypedPlace
-from robocomp_yaml.api.completing.proposal import CODE, Proposal
+from robocomp_yaml.api.completing.proposal import CODE, PATH, VALUE, Proposal
 from robocomp_yaml.api.schemas import names_offered
+from robocomp_yaml.check.pdsl.values import port_names
 from robocomp_yaml.diag.codes import table
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import IMPORT, Edit
@@ -22,15 +27,21 @@ from robocomp_yaml.naming import names
 from robocomp_yaml.naming.names import DefinedName, Names
 from robocomp_yaml.parameters.types import RecordType
 from robocomp_yaml.parameters.words import label
-from robocomp_yaml.source.discover import KINDS, kind_of
+from robocomp_yaml.source.discover import KINDS, WORKSPACE_FILE, kind_of
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.spelled import DocumentText
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
+from robocomp_yaml.source.yaml_text import flow
 
 _SUFFIX = ".idsl.yaml"
 _PORTS = {
     "implements": names.INTERFACE, "requires": names.INTERFACE, "publishes": names.TOPIC, "subscribes": names.TOPIC,
 }  # fmt: skip
+_ONCE = frozenset((
+    names.MODULE, names.INTERFACE, names.TOPIC, names.METHOD, names.EXCEPTION, names.STATE, names.PARAMETER, names.HOST,
+    names.ENTRY, PATH,
+))  # fmt: skip
+"""Kinds of names of which a list or mapping has each only once."""
 _OF_TYPES = ("struct", "sequence", "map", "in", "out", "returns", "type")
 
 
@@ -40,23 +51,45 @@ def proposals(
 ) -> list[Proposal]:  # fmt: skip
     """What can stand at a place of a document, each once. `with_schema`: also what its schema says."""
     found: Iterator[Proposal] = iter(())
-    kind = kind_of(path, Disk()) or _kind_by_name(path)
+    kind = kind_at(path)
+    present = _siblings(place)
     match kind:
         case "idsl":
             found = _in_interfaces(path, place, known, importable)
         case "cdsl":
             found = chain(_in_component(path, place, known, importable), machines.proposals(place))
         case "pdsl":
-            found = chain(_in_parameters(place), _component_paths(path, place, known, "component"))
+            found = chain(_in_parameters(place, known), _component_paths(path, place, known, "component"))
         case "ddsl":
             found = chain(_in_deployment(path, place, known), _set_values(path, place, program))
             found = chain(found, _ports_of_entry(path, place, program), _of_groups(place, program, path))
         case "config":
             found = chain(_in_values(path, place, program, with_schema=with_schema),
                           _component_paths(path, place, known, "component"))  # fmt: skip
-    if with_schema and kind in (*KINDS,):
+        case "mock":
+            found = others.in_script(place, known, program, present)
+        case "workspace":
+            found = others.in_settings(place, present) if with_schema else found
+    if program is not None:
+        found = chain(found, paths(kind, path, place, program))
+    if with_schema and kind in (*KINDS, "mock", "workspace"):
         found = chain(found, _of_schema(kind, place))
-    return list({one.text: one for one in reversed(list(found))}.values())[::-1]
+    made = {one.text: one for one in reversed(list(found)) if not (one.kind in _ONCE and one.text in present)}
+    return [_as_typed(one, kind, place) for one in reversed(made.values())]
+
+
+def _as_typed(one: Proposal, kind: str, place: TypedPlace) -> Proposal:
+    """A proposal beside what is typed already: the colon of a key or quotes; or in the brackets of a list, which are
+    missing."""
+    if place.has_colon and (one.snippet or one.text).endswith(": "):
+        return replace(one, text=one.text.removesuffix(": "), snippet=one.snippet.removesuffix(": "))
+    if place.quote and not one.snippet and one.text[:1] == one.text[-1:] == '"':
+        single = json.loads(one.text).replace("'", "''")
+        return replace(one, text=one.text[1:-1] if place.quote == '"' else single)
+    is_name = one.kind in _ONCE or one.kind == PATH
+    if is_name and not place.is_key and not place.quote and schema_keys.is_list(kind, place.keys):
+        return replace(one, snippet=f"[{one.text}]")
+    return one
 
 
 def importing(path: str, place: TypedPlace, name: str) -> list[Edit]:
@@ -69,46 +102,53 @@ def _of_schema(kind: str, place: TypedPlace) -> Iterator[Proposal]:
     if not place.is_key:
         yield from schema_keys.values_at(kind, place.keys)
         return
-    yield from schema_keys.keys_at(kind, place.keys, [key for key in _siblings(place) if key])
+    yield from schema_keys.keys_at(kind, place.keys, _siblings(place))
 
 
 def _siblings(place: TypedPlace) -> list[str]:
-    node: Node | None = place.root
-    for key in place.keys:
-        if isinstance(node, Mapping):
-            node = node.entries[key][1] if key in node.entries else None
-        else:
-            return []
-    return list(node.entries) if isinstance(node, Mapping) else []
+    """The keys of the mapping, or the plain elements of the list, in which something is typed."""
+    if isinstance(place.around, Sequence):
+        return [one.lexeme for one in place.around.items if isinstance(one, Scalar) and MARK not in one.lexeme]
+    return [key for key in place.around.entries if key != MARK] if place.around is not None else []
 
 
 def _in_values(path: str, place: TypedPlace, program: Program | None, *, with_schema: bool) -> Iterator[Proposal]:
     """Values and, without a server of schemas, keys in a values document."""
     component = place.root.get("component")
-    if program is None or place.keys[:1] != ("parameters",):
+    if program is None or not with_schema:
         return
     linked = values.parameters_for(program, path, str(component.data) if component is not None else "")
     if linked is None:
         return
-    steps, root = place.keys[1:], linked.parameters.root
+    if place.keys[:1] == ("parameters",):
+        yield from _at_parameter(linked, place, place.keys[1:])
+    elif place.is_key and linked.component is not None and place.keys in (known := port_names(linked.component)):
+        what, ports = known[place.keys]
+        yield from (Proposal(one, names.INTERFACE, what, snippet=f"{one}: ") for one in ports)
+
+
+def _at_parameter(linked: LinkedParameters, place: TypedPlace, steps: tuple[str, ...]) -> Iterator[Proposal]:
+    """The values of the parameter at a path, or the names of the parameters or members there. Behind a dot, those of
+    groups with their path."""
+    root = linked.parameters.root
+    head = place.word.rpartition(".")[0] if place.is_key else ""
+    inner = values.member_at(root, (*steps, head) if head else steps) if steps or head else None
     if not place.is_key:
-        member = values.member_at(root, steps)
-        yield from values.values_of(member) if member is not None and with_schema else ()
-    elif with_schema:
-        inner = values.member_at(root, steps) if steps else None
-        record = inner.type if inner is not None else root if not steps else None
-        for one in record.members if isinstance(record, RecordType) else ():
-            if one.name not in _siblings(place):
-                yield Proposal(one.name, names.PARAMETER, label(one.type), one.doc, snippet=f"{one.name}: ")
+        yield from values.values_of(inner) if inner is not None else ()
+        if steps[-1:] != ("",):  # else a record may be begun
+            return
+    record = inner.type if inner is not None else root if not (steps or head) else None
+    for one in record.members if isinstance(record, RecordType) else ():
+        name = f"{head}.{one.name}" if head else one.name
+        yield Proposal(name, names.PARAMETER, label(one.type), one.doc, snippet=f"{name}: ")
 
 
 def _set_values(path: str, place: TypedPlace, program: Program | None) -> Iterator[Proposal]:
-    """Values under `set:` of an entry, which no schema knows."""
+    """Parameters under `set:` of an entry and their values, which no schema knows."""
     match place.keys:
-        case ("components", entry, "set", *steps) if steps and not place.is_key and program is not None:
+        case ("components", entry, "set", *steps) if (steps or place.is_key) and program is not None:
             linked = _parameters_of(path, place, entry, program)
-            member = values.member_at(linked.parameters.root, steps) if linked is not None else None
-            yield from values.values_of(member) if member is not None else ()
+            yield from _at_parameter(linked, place, tuple(steps)) if linked is not None else ()
 
 
 def _parameters_of(path: str, place: TypedPlace, entry: str, program: Program) -> LinkedParameters | None:
@@ -190,8 +230,12 @@ def codes_at(line: str, column: int, found: Iterable[Diagnostic], number: int) -
     return typed.start("code") + 1, made
 
 
-def _kind_by_name(path: str) -> str:
-    return os.path.basename(path).removesuffix(".yaml").rpartition(".")[2]
+def kind_at(path: str, disk: Disk | None = None) -> str:
+    """The kind of a file with a schema: of documents, mock scripts and the settings of a workspace."""
+    if kind := kind_of(path, disk or Disk()):
+        return kind
+    name = os.path.basename(path)
+    return "workspace" if name == WORKSPACE_FILE else name.removesuffix(".yaml").rpartition(".")[2]
 
 
 def _imports(path: str, place: TypedPlace, importable: Iterable[str]) -> Iterator[Proposal]:
@@ -206,7 +250,9 @@ def _in_interfaces(path: str, place: TypedPlace, known: Names, importable: Itera
         yield from _imports(path, place, importable)
     elif not place.is_key and len(keys) > 2 and keys[0] in ("interfaces", "topics", "types", "exceptions", "constants"):
         is_exception = "throws" in keys[3:]
-        if is_exception or any(key in _OF_TYPES for key in keys[2:]):
+        if keys[-1] == "default" or (keys[0], keys[-1]) == ("constants", "value"):
+            yield from _enumerators(place, known)
+        elif is_exception or any(key in _OF_TYPES for key in keys[2:]):
             yield from _types(place, known, "exceptions" if is_exception else "types")
 
 
@@ -215,6 +261,28 @@ def _types(place: TypedPlace, known: Names, section: str) -> Iterator[Proposal]:
     yield from (Proposal(name, kind, f"{kind} of this module") for name in _keys(place.root, section))
     for stem, one in _of_imported(place, known, kind):
         yield Proposal(f"{stem}.{one.name}", kind, one.says, one.doc)
+
+
+def _enumerators(place: TypedPlace, known: Names) -> Iterator[Proposal]:
+    """The enumerators of the type beside a default or a constant, and the values to which it is limited."""
+    node: Node | None = place.root
+    for key in place.keys[:-1]:
+        node = node.get(key) if node is not None else None
+    of = node.get("type") if node is not None else None
+    stem, _, name = of.lexeme.rpartition(".") if isinstance(of, Scalar) else ("", "", "")
+    limited = node.get("values") if node is not None else None
+    for each in limited.items if isinstance(limited, Sequence) else ():
+        yield Proposal(flow(each.data), VALUE, "one of values")
+    if name == "bool" and limited is None:
+        yield from (Proposal(one, VALUE, "bool") for one in ("true", "false"))
+    types = place.root.get("types")
+    own = types.get(name) if types is not None and not stem else None
+    listed = own.get("enum") if own is not None else None
+    found = [key.lexeme for key, _ in listed.items()] if isinstance(listed, Mapping) else _items_of(own, "enum")
+    yield from (Proposal(one, VALUE, f"enumerator of {name}") for one in found)
+    for imported, one in _of_imported(place, known, names.ENUMERATOR):
+        if stem == imported and one.key[2] == name:
+            yield Proposal(one.name, VALUE, one.says, one.doc)
 
 
 def _in_component(path: str, place: TypedPlace, known: Names, importable: Iterable[str]) -> Iterator[Proposal]:
@@ -233,7 +301,9 @@ def _in_component(path: str, place: TypedPlace, known: Names, importable: Iterab
                 yield Proposal(one.name, kind, f"{one.says}, imports {stem}", one.doc, stem)
 
 
-def _in_parameters(place: TypedPlace) -> Iterator[Proposal]:
+def _in_parameters(place: TypedPlace, known: Names) -> Iterator[Proposal]:
+    if not place.is_key and place.keys[-1:] == ("default",):
+        yield from _enumerators(place, known)
     if not place.is_key and place.keys[-1:] in (("type",), ("list",), ("map",)):
         yield from (Proposal(name, names.TYPE, "type of this document") for name in _keys(place.root, "types"))
 
@@ -255,21 +325,6 @@ def _in_deployment(path: str, place: TypedPlace, known: Names) -> Iterator[Propo
             yield from (Proposal(name, names.ENTRY) for name in (*entries, *others))
         case ("groups", _, "components", *_) if not place.is_key:
             yield from (Proposal(name, names.ENTRY) for name in entries)
-        case ("components", entry, "set", *outer) if place.is_key:
-            target = root.get("components")
-            of_entry = target.get(entry) if target is not None else None
-            component = of_entry.get("component") if of_entry is not None else None
-            if component is not None:
-                yield from _parameters(path, str(component.data), tuple(outer), known)
-
-
-def _parameters(path: str, component: str, outer: tuple[str, ...], known: Names) -> Iterator[Proposal]:
-    """The parameters of a component, which is a folder or a document."""
-    named = os.path.normpath(os.path.join(os.path.dirname(path), component))
-    folder = os.path.dirname(named) if named.endswith(".yaml") else named
-    for one in known.of_kinds(names.PARAMETER):
-        if os.path.dirname(one.key[1]) == folder and one.key[2:-1] == outer:
-            yield Proposal(one.name, names.PARAMETER, one.says, one.doc)
 
 
 def _of_imported(place: TypedPlace, known: Names, kind: str) -> Iterator[tuple[str, DefinedName]]:
@@ -298,6 +353,6 @@ def _items_of(root: Node | None, section: str) -> list[str]:
 
 def of_schema_server(path: str, place: TypedPlace) -> frozenset[str]:
     """The names that a server of schemas offers at a place, from the schema that a compile has written."""
-    kind = kind_of(path, Disk()) or _kind_by_name(path)
+    kind = kind_at(path)
     is_offered = kind in KINDS and not place.is_key and schema_keys.has_names(str(kind), place.keys)
     return names_offered(path) if is_offered else frozenset()

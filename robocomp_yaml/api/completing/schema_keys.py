@@ -52,6 +52,11 @@ def has_names(kind: str, keys: Sequence[str]) -> bool:
     return any(MARK in node for node in _at(kind, keys))
 
 
+def is_list(kind: str, keys: Sequence[str]) -> bool:
+    """Whether the value at a path has to be a list."""
+    return any("array" in (node.get("type"), node.get("else", {}).get("type")) for node in _at(kind, keys))
+
+
 def _text_of(node: dict[str, Any]) -> str:
     return str(node.get("markdownDescription") or node.get("description") or "")
 

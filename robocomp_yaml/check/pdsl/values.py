@@ -10,7 +10,7 @@ from robocomp_yaml.diag.codes.files import BAD_ICE_TEXT
 from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic, has_errors
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.attachments import refers_to
-from robocomp_yaml.link.program import LinkedParameters, LinkedValues, Program
+from robocomp_yaml.link.program import LinkedComponent, LinkedParameters, LinkedValues, Program
 from robocomp_yaml.model.build_interface import entries
 from robocomp_yaml.parameters.layers.effective import Effective, document_faults
 from robocomp_yaml.parameters.writing.properties import properties
@@ -116,20 +116,24 @@ def _owner(parameters: LinkedParameters | None) -> str:
     return os.path.basename(parameters.document.path) if parameters.document is not None else "no component"
 
 
-def _ports(linked: LinkedValues) -> Iterator[Diagnostic]:
-    component = linked.parameters.component if linked.parameters else None
-    if component is None or component.broken:
-        return
+def port_names(component: LinkedComponent) -> dict[tuple[str, ...], tuple[str, list[str]]]:
+    """What the keys of a values document below some of its sections are called, and which ones there can be."""
     served = [port.name for port in component.implements] + ["CommonBehavior"]
     served += [name for port in component.subscribes for name in (port.name, f"{port.name}Topic")]
     topics = [port.name for port in (*component.publishes, *component.subscribes)]
-    known = {
+    return {
         ("endpoints",): ("interface", served),
         ("proxies",): ("proxy", [port.name for port in component.requires]),
         ("topics", "name"): ("topic", topics),
         ("topics", "prefix"): ("topic", topics + [f"{name}Pub" for name in topics]),
     }
-    for section, (what, names) in known.items():
+
+
+def _ports(linked: LinkedValues) -> Iterator[Diagnostic]:
+    component = linked.parameters.component if linked.parameters else None
+    if component is None or component.broken:
+        return
+    for section, (what, names) in port_names(component).items():
         parent = linked.document.section(*section[:-1])
         for name, _ in entries(parent, section[-1]):
             if name.lexeme not in names and name.lexeme.removesuffix("Comp") not in names:

@@ -92,7 +92,13 @@ def test_standard_input(rcyaml: Run, folder: Path) -> None:
     run = rcyaml("fmt", "-", stdin="a: {b\n")
     assert (run.exit_code, run.stdout) == (1, "")
     assert "<stdin>:1:" in run.stderr
-    assert rcyaml("fmt", "-", "--check", stdin="").exit_code == 2
+    run = rcyaml("fmt", "-", "--check", stdin=UNTIDY)
+    assert (run.exit_code, run.stdout) == (1, "")
+    run = rcyaml("fmt", "-", "--check", stdin=TIDY)
+    assert (run.exit_code, run.stdout) == (0, "")
+    run = rcyaml("fmt", "-", "--diff", stdin="a:   1\n")
+    assert (run.exit_code, run.stdout) == (0, "--- a/<stdin>\n+++ b/<stdin>\n@@ -1 +1 @@\n-a:   1\n+a: 1\n")
+    assert rcyaml("fmt", "-", "--format", "json", stdin="").exit_code == 2
     assert rcyaml("fmt", "-", "Laser.idsl.yaml", stdin="").exit_code == 2
 
 

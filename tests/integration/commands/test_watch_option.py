@@ -141,9 +141,15 @@ def test_as_editors_save(start: Callable[..., Watching]) -> None:
         component.with_name(f"#{component.name}#").unlink()
         lock.unlink()
 
-    for save, period in ((by_vim, 20), (by_renaming, 30)):
-        watching.block(save)
+    def by_locked_emacs() -> None:
+        component.with_name(f".#{component.name}").symlink_to("me@here.1:2")  # it stays while the buffer has changes
+        component.write_text(f"{COMPONENT}period: 40\n")
+
+    for save, period in ((by_vim, 20), (by_renaming, 30), (by_locked_emacs, 40)):
+        said = watching.block(save)
         assert f"period={period}" in (watching.folder / "speech/generated/component.py").read_text()
+        assert "error" not in said
+    component.with_name(f".#{component.name}").unlink()
     watching.silent(by_emacs)
 
 

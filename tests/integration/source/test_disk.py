@@ -52,6 +52,19 @@ def test_a_tree_that_is_nowhere_saved_says_the_same(row: Code, tmp_path: Path, m
         assert _facts(analyse(paths, overlay=texts)) == expected
 
 
+def test_hidden_files_are_no_documents(tmp_path: Path) -> None:
+    """Emacs' lock is a link to nowhere, and macOS writes `._NAME` beside files on other systems' disks."""
+    folder = write_tree(
+        tmp_path, {"arm.cdsl.yaml": "component: Arm\nlanguage: python\n", "._arm.cdsl.yaml": b"\0\5\x16"}
+    )
+    (folder / ".#arm.cdsl.yaml").symlink_to("me@here.1:2")
+    write_tree(tmp_path, {"robot.ddsl.yaml": f"deployment: D\ncomponents: {{arm: {{component: {tmp_path}}}}}\n"})
+    analysis = analyse([str(folder)])
+    assert [Path(path).name for path in analysis.discovered.documents] == ["arm.cdsl.yaml", "robot.ddsl.yaml"]
+    assert not [one for one in analysis.diagnostics if one.severity == "error"]
+    assert not analyse([str(folder / "arm.cdsl.yaml")]).diagnostics
+
+
 def test_what_was_read_and_missed_is_remembered(tmp_path: Path) -> None:
     write_tree(tmp_path, {"a": "1", "b": "2"})
     disk = Disk({str(tmp_path / "b"): b"3", str(tmp_path / "new/c"): b"4"})
