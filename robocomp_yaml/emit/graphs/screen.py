@@ -6,6 +6,7 @@ in `geometry`, nothing overlaps, by construction.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
 from itertools import accumulate
 
@@ -15,6 +16,7 @@ from robocomp_yaml.emit.graphs.arranged import Arranged, arrange
 from robocomp_yaml.emit.graphs.geometry import STEP, TITLE, EdgePath, Point, Rectangle, texts_of
 from robocomp_yaml.emit.graphs.grid import Area
 from robocomp_yaml.emit.graphs.measure import shortened, width
+from robocomp_yaml.emit.graphs.packing import WIDER
 from robocomp_yaml.emit.graphs.picture import Cell, Picture, PictureLine, PictureNode
 from robocomp_yaml.emit.graphs.routes import Net, NetBranch, routes_of
 
@@ -25,6 +27,14 @@ LINE_HEIGHT = 16.0
 PAD, _NODE_PAD = 8.0, 12.0
 HOST_TITLE, GROUP_TITLE = 24.0, 20.0
 _NARROWEST = 104.0
+SCREEN = 1.5
+"""How much wider the room for a picture is than it is high, on a screen."""
+_FITS = 0.85, 1.15
+_LARGEST = 1 / 540  # of which nothing is gained: the room on a small screen, at the largest zoom of a whole picture
+_BETTER = 1.04  # by how much a picture must be larger to be worth longer lines
+_TRIES = (100, 4, 1.0), (700, 1, 0.75), (sys.maxsize, 0, 0.0)
+"""By the number of nodes at most: how often another shape is tried, which takes as long as the first picture, and how
+much of the difference is made up, because lines of another shape need other room, too."""
 
 
 class ScreenGeometry(msgspec.Struct):
@@ -42,14 +52,41 @@ class ScreenGeometry(msgspec.Struct):
 
 def screen_geometry(picture: Picture, kept: Mapping[str, Cell] = {}) -> ScreenGeometry:
     """The geometry of a picture. Nodes with a cell keep it, and nodes that a person moved are where they were put."""
-    arranged = arrange(picture, kept)
-    made = _ScreenPlacer(picture, arranged).place()
-    made.cells = arranged.cells
+    made = _placed(picture, arrange(picture, kept))
+    if not made.cells.keys() & kept.keys():
+        made = _as_wide_as_a_screen(picture, made)
     if not picture.positions.keys().isdisjoint(made.nodes):
         from robocomp_yaml.emit.graphs.moved import moved
 
         moved(picture, made)
     return made
+
+
+def _placed(picture: Picture, arranged: Arranged) -> ScreenGeometry:
+    made = _ScreenPlacer(picture, arranged).place()
+    made.cells = arranged.cells
+    return made
+
+
+def _as_wide_as_a_screen(picture: Picture, first: ScreenGeometry) -> ScreenGeometry:
+    """How wide slots and layers are is known when the texts and lines are placed: with that, a picture that is too wide
+    or too high is arranged again. The largest picture on a screen is the best one."""
+    best, last, wider = first, first, WIDER
+    tries, part = next((tries, part) for most, tries, part in _TRIES if len(picture.nodes) <= most)
+    for _ in range(tries):
+        too_wide = last.width / max(last.height, 1.0) / SCREEN
+        if _FITS[0] < too_wide < _FITS[1] or _scale(best) > _LARGEST:
+            break
+        wider *= too_wide**part
+        last = _placed(picture, arrange(picture, wider=wider))
+        if _scale(last) > _scale(best) * _BETTER:
+            best = last
+    return best
+
+
+def _scale(made: ScreenGeometry) -> float:
+    """How large the picture is on a screen."""
+    return min(SCREEN / max(made.width, 1.0), 1 / max(made.height, 1.0))
 
 
 class _ScreenPlacer:
