@@ -180,7 +180,8 @@ def _back(*, again: bool) -> Callable[[Served, Request], Awaitable[Any]]:
 
 def revised(revision: Revision) -> dict[str, Any]:
     return {
-        "document": revision.path, "change": revision.what, "version": revision.version, "diff": revision.diff,
+        "document": revision.path, "change": revision.what, "version": revision.version,
+        "based_on": revision.based_on, "diff": revision.diff,
         "text": revision.after.decode("utf-8-sig", "replace"),
         "errors": [as_data(one) for one in revision.new_errors],
         "diagnostics": [as_data(one) for one in revision.diagnostics],

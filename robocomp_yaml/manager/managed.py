@@ -201,9 +201,10 @@ class ManagedDeployment:
             if isinstance(change, ComponentChange) and not (document or change.component):
                 raise Refused("a change of a component names the component, or its document")
             disk = workspace.analysis.disk
-            shown = (change, document, based_on, disk.version, disk.contents)
-            if self._shown is not None and self._shown[0] == shown:
-                revision = self._shown[1]  # nothing is judged twice: the documents are those of which it was shown
+            shown = (change, document, disk.version, disk.contents)
+            known = self._shown[1] if self._shown is not None and self._shown[0] == shown else None
+            if known is not None and based_on in ("", known.based_on):
+                revision = known  # nothing is judged twice: the documents are those of which it was shown
             else:
                 revision = self._editor.revise(self._own(workspace, document or self.path), change, based_on, workspace)
             self._shown = None if write else (shown, revision)

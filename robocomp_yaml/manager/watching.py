@@ -45,6 +45,7 @@ class Watcher:
         self._engine_name = ""
         self._running: Mapping[str, Running] = {}
         self._asked, self._seen = 0.0, dict[str, tuple[object, ...]]()
+        self._measured: dict[str, tuple[int, float, float]] = {}  # process id, seconds of CPU, and when
 
     async def begin(self) -> None:
         """Reads the documents, and the first states."""
@@ -178,6 +179,7 @@ class Watcher:
         down = {one.name: one.is_down for one in found}
         for name, state in states.items():
             state["words"], state["down"] = words[name], down[name]
+            state["load"] = self._load(state)
         changed = [one for name, one in states.items() if _lasting(one) != _lasting(self.states.get(name, {}))]
         gone = [name for name in self.states if name not in states]
         for one in changed:
@@ -189,6 +191,19 @@ class Watcher:
         self.states = states
         if changed or gone:
             self._send(changed, gone)
+
+    def _load(self, state: Mapping[str, Any]) -> float | None:
+        """The percentage of a core that a process used since the last question; None for the first one, and where its
+        use of the CPU is not known."""
+        name, pid, cpu, now = state["name"], state["pid"], state["cpu"], asyncio.get_running_loop().time()
+        if not pid or cpu is None:
+            self._measured.pop(name, None)
+            return None
+        before = self._measured.get(name)
+        if before is not None and before[0] == pid and now - before[2] < ASK / 2:
+            return self.states.get(name, {}).get("load")  # too short to say anything
+        self._measured[name] = pid, cpu, now
+        return round(max(100 * (cpu - before[1]) / (now - before[2]), 0)) if before and before[0] == pid else None
 
     def _note(self, problem: str) -> None:
         if problem != self.problem:

@@ -72,7 +72,7 @@ export class Changes {
       return chosen ? { change: "connect", entry: one.entry, port: text(values, "port"), to: chosen } : null;
     }, (values): Field[] => {
       const chosen = ports.find((each) => each.port === (text(values, "port") || port)) ?? ports[0];
-      const providers = this.facts.providers(chosen.interface).filter((each) => each !== name);
+      const providers = this.facts.providers(chosen.interface, one).filter((each) => each !== name);
       return [
         { name: "port", label: "It requires", kind: "choice", choices: ports.map((each) => each.port), value: chosen.port },
         { name: "to", label: "Who serves it", kind: "text", choices: providers, value: to || (providers.length === 1 ? providers[0] : chosen.to),
@@ -223,8 +223,9 @@ export class Changes {
 
   after(name: string): void {
     const one = this.facts.entry(name)!;
-    const others = [...this.facts.entries.map((each) => each.entry), ...this.facts.services, ...this.facts.groups.map((each) => each.name)];
-    const all = [...new Set(others)].filter((each) => each !== one.entry && !one.after.includes(each));
+    const others = this.facts.named(one).map((each) => each.entry), already = one.after.map((each) => `${one.scope}${each}`);
+    if (!one.scope) others.push(...this.facts.services, ...this.facts.groups.map((each) => each.name));
+    const all = [...new Set(others)].filter((each) => each !== one.entry && !already.includes(each));
     this.order(`When ${name} starts`, "after", one.entry, "It starts when these are ready", all);
   }
 

@@ -48,7 +48,7 @@ export class Drawer {
     this.root.replaceChildren(close, element("h2", TITLES[tab]));
     this.root.setAttribute("aria-label", TITLES[tab]);
     if (tab === "logs") this.logs();
-    else if (tab === "history") this.root.append(this.pastList);
+    else if (tab === "history") this.root.append(element("p", "Since this manager was started:", { class: "hint" }), this.pastList);
     else this.hosts();
   }
 

@@ -8,7 +8,7 @@ import { Editing } from "./edit";
 import { Facts } from "./facts";
 import { box, gestures } from "./gestures";
 import { Action, menu } from "./menu";
-import { CLOSED, Graph, Model, Positions, SIGNS, State } from "./model";
+import { CLOSED, Graph, Look, look, Model, Positions, SIGNS, State } from "./model";
 import { call, plan } from "./operate";
 import { Scene } from "./scene";
 import { Abilities, ask, Refusal } from "./server";
@@ -20,7 +20,7 @@ interface Served { id: string; document: string; problem: string }
 const canvas = find<HTMLCanvasElement>("picture"), which = find<HTMLSelectElement>("which"), filter = find<HTMLSelectElement>("filter");
 const model = new Model(), facts = new Facts(), can = new Abilities();
 const scene = new Scene(canvas, model);
-const tree = new Tree(find("tree"), model, (name) => select(name, true), (kind, name, x, y) => void askMenu(kind, name, x, y));
+const tree = new Tree(find("tree"), model, (name) => select(name, true), (kind, name, x, y) => void askMenu(kind, name, x, y), nudge);
 const closed = new Set<string>(); // boxes: `host NAME`, `group NAME`
 let deployment = "", details: Details, drawer: Drawer, progress = "", text: TextPane | null = null;
 
@@ -28,14 +28,13 @@ const path = () => `deployments/${encodeURIComponent(deployment)}`;
 const editing = new Editing(path, () => model.graph!, written, complain);
 const changes = new Changes(editing, facts, path);
 const mayOperate = () => can.may("operate"), mayEdit = () => can.may("edit");
+const mayPlace = () => can.has("positions", "post") && mayEdit();
+const NUDGE = 8; // pixels of the picture
 
 /** Selects a node. `isFound`: it was not clicked in the picture, so that the picture goes where it is. */
 function select(name: string, isFound = false, isInText = false): void {
   model.selected = name;
   show();
-  const { offsetWidth, offsetHeight, hidden } = find("details"), isBelow = offsetWidth === find("view").offsetWidth;
-  scene.covered = hidden || isBelow ? 0 : offsetWidth;
-  scene.coveredBelow = hidden || !isBelow ? 0 : offsetHeight;
   if (name) scene.show(name, isFound);
   if (name && !isInText) text?.mark(name);
 }
@@ -44,9 +43,12 @@ function show(): void {
   tree.show();
   details.show();
   scene.change();
-  const counts = model.counts(model.states.keys());
-  const words: Record<string, string> = { ready: "ready", busy: "not ready", down: "failed", idle: "not running" };
-  const parts = Object.entries(words).filter(([look]) => counts.get(look as "ready")).map(([look, word]) => `${SIGNS[look as "ready"]} ${counts.get(look as "ready")} ${word}`);
+  const counts = new Map<Look, number>();
+  for (const state of model.states.values()) counts.set(look(undefined, state), (counts.get(look(undefined, state)) ?? 0) + 1);
+  const words: [Look, string][] = [["ready", "ready"], ["busy", "not ready"], ["down", "failed"], ["idle", "not running"]];
+  const parts = words.filter(([one]) => counts.get(one)).map(([one, word]) => `${SIGNS[one]} ${counts.get(one)} ${word}`);
+  const wrong = [...model.nodes.values()].filter((one) => one.faults.some((fault) => fault.severity === "error")).length;
+  if (wrong) parts.push(`${SIGNS.down} ${wrong} with errors in the documents`);
   const said = [parts.join("  "), progress].filter(Boolean).join(" · ");
   if (find("summary").textContent !== said) find("summary").textContent = said;
 }
@@ -104,7 +106,7 @@ async function written(what: string): Promise<void> {
 function choices(): void {
   const graph = model.graph!, chosen = model.filter;
   const interfaces = [...new Set([...model.nodes.values()].flatMap((node) => node.serves.map((one) => one.interface)))].sort();
-  const options: [string, string][] = [["", "everything"], ["sdown", "failed"], ["sbusy", "not ready"], ["sready", "ready"], ["sidle", "not running"],
+  const options: [string, string][] = [["", "everything"], ["sdown", "failed, or with errors"], ["sbusy", "not ready"], ["sready", "ready"], ["sidle", "not running"],
     ...graph.hosts.map((host): [string, string] => [`h${host.name}`, `host ${host.title}`]),
     ...interfaces.map((name): [string, string] => [`i${name}`, `interface ${name}`])];
   filter.replaceChildren(...options.map(([value, title]) => element("option", title, { value })));
@@ -163,6 +165,7 @@ async function askMenu(kind: Kind, name: string, x: number, y: number): Promise<
   if (members.length) actions.push({ label: "Logs", act: () => drawer.open("logs", members) });
   if (kind === "host" || kind === "group") actions.push({ label: closed.has(`${kind} ${name}`) ? "Open in the picture" : "Close in the picture", act: () => toggle(kind, name) });
   if (kind === "node" && facts.entry(name)) actions.push({ label: "Show in the document", act: () => void openText(name) });
+  if (facts.entry(name)?.component && kind === "node") actions.push({ label: "Show its component's document", act: () => void openText(name, facts.entry(name)!.component) });
   if (kind === "node" && model.positions[name]) actions.push({ label: "Forget its position", act: () => void place({ [name]: null }) });
   const edits = !mayEdit() ? [] : (kind === "network" ? changes.ofNetwork() : kind === "host" ? changes.ofHost(name) : kind === "group" ? changes.ofGroup(name) : changes.ofProcess(name));
   actions.push(...edits.map((one, at) => ({ ...one, begins: !at })));
@@ -185,12 +188,24 @@ async function place(moved: Record<string, [number, number] | null>): Promise<vo
   }
 }
 
+let nudged = 0;
+
+/** Moves a node by the keyboard; its position is kept when the keys rest. */
+function nudge(name: string, dx: number, dy: number): void {
+  const node = model.graph?.nodes.find((one) => one.name === name);
+  if (!node || !mayPlace()) return;
+  [node.x, node.y] = [Math.max(0, node.x + NUDGE * dx), Math.max(0, node.y + NUDGE * dy)];
+  scene.show(name);
+  clearTimeout(nudged);
+  nudged = window.setTimeout(() => void place({ [name]: [node.x, node.y] }), 400);
+}
+
 /** The document beside the picture; the editor is loaded when it is first wanted. */
-async function openText(name = ""): Promise<void> {
+async function openText(name = "", document = ""): Promise<void> {
   const { TextPane } = await import("./text");
   text ??= new TextPane(find("text"), can, path, (found) => { if (found !== model.selected && model.nodes.has(found)) select(found, true, true); },
     facts, load, (isOpen) => find("text-button").setAttribute("aria-expanded", String(isOpen)), draft, () => [...closed]);
-  await text.open(facts.entry(name)?.document ?? model.graph!.document);
+  await text.open(document || (facts.entry(name)?.document ?? model.graph!.document));
   if (name) text.mark(name);
 }
 
@@ -218,10 +233,11 @@ function bars(): void {
 }
 
 function point(): void {
-  const canPlace = can.has("positions", "post") && mayEdit();
+  const side = find("details");
+  scene.covered = () => side.hidden || getComputedStyle(side).position === "static" ? 0 : side.offsetWidth;
   scene.hasHandle = (name) => mayEdit() && Boolean(facts.entry(name)?.requires.length);
   gestures(canvas, scene, {
-    canEdit: mayEdit(), canPlace, select, toggle,
+    canEdit: mayEdit(), canPlace: mayPlace(), select, toggle,
     ask: (hit, x, y) => {
       if (!hit || hit.kind === "end") void askMenu("network", "", x, y);
       else if (!("node" in hit)) void askMenu(hit.kind, hit.name, x, y);
@@ -257,6 +273,12 @@ async function begin(): Promise<void> {
   find<HTMLInputElement>("search").addEventListener("input", (event) => { model.search = (event.target as HTMLInputElement).value; show(); });
   filter.addEventListener("change", () => { model.filter = filter.value; show(); });
   point();
+  window.addEventListener("keydown", (event) => {
+    const zoom = { "+": 1.25, "=": 1.25, "-": 0.8 }[event.key];
+    if (event.ctrlKey || event.metaKey || event.altKey || (event.target as HTMLElement).closest("input, textarea, select, #text, dialog, .menu")) return;
+    if (event.key === "0") scene.fit();
+    else if (zoom) scene.zoomAt(zoom, canvas.clientWidth / 2, canvas.clientHeight / 2);
+  });
   let events: EventSource | null = null;
   const open = async (id: string) => {
     events?.close();

@@ -18,6 +18,7 @@ import type { Graph } from "./model";
 import { Abilities, ask, Refusal } from "./server";
 
 interface Document { document: string; version: string; text: string; diagnostics: Located[] }
+interface Theirs { theirs: string; version: string }
 interface Judged { diagnostics: Located[]; graph: Graph | null }
 interface Located extends Message { line: number; column: number; end_line: number; end_column: number; hint?: string }
 interface Piece { line: number; column: number; end_line: number; end_column: number; insert: string }
@@ -25,6 +26,7 @@ interface Piece { line: number; column: number; end_line: number; end_column: nu
 interface Item { label: string; detail: string; insert: string; start: number; end: number; doc?: string; edits?: Piece[] }
 
 const byServer = Annotation.define<boolean>(), marked = StateEffect.define<{ from: number; to: number } | null>();
+const WIRES = ["implements", "requires", "publishes", "subscribes"];
 const PAUSE = 300; // milliseconds without a key before the text is checked
 
 const markField = StateField.define<DecorationSet>({
@@ -153,7 +155,13 @@ export class TextPane {
   mark(process: string): void {
     this.wanted = process;
     const entry = this.facts.entry(process), { view } = this;
-    if (!view || !entry || entry.document !== this.shown.document) return;
+    if (!view || !entry) return;
+    if (entry.component && this.isComponent) {
+      if (entry.component !== this.shown.document && !this.isChanged) void this.open(entry.component).then(() => this.mark(process));
+      else view.dispatch({ effects: marked.of(entry.component === this.shown.document ? this.wires() : null) });
+      return;
+    }
+    if (entry.document !== this.shown.document) return;
     const range = this.entries().find((one) => one.name === entry.entry);
     view.dispatch({ effects: range ? [marked.of(range), EditorView.scrollIntoView(range.from, { y: "center" })] : [marked.of(null)] });
   }
@@ -190,8 +198,25 @@ export class TextPane {
     ] }) });
   }
 
-  /** The cursor is in an entry: its process is selected. */
+  private get isComponent(): boolean {
+    return this.facts.components.some((one) => one.path === this.shown.document);
+  }
+
+  /** The lines of a component's document that say what it is wired to. */
+  private wires(): { from: number; to: number } | null {
+    const found = this.pairs().filter((one) => WIRES.includes(one.name));
+    return found.length ? { from: Math.min(...found.map((one) => one.from)), to: Math.max(...found.map((one) => one.to)) } : null;
+  }
+
+  /** The cursor is in an entry, or in the document of a component: its process is selected. */
   private follow(at: number): void {
+    if (this.isComponent) {
+      const processes = this.facts.entries.filter((one) => one.component === this.shown.document);
+      if (!processes.length || processes.some((one) => one.process === this.wanted)) return;
+      this.wanted = processes[0].process;
+      this.found(this.wanted);
+      return;
+    }
     const entry = this.entries().find((one) => one.from <= at && at <= one.to);
     this.view!.dispatch({ effects: marked.of(entry ?? null) });
     if (!entry) return;
@@ -204,13 +229,18 @@ export class TextPane {
 
   /** The entries of `components:`, where they are in the text as it is now. */
   private entries(): { name: string; from: number; to: number }[] {
+    return this.pairs("components");
+  }
+
+  /** The keys of the document, or of the mapping below one of them. */
+  private pairs(below = ""): { name: string; from: number; to: number }[] {
     const { state } = this.view!, top = syntaxTree(state).topNode.getChild("Document")?.firstChild;
     const value = (mapping: SyntaxNode | null | undefined, key: string) => pairs(mapping).find((pair) => name(pair) === key)?.lastChild;
     const name = (pair: SyntaxNode) => {
       const key = pair.getChild("Key");
       return key ? state.sliceDoc(key.from, key.to).replace(/^(["'])(.*)\1$/, "$2") : "";
     };
-    return pairs(value(top, "components")).map((pair) => ({ name: name(pair), from: pair.from, to: pair.to }));
+    return pairs(below ? value(top, below) : top).map((pair) => ({ name: name(pair), from: pair.from, to: pair.to }));
   }
 
   private async diagnostics(view: EditorView): Promise<Diagnostic[]> {
@@ -267,12 +297,15 @@ export class TextPane {
   private async save(): Promise<void> {
     const { view } = this;
     if (!view || !this.mayWrite || !this.isChanged) return;
-    const text = view.state.doc.toString();
+    await this.store(view.state.doc.toString(), this.shown.version, false);
+  }
+
+  private async store(text: string, version: string, force: boolean): Promise<void> {
     try {
-      await this.write(text, this.shown.version, false);
+      await this.write(text, version, force);
     } catch (error) {
-      if (!(error instanceof Refusal)) throw error;
-      if (error.status === 409) this.conflict(error.message, String(error.data.theirs), text);
+      if (!(error instanceof Refusal)) this.complain((error as Error).message);
+      else if (error.status === 409) this.conflict(error.message, error.data as unknown as Theirs, text);
       else if (Array.isArray(error.data.diagnostics)) this.faulty(error.data.diagnostics as Message[], text);
       else this.complain(error.message);
     }
@@ -288,14 +321,14 @@ export class TextPane {
   }
 
   private faulty(found: Message[], text: string): void {
-    const anyway = button("Save it although it has errors", () => { root.close(); void this.write(text, this.shown.version, true).catch((error) => this.complain(error.message)); });
+    const anyway = button("Save it although it has errors", () => { root.close(); void this.store(text, this.shown.version, true); });
     const root = dialog(`${this.shown.document} has errors`, messages(found), buttons(anyway, button("Back to the text", () => root.close())));
   }
 
   /** Somebody else changed the file: nothing is overwritten unless a person wants it. */
-  private conflict(said: string, theirs: string, ours: string): void {
+  private conflict(said: string, { theirs, version }: Theirs, ours: string): void {
     const take = button("Take theirs", () => { root.close(); void this.discard(); });
-    const mine = button("Write mine over it", () => { root.close(); void this.write(ours, "", true).catch((error) => this.complain(error.message)); });
+    const mine = button("Write mine over it", () => { root.close(); void this.store(ours, version, true); });
     const root = dialog("The file was changed elsewhere", element("p", said), versions(theirs, ours), buttons(take, mine, button("Back to the text", () => root.close())));
   }
 

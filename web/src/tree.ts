@@ -10,10 +10,12 @@ export class Tree {
   private focused = "";
   private readonly items = new Map<string, HTMLElement>();
 
-  /** `select` is called with the name of a node; `ask` for the menu of an item, with where it is. */
+  /** `select` is called with the name of a node; `ask` for the menu of an item, with where it is;
+   * `nudge` with the direction in which a node is to be moved in the picture. */
   constructor(
     private readonly root: HTMLElement, private readonly model: Model, private readonly select: (name: string) => void,
     private readonly ask: (kind: Kind, name: string, x: number, y: number) => void,
+    private readonly nudge: (name: string, dx: number, dy: number) => void,
   ) {
     root.addEventListener("keydown", (event) => this.key(event));
     root.addEventListener("click", (event) => {
@@ -135,6 +137,12 @@ export class Tree {
       const place = item.getBoundingClientRect();
       event.preventDefault();
       this.menu(item, place.left + 30, Math.min(place.top + 22, place.bottom));
+      return;
+    }
+    const way = event.altKey ? { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key] : undefined;
+    if (way) {
+      event.preventDefault();
+      if (item?.dataset.kind === "node") this.nudge(item.dataset.name!, way[0], way[1]);
       return;
     }
     switch (event.key) {

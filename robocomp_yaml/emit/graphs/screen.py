@@ -17,7 +17,7 @@ from robocomp_yaml.emit.graphs.geometry import STEP, TITLE, EdgePath, Point, Rec
 from robocomp_yaml.emit.graphs.grid import Area
 from robocomp_yaml.emit.graphs.measure import shortened, width
 from robocomp_yaml.emit.graphs.packing import WIDER
-from robocomp_yaml.emit.graphs.picture import Cell, Picture, PictureLine, PictureNode
+from robocomp_yaml.emit.graphs.picture import TOPIC, Cell, Picture, PictureLine, PictureNode
 from robocomp_yaml.emit.graphs.routes import Net, NetBranch, routes_of
 
 SMALL_ON_SCREEN = 12.0
@@ -27,6 +27,7 @@ LINE_HEIGHT = 16.0
 PAD, _NODE_PAD = 8.0, 12.0
 HOST_TITLE, GROUP_TITLE = 24.0, 20.0
 _NARROWEST = 104.0
+_SIGN, _RATE = 12.0, 44.0  # at the right of a title: the state of a process, the rate of a topic
 SCREEN = 1.5
 """How much wider the room for a picture is than it is high, on a screen."""
 _FITS = 0.85, 1.15
@@ -152,7 +153,8 @@ class _ScreenPlacer:
 
     def _block(self, node: PictureNode) -> Rectangle:
         texts = _texts(node)
-        widest = max([width(texts[0], TITLE, bold=True), *(width(text, SMALL_ON_SCREEN) for text in texts[1:])])
+        sign = _RATE if node.kind == TOPIC else _SIGN
+        widest = max([width(texts[0], TITLE, bold=True) + sign, *(width(text, SMALL_ON_SCREEN) for text in texts[1:])])
         lines = max(len(texts), self.coming.get(node.name, 0), (self.leaving.get(node.name, 0) + 1) // 2)
         return Rectangle(0, 0, max(_even(widest + 2 * _NODE_PAD), _NARROWEST), LINE_HEIGHT * lines + STEP, texts)
 
