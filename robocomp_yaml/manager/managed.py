@@ -225,14 +225,23 @@ class ManagedDeployment:
         self._own(workspace, revision.path)
         if write:
             self._editor.write(revision, force=force)
+            self._renamed(revision)
         return revision
+
+    def _renamed(self, revision: Revision) -> None:
+        """What has another name stays where it is in the pictures."""
+        for path, old, new in revision.renamed:
+            if os.path.realpath(path) == os.path.realpath(self.path):
+                self._cells = {shut: layout.renamed(cells, old, new) for shut, cells in self._cells.items()}
 
     def undo(self, document: str, *, again: bool) -> Revision:
         """Undoes the last change of a document, or makes it `again`. Raises Refused."""
 
         def work(workspace: Workspace) -> Revision:
             path = self._own(workspace, document or self.path)
-            return self._editor.redo(path) if again else self._editor.undo(path)
+            revision = self._editor.redo(path) if again else self._editor.undo(path)
+            self._renamed(revision)
+            return revision
 
         return self.with_workspace(work)
 

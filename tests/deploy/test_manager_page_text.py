@@ -123,6 +123,59 @@ def test_what_others_write_is_not_overwritten(head: Path, shown: Page) -> None:
     assert text(head) == theirs
 
 
+def test_what_others_write_while_both_versions_are_shown_is_not_overwritten(head: Path, shown: Page) -> None:
+    shown.get_by_role("button", name="YAML").click()
+    put_cursor(shown, "  log:")
+    shown.keyboard.press("End")
+    shown.keyboard.type("  # mine")
+    (head / "head.ddsl.yaml").write_text(DOCUMENT.replace("# spare", "# theirs"))
+    shown.keyboard.press("Control+s")
+    dialog = shown.get_by_role("dialog", name="The file was changed elsewhere")
+    expect(dialog.get_by_label("In the file now")).to_contain_text("# theirs")
+    (head / "head.ddsl.yaml").write_text(DOCUMENT.replace("# spare", "# once more"))
+    dialog.get_by_role("button", name="Write mine over it").click()
+    expect(dialog.get_by_label("In the file now")).to_contain_text("# once more")
+    assert "# once more" in text(head)
+    dialog.get_by_role("button", name="Write mine over it").click()
+    until(lambda: "# mine" in text(head), "it is written over what was shown")
+    assert "# once more" not in text(head)
+
+
+def test_documents_of_components_follow_their_processes_and_these_them(head: Path, shown: Page) -> None:
+    choose(shown, "speech", "Show its component's document")
+    which = shown.get_by_role("region", name="Document").get_by_label("Document")
+    expect(which).to_have_value("speech/speech.cdsl.yaml")
+    expect(shown.locator(".cm-line.marked")).to_have_text(["implements: [Speech]", "requires: [Mouth]", "publishes: [Heard]"])
+    item(shown, "lips").click()
+    expect(which).to_have_value("mouth/mouth.cdsl.yaml")
+    which.select_option("speech/speech.cdsl.yaml")
+    put_cursor(shown, "requires: [Mouth]")
+    until(lambda: shown.evaluate("model.selected") == "speech", "its process is selected")
+    shown.keyboard.press("End")
+    for _ in "Mouth]":
+        shown.keyboard.press("Backspace")
+    shown.keyboard.type("]")
+    until(lambda: shown.evaluate("model.graph.edges.every((one) => one.kind !== 'uses')"), "the line is gone")
+    shown.get_by_role("button", name="Discard").click()
+    until(lambda: shown.evaluate("model.graph.edges.some((one) => one.kind === 'uses')"), "the line is back")
+
+
+def test_the_keyboard_moves_boxes_and_the_view(head: Path, shown: Page) -> None:
+    where, tree = "[model.nodes.get('log').x, model.nodes.get('log').y]", '[role=treeitem][data-name="log"]'
+    x, y = shown.evaluate(where)
+    shown.locator(tree).focus()
+    for key in ("Alt+ArrowRight", "Alt+ArrowRight", "Alt+ArrowDown"):
+        shown.keyboard.press(key)
+    until(lambda: shown.evaluate("'log' in model.positions"), "the position is kept")
+    assert shown.evaluate(where) == [x + 16, y + 8]
+    assert shown.evaluate("document.activeElement.dataset.name") == "log"
+    zoom = shown.evaluate("scene.zoom")
+    shown.keyboard.press("+")
+    assert shown.evaluate("scene.zoom") > zoom
+    shown.keyboard.press("0")
+    assert shown.evaluate("scene.zoom") == pytest.approx(zoom)
+
+
 def test_a_position_is_kept_and_forgotten(head: Path, shown: Page) -> None:
     before, start = shown.evaluate("[model.nodes.get('log').x, model.nodes.get('log').y]"), middle(shown, "log")
     drag(shown, start, (start[0] + 90, start[1] + 40))

@@ -37,6 +37,7 @@ export class Tree {
 
   build(): void {
     const graph = this.model.graph, hadFocus = this.root.contains(document.activeElement);
+    const place = [...this.items.keys()].indexOf(this.focused);
     this.root.replaceChildren();
     this.items.clear();
     if (!graph) return;
@@ -52,7 +53,8 @@ export class Tree {
         this.item("node", node.name, node.title, groups.get(group) ?? list);
       }
     }
-    if (!this.items.has(this.focused)) this.focused = this.items.keys().next().value ?? "";
+    // What was renamed or removed has a neighbour where it was.
+    if (!this.items.has(this.focused)) this.focused = [...this.items.keys()].at(Math.max(0, Math.min(place, this.items.size - 1))) ?? "";
     this.show();
     if (hadFocus) this.items.get(this.focused)?.focus();
   }

@@ -185,13 +185,14 @@ class DocumentEditor:
         before, after = (found.after, found.before) if way == UNDO else (found.before, found.after)
         workspace = self._now()
         again = found.created if way == REDO else ()
-        revision = self._checked(workspace, document, f"{way}: {found.what}", before, after, again)
+        renamed = found.renamed if way == REDO else tuple((path, new, old) for path, old, new in found.renamed)
+        revision = self._checked(workspace, document, f"{way}: {found.what}", before, after, again, renamed)
         with created.written(again):
             self._replace(document, before, after)
         if way == UNDO:
             created.remove(found.created)
-        for deployment, old, new in found.renamed:
-            layout.rename(deployment, *((new, old) if way == UNDO else (old, new)))
+        for one in renamed:
+            layout.rename(*one)
         past.done += -1 if way == UNDO else 1
         history.write(document, past)
         return revision
