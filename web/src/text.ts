@@ -73,6 +73,7 @@ export class TextPane {
   private readonly problem = element("p", "", { role: "alert", class: "fault", hidden: "" });
   private readonly place = element("div", "", { class: "editor" });
   private wanted = ""; // the process whose lines are marked next
+  private asked = 0;
   private isDrawn = false; // the picture is that of the unsaved text
 
   constructor(
@@ -109,13 +110,16 @@ export class TextPane {
       await this.reload();
       return;
     }
-    const { documents } = await ask<{ documents: string[] }>(`${this.path()}/documents`);
+    const mine = this.asked += 1;
+    const [{ documents }, read] = await Promise.all([ask<{ documents: string[] }>(`${this.path()}/documents`), this.read(document)]);
+    if (mine !== this.asked || this.isChanged) return; // another one was wanted meanwhile, or this one was typed in
     this.which.replaceChildren(...documents.map((one) => element("option", one, { value: one })));
     this.which.value = document;
-    this.shown = await this.read(document);
+    this.shown = read;
     this.view?.destroy();
     this.view = this.editor(this.shown.text);
     this.say();
+    this.remark();
   }
 
   close(): void {
@@ -147,18 +151,25 @@ export class TextPane {
     this.shown = now;
     this.replace(now.text);
     forceLinting(this.view);
-    if (this.wanted) this.mark(this.wanted);
+    this.remark();
     this.say();
   }
 
-  /** Marks the lines of a process, and goes there. */
+  /** Marks the lines of a process, and goes there. If the document of a component is shown, it is then that of this
+   * process. */
   mark(process: string): void {
     this.wanted = process;
-    const entry = this.facts.entry(process), { view } = this;
+    const component = this.facts.entry(process)?.component;
+    if (this.view && component && this.isComponent && component !== this.shown.document && !this.isChanged) void this.open(component);
+    else this.remark();
+  }
+
+  /** Marks the lines of the process that is wanted, if the document has them. */
+  private remark(): void {
+    const entry = this.facts.entry(this.wanted), { view } = this;
     if (!view || !entry) return;
-    if (entry.component && this.isComponent) {
-      if (entry.component !== this.shown.document && !this.isChanged) void this.open(entry.component).then(() => this.mark(process));
-      else view.dispatch({ effects: marked.of(entry.component === this.shown.document ? this.wires() : null) });
+    if (this.isComponent) {
+      view.dispatch({ effects: marked.of(entry.component === this.shown.document ? this.wires() : null) });
       return;
     }
     if (entry.document !== this.shown.document) return;
