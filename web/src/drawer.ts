@@ -57,6 +57,10 @@ export class Drawer {
     this.open("");
     this.past.length = 0;
     this.pastList.replaceChildren();
+    await this.catchUp();
+  }
+
+  async catchUp(): Promise<void> {
     const found = await ask<{ happened: Happened[] }>(`${this.path()}/history`);
     for (const one of found.happened) this.happened(one);
   }

@@ -11,7 +11,7 @@ import { Action, menu } from "./menu";
 import { CLOSED, Graph, Look, look, Model, Positions, SIGNS, State } from "./model";
 import { call, plan } from "./operate";
 import { Scene } from "./scene";
-import { Abilities, ask, Refusal } from "./server";
+import { Abilities, ask, Events, Refusal } from "./server";
 import type { TextPane } from "./text";
 import { Kind, Tree } from "./tree";
 
@@ -114,9 +114,10 @@ function choices(): void {
   model.filter = filter.value;
 }
 
-function listen(): EventSource {
-  const events = new EventSource(`api/${path()}/events`);
-  events.addEventListener("states", (event) => {
+function listen(): Events {
+  const events = new Events(`api/${path()}/events`);
+  let isFirst = true;
+  events.on("states", (event) => {
     const data = JSON.parse(event.data) as { all: boolean; processes: State[]; gone?: string[]; problem: string; topics?: Record<string, { rate: number }> };
     if (data.all) model.states.clear();
     for (const state of data.processes) model.states.set(state.name, state);
@@ -125,15 +126,20 @@ function listen(): EventSource {
     if (data.problem) complain(data.problem);
     show();
   });
-  events.addEventListener("documents", () => { void load(); void text?.reload(); });
-  events.addEventListener("happened", (event) => drawer.happened(JSON.parse(event.data)));
-  events.addEventListener("progress", (event) => {
+  events.on("documents", () => { void load(); void text?.reload(); });
+  events.on("happened", (event) => drawer.happened(JSON.parse(event.data)));
+  events.on("progress", (event) => {
     const data = JSON.parse(event.data);
     progress = `${data.name ?? data.host ?? ""} ${data.kind ?? ""}`.trim();
     show();
   });
-  events.addEventListener("error", () => { progress = "no connection to the manager"; show(); });
-  events.addEventListener("open", () => { progress = ""; show(); });
+  events.on("error", () => { progress = "no connection to the manager"; show(); });
+  events.on("open", () => {
+    progress = "";
+    show();
+    if (!isFirst) { void load(); void text?.reload(); void drawer.catchUp().catch(() => undefined); } // what happened meanwhile is not sent again
+    isFirst = false;
+  });
   return events;
 }
 
@@ -279,7 +285,7 @@ async function begin(): Promise<void> {
     if (event.key === "0") scene.fit();
     else if (zoom) scene.zoomAt(zoom, canvas.clientWidth / 2, canvas.clientHeight / 2);
   });
-  let events: EventSource | null = null;
+  let events: Events | null = null;
   const open = async (id: string) => {
     events?.close();
     deployment = id;
