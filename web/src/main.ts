@@ -181,7 +181,7 @@ async function askMenu(kind: Kind, name: string, x: number, y: number): Promise<
 function toggle(kind: "host" | "group", name: string): void {
   const key = `${kind} ${name}`;
   if (!closed.delete(key)) closed.add(key);
-  void load();
+  void load().then(() => scene.refit());
 }
 
 /** Keeps positions, or forgets those that are null. */

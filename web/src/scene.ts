@@ -123,6 +123,11 @@ export class Scene {
     return [(x - this.x) / this.zoom, (y - this.y) / this.zoom];
   }
 
+  /** As `fit`, unless a person chose another view. */
+  refit(): void {
+    if (this.isFitted) this.fit();
+  }
+
   /** The node at a point of the canvas. */
   at(x: number, y: number): Node | undefined {
     const at = this.point(x, y);

@@ -60,6 +60,8 @@ const theme = EditorView.theme({
   "&.cm-focused .cm-selectionBackground, .cm-selectionBackground": { backgroundColor: "var(--frame) !important" },
   ".cm-tooltip, .cm-panels": { backgroundColor: "var(--node)", color: "var(--text)", border: "1px solid var(--frame)" },
   ".cm-tooltip-autocomplete ul li[aria-selected]": { backgroundColor: "var(--accent)", color: "var(--back)" },
+  ".cm-panels .cm-textfield, .cm-panels .cm-button": { background: "var(--node)", color: "var(--text)", border: "1px solid var(--frame)", borderRadius: "5px", fontSize: "12px" },
+  ".cm-panel.cm-search, .cm-panel.cm-search label": { fontSize: "12px" }, ".cm-panel.cm-search [name=close]": { color: "var(--text)" },
   ".cm-diagnostic-error": { borderLeftColor: "var(--down)" },
 });
 
@@ -194,7 +196,7 @@ export class TextPane {
     const root = this.place.shadowRoot!;
     root.replaceChildren();
     return new EditorView({ root, parent: root as unknown as Element, state: EditorState.create({ doc: text, extensions: [
-      lineNumbers(), history(), drawSelection(), highlightActiveLine(), highlightSelectionMatches(), closeBrackets(), search({ top: true }),
+      lineNumbers(), history(), drawSelection(), highlightActiveLine(), highlightSelectionMatches(), closeBrackets(), search({ top: true }), EditorView.lineWrapping,
       yaml(), syntaxHighlighting(colors), indentUnit.of("  "), theme, markField, lintGutter(), tooltips({ position: "absolute" }),
       EditorState.readOnly.of(!this.mayWrite), EditorView.contentAttributes.of({ "aria-label": "text of the document", tabindex: "0" }),
       linter((view) => this.diagnostics(view), { delay: PAUSE }),

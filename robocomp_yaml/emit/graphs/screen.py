@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping
-from itertools import accumulate
+from itertools import accumulate, pairwise
 
 import msgspec
 
@@ -32,7 +32,6 @@ SCREEN = 1.5
 """How much wider the room for a picture is than it is high, on a screen."""
 _FITS = 0.85, 1.15
 _LARGEST = 1 / 540  # of which nothing is gained: the room on a small screen, at the largest zoom of a whole picture
-_BETTER = 1.04  # by how much a picture must be larger to be worth longer lines
 _TRIES = (100, 4, 1.0), (700, 1, 0.75), (sys.maxsize, 0, 0.0)
 """By the number of nodes at most: how often another shape is tried, which takes as long as the first picture, and how
 much of the difference is made up, because lines of another shape need other room, too."""
@@ -71,7 +70,7 @@ def _placed(picture: Picture, arranged: Arranged) -> ScreenGeometry:
 
 def _as_wide_as_a_screen(picture: Picture, first: ScreenGeometry) -> ScreenGeometry:
     """How wide slots and layers are is known when the texts and lines are placed: with that, a picture that is too wide
-    or too high is arranged again. The largest picture on a screen is the best one."""
+    or too high is arranged again. The best one is large on a screen, and has short lines."""
     best, last, wider = first, first, WIDER
     tries, part = next((tries, part) for most, tries, part in _TRIES if len(picture.nodes) <= most)
     for _ in range(tries):
@@ -80,13 +79,19 @@ def _as_wide_as_a_screen(picture: Picture, first: ScreenGeometry) -> ScreenGeome
             break
         wider *= too_wide**part
         last = _placed(picture, arrange(picture, wider=wider))
-        if _scale(last) > _scale(best) * _BETTER:
+        if _worth(last) > _worth(best):
             best = last
     return best
 
 
+def _worth(made: ScreenGeometry) -> float:
+    """How large the picture is on a screen, less if its lines are long there."""
+    pieces = (abs(x - u) + abs(y - v) for points in made.lines for (x, y), (u, v) in pairwise(points))
+    return (scale := _scale(made)) / (1 + scale * sum(pieces) / max(len(made.lines), 1))
+
+
 def _scale(made: ScreenGeometry) -> float:
-    """How large the picture is on a screen."""
+    """How large the picture is on a screen that is one high."""
     return min(SCREEN / max(made.width, 1.0), 1 / max(made.height, 1.0))
 
 
