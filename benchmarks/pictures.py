@@ -122,11 +122,13 @@ def thirty(folder: Path, target: Path) -> None:
     try:
         with opened(folder) as page:
             rcyaml(folder, "deploy", "down", "agenda")
-            for _ in range(12):  # until it is given up
+            for _ in range(60):  # until it is given up
+                if page.evaluate("model.look('faces')") == "down":
+                    break
                 if pid := page.evaluate("model.states.get('faces').pid"):
                     with suppress(ProcessLookupError):
                         os.kill(pid, signal.SIGKILL)
-                page.wait_for_timeout(2500)
+                page.wait_for_timeout(1500)
             assert page.evaluate("model.look('faces')") == "down"
             page.screenshot(path=target / "manager-30.png")
     finally:

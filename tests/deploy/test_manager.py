@@ -114,7 +114,9 @@ def test_commands_that_say_what_is_ready_are_run_seldom(robot: Path) -> None:
     """Each is a process of its own: with fifty of them, they would cost more than the manager."""
     asked, document = robot / "asked", robot / "robot.ddsl.yaml"
     command = f"ready: {{command: [sh, -c, 'echo x >> {asked}']}}"
-    document.write_text(ROBOT.replace('camera: {program: sleep, args: ["600"]', f"camera: {{program: sleep, args: ['600'], {command}"))
+    document.write_text(
+        ROBOT.replace('camera: {program: sleep, args: ["600"]', f"camera: {{program: sleep, args: ['600'], {command}")
+    )
     with manager(robot) as one:
         assert one.robot("up", {})[1]["ok"]
         until(lambda: one.words() == dict.fromkeys(("base", "camera", "arm"), "ready"), "all are ready")

@@ -145,7 +145,9 @@ def test_documents_of_components_follow_their_processes_and_these_them(head: Pat
     choose(shown, "speech", "Show its component's document")
     which = shown.get_by_role("region", name="Document").get_by_role("combobox")
     expect(which).to_have_value("speech/speech.cdsl.yaml")
-    expect(shown.locator(".cm-line.marked")).to_have_text(["implements: [Speech]", "requires: [Mouth]", "publishes: [Heard]"])
+    expect(shown.locator(".cm-line.marked")).to_have_text(
+        ["implements: [Speech]", "requires: [Mouth]", "publishes: [Heard]"]
+    )
     item(shown, "lips").click()
     expect(which).to_have_value("mouth/mouth.cdsl.yaml")
     which.select_option("speech/speech.cdsl.yaml")
