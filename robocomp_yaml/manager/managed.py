@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from robocomp_yaml.api.topics import Topics
 
 T = TypeVar("T")
+NETWORK, COMPONENTS = "network", "components"
 
 
 class ManagedDeployment:
@@ -96,32 +97,37 @@ class ManagedDeployment:
 
         return self.with_workspace(work)
 
-    def graph(self, shut: Collection[str] = ()) -> dict[str, Any]:
+    def graph(self, shut: Collection[str] = (), of: str = NETWORK) -> dict[str, Any]:
         """The picture of the network as data, with the version of its document. `shut` are the boxes that are closed:
-        `host NAME`, `group NAME`. Raises Faulty if there is no picture."""
+        `host NAME`, `group NAME`. `of` may be COMPONENTS: those of the workspace. Raises Faulty if there is no
+        picture."""
 
         def work(workspace: Workspace) -> dict[str, Any]:
-            found = self.drawn(workspace, shut)
+            found = self.drawn(workspace, shut, of)
             if found is None:
                 raise Faulty(workspace.analysis.diagnostics, workspace.documents_read)
             return found
 
         return self.with_workspace(work)
 
-    def drawn(self, workspace: Workspace, shut: Collection[str]) -> dict[str, Any] | None:
+    def drawn(self, workspace: Workspace, shut: Collection[str], of: str = NETWORK) -> dict[str, Any] | None:
         """The picture of the network in these documents, which may be unsaved; None if errors leave none."""
-        picture = workspace.picture(self.path)
+        if of not in (NETWORK, COMPONENTS):
+            raise Refused(f"there is no picture of '{of}': {NETWORK} or {COMPONENTS}")
+        is_network = of == NETWORK
+        name = os.path.basename(os.path.abspath(self.root))
+        picture = workspace.picture(self.path) if is_network else workspace.picture_of_components(name)
         if picture is None:
             return None
-        seen, members = closed(picture, shut) if shut else (picture, {})
-        cells = self._cells.setdefault(frozenset(members), {})
+        seen, members = closed(picture, shut) if shut and is_network else (picture, {})
+        cells = self._cells.setdefault(frozenset(members if is_network else (COMPONENTS,)), {})
         geometry = screen_geometry(seen, cells)
         cells.update(geometry.cells)  # what is added again is where it was
         data = picture_data(seen, geometry)
         for node in data["nodes"]:
             if node["name"] in members:
                 node["members"] = [node_data(picture.nodes[name]) for name in members[node["name"]]]
-        return {**data, "document": self.path, "version": self._editor.version(self.path)}
+        return {**data, "of": of, "document": self.path, "version": self._editor.version(self.path)}
 
     def entries(self) -> dict[str, Any]:
         """The entries with their ports, and what can be added."""

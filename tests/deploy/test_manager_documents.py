@@ -121,6 +121,20 @@ def test_components_are_read_and_changed(served: Manager) -> None:
     assert "names the component" in served.robot("edit", {"change": {**change, "component": ""}})[1]["error"]
 
 
+def test_components_have_a_picture_of_their_own(served: Manager) -> None:
+    status, found = served.robot("graph?of=components")
+    assert (status, found["of"], {one["name"] for one in found["nodes"]} >= {"SpeechComp", "MouthComp", "EarComp"}) == (
+        200, "components", True,
+    )  # fmt: skip
+    lines = [(one["from"], one["to"]) for one in found["edges"] if one["kind"] == "uses"]
+    assert ("SpeechComp", "MouthComp") in lines
+    mouth = "component: MouthComp\nlanguage: pyton\nimports: [Face]\nimplements: [Mouth]\n"
+    asked = {"path": "mouth/mouth.cdsl.yaml", "text": mouth, "graph": True, "of": "components"}
+    drawn = served.robot("diagnose", asked)[1]["graph"]
+    assert [one["faults"] != [] for one in drawn["nodes"] if one["name"] == "MouthComp"] in ([True], [])
+    assert served.robot("graph?of=everything")[0] == 400
+
+
 def test_a_new_component_is_added(served: Manager) -> None:
     change = {"change": "add-new", "entry": "nose", "component": "NoseComp", "implements": ["Speech"]}
     status, answer = served.robot("edit", {"change": change, "write": False})

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import pytest
@@ -160,6 +161,44 @@ def test_documents_of_components_follow_their_processes_and_these_them(head: Pat
     until(lambda: not shown.evaluate(publishes), "the line is gone")
     shown.get_by_role("button", name="Discard").click()
     until(lambda: shown.evaluate(publishes), "the line is back")
+
+
+def test_components_have_a_picture_of_their_own_beside_their_documents(head: Path, shown: Page) -> None:
+    """Text and picture follow each other in both directions; a component need not be in the network."""
+    (head / "eyes").mkdir()
+    (head / "eyes/eyes.cdsl.yaml").write_text("component: EyesComp  # two\nlanguage: python\nimports: [Talk]\n")
+    shown.get_by_role("button", name="Components").click()
+    until(lambda: shown.evaluate("model.nodes.has('EyesComp')"), "all components are drawn")
+    assert under(shown, *middle(shown, "EyesComp")) == "EyesComp"
+    shown.get_by_role("button", name="YAML").click()
+    which = shown.get_by_role("region", name="Document").get_by_role("combobox")
+    item(shown, "EyesComp").click()
+    expect(which).to_have_value("eyes/eyes.cdsl.yaml")
+    lines = "model.graph.edges.map((one) => [one.from, one.to, one.kind]).filter((one) => one[0] === 'EyesComp')"
+    put_cursor(shown, "imports")  # from the text to the picture
+    shown.keyboard.press("End")
+    shown.keyboard.type("\nrequires: [Mouth]")
+    until(lambda: shown.evaluate(lines) == [["EyesComp", "MouthComp", "uses"]], "what is typed is drawn")
+    shown.keyboard.press("Control+s")
+    until(lambda: "requires" in (head / "eyes/eyes.cdsl.yaml").read_text(), "it is saved")
+    choose(shown, "EyesComp", "Interfaces…")  # and from the picture to the text
+    dialog = shown.get_by_role("dialog")
+    dialog.get_by_label("It", exact=True).select_option("publishes")
+    dialog.get_by_label("Heard").check()
+    write(shown)
+    expect(shown.locator(".cm-line", has_text="publishes: [Heard]")).to_be_visible()
+    until(lambda: len(shown.evaluate(lines)) == 2, "it is drawn")
+    which.select_option("mouth/mouth.cdsl.yaml")
+    put_cursor(shown, "implements")
+    until(lambda: shown.evaluate("model.selected") == "MouthComp", "the component of the document is selected")
+    choose(shown, "EyesComp", "Add to the network…")
+    dialog.get_by_label("Its name here").fill("eyes")
+    dialog.get_by_role("button", name="although").click(timeout=15_000)  # two serve what it requires
+    expect(dialog).to_have_count(0)
+    assert "  eyes: {component: eyes" in text(head)
+    shown.get_by_role("button", name="Components").click()
+    expect(item(shown, "eyes")).to_be_visible()
+    shutil.rmtree(head / "eyes")
 
 
 def test_the_keyboard_moves_boxes_and_the_view(head: Path, shown: Page) -> None:

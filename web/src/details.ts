@@ -47,7 +47,7 @@ export class Details {
         row.push(button(`${text}…`, () => this.rights.operate!(action, [name]), `${text.toLowerCase()} ${name}`));
       }
     }
-    if (this.rights.canCall && node.serves.length) row.push(button("Call…", () => this.call(name), `call a method of ${name}`));
+    if (this.rights.canCall && isProcess && node.serves.length) row.push(button("Call…", () => this.call(name), `call a method of ${name}`));
     const more = button("More ▾", () => {
       const place = more.getBoundingClientRect();
       this.ask(name, place.left, place.bottom);
@@ -55,7 +55,7 @@ export class Details {
     more.setAttribute("aria-haspopup", "menu");
     row.push(more);
     this.root.append(buttons(...row));
-    if (node.kind === TOPIC && this.rights.canEcho) {
+    if (node.kind === TOPIC && this.rights.canEcho && this.model.graph!.of === "network") {
       this.stream = new Echo(this.path(), node.title);
       this.root.append(element("h3", "Messages"), this.stream.root);
     }

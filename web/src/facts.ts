@@ -39,6 +39,11 @@ export class Facts {
     return this.of.get(process);
   }
 
+  /** The document of the component that a process is, or of the one with this name. */
+  componentOf(name: string): string {
+    return this.of.get(name)?.component || (this.components.find((one) => one.name === name || one.path === name)?.path ?? "");
+  }
+
   /** The entries that the document of an entry can name: an included one only knows its own. */
   named(by: Entry): Entry[] {
     return by.scope ? this.entries.filter((one) => one.scope === by.scope) : this.entries;

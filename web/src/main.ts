@@ -22,13 +22,14 @@ const model = new Model(), facts = new Facts(), can = new Abilities();
 const scene = new Scene(canvas, model);
 const tree = new Tree(find("tree"), model, (name) => select(name, true), (kind, name, x, y) => void askMenu(kind, name, x, y), nudge);
 const closed = new Set<string>(); // boxes: `host NAME`, `group NAME`
+let of: Graph["of"] = "network"; // what is drawn
 let deployment = "", details: Details, drawer: Drawer, progress = "", text: TextPane | null = null;
 
 const path = () => `deployments/${encodeURIComponent(deployment)}`;
 const editing = new Editing(path, () => model.graph!, written, complain);
 const changes = new Changes(editing, facts, path);
 const mayOperate = () => can.may("operate"), mayEdit = () => can.may("edit");
-const mayPlace = () => can.has("positions", "post") && mayEdit();
+const mayPlace = () => of === "network" && can.has("positions", "post") && mayEdit();
 const NUDGE = 8; // pixels of the picture
 
 /** Selects a node. `isFound`: it was not clicked in the picture, so that the picture goes where it is. */
@@ -36,7 +37,7 @@ function select(name: string, isFound = false, isInText = false): void {
   model.selected = name;
   show();
   if (name) scene.show(name, isFound);
-  if (name && !isInText) text?.mark(name);
+  if (name && !isInText) void known.then(() => { if (model.selected === name) text?.mark(name); });
 }
 
 function show(): void {
@@ -83,8 +84,8 @@ async function load(): Promise<void> {
   const mine = asked += 1;
   try {
     if (await text?.draw()) return;
-    const shut = [...closed].map((name) => `closed=${encodeURIComponent(name)}`).join("&");
-    const graph = await ask<Graph>(`${path()}/graph${shut ? `?${shut}` : ""}`);
+    const shut = [...closed].map((name) => `&closed=${encodeURIComponent(name)}`).join("");
+    const graph = await ask<Graph>(`${path()}/graph?of=${of}${shut}`);
     if (mine !== asked) return;
     find("draft").hidden = true;
     take(graph);
@@ -93,7 +94,7 @@ async function load(): Promise<void> {
     complain((data.diagnostics as Message[] | undefined)?.map(inWords).join("\n") || (error as Error).message);
   }
   show();
-  known = facts.load(path()).then(() => { show(); drawer.changed(); }, () => undefined); // the picture does not wait for it
+  known = facts.load(path()).then(() => { show(); drawer.changed(); text?.remark(); }, () => undefined); // the picture does not wait for it
 }
 
 /** After a change of this page: it is shown at once, and not only when the manager looks at the disk again. */
@@ -155,6 +156,13 @@ function operate(action: string, chosen: string[]): void {
 async function askMenu(kind: Kind, name: string, x: number, y: number): Promise<void> {
   await known;
   const actions: Action[] = [], node = model.nodes.get(name);
+  if (of === "components") {
+    const component = kind === "node" ? facts.componentOf(name) : "";
+    if (component) actions.push({ label: "Show its document", act: () => void openText(name, component) });
+    if (mayEdit()) actions.push(...(component ? changes.ofComponent(component) : changes.ofNetwork()));
+    if (actions.length) menu(name || "components", actions, x, y);
+    return;
+  }
   if (kind === "node" && node?.kind === CLOSED) {
     void askMenu(...box(node), x, y);
     return;
@@ -209,8 +217,11 @@ function nudge(name: string, dx: number, dy: number): void {
 /** The document beside the picture; the editor is loaded when it is first wanted. */
 async function openText(name = "", document = ""): Promise<void> {
   const { TextPane } = await import("./text");
-  text ??= new TextPane(find("text"), can, path, (found) => { if (found !== model.selected && model.nodes.has(found)) select(found, true, true); },
-    facts, load, (isOpen) => find("text-button").setAttribute("aria-expanded", String(isOpen)), draft, () => [...closed]);
+  const found = (nodes: string[]) => {
+    const first = nodes.find((one) => model.nodes.has(one));
+    if (first && !nodes.includes(model.selected)) select(first, true, true);
+  };
+  text ??= new TextPane(find("text"), can, path, found, facts, load, (isOpen) => find("text-button").setAttribute("aria-expanded", String(isOpen)), draft, () => ({ closed: [...closed], of }));
   await text.open(document || (facts.entry(name)?.document ?? model.graph!.document));
   if (name) text.mark(name);
 }
@@ -235,7 +246,15 @@ function bars(): void {
   toggleText.id = "text-button";
   toggleText.setAttribute("aria-expanded", "false");
   toggleText.setAttribute("aria-controls", "text");
-  find("panels").append(toggleText);
+  const components = button("Components", () => {
+    of = of === "network" ? "components" : "network";
+    components.setAttribute("aria-pressed", String(of === "components"));
+    model.selected = "";
+    void load().then(() => scene.fit());
+  });
+  components.setAttribute("aria-pressed", "false");
+  components.id = "components";
+  find("panels").append(toggleText, components);
 }
 
 function point(): void {
@@ -243,7 +262,7 @@ function point(): void {
   scene.covered = () => side.hidden || getComputedStyle(side).position === "static" ? 0 : side.offsetWidth;
   scene.hasHandle = (name) => mayEdit() && Boolean(facts.entry(name)?.requires.length);
   gestures(canvas, scene, {
-    canEdit: mayEdit(), canPlace: mayPlace(), select, toggle,
+    canEdit: mayEdit(), get canPlace() { return mayPlace(); }, select, toggle,
     ask: (hit, x, y) => {
       if (!hit || hit.kind === "end") void askMenu("network", "", x, y);
       else if (!("node" in hit)) void askMenu(hit.kind, hit.name, x, y);
@@ -293,6 +312,8 @@ async function begin(): Promise<void> {
     model.states.clear();
     model.nodes.clear();
     closed.clear();
+    of = "network";
+    find("components").setAttribute("aria-pressed", "false");
     text?.close();
     if (can.has("positions")) model.positions = (await ask<{ positions: Positions }>(`${path()}/positions`).catch(() => ({ positions: {} }))).positions;
     await load();

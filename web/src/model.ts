@@ -14,7 +14,7 @@ export interface Edge {
 }
 export interface Graph {
   name: string; width: number; height: number; hosts: Box[]; groups: Group[]; nodes: Node[]; edges: Edge[];
-  faults: Message[]; document: string; version: string;
+  faults: Message[]; document: string; version: string; of: "network" | "components";
 }
 /** `cpu` are seconds in all, `load` the percentage of a core now, `memory` bytes. */
 export interface State {

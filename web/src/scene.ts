@@ -378,8 +378,11 @@ export class Scene {
 
   /** Memory and CPU of a process beside what it is, if there is room. */
   private use(node: Node): void {
-    const { context } = this, use = node.kind === CLOSED ? "" : this.model.use(node.name), about = node.texts[1] ?? "";
-    if (!use || 11 * this.zoom < SMALLEST || 26 + this.wide(about) * this.size12(about, node.width - 18) / 12 + this.wide(use) > node.width) return;
+    const { context } = this, all = node.kind === CLOSED ? "" : this.model.use(node.name), about = node.texts[1] ?? "";
+    if (!all || 11 * this.zoom < SMALLEST) return;
+    const room = node.width - 26 - this.wide(about) * this.size12(about, node.width - 18) / 12;
+    const use = [all, all.split("  ")[0]].find((one) => this.wide(one) <= room);
+    if (!use) return;
     context.textAlign = "right";
     context.font = `11px ${this.font}`;
     context.fillStyle = this.colors.soft;

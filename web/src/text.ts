@@ -79,9 +79,9 @@ export class TextPane {
   private isDrawn = false; // the picture is that of the unsaved text
 
   constructor(
-    private readonly root: HTMLElement, private readonly can: Abilities, private readonly path: () => string, private readonly found: (process: string) => void,
+    private readonly root: HTMLElement, private readonly can: Abilities, private readonly path: () => string, private readonly found: (nodes: string[]) => void,
     private readonly facts: Facts, private readonly changed: () => Promise<void>, private readonly opened: (isOpen: boolean) => void,
-    private readonly drawn: (graph: Graph | null) => void, private readonly boxes: () => string[],
+    private readonly drawn: (graph: Graph | null) => void, private readonly pictured: () => { closed: string[]; of: string },
   ) {
     const close = button("✕", () => this.close(), "close the document"), bar = buttons(this.which, this.saving, this.discarding, this.status);
     close.className = "close";
@@ -161,20 +161,20 @@ export class TextPane {
    * process. */
   mark(process: string): void {
     this.wanted = process;
-    const component = this.facts.entry(process)?.component;
-    if (this.view && component && this.isComponent && component !== this.shown.document && !this.isChanged) void this.open(component);
+    const component = this.facts.componentOf(process), isAbout = this.isComponent || !this.facts.entry(process);
+    if (this.view && component && isAbout && component !== this.shown.document && !this.isChanged) void this.open(component);
     else this.remark();
   }
 
   /** Marks the lines of the process that is wanted, if the document has them. */
-  private remark(): void {
+  remark(): void {
     const entry = this.facts.entry(this.wanted), { view } = this;
-    if (!view || !entry) return;
+    if (!view) return;
     if (this.isComponent) {
-      view.dispatch({ effects: marked.of(entry.component === this.shown.document ? this.wires() : null) });
+      view.dispatch({ effects: marked.of(this.facts.componentOf(this.wanted) === this.shown.document ? this.wires() : null) });
       return;
     }
-    if (entry.document !== this.shown.document) return;
+    if (entry?.document !== this.shown.document) return;
     const range = this.entries().find((one) => one.name === entry.entry);
     view.dispatch({ effects: range ? [marked.of(range), EditorView.scrollIntoView(range.from, { y: "center" })] : [marked.of(null)] });
   }
@@ -224,10 +224,9 @@ export class TextPane {
   /** The cursor is in an entry, or in the document of a component: its process is selected. */
   private follow(at: number): void {
     if (this.isComponent) {
-      const processes = this.facts.entries.filter((one) => one.component === this.shown.document);
-      if (!processes.length || processes.some((one) => one.process === this.wanted)) return;
-      this.wanted = processes[0].process;
-      this.found(this.wanted);
+      const processes = this.facts.entries.filter((one) => one.component === this.shown.document).map((one) => one.process);
+      const components = this.facts.components.filter((one) => one.path === this.shown.document).flatMap((one) => [one.name, one.path]);
+      this.found([...processes, ...components]);
       return;
     }
     const entry = this.entries().find((one) => one.from <= at && at <= one.to);
@@ -236,7 +235,7 @@ export class TextPane {
     const process = this.facts.entries.find((one) => one.entry === entry.name && one.document === this.shown.document);
     if (process && process.process !== this.wanted) {
       this.wanted = process.process;
-      this.found(process.process);
+      this.found([process.process]);
     }
   }
 
@@ -274,7 +273,7 @@ export class TextPane {
   /** What the server says of the unsaved text. Its picture is drawn, if the text has not changed meanwhile. */
   private async judged(text: string): Promise<Judged | null> {
     if (!this.can.has("diagnose", "post")) return null;
-    const body = { path: this.shown.document, text, graph: true, closed: this.boxes() };
+    const body = { path: this.shown.document, text, graph: true, ...this.pictured() };
     const found = await ask<Judged>(`${this.path()}/diagnose`, body).catch(() => null);
     if (found && this.view?.state.doc.toString() === text && text !== this.shown.text) {
       this.isDrawn = true;

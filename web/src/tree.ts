@@ -42,7 +42,7 @@ export class Tree {
     this.items.clear();
     if (!graph) return;
     const all: One[] = graph.nodes.flatMap((node) => node.members ?? [node]);
-    for (const host of [...graph.hosts, { name: "", title: "elsewhere" }]) {
+    for (const host of [...graph.hosts, { name: "", title: graph.of === "components" ? "components" : "elsewhere" }]) {
       const nodes = all.filter((node) => node.host === host.name);
       if (!nodes.length) continue;
       const list = this.branch("host", host.name, host.title, this.root);
