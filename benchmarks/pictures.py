@@ -143,7 +143,9 @@ def main(target: Path) -> None:
         folder = fleet(Path(work) / "fleet", 500).parent
         document = folder / "fleet.ddsl.yaml"
         document.write_text(
-            document.read_text().replace("10.0.0.", "127.0.0.").replace("'600']", "'600'], ready: {command: ['true']}")
+            document.read_text()
+            .replace("10.0.0.", "127.0.0.")
+            .replace("'600']", "'600'], ready: {command: ['true'], within: 120000}")
         )
         rcyaml(folder, "deploy", "up", "--on-failure", "keep")
         try:

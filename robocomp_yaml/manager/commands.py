@@ -20,6 +20,7 @@ from robocomp_yaml.diag.render.json import as_data
 from robocomp_yaml.manager import requests
 from robocomp_yaml.manager.access import EDIT, OPERATE, READ
 from robocomp_yaml.manager.events import PROGRESS
+from robocomp_yaml.manager.managed import NETWORK
 from robocomp_yaml.manager.requests import (
     CallRequest,
     EditRequest,
@@ -27,7 +28,6 @@ from robocomp_yaml.manager.requests import (
     ParameterRequest,
     UndoRequest,
 )
-from robocomp_yaml.manager.managed import NETWORK
 from robocomp_yaml.manager.watching import Watcher
 
 _LARGEST = 1 << 20  # bytes of a body
