@@ -122,11 +122,13 @@ def thirty(folder: Path, target: Path) -> None:
     try:
         with opened(folder) as page:
             rcyaml(folder, "deploy", "down", "agenda")
-            for _ in range(12):  # until it is given up
+            for _ in range(60):  # until it is given up
+                if page.evaluate("model.look('faces')") == "down":
+                    break
                 if pid := page.evaluate("model.states.get('faces').pid"):
                     with suppress(ProcessLookupError):
                         os.kill(pid, signal.SIGKILL)
-                page.wait_for_timeout(2500)
+                page.wait_for_timeout(1500)
             assert page.evaluate("model.look('faces')") == "down"
             page.screenshot(path=target / "manager-30.png")
     finally:
@@ -141,7 +143,9 @@ def main(target: Path) -> None:
         folder = fleet(Path(work) / "fleet", 500).parent
         document = folder / "fleet.ddsl.yaml"
         document.write_text(
-            document.read_text().replace("10.0.0.", "127.0.0.").replace("'600']", "'600'], ready: {command: ['true']}")
+            document.read_text()
+            .replace("10.0.0.", "127.0.0.")
+            .replace("'600']", "'600'], ready: {command: ['true'], within: 120000}")
         )
         rcyaml(folder, "deploy", "up", "--on-failure", "keep")
         try:

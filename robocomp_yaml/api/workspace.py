@@ -170,6 +170,12 @@ class Workspace:
             return None
         return of_components.picture_of(os.path.basename(os.path.abspath(path)), program.components.values())
 
+    def picture_of_components(self, name: str) -> Picture:
+        """The picture of all components, for rcyaml itself: what they require and implement, and their topics."""
+        from robocomp_yaml.emit.graphs import of_components
+
+        return of_components.picture_of(name, self.analysis.program.components.values(), self.analysis.diagnostics)
+
     def _with_positions(self, network: Network, document: str) -> Picture:
         """The picture of a network, with the positions that a person chose for its nodes."""
         from robocomp_yaml.api.editing import layout

@@ -78,7 +78,9 @@ def _handler(
         try:
             return JSONResponse(plain(await command.run(served, request)))
         except EditConflict as conflict:
-            return _error(_CONFLICT, str(conflict), theirs=conflict.theirs, ours=conflict.ours)
+            return _error(
+                _CONFLICT, str(conflict), theirs=conflict.theirs, ours=conflict.ours, version=conflict.version
+            )
         except (Refused, Faulty, NoAnswer) as error:
             return _failed(error)
         except RecursionError:

@@ -20,6 +20,7 @@ from robocomp_yaml.diag.render.json import as_data
 from robocomp_yaml.manager import requests
 from robocomp_yaml.manager.access import EDIT, OPERATE, READ
 from robocomp_yaml.manager.events import PROGRESS
+from robocomp_yaml.manager.managed import NETWORK
 from robocomp_yaml.manager.requests import (
     CallRequest,
     EditRequest,
@@ -102,8 +103,8 @@ async def _list(served: Served, request: Request) -> Any:
 
 
 async def _graph(served: Served, request: Request) -> Any:
-    shut = frozenset(request.query_params.getlist("closed"))
-    return await asyncio.to_thread(served.watcher(request).managed.graph, shut)
+    shut, of = frozenset(request.query_params.getlist("closed")), request.query_params.get("of", NETWORK)
+    return await asyncio.to_thread(served.watcher(request).managed.graph, shut, of)
 
 
 async def _status(served: Served, request: Request) -> Any:
@@ -180,7 +181,8 @@ def _back(*, again: bool) -> Callable[[Served, Request], Awaitable[Any]]:
 
 def revised(revision: Revision) -> dict[str, Any]:
     return {
-        "document": revision.path, "change": revision.what, "version": revision.version, "diff": revision.diff,
+        "document": revision.path, "change": revision.what, "version": revision.version,
+        "based_on": revision.based_on, "diff": revision.diff,
         "text": revision.after.decode("utf-8-sig", "replace"),
         "errors": [as_data(one) for one in revision.new_errors],
         "diagnostics": [as_data(one) for one in revision.diagnostics],
@@ -231,7 +233,8 @@ _NAMES = ("name", "A process or group; may be repeated. Without it, all.")
 COMMANDS = (
     Command("GET", "/deployments", READ, "The deployments that are served, and what this manager may do.", _list),
     Command("GET", f"{ONE}/graph", READ, "The picture of the network, with its geometry.", _graph,
-            query=(("closed", "A box that is drawn as one node: `host NAME` or `group NAME`; may be repeated."),)),
+            query=(("closed", "A box that is drawn as one node: `host NAME` or `group NAME`; may be repeated."),
+                   ("of", "network, or components: those of the workspace, with what they are wired to."))),
     Command("GET", f"{ONE}/status", READ, "The state of each process.", _status),
     Command("GET", f"{ONE}/history", READ, "What happened since the manager runs, whoever caused it.", _history),
     Command("GET", f"{ONE}/plan", READ, "What an operation would do, and why.", _plan,

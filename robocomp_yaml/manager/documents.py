@@ -30,7 +30,7 @@ async def _diagnose(served: Served, request: Request) -> Any:
         return {
             "diagnostics": [as_data(one) for one in analysis.diagnostics if one.span.file == path][:_MOST],
             "elsewhere": [as_data(one) for one in caused if one.span.file != path][:_MOST],
-            **({"graph": managed.drawn(now, wanted.closed)} if wanted.graph else {}),
+            **({"graph": managed.drawn(now, wanted.closed, wanted.of)} if wanted.graph else {}),
         }
 
     return await asyncio.to_thread(managed.with_text, wanted.path, wanted.text, work)

@@ -74,7 +74,7 @@ def _entry(one: LinkedInstance, network: Network | None) -> dict[str, Any]:
     topics = {each.port: each.topic for each in connections if each.kind != PROXY}
     written = next((each.name for each in one.document.entries if each.span == entry.span), entry.name)
     return {
-        "process": one.name, "entry": f"{one.scope}{written}",
+        "process": one.name, "entry": f"{one.scope}{written}", "scope": one.scope,
         "document": os.path.normpath(one.document.path), "line": entry.span.line,
         "kind": entry.kind, "host": one.host.name if one.host is not None else "",
         "component": component.component.path if component is not None else "",

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from robocomp_yaml.api.topics import Topics
 
 T = TypeVar("T")
+NETWORK, COMPONENTS = "network", "components"
 
 
 class ManagedDeployment:
@@ -96,32 +97,37 @@ class ManagedDeployment:
 
         return self.with_workspace(work)
 
-    def graph(self, shut: Collection[str] = ()) -> dict[str, Any]:
+    def graph(self, shut: Collection[str] = (), of: str = NETWORK) -> dict[str, Any]:
         """The picture of the network as data, with the version of its document. `shut` are the boxes that are closed:
-        `host NAME`, `group NAME`. Raises Faulty if there is no picture."""
+        `host NAME`, `group NAME`. `of` may be COMPONENTS: those of the workspace. Raises Faulty if there is no
+        picture."""
 
         def work(workspace: Workspace) -> dict[str, Any]:
-            found = self.drawn(workspace, shut)
+            found = self.drawn(workspace, shut, of)
             if found is None:
                 raise Faulty(workspace.analysis.diagnostics, workspace.documents_read)
             return found
 
         return self.with_workspace(work)
 
-    def drawn(self, workspace: Workspace, shut: Collection[str]) -> dict[str, Any] | None:
+    def drawn(self, workspace: Workspace, shut: Collection[str], of: str = NETWORK) -> dict[str, Any] | None:
         """The picture of the network in these documents, which may be unsaved; None if errors leave none."""
-        picture = workspace.picture(self.path)
+        if of not in (NETWORK, COMPONENTS):
+            raise Refused(f"there is no picture of '{of}': {NETWORK} or {COMPONENTS}")
+        is_network = of == NETWORK
+        name = os.path.basename(os.path.abspath(self.root))
+        picture = workspace.picture(self.path) if is_network else workspace.picture_of_components(name)
         if picture is None:
             return None
-        seen, members = closed(picture, shut) if shut else (picture, {})
-        cells = self._cells.setdefault(frozenset(members), {})
+        seen, members = closed(picture, shut) if shut and is_network else (picture, {})
+        cells = self._cells.setdefault(frozenset(members if is_network else (COMPONENTS,)), {})
         geometry = screen_geometry(seen, cells)
         cells.update(geometry.cells)  # what is added again is where it was
         data = picture_data(seen, geometry)
         for node in data["nodes"]:
             if node["name"] in members:
                 node["members"] = [node_data(picture.nodes[name]) for name in members[node["name"]]]
-        return {**data, "document": self.path, "version": self._editor.version(self.path)}
+        return {**data, "of": of, "document": self.path, "version": self._editor.version(self.path)}
 
     def entries(self) -> dict[str, Any]:
         """The entries with their ports, and what can be added."""
@@ -201,9 +207,10 @@ class ManagedDeployment:
             if isinstance(change, ComponentChange) and not (document or change.component):
                 raise Refused("a change of a component names the component, or its document")
             disk = workspace.analysis.disk
-            shown = (change, document, based_on, disk.version, disk.contents)
-            if self._shown is not None and self._shown[0] == shown:
-                revision = self._shown[1]  # nothing is judged twice: the documents are those of which it was shown
+            shown = (change, document, disk.version, disk.contents)
+            known = self._shown[1] if self._shown is not None and self._shown[0] == shown else None
+            if known is not None and based_on in ("", known.based_on):
+                revision = known  # nothing is judged twice: the documents are those of which it was shown
             else:
                 revision = self._editor.revise(self._own(workspace, document or self.path), change, based_on, workspace)
             self._shown = None if write else (shown, revision)
@@ -224,14 +231,23 @@ class ManagedDeployment:
         self._own(workspace, revision.path)
         if write:
             self._editor.write(revision, force=force)
+            self._renamed(revision)
         return revision
+
+    def _renamed(self, revision: Revision) -> None:
+        """What has another name stays where it is in the pictures."""
+        for path, old, new in revision.renamed:
+            if os.path.realpath(path) == os.path.realpath(self.path):
+                self._cells = {shut: layout.renamed(cells, old, new) for shut, cells in self._cells.items()}
 
     def undo(self, document: str, *, again: bool) -> Revision:
         """Undoes the last change of a document, or makes it `again`. Raises Refused."""
 
         def work(workspace: Workspace) -> Revision:
             path = self._own(workspace, document or self.path)
-            return self._editor.redo(path) if again else self._editor.undo(path)
+            revision = self._editor.redo(path) if again else self._editor.undo(path)
+            self._renamed(revision)
+            return revision
 
         return self.with_workspace(work)
 

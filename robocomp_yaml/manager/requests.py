@@ -83,12 +83,13 @@ class CompletionRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True)
 
 class DiagnoseRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """`text` is the unsaved text of the document. With `graph`, the picture that the network would have is returned,
-    too; `closed` are its closed boxes."""
+    too; `closed` are its closed boxes, and `of` is as for `graph`."""
 
     path: str
     text: str
     graph: bool = False
     closed: tuple[str, ...] = ()
+    of: str = "network"
 
 
 class WriteRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

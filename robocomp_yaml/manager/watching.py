@@ -25,9 +25,9 @@ from robocomp_yaml.manager.managed import ManagedDeployment
 from robocomp_yaml.manager.topics import TopicFeeds
 from robocomp_yaml.network.network import Network
 
-OBSERVE, ASK, DISK, RATES = 0.4, 2.0, 1.0, 2.0
-"""Seconds between two observations, between two questions whether all are ready, between two looks at the disk, and
-between two looks at what publishers count."""
+OBSERVE, ASK, COMMANDS, DISK, RATES = 0.4, 2.0, 10.0, 1.0, 2.0
+"""Seconds between two observations, between two questions whether all are ready, between two runs of the command that
+says so of a process that was, between two looks at the disk, and between two looks at what publishers count."""
 
 
 class Watcher:
@@ -45,6 +45,8 @@ class Watcher:
         self._engine_name = ""
         self._running: Mapping[str, Running] = {}
         self._asked, self._seen = 0.0, dict[str, tuple[object, ...]]()
+        self._told: dict[str, tuple[tuple[object, ...], float]] = {}  # what is known of processes with such a command
+        self._measured: dict[str, tuple[int, float, float]] = {}  # process id, seconds of CPU, and when
 
     async def begin(self) -> None:
         """Reads the documents, and the first states."""
@@ -169,16 +171,21 @@ class Watcher:
 
     async def _ask(self, network: Network) -> None:
         """Asks which processes are ready, and sends what differs."""
-        if self._engine is not None:
-            found = await operations.status(self._engine, network, (), True)
-        else:
+        kept = self._kept(network)
+        asked = {*(one.name for one in network.enabled()), *self._running} - kept
+        if self._engine is None:
             found = [Status(one.name, one.host, False, None, one.is_server) for one in network.enabled()]
+        else:
+            found = await operations.status(self._engine, network, asked, True) if asked else []
         states = {one["name"]: one for one in json_data.status_data(network, found)}
         words = {one.name: json_data.state_in_words(one) for one in found}
         down = {one.name: one.is_down for one in found}
         for name, state in states.items():
             state["words"], state["down"] = words[name], down[name]
+            state["load"] = self._load(state)
         changed = [one for name, one in states.items() if _lasting(one) != _lasting(self.states.get(name, {}))]
+        self._tell(network, states)
+        states |= {name: self.states[name] for name in kept}
         gone = [name for name in self.states if name not in states]
         for one in changed:
             was = self.states.get(one["name"])
@@ -186,9 +193,40 @@ class Watcher:
                 self.events.happened(one["name"], f"ended by itself: {one['last_exit']}; started again")
             if was is not None and was["words"] != one["words"]:
                 self.events.happened(one["name"], one["words"])
-        self.states = states
+        order = {one.name: at for at, one in enumerate(network.enabled())}
+        self.states = dict(sorted(states.items(), key=lambda one: order.get(one[0], len(order))))
         if changed or gone:
             self._send(changed, gone)
+
+    def _kept(self, network: Network) -> set[str]:
+        """The processes that a command called ready not long ago, and to which nothing happened since. Each question
+        is a process of its own, which would cost more than everything else here."""
+        now = asyncio.get_running_loop().time()
+        is_same = {name for name, (gist, when) in self._told.items()
+                   if self._engine is not None and now - when < COMMANDS and self._seen.get(name) == gist}  # fmt: skip
+        return {name for name in is_same if name in network.processes and name in self.states}
+
+    def _tell(self, network: Network, states: Mapping[str, Mapping[str, Any]]) -> None:
+        now = asyncio.get_running_loop().time()
+        for name, state in states.items():
+            process = network.processes.get(name)
+            if process is not None and process.ready.command and state["ready"] and name in self._seen:
+                self._told[name] = self._seen[name], now
+            else:
+                self._told.pop(name, None)
+
+    def _load(self, state: Mapping[str, Any]) -> float | None:
+        """The percentage of a core that a process used since the last question; None for the first one, and where its
+        use of the CPU is not known."""
+        name, pid, cpu, now = state["name"], state["pid"], state["cpu"], asyncio.get_running_loop().time()
+        if not pid or cpu is None:
+            self._measured.pop(name, None)
+            return None
+        before = self._measured.get(name)
+        if before is not None and before[0] == pid and now - before[2] < ASK / 2:
+            return self.states.get(name, {}).get("load")  # too short to say anything
+        self._measured[name] = pid, cpu, now
+        return round(max(100 * (cpu - before[1]) / (now - before[2]), 0)) if before and before[0] == pid else None
 
     def _note(self, problem: str) -> None:
         if problem != self.problem:

@@ -22,7 +22,7 @@ from urllib.parse import parse_qs, urlsplit
 import pytest
 
 from conftest import write_tree
-from processes import kill_left
+from processes import kill_left, until
 
 pytest.importorskip("starlette", reason="pip install rcyaml[manager]")
 pytest.importorskip("uvicorn", reason="pip install rcyaml[manager]")
@@ -108,6 +108,28 @@ def robot(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     write_tree(folder, {"robot.ddsl.yaml": ROBOT, "rcyaml.yaml": "{}\n"})
     yield folder
     kill_left(f"{folder}/.rcyaml/deployments/Robot")
+
+
+def test_commands_that_say_what_is_ready_are_run_seldom(robot: Path) -> None:
+    """Each is a process of its own: with fifty of them, they would cost more than the manager."""
+    asked, document = robot / "asked", robot / "robot.ddsl.yaml"
+    command = f"ready: {{command: [sh, -c, 'echo x >> {asked}']}}"
+    document.write_text(
+        ROBOT.replace('camera: {program: sleep, args: ["600"]', f"camera: {{program: sleep, args: ['600'], {command}")
+    )
+    with manager(robot) as one:
+        assert one.robot("up", {})[1]["ok"]
+        until(lambda: one.words() == dict.fromkeys(("base", "camera", "arm"), "ready"), "all are ready")
+        time.sleep(2.5)
+        before = asked.read_text().count("x")
+        time.sleep(7)
+        assert asked.read_text().count("x") - before <= 1
+        states = {state["name"]: state for state in one.robot("status")[1]["processes"]}
+        assert list(states) == ["base", "camera", "arm"]
+        assert states["base"]["load"] == 0
+        os.kill(states["camera"]["pid"], signal.SIGKILL)
+        until(lambda: one.robot("status")[1]["processes"][1]["restarts"] == 1, "it is asked again at once", 8)
+        assert one.robot("down", {})[1]["ok"]
 
 
 def read_events(response: HTTPResponse, kind: str) -> Iterator[Any]:

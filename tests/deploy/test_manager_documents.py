@@ -94,6 +94,7 @@ def test_a_text_is_written_as_a_change_is(served: Manager) -> None:
     assert (status, answer["written"], Path(DDSL).read_text()) == (200, True, mine)
     status, conflict = served.robot("write", {"path": DDSL, "text": TEXT, "based_on": version})
     assert (status, conflict["theirs"], conflict["ours"]) == (409, mine, TEXT)
+    assert conflict["version"] == answer["version"]  # of what is shown, which may be meant then
     assert served.robot("write", {"path": DDSL, "text": wrong, "based_on": answer["version"], "force": True})[0] == 200
     assert served.robot("undo", {})[0] == 200
     assert served.robot("undo", {})[0] == 200
@@ -118,6 +119,20 @@ def test_components_are_read_and_changed(served: Manager) -> None:
         status, answer = served.robot(f"component?name={name}")
         assert (status, message in answer["error"]) == (400, True)
     assert "names the component" in served.robot("edit", {"change": {**change, "component": ""}})[1]["error"]
+
+
+def test_components_have_a_picture_of_their_own(served: Manager) -> None:
+    status, found = served.robot("graph?of=components")
+    assert (status, found["of"], {one["name"] for one in found["nodes"]} >= {"SpeechComp", "MouthComp", "EarComp"}) == (
+        200, "components", True,
+    )  # fmt: skip
+    lines = [(one["from"], one["to"]) for one in found["edges"] if one["kind"] == "uses"]
+    assert ("SpeechComp", "MouthComp") in lines
+    mouth = "component: MouthComp\nlanguage: pyton\nimports: [Face]\nimplements: [Mouth]\n"
+    asked = {"path": "mouth/mouth.cdsl.yaml", "text": mouth, "graph": True, "of": "components"}
+    drawn = served.robot("diagnose", asked)[1]["graph"]
+    assert [one["faults"] != [] for one in drawn["nodes"] if one["name"] == "MouthComp"] in ([True], [])
+    assert served.robot("graph?of=everything")[0] == 400
 
 
 def test_a_new_component_is_added(served: Manager) -> None:
@@ -151,6 +166,40 @@ def test_boxes_are_where_a_person_put_them(served: Manager) -> None:
         assert served.robot("positions", {"positions": wrong})[0] == 400, wrong
     kept.write_text('{"positions": {"jaw": [800, 400]}}')  # as another manager does it
     assert next(one for one in events if box("jaw") == [800, 400]) == {"problem": ""}
+
+
+def test_what_is_renamed_stays_where_it_is(served: Manager) -> None:
+    def places() -> dict[str, list[float]]:
+        return {one["name"]: [one["x"], one["y"]] for one in served.robot("graph")[1]["nodes"]}
+
+    before = places()
+    assert served.robot("edit", {"change": {"change": "rename", "entry": "speech", "name": "voice"}})[0] == 200
+    assert places() == {"voice" if name == "speech" else name: place for name, place in before.items()}
+    assert served.robot("undo", {})[0] == 200
+    assert places() == before
+
+
+def test_entries_of_included_documents_are_edited_there(served: Manager) -> None:
+    Path("both.ddsl.yaml").write_text("deployment: Both\ninclude: {left: robot.ddsl.yaml, right: robot.ddsl.yaml}\n")
+    with manager(Path.cwd(), "both.ddsl.yaml") as one:
+
+        def edit(**change: object) -> tuple[int, Any]:
+            return one.ask("/api/deployments/Both/edit", {"change": change, **asked})
+
+        asked: dict[str, object] = {"write": False}
+        found = one.ask("/api/deployments/Both/entries")[1]["entries"]
+        assert {each["process"]: (each["entry"], each["scope"]) for each in found}["left.mouth"] == (
+            "left.mouth", "left.",
+        )  # fmt: skip
+        status, shown = edit(change="rename", entry="left.mouth", name="left.jaw")
+        assert (status, shown["document"], "+  jaw: {" in shown["diff"]) == (200, DDSL, True)
+        asked = {"based_on": shown["based_on"]}
+        assert edit(change="rename", entry="left.mouth", name="left.jaw")[0] == 200
+        status, conflict = edit(change="rename", entry="left.jaw", name="mouth")
+        assert (status, conflict["theirs"]) == (409, Path(DDSL).read_text())
+        asked = {"based_on": conflict["version"]}
+        assert edit(change="rename", entry="right.jaw", name="mouth")[0] == 200
+        assert Path(DDSL).read_text() == TEXT
 
 
 def test_the_command_line_draws_them_there_too(served: Manager) -> None:

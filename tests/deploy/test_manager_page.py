@@ -138,6 +138,32 @@ def test_changes_of_the_document_appear_and_move_nothing(robot: Path, page: Open
         assert shown.evaluate("model.nodes.size") == 4  # the last picture stays
 
 
+def test_a_page_that_nobody_sees_takes_no_connections(robot: Path, page: Open) -> None:
+    """A browser has six for all tabs. A page that is seen again shows what happened meanwhile."""
+    with manager(robot) as one:
+        shown = page(one)
+        item(shown, "arm").click()
+        streams: list[str] = []
+        shown.on("request", lambda request: streams.append(request.url) if "events" in request.url else None)
+
+        def turn(state: str) -> None:
+            shown.evaluate(
+                "(state) => { Object.defineProperty(document, 'visibilityState', { value: state, configurable: true });"
+                "document.dispatchEvent(new Event('visibilitychange')) }", state,
+            )  # fmt: skip
+
+        turn("hidden")
+        change = {"change": "add", "entry": "wrist", "program": "sleep", "args": ["9"]}
+        assert one.robot("edit", {"change": change})[0] == 200
+        shown.wait_for_timeout(2500)
+        assert (item(shown, "wrist").count(), streams) == (0, [])
+        turn("visible")
+        expect(item(shown, "wrist")).to_be_visible()
+        until(lambda: any("/events" in url for url in streams) and any("log-events" in url for url in streams), "both")
+        shown.get_by_role("button", name="History").click()
+        expect(shown.get_by_role("region", name="History")).to_contain_text("add wrist")
+
+
 def test_without_the_right_there_are_no_buttons(robot: Path, page: Open) -> None:
     with manager(robot, "--read-only") as one:
         shown = page(one)

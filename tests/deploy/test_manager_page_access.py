@@ -71,6 +71,21 @@ def _text(page: Page) -> None:
     page.locator(".cm-line", has_text="speech:").click()
 
 
+def _group(page: Page) -> None:
+    choose(page, "speech", "Add to group…")
+    expect(page.get_by_role("dialog")).to_be_visible()
+
+
+def _find(page: Page) -> None:
+    """The panel of the editor, with what is typed in a document that is not saved."""
+    page.locator(".cm-line", has_text="speech:").click()
+    page.keyboard.press("End")
+    page.keyboard.type("x")
+    page.keyboard.press("Control+f")
+    expect(page.locator(".cm-search")).to_be_visible()
+    expect(page.locator("#draft")).to_be_visible()
+
+
 def _drawer(name: str) -> Callable[[Page], None]:
     def opened(page: Page) -> None:
         page.get_by_role("button", name=name, exact=True).click()
@@ -83,6 +98,7 @@ def _drawer(name: str) -> Callable[[Page], None]:
 STATES: dict[str, Callable[[Page], None]] = {
     "start": lambda page: None, "details": _details, "menu": _menu, "plan": _plan, "proposal": _proposal, "call": _call,
     "logs": _drawer("Logs"), "history": _drawer("History"), "hosts": _drawer("Hosts"), "text": _text,
+    "group": _group, "find": _find,
 }  # fmt: skip
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import pytest
@@ -121,6 +122,99 @@ def test_what_others_write_is_not_overwritten(head: Path, shown: Page) -> None:
     expect(shown.locator(".cm-line", has_text="# theirs")).to_be_visible()
     assert shown.locator(".cm-line", has_text="# mine").count() == 0
     assert text(head) == theirs
+
+
+def test_what_others_write_while_both_versions_are_shown_is_not_overwritten(head: Path, shown: Page) -> None:
+    shown.get_by_role("button", name="YAML").click()
+    put_cursor(shown, "  log:")
+    shown.keyboard.press("End")
+    shown.keyboard.type("  # mine")
+    (head / "head.ddsl.yaml").write_text(DOCUMENT.replace("# spare", "# theirs"))
+    shown.keyboard.press("Control+s")
+    dialog = shown.get_by_role("dialog", name="The file was changed elsewhere")
+    expect(dialog.get_by_label("In the file now")).to_contain_text("# theirs")
+    (head / "head.ddsl.yaml").write_text(DOCUMENT.replace("# spare", "# once more"))
+    dialog.get_by_role("button", name="Write mine over it").click()
+    expect(dialog.get_by_label("In the file now")).to_contain_text("# once more")
+    assert "# once more" in text(head)
+    dialog.get_by_role("button", name="Write mine over it").click()
+    until(lambda: "# mine" in text(head), "it is written over what was shown")
+    assert "# once more" not in text(head)
+
+
+def test_documents_of_components_follow_their_processes_and_these_them(head: Path, shown: Page) -> None:
+    choose(shown, "speech", "Show its component's document")
+    which = shown.get_by_role("region", name="Document").get_by_role("combobox")
+    expect(which).to_have_value("speech/speech.cdsl.yaml")
+    expect(shown.locator(".cm-line.marked")).to_have_text(
+        ["implements: [Speech]", "requires: [Mouth]", "publishes: [Heard]"]
+    )
+    item(shown, "lips").click()
+    expect(which).to_have_value("mouth/mouth.cdsl.yaml")
+    which.select_option("speech/speech.cdsl.yaml")
+    put_cursor(shown, "publishes: [Heard]")
+    until(lambda: shown.evaluate("model.selected") == "speech", "its process is selected")
+    publishes = "model.graph.edges.some((one) => one.kind === 'publishes')"
+    assert shown.evaluate(publishes)
+    shown.keyboard.press("Home")
+    shown.keyboard.type("# ")
+    until(lambda: not shown.evaluate(publishes), "the line is gone")
+    shown.get_by_role("button", name="Discard").click()
+    until(lambda: shown.evaluate(publishes), "the line is back")
+
+
+def test_components_have_a_picture_of_their_own_beside_their_documents(head: Path, shown: Page) -> None:
+    """Text and picture follow each other in both directions; a component need not be in the network."""
+    (head / "eyes").mkdir()
+    (head / "eyes/eyes.cdsl.yaml").write_text("component: EyesComp  # two\nlanguage: python\nimports: [Talk]\n")
+    shown.get_by_role("button", name="Components").click()
+    until(lambda: shown.evaluate("model.nodes.has('EyesComp')"), "all components are drawn")
+    assert under(shown, *middle(shown, "EyesComp")) == "EyesComp"
+    shown.get_by_role("button", name="YAML").click()
+    which = shown.get_by_role("region", name="Document").get_by_role("combobox")
+    item(shown, "EyesComp").click()
+    expect(which).to_have_value("eyes/eyes.cdsl.yaml")
+    lines = "model.graph.edges.map((one) => [one.from, one.to, one.kind]).filter((one) => one[0] === 'EyesComp')"
+    put_cursor(shown, "imports")  # from the text to the picture
+    shown.keyboard.press("End")
+    shown.keyboard.type("\nrequires: [Mouth]")
+    until(lambda: shown.evaluate(lines) == [["EyesComp", "MouthComp", "uses"]], "what is typed is drawn")
+    shown.keyboard.press("Control+s")
+    until(lambda: "requires" in (head / "eyes/eyes.cdsl.yaml").read_text(), "it is saved")
+    choose(shown, "EyesComp", "Interfaces…")  # and from the picture to the text
+    dialog = shown.get_by_role("dialog")
+    dialog.get_by_label("It", exact=True).select_option("publishes")
+    dialog.get_by_label("Heard").check()
+    write(shown)
+    expect(shown.locator(".cm-line", has_text="publishes: [Heard]")).to_be_visible()
+    until(lambda: len(shown.evaluate(lines)) == 2, "it is drawn")
+    which.select_option("mouth/mouth.cdsl.yaml")
+    put_cursor(shown, "implements")
+    until(lambda: shown.evaluate("model.selected") == "MouthComp", "the component of the document is selected")
+    choose(shown, "EyesComp", "Add to the network…")
+    dialog.get_by_label("Its name here").fill("eyes")
+    dialog.get_by_role("button", name="although").click(timeout=15_000)  # two serve what it requires
+    expect(dialog).to_have_count(0)
+    assert "  eyes: {component: eyes" in text(head)
+    shown.get_by_role("button", name="Components").click()
+    expect(item(shown, "eyes")).to_be_visible()
+    shutil.rmtree(head / "eyes")
+
+
+def test_the_keyboard_moves_boxes_and_the_view(head: Path, shown: Page) -> None:
+    where, tree = "[model.nodes.get('log').x, model.nodes.get('log').y]", '[role=treeitem][data-name="log"]'
+    x, y = shown.evaluate(where)
+    shown.locator(tree).focus()
+    for key in ("Alt+ArrowRight", "Alt+ArrowRight", "Alt+ArrowDown"):
+        shown.keyboard.press(key)
+    until(lambda: shown.evaluate("'log' in model.positions"), "the position is kept")
+    assert shown.evaluate(where) == [x + 16, y + 8]
+    assert shown.evaluate("document.activeElement.dataset.name") == "log"
+    zoom = shown.evaluate("scene.zoom")
+    shown.keyboard.press("+")
+    assert shown.evaluate("scene.zoom") > zoom
+    shown.keyboard.press("0")
+    assert shown.evaluate("scene.zoom") == pytest.approx(zoom)
 
 
 def test_a_position_is_kept_and_forgotten(head: Path, shown: Page) -> None:

@@ -258,6 +258,40 @@ def test_thirty_processes_are_readable_on_a_screen() -> None:
     assert SMALL_ON_SCREEN * zoom >= 11, (geometry.width, geometry.height)
 
 
+NAMES = (
+    "camera_front", "object_detector", "people_tracker", "speech_recogniser", "dialog_manager", "diagnostics_aggregator",
+)  # fmt: skip
+
+
+def long_names(uses: int) -> Picture:
+    """Thirty processes with long names: each uses so many others, all the same one (-1), or the one before (-2)."""
+    random, made = Random(5), Picture("Robot", [Box("", "this machine")])
+    for number in range(30):
+        name, others = f"{NAMES[number % 6]}{number // 6}", list(made.nodes)
+        made.nodes[name] = PictureNode(name, name, "component", "", ("sleep",), ((name.capitalize(), 23000),))
+        used = others[:1] if uses == -1 else others[-1:] if uses == -2 else random.sample(others, min(number, uses))
+        made.lines += [PictureLine(name, other, other.capitalize()) for other in used]
+    return made
+
+
+@pytest.mark.parametrize("uses", [0, 1, 2, 4, -1, -2])
+def test_a_picture_has_the_shape_of_a_screen_however_long_its_names_and_many_its_lines_are(uses: int) -> None:
+    picture = long_names(uses)
+    made = screen_geometry(picture)
+    check(picture, made)
+    assert SMALL_ON_SCREEN * min(1300 / made.width, 850 / made.height) >= 11, (made.width, made.height)
+    assert 0.9 < made.width / made.height < 2, (made.width, made.height)
+
+
+def test_titles_have_room_for_what_is_beside_them() -> None:
+    made = screen_geometry(Picture("Robot", [], {
+        "a": PictureNode("a", "a_process_with_a_name", "component"), "b": PictureNode("b", "a_topic_with_a_name", "topic"),
+    }))  # fmt: skip
+    for name, room in (("a", 12), ("b", 44)):  # the sign of its state, and its rate
+        box = made.nodes[name]
+        assert box.x + 12 + width(box.texts[0], 13, bold=True) + room <= box.x + box.width - 6
+
+
 def test_nothing_is_drawn_of_nothing() -> None:
     made = screen_geometry(Picture("Nothing"))
     assert (made.nodes, made.lines, made.hosts) == ({}, [], {})

@@ -2,7 +2,7 @@
 
 import { dialog, element } from "./dom";
 import { Editing, Proposal } from "./edit";
-import { Entry, Facts, Parameter, process } from "./facts";
+import { Facts, Parameter, process } from "./facts";
 import { Field, fieldOf, Values, valueOf } from "./form";
 import { Action } from "./menu";
 
@@ -31,9 +31,17 @@ export class Changes {
       ...is("Instances…", () => this.instances(name)),
       ...is("Start after…", () => this.after(name)),
       ...is("Start independently of…", () => this.independently(name), one.after.length > 0),
-      ...is("Interfaces of its component…", () => this.interfaces(one), Boolean(one.component)),
+      ...is("Interfaces of its component…", () => this.interfaces(one.component), Boolean(one.component)),
       ...is("Rename…", () => this.rename(one.entry)),
       ...is("Remove…", () => this.remove(name)),
+    ];
+  }
+
+  /** Of a component of the workspace, which need not be in the network. */
+  ofComponent(path: string): Action[] {
+    return [
+      { label: "Interfaces…", act: () => this.interfaces(path) },
+      { label: "Add to the network…", act: () => this.add("", path) },
     ];
   }
 
@@ -72,7 +80,7 @@ export class Changes {
       return chosen ? { change: "connect", entry: one.entry, port: text(values, "port"), to: chosen } : null;
     }, (values): Field[] => {
       const chosen = ports.find((each) => each.port === (text(values, "port") || port)) ?? ports[0];
-      const providers = this.facts.providers(chosen.interface).filter((each) => each !== name);
+      const providers = this.facts.providers(chosen.interface, one).filter((each) => each !== name);
       return [
         { name: "port", label: "It requires", kind: "choice", choices: ports.map((each) => each.port), value: chosen.port },
         { name: "to", label: "Who serves it", kind: "text", choices: providers, value: to || (providers.length === 1 ? providers[0] : chosen.to),
@@ -142,15 +150,16 @@ export class Changes {
     }, () => [{ name: "members", label: "Members that leave", kind: "many", choices: entries }]);
   }
 
-  add(host = ""): void {
+  add(host = "", path = ""): void {
     const known = this.facts.components.map((one) => one.path);
     this.propose("Add a component", (values) => {
       const entry = text(values, "entry");
       return entry ? { change: "add", entry, component: text(values, "component"), host: text(values, "host") } : null;
     }, (values) => {
-      const chosen = this.facts.components.find((one) => one.path === text(values, "component")) ?? this.facts.components[0];
+      const wanted = text(values, "component") || path;
+      const chosen = this.facts.components.find((one) => one.path === wanted) ?? this.facts.components[0];
       return [
-        { name: "component", label: "Component", kind: "choice", choices: known },
+        { name: "component", label: "Component", kind: "choice", choices: known, value: wanted },
         { name: "entry", label: "Its name here", kind: "text", value: chosen && free(chosen.name, this.facts) },
         ...this.hosts(host),
       ];
@@ -223,8 +232,9 @@ export class Changes {
 
   after(name: string): void {
     const one = this.facts.entry(name)!;
-    const others = [...this.facts.entries.map((each) => each.entry), ...this.facts.services, ...this.facts.groups.map((each) => each.name)];
-    const all = [...new Set(others)].filter((each) => each !== one.entry && !one.after.includes(each));
+    const others = this.facts.named(one).map((each) => each.entry), already = one.after.map((each) => `${one.scope}${each}`);
+    if (!one.scope) others.push(...this.facts.services, ...this.facts.groups.map((each) => each.name));
+    const all = [...new Set(others)].filter((each) => each !== one.entry && !already.includes(each));
     this.order(`When ${name} starts`, "after", one.entry, "It starts when these are ready", all);
   }
 
@@ -262,8 +272,8 @@ export class Changes {
   }
 
   /** What a component implements, requires, publishes and subscribes to: in its own document. */
-  interfaces(one: Entry): void {
-    const known = this.facts.components.find((each) => each.path === one.component);
+  interfaces(component: string): void {
+    const known = this.facts.components.find((each) => each.path === component);
     const keys = ["implements", "requires", "publishes", "subscribes"] as const;
     if (!known) return;
     this.propose(`Interfaces of ${known.name}`, (values) => {
@@ -277,7 +287,7 @@ export class Changes {
         { name: "remove", label: "not any more", kind: "check" },
         { name: "interfaces", label: isTopic ? "Topics" : "Interfaces", kind: "many", choices: values.remove === true ? known[key] : all.filter((name) => !known[key].includes(name)) },
       ];
-    }, one.component);
+    }, component);
   }
 }
 

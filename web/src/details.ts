@@ -2,7 +2,7 @@
 
 import { button, buttons, element, inWords } from "./dom";
 import { Facts, process } from "./facts";
-import { Model, Node, TOPIC } from "./model";
+import { COMPONENT, Model, Node, TOPIC } from "./model";
 import { RunningValues } from "./operate";
 import { Echo, LogLines } from "./streams";
 
@@ -47,7 +47,7 @@ export class Details {
         row.push(button(`${text}…`, () => this.rights.operate!(action, [name]), `${text.toLowerCase()} ${name}`));
       }
     }
-    if (this.rights.canCall && node.serves.length) row.push(button("Call…", () => this.call(name), `call a method of ${name}`));
+    if (this.rights.canCall && isProcess && node.serves.length) row.push(button("Call…", () => this.call(name), `call a method of ${name}`));
     const more = button("More ▾", () => {
       const place = more.getBoundingClientRect();
       this.ask(name, place.left, place.bottom);
@@ -55,14 +55,15 @@ export class Details {
     more.setAttribute("aria-haspopup", "menu");
     row.push(more);
     this.root.append(buttons(...row));
-    if (node.kind === TOPIC && this.rights.canEcho) {
+    if (node.kind === TOPIC && this.rights.canEcho && this.model.graph!.of === "network") {
       this.stream = new Echo(this.path(), node.title);
       this.root.append(element("h3", "Messages"), this.stream.root);
     }
     if (!isProcess) return;
     this.stream = new LogLines(this.path(), [name], 100);
     const values = new RunningValues(this.path(), name, this.rights.canSet ? () => process(this.path(), name).then((found) => found.parameters) : null);
-    this.root.append(element("h3", "Log"), this.stream.root, element("h3", "Values"), values.root);
+    this.root.append(element("h3", "Log"), this.stream.root);
+    if (node.kind === COMPONENT) this.root.append(element("h3", "Values"), values.root);
   }
 
   private update(node: Node): void {
@@ -75,7 +76,8 @@ export class Details {
       rows.unshift(["State", state.words]);
       if (state.pid) rows.push(["Process", String(state.pid)]);
       if (state.pid && state.memory !== null) rows.push(["Memory", `${(state.memory / 2 ** 20).toFixed(0)} MiB`]);
-      if (state.pid && state.cpu !== null) rows.push(["CPU", `${state.cpu.toFixed(1)} s`]);
+      const load = state.load === null || state.load === undefined ? "" : `${state.load} % of a core, `;
+      if (state.pid && state.cpu !== null) rows.push(["CPU", `${load}${state.cpu.toFixed(1)} s in all`]);
       if (state.restarts) rows.push(["Restarts", String(state.restarts)]);
       if (state.last_exit) rows.push(["Last end", state.last_exit]);
     }

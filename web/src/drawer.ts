@@ -48,7 +48,7 @@ export class Drawer {
     this.root.replaceChildren(close, element("h2", TITLES[tab]));
     this.root.setAttribute("aria-label", TITLES[tab]);
     if (tab === "logs") this.logs();
-    else if (tab === "history") this.root.append(this.pastList);
+    else if (tab === "history") this.root.append(element("p", "Since this manager was started:", { class: "hint" }), this.pastList);
     else this.hosts();
   }
 
@@ -57,6 +57,10 @@ export class Drawer {
     this.open("");
     this.past.length = 0;
     this.pastList.replaceChildren();
+    await this.catchUp();
+  }
+
+  async catchUp(): Promise<void> {
     const found = await ask<{ happened: Happened[] }>(`${this.path()}/history`);
     for (const one of found.happened) this.happened(one);
   }

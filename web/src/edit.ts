@@ -5,7 +5,7 @@ import { Field, Form, Values } from "./form";
 import { ask, Refusal } from "./server";
 
 export type Change = { change: string } & Record<string, unknown>;
-interface Revised { document: string; change: string; version: string; diff: string; errors: Message[]; diagnostics: Message[]; written: boolean }
+interface Revised { document: string; change: string; version: string; based_on: string; diff: string; errors: Message[]; diagnostics: Message[]; written: boolean }
 export interface Proposal {
   title: string;
   fields?: (values: Values) => Field[];
@@ -74,7 +74,8 @@ class ProposalDialog {
   private asked = 0;
   private waiting = 0;
 
-  constructor(private readonly proposal: Proposal, private readonly path: string, shown: { document: string; version: string },
+  /** `shown` is what the picture shows of the document of the deployment. */
+  constructor(private readonly proposal: Proposal, private readonly path: string, private readonly shown: { document: string; version: string },
     private readonly written: (done: Revised) => Promise<void>) {
     this.document = proposal.document ?? "";
     this.form = new Form(proposal.fields ?? (() => []), () => this.later());
@@ -85,21 +86,10 @@ class ProposalDialog {
     this.form.root.addEventListener("submit", () => { if (!this.write.disabled) void this.finish(false); });
     const first = this.form.root.querySelector<HTMLElement>("input, select, textarea");
     (first ?? this.write).focus();
-    void this.begin(shown);
+    void this.show();
   }
 
   private readonly document: string;
-
-  /** The change means the document as it is shown; other documents, as they are now. */
-  private async begin(shown: { document: string; version: string }): Promise<void> {
-    try {
-      if (!this.document || this.document === shown.document) this.version = shown.version;
-      else this.version = (await ask<{ version: string }>(`${this.path}/document?path=${encodeURIComponent(this.document)}`)).version;
-      await this.show();
-    } catch (error) {
-      this.refuse((error as Error).message);
-    }
-  }
 
   private later(): void {
     this.write.disabled = true;
@@ -123,6 +113,12 @@ class ProposalDialog {
       }
       const found = await this.ask(change, false, false);
       if (asked !== this.asked) return;
+      if (!this.version && found.document === this.shown.document && found.based_on !== this.shown.version) {
+        this.version = this.shown.version; // the document as the picture shows it is meant: the server says what differs
+        await this.show();
+        return;
+      }
+      this.version = found.based_on; // what is written is what was shown; other documents are meant as they are now
       const news = found.diagnostics.filter((one) => found.errors.some((error) => error.code === one.code && error.message === one.message));
       const parts: Node[] = [element("h3", found.document), diff(found.diff)];
       if (!found.diff) parts.splice(1, 1, element("p", "This changes nothing."));
@@ -153,7 +149,7 @@ class ProposalDialog {
 
   private fail(error: unknown): void {
     const data = error instanceof Refusal ? error.data : {};
-    if (error instanceof Refusal && error.status === 409) this.conflict(error.message, String(data.theirs), String(data.ours));
+    if (error instanceof Refusal && error.status === 409) this.conflict(error.message, String(data.theirs), String(data.ours), String(data.version));
     else if (Array.isArray(data.diagnostics)) this.preview.replaceChildren(messages(data.diagnostics as Message[]));
     else this.refuse((error as Error).message);
   }
@@ -163,9 +159,9 @@ class ProposalDialog {
   }
 
   /** Somebody else changed the document: both versions, and the choice to make the change in theirs. */
-  private conflict(text: string, theirs: string, ours: string): void {
+  private conflict(text: string, theirs: string, ours: string, version: string): void {
     const again = button("Make the change in the file as it is", () => {
-      this.version = "";
+      this.version = version;
       void this.show();
     });
     this.preview.replaceChildren(element("p", text, { class: "fault", role: "alert" }), versions(theirs, ours), buttons(again));

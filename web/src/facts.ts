@@ -5,8 +5,9 @@ import { ask } from "./server";
 export interface Required { port: string; interface: string; to: string }
 export interface Offered { port: string; interface: string }
 export interface TopicPort { port: string; interface: string; out: boolean; topic: string }
+/** `scope` is the include that the entry is in, with a dot. */
 export interface Entry {
-  process: string; entry: string; document: string; line: number; kind: string; host: string; component: string; requires: Required[];
+  process: string; entry: string; scope: string; document: string; line: number; kind: string; host: string; component: string; requires: Required[];
   serves: Offered[]; topics: TopicPort[]; instances: number | null; after: string[];
 }
 export interface Known { name: string; path: string; implements: string[]; requires: string[]; publishes: string[]; subscribes: string[] }
@@ -38,17 +39,29 @@ export class Facts {
     return this.of.get(process);
   }
 
-  /** Who serves an interface: entries, and groups that act as one. */
-  providers(wanted: string): string[] {
+  /** The document of the component that a process is, or of the one with this name. */
+  componentOf(name: string): string {
+    return this.of.get(name)?.component || (this.components.find((one) => one.name === name || one.path === name)?.path ?? "");
+  }
+
+  /** The entries that the document of an entry can name: an included one only knows its own. */
+  named(by: Entry): Entry[] {
+    return by.scope ? this.entries.filter((one) => one.scope === by.scope) : this.entries;
+  }
+
+  /** Who can serve an interface to an entry: others, and groups that act as one. */
+  providers(wanted: string, by: Entry): string[] {
     const serves = (one: { serves: Offered[] }) => one.serves.some((each) => each.interface === wanted);
-    return [...new Set([...this.entries.filter(serves).map((one) => one.process),
-      ...this.groups.filter((one) => one.closed && serves(one)).map((one) => one.name)])];
+    return [...new Set([...this.named(by).filter(serves).map((one) => one.process),
+      ...(by.scope ? [] : this.groups.filter((one) => one.closed && serves(one)).map((one) => one.name))])];
   }
 
   /** The ports of one process that another one could serve. */
   matching(source: string, target: string): Required[] {
-    const offered = new Set(this.of.get(target)?.serves.map((one) => one.interface));
-    return this.of.get(source)?.requires.filter((one) => offered.has(one.interface)) ?? [];
+    const by = this.of.get(source), other = this.of.get(target);
+    if (!by || !other || (by.scope && by.scope !== other.scope)) return [];
+    const offered = new Set(other.serves.map((one) => one.interface));
+    return by.requires.filter((one) => offered.has(one.interface));
   }
 }
 

@@ -8,10 +8,10 @@ import { Editing } from "./edit";
 import { Facts } from "./facts";
 import { box, gestures } from "./gestures";
 import { Action, menu } from "./menu";
-import { CLOSED, Graph, Model, Positions, SIGNS, State } from "./model";
+import { CLOSED, Graph, Look, look, Model, Positions, SIGNS, State } from "./model";
 import { call, plan } from "./operate";
 import { Scene } from "./scene";
-import { Abilities, ask, Refusal } from "./server";
+import { Abilities, ask, Events, Refusal } from "./server";
 import type { TextPane } from "./text";
 import { Kind, Tree } from "./tree";
 
@@ -20,33 +20,36 @@ interface Served { id: string; document: string; problem: string }
 const canvas = find<HTMLCanvasElement>("picture"), which = find<HTMLSelectElement>("which"), filter = find<HTMLSelectElement>("filter");
 const model = new Model(), facts = new Facts(), can = new Abilities();
 const scene = new Scene(canvas, model);
-const tree = new Tree(find("tree"), model, (name) => select(name, true), (kind, name, x, y) => void askMenu(kind, name, x, y));
+const tree = new Tree(find("tree"), model, (name) => select(name, true), (kind, name, x, y) => void askMenu(kind, name, x, y), nudge);
 const closed = new Set<string>(); // boxes: `host NAME`, `group NAME`
+let of: Graph["of"] = "network"; // what is drawn
 let deployment = "", details: Details, drawer: Drawer, progress = "", text: TextPane | null = null;
 
 const path = () => `deployments/${encodeURIComponent(deployment)}`;
 const editing = new Editing(path, () => model.graph!, written, complain);
 const changes = new Changes(editing, facts, path);
 const mayOperate = () => can.may("operate"), mayEdit = () => can.may("edit");
+const mayPlace = () => of === "network" && can.has("positions", "post") && mayEdit();
+const NUDGE = 8; // pixels of the picture
 
 /** Selects a node. `isFound`: it was not clicked in the picture, so that the picture goes where it is. */
 function select(name: string, isFound = false, isInText = false): void {
   model.selected = name;
   show();
-  const { offsetWidth, offsetHeight, hidden } = find("details"), isBelow = offsetWidth === find("view").offsetWidth;
-  scene.covered = hidden || isBelow ? 0 : offsetWidth;
-  scene.coveredBelow = hidden || !isBelow ? 0 : offsetHeight;
   if (name) scene.show(name, isFound);
-  if (name && !isInText) text?.mark(name);
+  if (name && !isInText) void known.then(() => { if (model.selected === name) text?.mark(name); });
 }
 
 function show(): void {
   tree.show();
   details.show();
   scene.change();
-  const counts = model.counts(model.states.keys());
-  const words: Record<string, string> = { ready: "ready", busy: "not ready", down: "failed", idle: "not running" };
-  const parts = Object.entries(words).filter(([look]) => counts.get(look as "ready")).map(([look, word]) => `${SIGNS[look as "ready"]} ${counts.get(look as "ready")} ${word}`);
+  const counts = new Map<Look, number>();
+  for (const state of model.states.values()) counts.set(look(undefined, state), (counts.get(look(undefined, state)) ?? 0) + 1);
+  const words: [Look, string][] = [["ready", "ready"], ["busy", "not ready"], ["down", "failed"], ["idle", "not running"]];
+  const parts = words.filter(([one]) => counts.get(one)).map(([one, word]) => `${SIGNS[one]} ${counts.get(one)} ${word}`);
+  const wrong = [...model.nodes.values()].filter((one) => one.faults.some((fault) => fault.severity === "error")).length;
+  if (wrong) parts.push(`${SIGNS.down} ${wrong} with errors in the documents`);
   const said = [parts.join("  "), progress].filter(Boolean).join(" · ");
   if (find("summary").textContent !== said) find("summary").textContent = said;
 }
@@ -81,8 +84,8 @@ async function load(): Promise<void> {
   const mine = asked += 1;
   try {
     if (await text?.draw()) return;
-    const shut = [...closed].map((name) => `closed=${encodeURIComponent(name)}`).join("&");
-    const graph = await ask<Graph>(`${path()}/graph${shut ? `?${shut}` : ""}`);
+    const shut = [...closed].map((name) => `&closed=${encodeURIComponent(name)}`).join("");
+    const graph = await ask<Graph>(`${path()}/graph?of=${of}${shut}`);
     if (mine !== asked) return;
     find("draft").hidden = true;
     take(graph);
@@ -91,7 +94,7 @@ async function load(): Promise<void> {
     complain((data.diagnostics as Message[] | undefined)?.map(inWords).join("\n") || (error as Error).message);
   }
   show();
-  known = facts.load(path()).then(() => { show(); drawer.changed(); }, () => undefined); // the picture does not wait for it
+  known = facts.load(path()).then(() => { show(); drawer.changed(); text?.remark(); }, () => undefined); // the picture does not wait for it
 }
 
 /** After a change of this page: it is shown at once, and not only when the manager looks at the disk again. */
@@ -104,7 +107,7 @@ async function written(what: string): Promise<void> {
 function choices(): void {
   const graph = model.graph!, chosen = model.filter;
   const interfaces = [...new Set([...model.nodes.values()].flatMap((node) => node.serves.map((one) => one.interface)))].sort();
-  const options: [string, string][] = [["", "everything"], ["sdown", "failed"], ["sbusy", "not ready"], ["sready", "ready"], ["sidle", "not running"],
+  const options: [string, string][] = [["", "everything"], ["sdown", "failed, or with errors"], ["sbusy", "not ready"], ["sready", "ready"], ["sidle", "not running"],
     ...graph.hosts.map((host): [string, string] => [`h${host.name}`, `host ${host.title}`]),
     ...interfaces.map((name): [string, string] => [`i${name}`, `interface ${name}`])];
   filter.replaceChildren(...options.map(([value, title]) => element("option", title, { value })));
@@ -112,9 +115,10 @@ function choices(): void {
   model.filter = filter.value;
 }
 
-function listen(): EventSource {
-  const events = new EventSource(`api/${path()}/events`);
-  events.addEventListener("states", (event) => {
+function listen(): Events {
+  const events = new Events(`api/${path()}/events`);
+  let isFirst = true;
+  events.on("states", (event) => {
     const data = JSON.parse(event.data) as { all: boolean; processes: State[]; gone?: string[]; problem: string; topics?: Record<string, { rate: number }> };
     if (data.all) model.states.clear();
     for (const state of data.processes) model.states.set(state.name, state);
@@ -123,15 +127,20 @@ function listen(): EventSource {
     if (data.problem) complain(data.problem);
     show();
   });
-  events.addEventListener("documents", () => { void load(); void text?.reload(); });
-  events.addEventListener("happened", (event) => drawer.happened(JSON.parse(event.data)));
-  events.addEventListener("progress", (event) => {
+  events.on("documents", () => { void load(); void text?.reload(); });
+  events.on("happened", (event) => drawer.happened(JSON.parse(event.data)));
+  events.on("progress", (event) => {
     const data = JSON.parse(event.data);
     progress = `${data.name ?? data.host ?? ""} ${data.kind ?? ""}`.trim();
     show();
   });
-  events.addEventListener("error", () => { progress = "no connection to the manager"; show(); });
-  events.addEventListener("open", () => { progress = ""; show(); });
+  events.on("error", () => { progress = "no connection to the manager"; show(); });
+  events.on("open", () => {
+    progress = "";
+    show();
+    if (!isFirst) { void load(); void text?.reload(); void drawer.catchUp().catch(() => undefined); } // what happened meanwhile is not sent again
+    isFirst = false;
+  });
   return events;
 }
 
@@ -147,6 +156,13 @@ function operate(action: string, chosen: string[]): void {
 async function askMenu(kind: Kind, name: string, x: number, y: number): Promise<void> {
   await known;
   const actions: Action[] = [], node = model.nodes.get(name);
+  if (of === "components") {
+    const component = kind === "node" ? facts.componentOf(name) : "";
+    if (component) actions.push({ label: "Show its document", act: () => void openText(name, component) });
+    if (mayEdit()) actions.push(...(component ? changes.ofComponent(component) : changes.ofNetwork()));
+    if (actions.length) menu(name || "components", actions, x, y);
+    return;
+  }
   if (kind === "node" && node?.kind === CLOSED) {
     void askMenu(...box(node), x, y);
     return;
@@ -163,6 +179,7 @@ async function askMenu(kind: Kind, name: string, x: number, y: number): Promise<
   if (members.length) actions.push({ label: "Logs", act: () => drawer.open("logs", members) });
   if (kind === "host" || kind === "group") actions.push({ label: closed.has(`${kind} ${name}`) ? "Open in the picture" : "Close in the picture", act: () => toggle(kind, name) });
   if (kind === "node" && facts.entry(name)) actions.push({ label: "Show in the document", act: () => void openText(name) });
+  if (facts.entry(name)?.component && kind === "node") actions.push({ label: "Show its component's document", act: () => void openText(name, facts.entry(name)!.component) });
   if (kind === "node" && model.positions[name]) actions.push({ label: "Forget its position", act: () => void place({ [name]: null }) });
   const edits = !mayEdit() ? [] : (kind === "network" ? changes.ofNetwork() : kind === "host" ? changes.ofHost(name) : kind === "group" ? changes.ofGroup(name) : changes.ofProcess(name));
   actions.push(...edits.map((one, at) => ({ ...one, begins: !at })));
@@ -172,7 +189,7 @@ async function askMenu(kind: Kind, name: string, x: number, y: number): Promise<
 function toggle(kind: "host" | "group", name: string): void {
   const key = `${kind} ${name}`;
   if (!closed.delete(key)) closed.add(key);
-  void load();
+  void load().then(() => scene.refit());
 }
 
 /** Keeps positions, or forgets those that are null. */
@@ -185,12 +202,27 @@ async function place(moved: Record<string, [number, number] | null>): Promise<vo
   }
 }
 
+let nudged = 0;
+
+/** Moves a node by the keyboard; its position is kept when the keys rest. */
+function nudge(name: string, dx: number, dy: number): void {
+  const node = model.graph?.nodes.find((one) => one.name === name);
+  if (!node || !mayPlace()) return;
+  [node.x, node.y] = [Math.max(0, node.x + NUDGE * dx), Math.max(0, node.y + NUDGE * dy)];
+  scene.show(name);
+  clearTimeout(nudged);
+  nudged = window.setTimeout(() => void place({ [name]: [node.x, node.y] }), 400);
+}
+
 /** The document beside the picture; the editor is loaded when it is first wanted. */
-async function openText(name = ""): Promise<void> {
+async function openText(name = "", document = ""): Promise<void> {
   const { TextPane } = await import("./text");
-  text ??= new TextPane(find("text"), can, path, (found) => { if (found !== model.selected && model.nodes.has(found)) select(found, true, true); },
-    facts, load, (isOpen) => find("text-button").setAttribute("aria-expanded", String(isOpen)), draft, () => [...closed]);
-  await text.open(facts.entry(name)?.document ?? model.graph!.document);
+  const found = (nodes: string[]) => {
+    const first = nodes.find((one) => model.nodes.has(one));
+    if (first && !nodes.includes(model.selected)) select(first, true, true);
+  };
+  text ??= new TextPane(find("text"), can, path, found, facts, load, (isOpen) => find("text-button").setAttribute("aria-expanded", String(isOpen)), draft, () => ({ closed: [...closed], of }));
+  await text.open(document || (facts.entry(name)?.document ?? model.graph!.document));
   if (name) text.mark(name);
 }
 
@@ -214,14 +246,23 @@ function bars(): void {
   toggleText.id = "text-button";
   toggleText.setAttribute("aria-expanded", "false");
   toggleText.setAttribute("aria-controls", "text");
-  find("panels").append(toggleText);
+  const components = button("Components", () => {
+    of = of === "network" ? "components" : "network";
+    components.setAttribute("aria-pressed", String(of === "components"));
+    model.selected = "";
+    void load().then(() => scene.fit());
+  });
+  components.setAttribute("aria-pressed", "false");
+  components.id = "components";
+  find("panels").append(toggleText, components);
 }
 
 function point(): void {
-  const canPlace = can.has("positions", "post") && mayEdit();
+  const side = find("details");
+  scene.covered = () => side.hidden || getComputedStyle(side).position === "static" ? 0 : side.offsetWidth;
   scene.hasHandle = (name) => mayEdit() && Boolean(facts.entry(name)?.requires.length);
   gestures(canvas, scene, {
-    canEdit: mayEdit(), canPlace, select, toggle,
+    canEdit: mayEdit(), get canPlace() { return mayPlace(); }, select, toggle,
     ask: (hit, x, y) => {
       if (!hit || hit.kind === "end") void askMenu("network", "", x, y);
       else if (!("node" in hit)) void askMenu(hit.kind, hit.name, x, y);
@@ -257,7 +298,13 @@ async function begin(): Promise<void> {
   find<HTMLInputElement>("search").addEventListener("input", (event) => { model.search = (event.target as HTMLInputElement).value; show(); });
   filter.addEventListener("change", () => { model.filter = filter.value; show(); });
   point();
-  let events: EventSource | null = null;
+  window.addEventListener("keydown", (event) => {
+    const zoom = { "+": 1.25, "=": 1.25, "-": 0.8 }[event.key];
+    if (event.ctrlKey || event.metaKey || event.altKey || (event.target as HTMLElement).closest("input, textarea, select, #text, dialog, .menu")) return;
+    if (event.key === "0") scene.fit();
+    else if (zoom) scene.zoomAt(zoom, canvas.clientWidth / 2, canvas.clientHeight / 2);
+  });
+  let events: Events | null = null;
   const open = async (id: string) => {
     events?.close();
     deployment = id;
@@ -265,6 +312,8 @@ async function begin(): Promise<void> {
     model.states.clear();
     model.nodes.clear();
     closed.clear();
+    of = "network";
+    find("components").setAttribute("aria-pressed", "false");
     text?.close();
     if (can.has("positions")) model.positions = (await ask<{ positions: Positions }>(`${path()}/positions`).catch(() => ({ positions: {} }))).positions;
     await load();

@@ -14,16 +14,17 @@ export interface Edge {
 }
 export interface Graph {
   name: string; width: number; height: number; hosts: Box[]; groups: Group[]; nodes: Node[]; edges: Edge[];
-  faults: Message[]; document: string; version: string;
+  faults: Message[]; document: string; version: string; of: "network" | "components";
 }
+/** `cpu` are seconds in all, `load` the percentage of a core now, `memory` bytes. */
 export interface State {
   name: string; host: string; state: string; words: string; ready: boolean; down: boolean; pid: number;
-  restarts: number; last_exit: string; memory: number | null; cpu: number | null;
+  restarts: number; last_exit: string; memory: number | null; cpu: number | null; load?: number | null;
 }
 export type Look = "ready" | "busy" | "down" | "idle" | "other";
 export type Positions = Record<string, [number, number]>;
 
-export const TOPIC = "topic", CLOSED = "closed";
+export const TOPIC = "topic", COMPONENT = "component", CLOSED = "closed";
 export const SIGNS: Record<Look, string> = { ready: "●", busy: "◐", down: "✕", idle: "○", other: "" };
 const WORST: Look[] = ["down", "busy", "idle", "ready"];
 
@@ -101,6 +102,14 @@ export class Model {
   /** Whether the selection, the search and the filter show a node in full. */
   isClear(name: string): boolean {
     return this.shows(name) && (!this.selected || this.near.get(this.selected)!.has(name));
+  }
+
+  /** The memory and the CPU of a running process, in words; '' if they are not known. */
+  use(name: string): string {
+    const state = this.states.get(name);
+    if (!state?.pid || !state.memory) return "";
+    const load = state.load === null || state.load === undefined ? "" : `  ${state.load} %`;
+    return `${(state.memory / 2 ** 20).toFixed(0)} MiB${load}`;
   }
 
   /** The rate of the messages of a topic, in words; '' if it is unknown. */

@@ -83,20 +83,22 @@ export async function call(path: string, name: string): Promise<void> {
 export class RunningValues {
   readonly root = element("div");
   private readonly list = element("dl");
+  private readonly problem = element("p", "", { class: "fault", role: "alert" });
 
   constructor(private readonly path: string, private readonly name: string, private readonly types: (() => Promise<Parameter[]>) | null) {
-    this.root.append(button("Read the values that it has now", () => void this.read()), this.list);
+    this.root.append(button("Read the values that it has now", () => void this.read()), this.problem, this.list);
   }
 
   private async read(): Promise<void> {
     this.list.replaceChildren(element("dt", "…"));
+    this.problem.textContent = "";
     try {
       const found = await ask<{ parameters: Running[] }>(`${this.path}/parameters?process=${encodeURIComponent(this.name)}`);
       const types = new Map((await this.types?.() ?? []).map((one) => [one.path, one]));
       this.list.replaceChildren(...found.parameters.flatMap((one) => this.row(one, types.get(one.path))));
     } catch (error) {
       this.list.replaceChildren();
-      this.list.before(element("p", (error as Error).message, { class: "fault" }));
+      this.problem.textContent = (error as Error).message;
     }
   }
 

@@ -4,6 +4,7 @@ import { CLOSED, Edge, Look, Model, Node, Placed, SIGNS } from "./model";
 
 const MOVING = 200; // milliseconds after a move until the picture is painted anew
 const MANY = 200; // nodes from which on the view moves a still picture
+const READABLE = 11; // pixels of the screen
 const FAINT = 0.16, FAR = 0.3, READ = 0.9, SMALLEST = 6, MARGIN = 16, REACH = 9;
 const COLORS = ["back", "text", "soft", "host", "group", "node", "frame", "line", "topic", "ready", "busy", "down", "idle", "other", "alarm", "chosen"] as const;
 
@@ -14,8 +15,7 @@ export class Scene {
   x = 0;
   y = 0;
   drawn = 0;
-  covered = 0; // pixels on the right, by the details
-  coveredBelow = 0; // and at the bottom
+  covered: () => number = () => 0; // pixels on the right, by the details
   hovered = ""; // the node under the pointer
   rubber: { from: [number, number]; to: [number, number]; targets: Set<string> } | null = null;
   lifted: { node: Node; dx: number; dy: number } | null = null; // while it is dragged
@@ -30,6 +30,7 @@ export class Scene {
   private settling = 0;
   private colors: Record<string, string> = {};
   private font = "";
+  private readonly widths = new Map<string, number>();
 
   constructor(private readonly canvas: HTMLCanvasElement, readonly model: Model) {
     this.context = canvas.getContext("2d", { alpha: false })!;
@@ -55,6 +56,7 @@ export class Scene {
     const style = getComputedStyle(this.canvas);
     this.colors = Object.fromEntries(COLORS.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
     this.font = style.fontFamily;
+    this.widths.clear();
   }
 
   private resize(): void {
@@ -68,7 +70,7 @@ export class Scene {
   fit(): void {
     const graph = this.model.graph;
     if (!graph || !graph.width) return;
-    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const { clientHeight: height } = this.canvas, width = this.canvas.clientWidth - this.covered();
     this.zoom = Math.min((width - MARGIN) / graph.width, (height - MARGIN) / graph.height, 1.6);
     this.x = (width - graph.width * this.zoom) / 2;
     this.y = (height - graph.height * this.zoom) / 2;
@@ -104,7 +106,7 @@ export class Scene {
     if (!node) return;
     if (isRead && this.isFar) this.zoomAt(READ / this.zoom, this.x + node.x * this.zoom, this.y + node.y * this.zoom);
     const [left, top] = [this.x + node.x * this.zoom, this.y + node.y * this.zoom];
-    const width = this.canvas.clientWidth - this.covered, height = this.canvas.clientHeight - this.coveredBelow;
+    const width = this.canvas.clientWidth - this.covered(), height = this.canvas.clientHeight;
     if (left < 0 || top < 0 || left + node.width * this.zoom > width || top + node.height * this.zoom > height) {
       this.pan(width / 2 - left - node.width * this.zoom / 2, height / 2 - top - node.height * this.zoom / 2);
     }
@@ -119,6 +121,11 @@ export class Scene {
   /** The point of the picture below a point of the canvas. */
   point(x: number, y: number): [number, number] {
     return [(x - this.x) / this.zoom, (y - this.y) / this.zoom];
+  }
+
+  /** As `fit`, unless a person chose another view. */
+  refit(): void {
+    if (this.isFitted) this.fit();
   }
 
   /** The node at a point of the canvas. */
@@ -203,7 +210,7 @@ export class Scene {
     const frame = (box: Placed, fill: string, title: string, size: number) => {
       this.box(box, fill, colors.frame, line);
       if (size * zoom < SMALLEST) return;
-      context.font = `${size}px ${this.font}`;
+      context.font = `${this.size12(title, box.width - 12)}px ${this.font}`;
       context.fillStyle = colors.soft;
       context.fillText(title, box.x + 8, box.y + 15);
     };
@@ -353,10 +360,11 @@ export class Scene {
     this.texts(node).forEach((text, at) => {
       const size = at ? 12 : 13;
       if (size * zoom < SMALLEST) return;
-      context.font = `${at ? "" : "600 "}${size}px ${font}`;
+      context.font = at ? `${this.size12(text, node.width - 18)}px ${font}` : `600 ${size}px ${font}`;
       context.fillStyle = at ? colors.soft : colors.text;
       context.fillText(text, node.x + 12, node.y + 16 + 16 * at);
     });
+    this.use(node);
     if (!this.showsHandle(node)) return;
     const [x, y] = handle(node);
     context.beginPath();
@@ -366,6 +374,42 @@ export class Scene {
     context.strokeStyle = colors.chosen;
     context.lineWidth = 2 * line;
     context.stroke();
+  }
+
+  /** Memory and CPU of a process beside what it is, if there is room. */
+  private use(node: Node): void {
+    const { context } = this, all = node.kind === CLOSED ? "" : this.model.use(node.name), about = node.texts[1] ?? "";
+    if (!all || 11 * this.zoom < SMALLEST) return;
+    const room = node.width - 26 - this.wide(about) * this.size12(about, node.width - 18) / 12;
+    const use = [all, all.split("  ")[0]].find((one) => this.wide(one) <= room);
+    if (!use) return;
+    context.textAlign = "right";
+    context.font = `11px ${this.font}`;
+    context.fillStyle = this.colors.soft;
+    context.fillText(use, node.x + node.width - 6, node.y + 32);
+    context.textAlign = "left";
+  }
+
+  /** The size of a text that is 12 by itself: up to an eighth more, so that it is READABLE on the screen, if there is
+   * room. */
+  private size12(text: string, room: number): number {
+    const wanted = READABLE / this.zoom;
+    if (wanted <= 12 || wanted > 13.5) return 12;
+    return Math.max(12, Math.min(wanted, 12 * room / this.wide(text)));
+  }
+
+  /** The width of a text of size 12. */
+  private wide(text: string): number {
+    let found = this.widths.get(text);
+    if (found === undefined) {
+      const { font } = this.context;
+      this.context.font = `12px ${this.font}`;
+      found = this.context.measureText(text).width;
+      this.context.font = font;
+      if (this.widths.size > 20_000) this.widths.clear();
+      this.widths.set(text, found);
+    }
+    return found;
   }
 
   /** The texts of a node; those of a closed box count its processes by their states. */

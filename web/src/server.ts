@@ -13,6 +13,40 @@ export async function ask<T>(path: string, body?: unknown): Promise<T> {
   return data as T;
 }
 
+/** Events of the server, as long as the page is seen: browsers have six connections to a server, for all tabs together,
+ * so that tabs that nobody sees would take those of the one that is used. */
+export class Events {
+  private source: EventSource | null = null;
+  private readonly handlers: [string, (event: MessageEvent<string>) => void][] = [];
+  private readonly look = () => { if (document.visibilityState === "hidden") this.leave(); else this.open(); };
+
+  constructor(private readonly address: string) {
+    document.addEventListener("visibilitychange", this.look);
+    this.look();
+  }
+
+  on(kind: string, handle: (event: MessageEvent<string>) => void): void {
+    this.handlers.push([kind, handle]);
+    this.source?.addEventListener(kind, handle as EventListener);
+  }
+
+  close(): void {
+    document.removeEventListener("visibilitychange", this.look);
+    this.leave();
+  }
+
+  private open(): void {
+    if (this.source) return;
+    this.source = new EventSource(this.address);
+    for (const [kind, handle] of this.handlers) this.source.addEventListener(kind, handle as EventListener);
+  }
+
+  private leave(): void {
+    this.source?.close();
+    this.source = null;
+  }
+}
+
 export function names(chosen: string[]): string {
   return chosen.map((name) => `name=${encodeURIComponent(name)}`).join("&");
 }

@@ -1,7 +1,7 @@
 // Lines that the server sends as they come: of logs, and the messages of topics.
 
 import { button, buttons, element } from "./dom";
-import { names } from "./server";
+import { Events, names } from "./server";
 
 const LONGEST = 2000; // lines that are kept
 
@@ -10,15 +10,15 @@ class Lines {
   readonly root = element("div");
   protected readonly list: HTMLPreElement;
   private search = "";
-  private events: EventSource;
+  private events: Events;
 
   constructor(label: string, address: string, kind: string, private readonly text: (data: never) => string) {
     this.list = element("pre", "", { tabindex: "0", role: "log", "aria-label": label, class: "lines" });
     this.root.append(this.list);
-    this.events = new EventSource(address);
-    this.events.addEventListener(kind, (event) => this.add(this.text(JSON.parse((event as MessageEvent).data) as never)));
+    this.events = new Events(address);
+    this.events.on(kind, (event) => this.add(this.text(JSON.parse(event.data) as never)));
     // A browser that connects again gets the last lines once more.
-    this.events.addEventListener("open", () => this.list.replaceChildren());
+    this.events.on("open", () => this.list.replaceChildren());
   }
 
   private add(text: string): void {

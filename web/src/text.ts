@@ -18,6 +18,7 @@ import type { Graph } from "./model";
 import { Abilities, ask, Refusal } from "./server";
 
 interface Document { document: string; version: string; text: string; diagnostics: Located[] }
+interface Theirs { theirs: string; version: string }
 interface Judged { diagnostics: Located[]; graph: Graph | null }
 interface Located extends Message { line: number; column: number; end_line: number; end_column: number; hint?: string }
 interface Piece { line: number; column: number; end_line: number; end_column: number; insert: string }
@@ -25,6 +26,7 @@ interface Piece { line: number; column: number; end_line: number; end_column: nu
 interface Item { label: string; detail: string; insert: string; start: number; end: number; doc?: string; edits?: Piece[] }
 
 const byServer = Annotation.define<boolean>(), marked = StateEffect.define<{ from: number; to: number } | null>();
+const WIRES = ["implements", "requires", "publishes", "subscribes"];
 const PAUSE = 300; // milliseconds without a key before the text is checked
 
 const markField = StateField.define<DecorationSet>({
@@ -58,6 +60,8 @@ const theme = EditorView.theme({
   "&.cm-focused .cm-selectionBackground, .cm-selectionBackground": { backgroundColor: "var(--frame) !important" },
   ".cm-tooltip, .cm-panels": { backgroundColor: "var(--node)", color: "var(--text)", border: "1px solid var(--frame)" },
   ".cm-tooltip-autocomplete ul li[aria-selected]": { backgroundColor: "var(--accent)", color: "var(--back)" },
+  ".cm-panels .cm-textfield, .cm-panels .cm-button": { background: "var(--node)", color: "var(--text)", border: "1px solid var(--frame)", borderRadius: "5px", fontSize: "12px" },
+  ".cm-panel.cm-search, .cm-panel.cm-search label": { fontSize: "12px" }, ".cm-panel.cm-search [name=close]": { color: "var(--text)" },
   ".cm-diagnostic-error": { borderLeftColor: "var(--down)" },
 });
 
@@ -71,12 +75,13 @@ export class TextPane {
   private readonly problem = element("p", "", { role: "alert", class: "fault", hidden: "" });
   private readonly place = element("div", "", { class: "editor" });
   private wanted = ""; // the process whose lines are marked next
+  private asked = 0;
   private isDrawn = false; // the picture is that of the unsaved text
 
   constructor(
-    private readonly root: HTMLElement, private readonly can: Abilities, private readonly path: () => string, private readonly found: (process: string) => void,
+    private readonly root: HTMLElement, private readonly can: Abilities, private readonly path: () => string, private readonly found: (nodes: string[]) => void,
     private readonly facts: Facts, private readonly changed: () => Promise<void>, private readonly opened: (isOpen: boolean) => void,
-    private readonly drawn: (graph: Graph | null) => void, private readonly boxes: () => string[],
+    private readonly drawn: (graph: Graph | null) => void, private readonly pictured: () => { closed: string[]; of: string },
   ) {
     const close = button("✕", () => this.close(), "close the document"), bar = buttons(this.which, this.saving, this.discarding, this.status);
     close.className = "close";
@@ -107,13 +112,16 @@ export class TextPane {
       await this.reload();
       return;
     }
-    const { documents } = await ask<{ documents: string[] }>(`${this.path()}/documents`);
+    const mine = this.asked += 1;
+    const [{ documents }, read] = await Promise.all([ask<{ documents: string[] }>(`${this.path()}/documents`), this.read(document)]);
+    if (mine !== this.asked || this.isChanged) return; // another one was wanted meanwhile, or this one was typed in
     this.which.replaceChildren(...documents.map((one) => element("option", one, { value: one })));
     this.which.value = document;
-    this.shown = await this.read(document);
+    this.shown = read;
     this.view?.destroy();
     this.view = this.editor(this.shown.text);
     this.say();
+    this.remark();
   }
 
   close(): void {
@@ -145,15 +153,28 @@ export class TextPane {
     this.shown = now;
     this.replace(now.text);
     forceLinting(this.view);
-    if (this.wanted) this.mark(this.wanted);
+    this.remark();
     this.say();
   }
 
-  /** Marks the lines of a process, and goes there. */
+  /** Marks the lines of a process, and goes there. If the document of a component is shown, it is then that of this
+   * process. */
   mark(process: string): void {
     this.wanted = process;
-    const entry = this.facts.entry(process), { view } = this;
-    if (!view || !entry || entry.document !== this.shown.document) return;
+    const component = this.facts.componentOf(process), isAbout = this.isComponent || !this.facts.entry(process);
+    if (this.view && component && isAbout && component !== this.shown.document && !this.isChanged) void this.open(component);
+    else this.remark();
+  }
+
+  /** Marks the lines of the process that is wanted, if the document has them. */
+  remark(): void {
+    const entry = this.facts.entry(this.wanted), { view } = this;
+    if (!view) return;
+    if (this.isComponent) {
+      view.dispatch({ effects: marked.of(this.facts.componentOf(this.wanted) === this.shown.document ? this.wires() : null) });
+      return;
+    }
+    if (entry?.document !== this.shown.document) return;
     const range = this.entries().find((one) => one.name === entry.entry);
     view.dispatch({ effects: range ? [marked.of(range), EditorView.scrollIntoView(range.from, { y: "center" })] : [marked.of(null)] });
   }
@@ -175,7 +196,7 @@ export class TextPane {
     const root = this.place.shadowRoot!;
     root.replaceChildren();
     return new EditorView({ root, parent: root as unknown as Element, state: EditorState.create({ doc: text, extensions: [
-      lineNumbers(), history(), drawSelection(), highlightActiveLine(), highlightSelectionMatches(), closeBrackets(), search({ top: true }),
+      lineNumbers(), history(), drawSelection(), highlightActiveLine(), highlightSelectionMatches(), closeBrackets(), search({ top: true }), EditorView.lineWrapping,
       yaml(), syntaxHighlighting(colors), indentUnit.of("  "), theme, markField, lintGutter(), tooltips({ position: "absolute" }),
       EditorState.readOnly.of(!this.mayWrite), EditorView.contentAttributes.of({ "aria-label": "text of the document", tabindex: "0" }),
       linter((view) => this.diagnostics(view), { delay: PAUSE }),
@@ -190,27 +211,48 @@ export class TextPane {
     ] }) });
   }
 
-  /** The cursor is in an entry: its process is selected. */
+  private get isComponent(): boolean {
+    return this.facts.components.some((one) => one.path === this.shown.document);
+  }
+
+  /** The lines of a component's document that say what it is wired to. */
+  private wires(): { from: number; to: number } | null {
+    const found = this.pairs().filter((one) => WIRES.includes(one.name));
+    return found.length ? { from: Math.min(...found.map((one) => one.from)), to: Math.max(...found.map((one) => one.to)) } : null;
+  }
+
+  /** The cursor is in an entry, or in the document of a component: its process is selected. */
   private follow(at: number): void {
+    if (this.isComponent) {
+      const processes = this.facts.entries.filter((one) => one.component === this.shown.document).map((one) => one.process);
+      const components = this.facts.components.filter((one) => one.path === this.shown.document).flatMap((one) => [one.name, one.path]);
+      this.found([...processes, ...components]);
+      return;
+    }
     const entry = this.entries().find((one) => one.from <= at && at <= one.to);
     this.view!.dispatch({ effects: marked.of(entry ?? null) });
     if (!entry) return;
     const process = this.facts.entries.find((one) => one.entry === entry.name && one.document === this.shown.document);
     if (process && process.process !== this.wanted) {
       this.wanted = process.process;
-      this.found(process.process);
+      this.found([process.process]);
     }
   }
 
   /** The entries of `components:`, where they are in the text as it is now. */
   private entries(): { name: string; from: number; to: number }[] {
+    return this.pairs("components");
+  }
+
+  /** The keys of the document, or of the mapping below one of them. */
+  private pairs(below = ""): { name: string; from: number; to: number }[] {
     const { state } = this.view!, top = syntaxTree(state).topNode.getChild("Document")?.firstChild;
     const value = (mapping: SyntaxNode | null | undefined, key: string) => pairs(mapping).find((pair) => name(pair) === key)?.lastChild;
     const name = (pair: SyntaxNode) => {
       const key = pair.getChild("Key");
       return key ? state.sliceDoc(key.from, key.to).replace(/^(["'])(.*)\1$/, "$2") : "";
     };
-    return pairs(value(top, "components")).map((pair) => ({ name: name(pair), from: pair.from, to: pair.to }));
+    return pairs(below ? value(top, below) : top).map((pair) => ({ name: name(pair), from: pair.from, to: pair.to }));
   }
 
   private async diagnostics(view: EditorView): Promise<Diagnostic[]> {
@@ -231,7 +273,7 @@ export class TextPane {
   /** What the server says of the unsaved text. Its picture is drawn, if the text has not changed meanwhile. */
   private async judged(text: string): Promise<Judged | null> {
     if (!this.can.has("diagnose", "post")) return null;
-    const body = { path: this.shown.document, text, graph: true, closed: this.boxes() };
+    const body = { path: this.shown.document, text, graph: true, ...this.pictured() };
     const found = await ask<Judged>(`${this.path()}/diagnose`, body).catch(() => null);
     if (found && this.view?.state.doc.toString() === text && text !== this.shown.text) {
       this.isDrawn = true;
@@ -267,12 +309,15 @@ export class TextPane {
   private async save(): Promise<void> {
     const { view } = this;
     if (!view || !this.mayWrite || !this.isChanged) return;
-    const text = view.state.doc.toString();
+    await this.store(view.state.doc.toString(), this.shown.version, false);
+  }
+
+  private async store(text: string, version: string, force: boolean): Promise<void> {
     try {
-      await this.write(text, this.shown.version, false);
+      await this.write(text, version, force);
     } catch (error) {
-      if (!(error instanceof Refusal)) throw error;
-      if (error.status === 409) this.conflict(error.message, String(error.data.theirs), text);
+      if (!(error instanceof Refusal)) this.complain((error as Error).message);
+      else if (error.status === 409) this.conflict(error.message, error.data as unknown as Theirs, text);
       else if (Array.isArray(error.data.diagnostics)) this.faulty(error.data.diagnostics as Message[], text);
       else this.complain(error.message);
     }
@@ -288,14 +333,14 @@ export class TextPane {
   }
 
   private faulty(found: Message[], text: string): void {
-    const anyway = button("Save it although it has errors", () => { root.close(); void this.write(text, this.shown.version, true).catch((error) => this.complain(error.message)); });
+    const anyway = button("Save it although it has errors", () => { root.close(); void this.store(text, this.shown.version, true); });
     const root = dialog(`${this.shown.document} has errors`, messages(found), buttons(anyway, button("Back to the text", () => root.close())));
   }
 
   /** Somebody else changed the file: nothing is overwritten unless a person wants it. */
-  private conflict(said: string, theirs: string, ours: string): void {
+  private conflict(said: string, { theirs, version }: Theirs, ours: string): void {
     const take = button("Take theirs", () => { root.close(); void this.discard(); });
-    const mine = button("Write mine over it", () => { root.close(); void this.write(ours, "", true).catch((error) => this.complain(error.message)); });
+    const mine = button("Write mine over it", () => { root.close(); void this.store(ours, version, true); });
     const root = dialog("The file was changed elsewhere", element("p", said), versions(theirs, ours), buttons(take, mine, button("Back to the text", () => root.close())));
   }
 

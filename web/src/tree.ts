@@ -10,10 +10,12 @@ export class Tree {
   private focused = "";
   private readonly items = new Map<string, HTMLElement>();
 
-  /** `select` is called with the name of a node; `ask` for the menu of an item, with where it is. */
+  /** `select` is called with the name of a node; `ask` for the menu of an item, with where it is;
+   * `nudge` with the direction in which a node is to be moved in the picture. */
   constructor(
     private readonly root: HTMLElement, private readonly model: Model, private readonly select: (name: string) => void,
     private readonly ask: (kind: Kind, name: string, x: number, y: number) => void,
+    private readonly nudge: (name: string, dx: number, dy: number) => void,
   ) {
     root.addEventListener("keydown", (event) => this.key(event));
     root.addEventListener("click", (event) => {
@@ -35,11 +37,12 @@ export class Tree {
 
   build(): void {
     const graph = this.model.graph, hadFocus = this.root.contains(document.activeElement);
+    const place = [...this.items.keys()].indexOf(this.focused);
     this.root.replaceChildren();
     this.items.clear();
     if (!graph) return;
     const all: One[] = graph.nodes.flatMap((node) => node.members ?? [node]);
-    for (const host of [...graph.hosts, { name: "", title: "elsewhere" }]) {
+    for (const host of [...graph.hosts, { name: "", title: graph.of === "components" ? "components" : "elsewhere" }]) {
       const nodes = all.filter((node) => node.host === host.name);
       if (!nodes.length) continue;
       const list = this.branch("host", host.name, host.title, this.root);
@@ -50,7 +53,8 @@ export class Tree {
         this.item("node", node.name, node.title, groups.get(group) ?? list);
       }
     }
-    if (!this.items.has(this.focused)) this.focused = this.items.keys().next().value ?? "";
+    // What was renamed or removed has a neighbour where it was.
+    if (!this.items.has(this.focused)) this.focused = [...this.items.keys()].at(Math.max(0, Math.min(place, this.items.size - 1))) ?? "";
     this.show();
     if (hadFocus) this.items.get(this.focused)?.focus();
   }
@@ -135,6 +139,12 @@ export class Tree {
       const place = item.getBoundingClientRect();
       event.preventDefault();
       this.menu(item, place.left + 30, Math.min(place.top + 22, place.bottom));
+      return;
+    }
+    const way = event.altKey ? { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key] : undefined;
+    if (way) {
+      event.preventDefault();
+      if (item?.dataset.kind === "node") this.nudge(item.dataset.name!, way[0], way[1]);
       return;
     }
     switch (event.key) {

@@ -140,12 +140,13 @@ def _(change: changes.RemoveEntry, entries: Entries) -> None:
 def _(change: changes.RenameEntry, entries: Entries) -> None:
     own = entries.own(change.entry)
     section, old = (GROUPS, own) if own in entries.names(GROUPS) else (COMPONENTS, entries.key(change.entry))
-    if (INDEX in old) != (INDEX in change.name):
+    new = entries.own(change.name)
+    if (INDEX in old) != (INDEX in new):
         raise Refused(f"an entry with instances has {INDEX} in its name, and no other has it: '{change.name}'")
-    if old == change.name:
+    if old == new:
         return
-    entries.require_new(change.name)
-    _rename(entries, section, old, change.name)
+    entries.require_new(new)
+    _rename(entries, section, old, new)
 
 
 @make.register

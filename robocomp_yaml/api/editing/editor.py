@@ -46,12 +46,13 @@ BOM = "\ufeff"
 
 
 class EditConflict(Refused):
-    """A document was changed by somebody else since it was read. `theirs` is its text now, `ours` the text that the
-    change would have made of the earlier one, '' if that one is unknown."""
+    """A document was changed by somebody else since it was read. `theirs` is its text now, `version` that of this text,
+    `ours` the text that the change would have made of the earlier one, '' if that one is unknown."""
 
     def __init__(self, path: str, theirs: bytes, ours: bytes) -> None:
         super().__init__(f"{path} has changed meanwhile, and is kept as it is: look at it, and repeat the change")
         self.path, self.theirs, self.ours = path, _text(theirs), _text(ours)
+        self.version = digest(theirs)
 
 
 class Revision(msgspec.Struct, frozen=True):
@@ -76,6 +77,11 @@ class Revision(msgspec.Struct, frozen=True):
     def version(self) -> str:
         """What the document is after the change: to be passed as `based_on` with the next one."""
         return digest(self.after)
+
+    @property
+    def based_on(self) -> str:
+        """What the document was before the change."""
+        return digest(self.before)
 
     @property
     def is_empty(self) -> bool:
@@ -179,13 +185,14 @@ class DocumentEditor:
         before, after = (found.after, found.before) if way == UNDO else (found.before, found.after)
         workspace = self._now()
         again = found.created if way == REDO else ()
-        revision = self._checked(workspace, document, f"{way}: {found.what}", before, after, again)
+        renamed = found.renamed if way == REDO else tuple((path, new, old) for path, old, new in found.renamed)
+        revision = self._checked(workspace, document, f"{way}: {found.what}", before, after, again, renamed)
         with created.written(again):
             self._replace(document, before, after)
         if way == UNDO:
             created.remove(found.created)
-        for deployment, old, new in found.renamed:
-            layout.rename(deployment, *((new, old) if way == UNDO else (old, new)))
+        for one in renamed:
+            layout.rename(*one)
         past.done += -1 if way == UNDO else 1
         history.write(document, past)
         return revision

@@ -8,6 +8,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Mapping
+from typing import TypeVar
 
 import msgspec
 
@@ -25,6 +26,7 @@ MOST = 20_000  # nodes
 _LONGEST = 1000  # characters of a name
 _SUFFIX = ".ddsl.yaml"
 
+T = TypeVar("T")
 Position = tuple[float, float]
 
 
@@ -60,15 +62,21 @@ def move(document: str, positions: Mapping[str, Position | None]) -> dict[str, P
 def rename(document: str, old: str, new: str) -> None:
     """An entry has another name; its processes keep their positions. `{i}` is the number of a process."""
     now = read(document)
+    made = renamed(now, old, new)
+    if made != now:
+        _write(document, made)
+
+
+def renamed(of_processes: Mapping[str, T], old: str, new: str) -> dict[str, T]:
+    """What is kept of processes, by the names that they have after their entry got another one."""
     pattern = re.compile(re.escape(old).replace(re.escape(INDEX), r"(\d+)"))
-    made: dict[str, Position] = {}
-    for name, position in now.items():
+    made: dict[str, T] = {}
+    for name, value in of_processes.items():
         found = pattern.fullmatch(name)
         number = found[1] if found is not None and INDEX in old else "0"
         is_lost = found is not None and INDEX not in new and number != "0"
-        made[new.replace(INDEX, number) if found is not None and not is_lost else name] = position
-    if made != now:
-        _write(document, made)
+        made[new.replace(INDEX, number) if found is not None and not is_lost else name] = value
+    return made
 
 
 def _write(document: str, positions: Mapping[str, Position]) -> None:

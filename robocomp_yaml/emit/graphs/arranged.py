@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 import msgspec
 
 from robocomp_yaml.emit.graphs.grid import Area, NodeGrid
-from robocomp_yaml.emit.graphs.packing import SHAPES, Item, Spot, packed, score
+from robocomp_yaml.emit.graphs.packing import SHAPES, WIDER, Item, Spot, packed, score
 from robocomp_yaml.emit.graphs.picture import Cell, Picture, PictureNode
 
 Frame = tuple[str, str]
@@ -32,13 +32,13 @@ class Arranged(msgspec.Struct):
     cells: dict[str, Cell]
 
 
-def arrange(picture: Picture, kept: Mapping[str, Cell] = {}) -> Arranged:
+def arrange(picture: Picture, kept: Mapping[str, Cell] = {}, wider: float = WIDER) -> Arranged:
     """The arrangement of a picture, in which nodes keep these cells, unless they are in another host or group now, or
-    others are there."""
+    others are there. `wider`: see WIDER."""
     needs = _needs(picture)
     cells = _kept(picture, kept)
     if not cells:
-        cells = _fresh(picture, needs)
+        cells = _fresh(picture, needs, wider)
     else:
         _Adding(picture, cells, needs).add()
     return _placed(picture, cells)
@@ -56,7 +56,7 @@ def _needs(picture: Picture) -> dict[str, list[str]]:
     return found
 
 
-def _fresh(picture: Picture, needs: Mapping[str, Sequence[str]]) -> dict[str, Cell]:
+def _fresh(picture: Picture, needs: Mapping[str, Sequence[str]], wider: float) -> dict[str, Cell]:
     """The cells of a picture that nobody has seen yet: groups are packed, then hosts of them, then all. What is inside
     is tried in several shapes."""
     names = list(picture.nodes)
@@ -64,8 +64,8 @@ def _fresh(picture: Picture, needs: Mapping[str, Sequence[str]]) -> dict[str, Ce
         return {}
     has_frames = len({_frame(node) for node in picture.nodes.values()}) > 1
     shapes = _INSIDE if has_frames and len(names) < _MANY else _INSIDE[:1]
-    tried = [_Packing(picture, needs, one).of(names, 0) for one in shapes]
-    spots = min(tried, key=lambda one: score(one, needs, _LEAST))
+    tried = [_Packing(picture, needs, one, wider).of(names, 0) for one in shapes]
+    spots = min(tried, key=lambda one: score(one, needs, _LEAST, wider))
     return {name: Cell(layer, slot, *_frame(picture.nodes[name])) for name, (layer, slot) in spots.items()}
 
 
@@ -75,6 +75,7 @@ class _Packing(msgspec.Struct):
     picture: Picture
     needs: Mapping[str, Sequence[str]]
     shapes: Sequence[float]
+    wider: float
 
     def of(self, names: Sequence[str], depth: int) -> dict[str, Spot]:
         """The spots of nodes, which share `depth` frames: 0 in the picture, 1 in a host, 2 in a group."""
@@ -110,7 +111,8 @@ class _Packing(msgspec.Struct):
                     links.setdefault(item, []).append(item_of[other])
         is_all = len(item_of) == len(self.picture.nodes)
         effort = len(items) / len(self.picture.nodes)
-        made = packed(items, links, _LEAST if is_all else _LEAST_INSIDE, SHAPES if is_all else self.shapes, effort)
+        made = packed(items, links, _LEAST if is_all else _LEAST_INSIDE, SHAPES if is_all else self.shapes, effort,
+                      self.wider)  # fmt: skip
         return {
             name: (made.spots[item][0] + x, made.spots[item][1] + y)
             for item, found in within.items() for name, (x, y) in found.items()

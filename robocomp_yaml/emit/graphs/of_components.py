@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from robocomp_yaml.addresses.interface_comparison import Implementers
+from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
 from robocomp_yaml.emit.graphs import picture as parts
-from robocomp_yaml.emit.graphs.picture import Picture, PictureLine, PictureNode
+from robocomp_yaml.emit.graphs.picture import Picture, PictureFault, PictureLine, PictureNode
 from robocomp_yaml.link.program import LinkedComponent, Port
 
 
-def picture_of(name: str, components: Iterable[LinkedComponent]) -> Picture:
-    """The picture of these components. Topics are outside, and so are interfaces that no component implements."""
+def picture_of(
+    name: str, components: Iterable[LinkedComponent], diagnostics: Sequence[Diagnostic] = ()
+) -> Picture:  # fmt: skip
+    """The picture of these components, with the diagnostics of their documents. Topics are outside, and so are
+    interfaces that no component implements."""
     made = Picture(name)
+    faults: dict[str, list[PictureFault]] = {}
+    for one in diagnostics:
+        faults.setdefault(one.span.file, []).append(PictureFault(one.code, one.severity == ERROR, one.message))
     listed = list(components)
     implementers = Implementers()
     names: dict[LinkedComponent, str] = {}
@@ -22,6 +29,7 @@ def picture_of(name: str, components: Iterable[LinkedComponent]) -> Picture:
         node = PictureNode(
             names[component], title, parts.COMPONENT, about=(component.component.language.name,),
             serves=tuple((port.interface.name, 0) for port in component.implements),
+            faults=tuple(faults.get(component.component.path, ())),
         )  # fmt: skip
         made.nodes[node.name] = node
         implementers.add(component)

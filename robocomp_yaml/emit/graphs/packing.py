@@ -14,7 +14,8 @@ import msgspec
 from robocomp_yaml.emit.graphs.grid import layers
 
 WIDER = 1.2
-"""How much wider a cell of a picture is than it is high, for a screen, which is half as wide again as it is high."""
+"""How much wider a cell of a picture is than it is high, as a part of how much wider a screen is than it is high: by
+default. Names that are long, and few lines between slots, make it more."""
 SHAPES = (0.7, 0.85, 1.0, 1.2, 1.5)
 """Widths that are tried, as parts of the sides of a square."""
 _LINE = 0.25  # how much of the size a line of mean cost 1 is worth
@@ -45,30 +46,30 @@ class Packed(msgspec.Struct):
 
 def packed(
     items: Sequence[Item], needs: Mapping[str, Sequence[str]], least: float, shapes: Sequence[float] = SHAPES,
-    effort: float = 1.0,
+    effort: float = 1.0, wider: float = WIDER,
 ) -> Packed:  # fmt: skip
     """The items, packed as a screen is wide. A picture of `least` rows or less is not made smaller at the cost of
-    longer lines. `effort` is the part of the time that these items may need."""
+    longer lines. `effort` is the part of the time that these items may need. `wider`: see WIDER."""
     if not items:
         return Packed({})
-    side = math.sqrt(sum(one.wide * one.high for one in items) / WIDER)
+    side = math.sqrt(sum(one.wide * one.high for one in items) / wider)
     widest = max(one.wide for one in items)
     widths = {max(widest, math.ceil(side * one)) for one in shapes}
     if len(shapes) > 1:
-        widths.add(max(widest, math.ceil(least / WIDER)))
+        widths.add(max(widest, math.ceil(least / wider)))
     found = [_Packer(items, needs, one).pack() for one in sorted(widths)]
-    return min(found, key=lambda one: one.score(least)).shortened(effort)
+    return min(found, key=lambda one: one.score(least, wider)).shortened(effort)
 
 
-def score(spots: Mapping[str, Spot], needs: Mapping[str, Sequence[str]], least: float) -> float:
+def score(spots: Mapping[str, Spot], needs: Mapping[str, Sequence[str]], least: float, wider: float) -> float:
     """How bad a picture of single cells is, to be compared with others of the same ones."""
     made = Packed(dict(spots), max(x for x, _ in spots.values()) + 1, max(y for _, y in spots.values()) + 1)
     lines = [_cost_of(spots[name], spots[one], 1, 0) for name, others in needs.items() for one in others]
-    return _badness(made, len(spots), lines, least)
+    return _badness(made, len(spots), lines, least, wider)
 
 
-def _badness(made: Packed, cells: int, lines: Sequence[float], least: float) -> float:
-    size = max(made.wide * WIDER, made.high, least)
+def _badness(made: Packed, cells: int, lines: Sequence[float], least: float, wider: float) -> float:
+    size = max(made.wide * wider, made.high, least)
     waste = 1 - cells / (made.wide * made.high)
     return size * (1 + _WASTE * waste) * (1 + _LINE * sum(lines) / max(len(lines), 1))
 
@@ -89,7 +90,8 @@ class _Packer:
             for other in others:
                 self.users[other].append(name)
         self.ideal = math.ceil(sum(one.wide * one.high for one in items) / width)
-        self.made, self.taken = Packed({}), dict[Spot, str]()
+        self.made, self.taken = Packed({}), set[Spot]()
+        self.full = [0] * width  # the slots of each layer that are all taken, from the top
 
     def pack(self) -> _Packer:
         level = layers([name for name in self.items if self.needs[name] or self.users[name]], self.needs)
@@ -98,7 +100,9 @@ class _Packer:
         for item in sorted(
             self.items.values(), key=lambda one: (level.get(one.name, last), -one.wide * one.high, order[one.name])
         ):
-            self._put(item, min(self._spots(item), key=lambda spot: (self._cost(item, spot), spot[1], spot[0])))
+            middle = self._middle(item)
+            spots = self._spots(item, middle)
+            self._put(item, min((self._cost(item, spot, middle), spot[1], spot[0]) for spot in spots))
         self._measure()
         return self
 
@@ -107,35 +111,38 @@ class _Packer:
         self.made.wide = max(spots[name][0] + one.wide for name, one in items.items())
         self.made.high = max(spots[name][1] + one.high for name, one in items.items())
 
-    def score(self, least: float) -> float:
+    def score(self, least: float, wider: float) -> float:
         """How bad it is: its size on a screen, its empty cells, and how long its lines are."""
         lines = [self._line(name, other) for name, others in self.needs.items() for other in others]
-        return _badness(self.made, sum(one.wide * one.high for one in self.items.values()), lines, least)
+        return _badness(self.made, sum(one.wide * one.high for one in self.items.values()), lines, least, wider)
 
-    def _put(self, item: Item, spot: Spot) -> None:
-        self.made.spots[item.name] = spot
-        self.taken.update(dict.fromkeys(_cells(item, spot), item.name))
-        self.made.high = max(self.made.high, spot[1] + item.high)
+    def _put(self, item: Item, found: tuple[float, int, int]) -> None:
+        _, slot, layer = found
+        self.made.spots[item.name] = layer, slot
+        self.taken.update(_cells(item, (layer, slot)))
+        self.made.high = max(self.made.high, slot + item.high)
+        for each in range(layer, layer + item.wide):
+            while (each, self.full[each]) in self.taken:
+                self.full[each] += 1
 
-    def _spots(self, item: Item) -> Iterator[Spot]:
+    def _spots(self, item: Item, middle: float | None) -> Iterator[Spot]:
         """Free spots: in each layer the highest ones, and those close to what the item is connected to."""
-        middle = self._middle(item)
         for layer in range(self.width - item.wide + 1):
-            found, slot = 0, 0
-            near = range(max(0, math.floor(middle) - 3), self.made.high) if middle is not None else ()
+            found, first = 0, max(self.full[layer : layer + item.wide])
+            near = range(max(first, math.floor(middle) - 3), self.made.high) if middle is not None else ()
             for slot in near:
                 if self._is_free(item, (layer, slot)):
                     found += 1
                     yield layer, slot
                 if found > 5:
                     break
-            slot = 0
+            slot = first
             while not self._is_free(item, (layer, slot)):
                 slot += 1
             yield layer, slot
 
     def _is_free(self, item: Item, spot: Spot) -> bool:
-        return self.taken.keys().isdisjoint(_cells(item, spot))
+        return spot not in self.taken and (item.wide == item.high == 1 or self.taken.isdisjoint(_cells(item, spot)))
 
     def _middle(self, item: Item) -> float | None:
         """The slot at which an item would be beside what is there of its neighbours."""
@@ -144,9 +151,9 @@ class _Packer:
                 for one in (*self.users[item.name], *self.needs[item.name]) if one in spots]  # fmt: skip
         return sum(near) / len(near) if near else None
 
-    def _cost(self, item: Item, spot: Spot) -> float:
+    def _cost(self, item: Item, spot: Spot, middle: float | None) -> float:
         layer, slot = spot
-        spots, middle = self.made.spots, self._middle(item)
+        spots = self.made.spots
         cost = _GROWS * max(0, slot + item.high - max(self.made.high, self.ideal)) + _DOWN * slot
         cost += _ASIDE * abs(slot - middle) if middle is not None else 0.0
         users = [spots[one][0] + self.items[one].wide for one in self.users[item.name] if one in spots]

@@ -6,8 +6,9 @@ in `geometry`, nothing overlaps, by construction.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
-from itertools import accumulate
+from itertools import accumulate, pairwise
 
 import msgspec
 
@@ -15,7 +16,8 @@ from robocomp_yaml.emit.graphs.arranged import Arranged, arrange
 from robocomp_yaml.emit.graphs.geometry import STEP, TITLE, EdgePath, Point, Rectangle, texts_of
 from robocomp_yaml.emit.graphs.grid import Area
 from robocomp_yaml.emit.graphs.measure import shortened, width
-from robocomp_yaml.emit.graphs.picture import Cell, Picture, PictureLine, PictureNode
+from robocomp_yaml.emit.graphs.packing import WIDER
+from robocomp_yaml.emit.graphs.picture import TOPIC, Cell, Picture, PictureLine, PictureNode
 from robocomp_yaml.emit.graphs.routes import Net, NetBranch, routes_of
 
 SMALL_ON_SCREEN = 12.0
@@ -25,6 +27,14 @@ LINE_HEIGHT = 16.0
 PAD, _NODE_PAD = 8.0, 12.0
 HOST_TITLE, GROUP_TITLE = 24.0, 20.0
 _NARROWEST = 104.0
+_SIGN, _RATE = 12.0, 44.0  # at the right of a title: the state of a process, the rate of a topic
+SCREEN = 1.5
+"""How much wider the room for a picture is than it is high, on a screen."""
+_FITS = 0.85, 1.15
+_LARGEST = 1 / 540  # of which nothing is gained: the room on a small screen, at the largest zoom of a whole picture
+_TRIES = (100, 4, 1.0), (700, 1, 0.75), (sys.maxsize, 0, 0.0)
+"""By the number of nodes at most: how often another shape is tried, which takes as long as the first picture, and how
+much of the difference is made up, because lines of another shape need other room, too."""
 
 
 class ScreenGeometry(msgspec.Struct):
@@ -42,14 +52,47 @@ class ScreenGeometry(msgspec.Struct):
 
 def screen_geometry(picture: Picture, kept: Mapping[str, Cell] = {}) -> ScreenGeometry:
     """The geometry of a picture. Nodes with a cell keep it, and nodes that a person moved are where they were put."""
-    arranged = arrange(picture, kept)
-    made = _ScreenPlacer(picture, arranged).place()
-    made.cells = arranged.cells
+    made = _placed(picture, arrange(picture, kept))
+    if not made.cells.keys() & kept.keys():
+        made = _as_wide_as_a_screen(picture, made)
     if not picture.positions.keys().isdisjoint(made.nodes):
         from robocomp_yaml.emit.graphs.moved import moved
 
         moved(picture, made)
     return made
+
+
+def _placed(picture: Picture, arranged: Arranged) -> ScreenGeometry:
+    made = _ScreenPlacer(picture, arranged).place()
+    made.cells = arranged.cells
+    return made
+
+
+def _as_wide_as_a_screen(picture: Picture, first: ScreenGeometry) -> ScreenGeometry:
+    """How wide slots and layers are is known when the texts and lines are placed: with that, a picture that is too wide
+    or too high is arranged again. The best one is large on a screen, and has short lines."""
+    best, last, wider = first, first, WIDER
+    tries, part = next((tries, part) for most, tries, part in _TRIES if len(picture.nodes) <= most)
+    for _ in range(tries):
+        too_wide = last.width / max(last.height, 1.0) / SCREEN
+        if _FITS[0] < too_wide < _FITS[1] or _scale(best) > _LARGEST:
+            break
+        wider *= too_wide**part
+        last = _placed(picture, arrange(picture, wider=wider))
+        if _worth(last) > _worth(best):
+            best = last
+    return best
+
+
+def _worth(made: ScreenGeometry) -> float:
+    """How large the picture is on a screen, less if its lines are long there."""
+    pieces = (abs(x - u) + abs(y - v) for points in made.lines for (x, y), (u, v) in pairwise(points))
+    return (scale := _scale(made)) / (1 + scale * sum(pieces) / max(len(made.lines), 1))
+
+
+def _scale(made: ScreenGeometry) -> float:
+    """How large the picture is on a screen that is one high."""
+    return min(SCREEN / max(made.width, 1.0), 1 / max(made.height, 1.0))
 
 
 class _ScreenPlacer:
@@ -115,7 +158,8 @@ class _ScreenPlacer:
 
     def _block(self, node: PictureNode) -> Rectangle:
         texts = _texts(node)
-        widest = max([width(texts[0], TITLE, bold=True), *(width(text, SMALL_ON_SCREEN) for text in texts[1:])])
+        sign = _RATE if node.kind == TOPIC else _SIGN
+        widest = max([width(texts[0], TITLE, bold=True) + sign, *(width(text, SMALL_ON_SCREEN) for text in texts[1:])])
         lines = max(len(texts), self.coming.get(node.name, 0), (self.leaving.get(node.name, 0) + 1) // 2)
         return Rectangle(0, 0, max(_even(widest + 2 * _NODE_PAD), _NARROWEST), LINE_HEIGHT * lines + STEP, texts)
 
