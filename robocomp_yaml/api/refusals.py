@@ -29,7 +29,13 @@ def cannot_write(path: str, error: OSError) -> Refused:
 
 def without_ice() -> None:
     """Raises Refused if Ice for Python is not installed."""
+    import sys
     from importlib.util import find_spec
 
+    import robocomp_yaml.wire  # noqa: F401 - it knows where Ice is
+
     if find_spec("Ice") is None:
-        raise Refused("Ice for Python is not installed: Debian has python3-zeroc-ice, pip has zeroc-ice")
+        raise Refused(
+            f"the Python of rcyaml ({sys.executable}) has no Ice: Debian has python3-zeroc-ice for its own Python, pip "
+            "has rcyaml[ice]"
+        )

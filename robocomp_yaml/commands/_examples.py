@@ -1,6 +1,6 @@
 """The examples of `--help`: for each command, what one would type, and what it does. All are about the robot of the
-tutorial: components BaseComp and PatrolComp, their interface Base and topic Odometry, and the deployment Patrol with the
-entries base and patrol."""
+tutorial: components BaseComp and PatrolComp, their interface Base and topic Odometry, and the deployment Patrol with
+its entries base and patrol."""
 
 from __future__ import annotations
 

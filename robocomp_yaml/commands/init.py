@@ -10,7 +10,6 @@ from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._command import LibraryCommand
 from robocomp_yaml.diag import terminal
 
-
 _WITH_DOCUMENTS = ("rcyaml check", "rcyaml compile", "rcyaml run")
 _EMPTY = ("rcyaml new interface NAME", "rcyaml new component NAME", "rcyaml new deployment NAME")
 

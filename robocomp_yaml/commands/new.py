@@ -47,7 +47,8 @@ def _names(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[
     return [name for name in interfaces_of(root) if name.startswith(incomplete)] if root else []
 
 
-def _languages(plugins: Plugins) -> list[str]:
+def languages_with(plugins: Plugins) -> list[str]:
+    """The languages of components: the built-in ones, and those of plug-ins."""
     return [*languages.table(), *(one.name for one in plugins.languages)]
 
 
@@ -59,7 +60,7 @@ def _uses(name: str, meaning: str, metavar: str = "INTERFACE") -> Callable[[Any]
 
 @command.command(short_help="Write a new component document.")
 @click.argument("name")
-@click.option("--language", type=PluginChoice(_languages), default=languages.DEFAULT, show_default=True,
+@click.option("--language", type=PluginChoice(languages_with), default=languages.DEFAULT, show_default=True,
               help="The language of its code.")  # fmt: skip
 @_uses("implements", "interfaces that it serves")
 @_uses("requires", "interfaces of others that it calls")

@@ -127,7 +127,9 @@ def test_they_are_parsed(path: str, robot: Path, monkeypatch: pytest.MonkeyPatch
             inner = command.get_command(parent, words[0] if words else "")
             name, words = (words[0], words[1:]) if inner is not None else ("start", words)  # `rcyaml record TOPIC`
             command = inner or command.get_command(parent, name)
-            parent = click.Context(command, info_name=name, parent=parent) if isinstance(command, click.Group) else parent
+            parent = (
+                click.Context(command, info_name=name, parent=parent) if isinstance(command, click.Group) else parent
+            )
         assert command is not None
         context = command.make_context(name, words, parent=parent)
         assert context.args == [], line

@@ -119,3 +119,18 @@ def test_the_kinds_are_a_table(rcyaml: Run, arm: Path) -> None:
     rcyaml("init")
     lines = rcyaml("schema").stdout.splitlines()
     assert len({line.index(".rcyaml/schemas/") for line in lines}) == 1
+
+
+def test_an_unknown_language_of_a_new_entry_is_wrong_usage(rcyaml: Run, arm: Path) -> None:
+    rcyaml("new", "deployment", "Robot")
+    done = rcyaml("edit", "add", "leg", "LegComp", "--new", "--language", "rust")
+    assert done.exit_code == 2 and "'rust' is not one of 'python', 'cpp', 'java'" in " ".join(done.stderr.split())
+    done = rcyaml("edit", "add", "leg", "arm.cdsl.yaml", "--language", "python")
+    assert done.exit_code == 2 and "add --new" in done.stderr
+
+
+def test_the_place_of_a_node_as_json(rcyaml: Run, arm: Path) -> None:
+    rcyaml("new", "deployment", "Robot")
+    data = json.loads(rcyaml("edit", "place", "arm", "10", "20", "--format", "json").stdout)
+    assert data["name"] == "arm" and data["position"] == [10, 20]
+    assert json.loads(rcyaml("edit", "place", "arm", "--format", "json").stdout)["position"] is None
