@@ -30,6 +30,11 @@ def on_config(config: Any) -> Any:
     return config
 
 
+def on_post_page(output: str, page: Any, config: Any) -> str:
+    """With this mark, the theme asks the code host for the number of stars: a request to another server."""
+    return output.replace(' data-md-component="source"', "")
+
+
 def on_page_markdown(markdown: str, page: Any, config: Any, files: Any) -> str:
     home = posixpath.dirname(page.file.src_uri)
 

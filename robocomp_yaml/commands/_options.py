@@ -117,13 +117,24 @@ def writing(path: str = "") -> Iterator[None]:
 
 
 class FileReport:
-    """What `init` or `new` does with files, as text while it happens, or as JSON at the end."""
+    """What `init` or `new` does with files, as text or as JSON. It is printed when all is done: `| head -1` must not end
+    a command that has written half of its files."""
 
     def __init__(self, ctx: click.Context, format_: str) -> None:
         self._is_json = format_ == "json"
         self._is_quiet = ctx.obj.verbosity < 0
         self._files: list[dict[str, str]] = []
         self._notes: list[str] = []
+
+    @contextmanager
+    def writing(self) -> Iterator[None]:
+        """While files are written; afterwards, what was done is printed."""
+        try:
+            with writing():
+                yield
+        finally:
+            if not self._is_json and not self._is_quiet:
+                terminal.say(*(f"{one['done']:<5} {one['path']}" for one in self._files))
 
     def add(self, done: str, what: str) -> None:
         """What was done with a file, such as `wrote`; or `note`, with a text."""
@@ -132,8 +143,6 @@ class FileReport:
             terminal.say(f"note: {what}", err=True)
         else:
             self._files.append({"done": done, "path": what})
-            if not self._is_json and not self._is_quiet:
-                terminal.say(f"{done:<5} {what}")
 
     def end(self, *following: str) -> None:
         """The commands that one types next."""

@@ -72,7 +72,8 @@ def new(ctx: click.Context, file: str, include: tuple[str, ...], format_: str) -
 
     target = write_new(file, include)
     report = _options.FileReport(ctx, format_)
-    report.add("wrote", target)
+    with report.writing():
+        report.add("wrote", target)
     report.end(terminal.typed("rcyaml", "config", "check", target))
 
 

@@ -28,7 +28,7 @@ def command(ctx: click.Context, folder: str, bare: bool, format_: str) -> None:
     from robocomp_yaml.source.discover import documents_below
 
     report = _options.FileReport(ctx, format_)
-    with _options.writing():
+    with report.writing():
         workspace.init(folder, report.add, bare=bare)
     is_here = os.path.realpath(folder) == os.getcwd()
     there = [] if is_here else [terminal.typed("cd", os.path.normpath(folder))]

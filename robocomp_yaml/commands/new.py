@@ -110,6 +110,6 @@ def _create(
     from robocomp_yaml.api.new import workspace
 
     report = _options.FileReport(ctx, format_)
-    with _options.writing():
+    with report.writing():
         paths = workspace.create(make, report.add)
     report.end(terminal.typed("rcyaml", *next_.split(), *paths))
