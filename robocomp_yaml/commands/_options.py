@@ -117,8 +117,8 @@ def writing(path: str = "") -> Iterator[None]:
 
 
 class FileReport:
-    """What `init` or `new` does with files, as text or as JSON. It is printed when all is done: `| head -1` must not end
-    a command that has written half of its files."""
+    """What `init` or `new` does with files, as text or as JSON. It is printed when all is done: `| head -1` must not
+    end a command that has written half of its files."""
 
     def __init__(self, ctx: click.Context, format_: str) -> None:
         self._is_json = format_ == "json"
