@@ -33,6 +33,17 @@ def without_mistake(language: str) -> dict[str, list[Report]]:
         return legacy_of(language, Path(folder)).rcyaml()
 
 
+@cache
+def require_silence(language: str) -> None:
+    """Raises Failed if RoboComp's tools report something of the component without a mistake: then what they report of
+    one with a mistake would mean nothing."""
+    with tempfile.TemporaryDirectory() as folder:
+        found = reported(legacy_of(language, Path(folder)))
+    loud = {tool: cell for tool, cell in found.items() if cell not in (NOTHING, NO_TOOL)}
+    if loud:
+        raise Failed(f"the component in {language} has no mistake, and the tools report {loud}")
+
+
 def of_rcyaml(found: Mapping[str, list[Report]], usual: Mapping[str, list[Report]]) -> Cells:
     """The worst that each step reports because of a mistake. `deploy` is the plan, or else the start and one call."""
     cells = {}
@@ -50,10 +61,14 @@ def shown(report: Report) -> str:
 
 def of_tools(mistake: Mistake, folder: Path) -> Cells:
     """What RoboComp's own tools report, each as long as those before it did not fail."""
-    legacy = broken(mistake, folder)
-    cells = dict.fromkeys(TOOLS, NO_TOOL)
     if mistake.task == DEPLOYING:
-        return cells | {"robocompdsl": UNSUITED}
+        return dict.fromkeys(TOOLS, NO_TOOL) | {"robocompdsl": UNSUITED}
+    require_silence(mistake.language)
+    return reported(broken(mistake, folder))
+
+
+def reported(legacy: Legacy) -> Cells:
+    cells = dict.fromkeys(TOOLS, NO_TOOL)
     cells["robocompdsl"] = legacy.generate()
     if cells["robocompdsl"] not in (ERROR, TRACEBACK):
         cells |= {"slice2cpp": legacy.slice(), "compiler": legacy.compiler(), "a run": legacy.start()}
