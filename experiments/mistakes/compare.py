@@ -19,6 +19,8 @@ from legacy_way import ERROR, NO_TOOL, NOTHING, ROOT, TRACEBACK, UNSUITED, Legac
 from measure import Failed
 from with_robocompdsl import WithRobocompdsl
 
+from robocomp_yaml.diag.codes import table
+
 PAGE = ROOT / "docs" / "mistakes-in-legacy-files.md"
 STEPS = ("migrate", "editor", "check", "compile", "build", "deploy")
 TOOLS = ("robocompdsl", "slice2cpp", "compiler", "a run")
@@ -56,7 +58,9 @@ def of_rcyaml(found: Mapping[str, list[Report]], usual: Mapping[str, list[Report
 
 def shown(report: Report) -> str:
     severity, code, _ = report
-    return f"{severity} [{code}](diagnostics.md#{code.lower()})" if code.startswith("RC") else code
+    if row := table().get(code):
+        return f"{severity} [{code}](diagnostics/{row.page}.md#{code.lower()})"
+    return code
 
 
 def of_tools(mistake: Mistake, folder: Path) -> Cells:
