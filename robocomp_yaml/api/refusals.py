@@ -33,9 +33,10 @@ def without_ice() -> None:
     from importlib.util import find_spec
 
     import robocomp_yaml.wire  # noqa: F401 - it knows where Ice is
+    from robocomp_yaml.diag import extras
 
     if find_spec("Ice") is None:
         raise Refused(
-            f"the Python of rcyaml ({sys.executable}) has no Ice: Debian has python3-zeroc-ice for its own Python, pip "
-            "has rcyaml[ice]"
+            f"the Python of rcyaml ({sys.executable}) has no Ice: Debian has python3-zeroc-ice for its own Python, "
+            f"else {extras.command('ice')}"
         )
