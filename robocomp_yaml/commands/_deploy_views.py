@@ -147,7 +147,7 @@ def _verdict(one: ProbedProgram) -> tuple[str, str]:
         return "missing, or not executable", "31"
     if one.missing:
         return f"lacks {', '.join(one.missing)}", "31"
-    return f"{one.day} {one.digest}", "32"
+    return f"there, of {one.day}, digest {one.digest}", "32"
 
 
 class LogView:
