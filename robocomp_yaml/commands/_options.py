@@ -25,11 +25,11 @@ include = click.option(
 )  # fmt: skip
 
 
-def _format(choices: Sequence[str]) -> Callable[[Any], Any]:
-    return click.option("--format", "format_", type=click.Choice(choices), default="text", help="The output format.")
+def format_of(choices: Sequence[str], meaning: str = "The output format.") -> Callable[[Any], Any]:
+    return click.option("--format", "format_", type=click.Choice(choices), default="text", help=meaning)
 
 
-format_, text_or_json = _format(FORMATS), _format(["text", "json"])
+format_, text_or_json = format_of(FORMATS), format_of(["text", "json"])
 
 
 class FailOn(msgspec.Struct, frozen=True):
