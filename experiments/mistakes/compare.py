@@ -25,6 +25,7 @@ PAGE = ROOT / "docs" / "mistakes-in-legacy-files.md"
 STEPS = ("migrate", "editor", "check", "compile", "build", "deploy")
 TOOLS = ("robocompdsl", "slice2cpp", "compiler", "a run")
 BEFORE = "reported before anything runs"
+NOT_MEASURED = "not measured"
 HEAD = ("mistake", *STEPS, *TOOLS, BEFORE)
 Cells = dict[str, str]  # by the name of the column
 
@@ -135,7 +136,8 @@ def main(*words: str) -> int:
         if not why:
             with tempfile.TemporaryDirectory() as folder:
                 found = of_tools(mistake, Path(folder))
-            cells |= {name: cell for name, cell in found.items() if cell != NO_TOOL or name not in cells}
+            kept = {name for name, cell in cells.items() if cell != NOT_MEASURED}
+            cells |= {name: cell for name, cell in found.items() if cell != NO_TOOL or name not in kept}
         with tempfile.TemporaryDirectory() as folder:
             cells |= of_rcyaml(broken(mistake, Path(folder)).rcyaml(), without_mistake(mistake.language))
         cells[BEFORE] = before(dict.fromkeys(HEAD[1:], NO_TOOL) | cells)
