@@ -145,6 +145,8 @@ def _report(error: click.ClickException) -> None:
         if ctx.command.get_help_option(ctx) is not None:
             terminal.say(f"Try '{ctx.command_path} {max(ctx.help_option_names, key=len)}' for help.", err=True)
         terminal.say("", err=True)
+    if isinstance(error, click.BadParameter) and isinstance(error.param, click.Argument) and not error.param_hint:
+        error.param_hint = f"'{error.param.human_readable_name.strip('[].')}'"  # [PATH]... is one PATH
     message = f"Error: {error.format_message()}"
     if isinstance(error, click.MissingParameter):  # a message of click, with several lines
         terminal.say_text(message, err=True)

@@ -1,8 +1,7 @@
 """Hooks of MkDocs for what the pages of docs/ have for code hosts and for the tests.
 
 Pages are plain Markdown with relative links. A link out of docs/ leads to the repository, and a comment that names the
-file of a block becomes the block's title. A page that others may not have yet (`OPTIONAL`) needs no entry in the
-navigation of those who lack it.
+file of a block becomes the block's title.
 """
 
 from __future__ import annotations
@@ -12,22 +11,15 @@ import re
 from pathlib import Path
 from typing import Any
 
-OPTIONAL = {"performance.md": "Explanation"}
-"""Pages that are listed only if they are there, with their sections."""
-
 _FILE = re.compile(r"^<!-- (?:file|client|fragment): (\S+) -->\n(```\w+)$", re.MULTILINE)
 # The pages of diagnostics name a file after the language: ```yaml Speech.idsl.yaml
 _NAMED = re.compile(r'^```(\w+) ("[^"\n]+"|[^\s"{=]+)(?: [^\n]*)?$', re.MULTILINE)
 _LINK = re.compile(r"\]\((?![a-z]+:|#)([^)#\s]+)(#[^)\s]*)?\)")
 
 
-def on_config(config: Any) -> Any:
-    for page, section in (OPTIONAL if config.nav else {}).items():
-        if (Path(config.docs_dir) / page).is_file():
-            (pages,) = (one[section] for one in config.nav if section in one)
-            if page not in pages:
-                pages.append(page)
-    return config
+def on_post_page(output: str, page: Any, config: Any) -> str:
+    """With this mark, the theme asks the code host for the number of stars: a request to another server."""
+    return output.replace(' data-md-component="source"', "")
 
 
 def on_page_markdown(markdown: str, page: Any, config: Any, files: Any) -> str:

@@ -19,10 +19,13 @@ from legacy_way import ERROR, NO_TOOL, NOTHING, ROOT, TRACEBACK, UNSUITED, Legac
 from measure import Failed
 from with_robocompdsl import WithRobocompdsl
 
+from robocomp_yaml.diag.codes import table
+
 PAGE = ROOT / "docs" / "mistakes-in-legacy-files.md"
 STEPS = ("migrate", "editor", "check", "compile", "build", "deploy")
 TOOLS = ("robocompdsl", "slice2cpp", "compiler", "a run")
 BEFORE = "reported before anything runs"
+NOT_MEASURED = "not measured"
 HEAD = ("mistake", *STEPS, *TOOLS, BEFORE)
 Cells = dict[str, str]  # by the name of the column
 
@@ -31,6 +34,17 @@ Cells = dict[str, str]  # by the name of the column
 def without_mistake(language: str) -> dict[str, list[Report]]:
     with tempfile.TemporaryDirectory() as folder:
         return legacy_of(language, Path(folder)).rcyaml()
+
+
+@cache
+def require_silence(language: str) -> None:
+    """Raises Failed if RoboComp's tools report something of the component without a mistake: then what they report of
+    one with a mistake would mean nothing."""
+    with tempfile.TemporaryDirectory() as folder:
+        found = reported(legacy_of(language, Path(folder)))
+    loud = {tool: cell for tool, cell in found.items() if cell not in (NOTHING, NO_TOOL)}
+    if loud:
+        raise Failed(f"the component in {language} has no mistake, and the tools report {loud}")
 
 
 def of_rcyaml(found: Mapping[str, list[Report]], usual: Mapping[str, list[Report]]) -> Cells:
@@ -45,15 +59,21 @@ def of_rcyaml(found: Mapping[str, list[Report]], usual: Mapping[str, list[Report
 
 def shown(report: Report) -> str:
     severity, code, _ = report
-    return f"{severity} [{code}](diagnostics.md#{code.lower()})" if code.startswith("RC") else code
+    if row := table().get(code):
+        return f"{severity} [{code}](diagnostics/{row.page}.md#{code.lower()})"
+    return code
 
 
 def of_tools(mistake: Mistake, folder: Path) -> Cells:
     """What RoboComp's own tools report, each as long as those before it did not fail."""
-    legacy = broken(mistake, folder)
-    cells = dict.fromkeys(TOOLS, NO_TOOL)
     if mistake.task == DEPLOYING:
-        return cells | {"robocompdsl": UNSUITED}
+        return dict.fromkeys(TOOLS, NO_TOOL) | {"robocompdsl": UNSUITED}
+    require_silence(mistake.language)
+    return reported(broken(mistake, folder))
+
+
+def reported(legacy: Legacy) -> Cells:
+    cells = dict.fromkeys(TOOLS, NO_TOOL)
     cells["robocompdsl"] = legacy.generate()
     if cells["robocompdsl"] not in (ERROR, TRACEBACK):
         cells |= {"slice2cpp": legacy.slice(), "compiler": legacy.compiler(), "a run": legacy.start()}
@@ -116,7 +136,8 @@ def main(*words: str) -> int:
         if not why:
             with tempfile.TemporaryDirectory() as folder:
                 found = of_tools(mistake, Path(folder))
-            cells |= {name: cell for name, cell in found.items() if cell != NO_TOOL or name not in cells}
+            kept = {name for name, cell in cells.items() if cell != NOT_MEASURED}
+            cells |= {name: cell for name, cell in found.items() if cell != NO_TOOL or name not in kept}
         with tempfile.TemporaryDirectory() as folder:
             cells |= of_rcyaml(broken(mistake, Path(folder)).rcyaml(), without_mistake(mistake.language))
         cells[BEFORE] = before(dict.fromkeys(HEAD[1:], NO_TOOL) | cells)

@@ -21,14 +21,17 @@ sys.path[:0] = [str(HERE.parent / "tasks"), str(ROOT / "tests")]
 
 from legacy_mistakes import CONFIG, CPP, HEADER, WORKER, WORKER_CPP  # noqa: E402
 from measure import ENVIRONMENT, PYTHON, Failed, Way  # noqa: E402
-from with_robocompdsl import COMMON, TOOL  # noqa: E402
+from with_robocompdsl import TOOL  # noqa: E402
 
 from editor.yaml_language_server import LanguageServer  # noqa: E402 - after the path
 
 COMPONENT = "components/speech"
 DEPLOYMENT = "sub.ddsl.yaml"
 ROBOCOMP = os.environ.get("ROBOCOMP", "")  # a checkout of RoboComp's core: its classes, for C++
-QT = ("/usr/include/x86_64-linux-gnu/qt5", ("", "QtCore", "QtGui", "QtNetwork", "QtWidgets", "QtXml"))
+QT = (
+    os.environ.get("QT5", "/usr/include/x86_64-linux-gnu/qt5"),
+    ("", "QtCore", "QtGui", "QtNetwork", "QtWidgets", "QtXml"),
+)
 NOTHING, NO_TOOL, UNSUITED = "nothing", "-", "no language for it"
 TRACEBACK, ERROR = "a traceback", "an error"
 SEVERITIES = ("error", "warning")
@@ -104,7 +107,7 @@ class Legacy(Way):
         said = self._tool("speech.cdsl", ".")
         for name in ("Speech", "Mouth"):
             said = said if said != NOTHING else self._tool(f"../../interfaces/{name}.idsl", f"src/{name}.ice")
-        (self.folder / COMPONENT / "src" / "CommonBehavior.ice").write_text(COMMON, encoding="utf-8")
+        shutil.copy(ROOT / "templates" / "slice" / "CommonBehavior.ice", self.folder / COMPONENT / "src")
         return said
 
     def _tool(self, source: str, target: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import os
+import resource
 import shlex
 import shutil
 import signal
@@ -32,7 +33,8 @@ class Failed(Exception):
 
 @dataclass
 class Cost:
-    """What a task costs its user: lines written or changed, files, commands, and the seconds of the commands."""
+    """What a task costs its user: lines written or changed, files, commands, and the seconds of processor time of the
+    commands. How long a person waits depends on what else the machine does."""
 
     lines: int = 0
     files: set[str] = field(default_factory=set)
@@ -105,9 +107,9 @@ class Way:
     def command(self, *words: str, cwd: str = ".", shown: str = "") -> None:
         """A command that the user types, as `shown` if that is shorter than what it stands for."""
         self.cost.commands.append(shown or shlex.join(words))
-        began = time.monotonic()
+        before = processor_time()
         self.run(*words, cwd=cwd)
-        self.cost.seconds += time.monotonic() - began
+        self.cost.seconds += processor_time() - before
 
     def _count(self, path: str, before: str, after: str) -> None:
         self.cost.files.add(path)
@@ -161,6 +163,12 @@ class Way:
                 except subprocess.TimeoutExpired:
                     started.kill()
                     started.wait()
+
+
+def processor_time() -> float:
+    """Of all processes so far that this one has started and that have ended, and of theirs."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def listens(port: int) -> bool:

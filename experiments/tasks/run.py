@@ -30,7 +30,7 @@ FIGURES = {
     "lines": "Lines written or changed",
     "files": "Files touched",
     "commands": "Commands",
-    "seconds": "Seconds of the commands",
+    "seconds": "Processor seconds of the commands",
 }
 Results = dict[str, dict[str, Cost]]  # by way and task
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from msgspec.structs import replace
 
-from robocomp_yaml.api.refusals import meant, require
+from robocomp_yaml.api.refusals import require
 from robocomp_yaml.building.job import RELEASE
 from robocomp_yaml.deploy import folder, history, limits, operations, registered, renamed
 from robocomp_yaml.deploy.attached import Attached, attached
@@ -116,9 +116,8 @@ class Deployment:
             members = {process.name for process in self.network.processes.values() if name in process.groups}
             process = self.network.find(name)
             if not members and process is None:
-                groups = (group for one in self.network.processes.values() for group in one.groups)
-                hint = meant(name, [*self.network.processes, *groups])
-                raise Refused(f"{self.network.name} has no process or group '{name}'{hint}")
+                groups = dict.fromkeys(group for one in self.network.processes.values() for group in one.groups)
+                require("process or group", name, [*self.network.processes, *groups], self.network.name)
             found |= members or {one.name for one in [process] if one}
         return found
 

@@ -16,6 +16,7 @@ import msgspec
 
 from robocomp_yaml import __version__
 from robocomp_yaml.api.refusals import cannot_write
+from robocomp_yaml.diag import extras
 from robocomp_yaml.diag.errors import Refused, reason_of
 
 if TYPE_CHECKING:
@@ -37,7 +38,7 @@ def _require() -> None:
     from importlib.util import find_spec
 
     if find_spec("mcap") is None or find_spec("google.protobuf") is None:
-        raise Refused("recording needs MCAP and Protobuf: pip install 'rcyaml[record]', or mcap and protobuf")
+        raise Refused(f"recording needs MCAP and Protobuf: {extras.command('record')}")
 
 
 class Recorder:

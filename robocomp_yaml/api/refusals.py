@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable
 
 from robocomp_yaml.diag.errors import Refused, reason_of
+from robocomp_yaml.diag.listing import some
 from robocomp_yaml.diag.suggest import suggest
+
+_MOST = 12  # names that a message lists
 
 
 def meant(word: str, known: Iterable[str], otherwise: str = "") -> str:
@@ -18,7 +21,7 @@ def meant(word: str, known: Iterable[str], otherwise: str = "") -> str:
 def require(what: str, name: str, known: Collection[str], owner: str = "rcyaml") -> None:
     """Raises Refused if `name` is unknown. `owner` is what has the known names."""
     if name not in known:
-        choices = f"choose one of {', '.join(known)}"
+        choices = f"choose one of {some(list(known), _MOST)}"
         raise Refused(f"{owner} has no {what} '{name}'{meant(name, known, choices)}")
 
 
@@ -29,7 +32,14 @@ def cannot_write(path: str, error: OSError) -> Refused:
 
 def without_ice() -> None:
     """Raises Refused if Ice for Python is not installed."""
+    import sys
     from importlib.util import find_spec
 
+    import robocomp_yaml.wire  # noqa: F401 - it knows where Ice is
+    from robocomp_yaml.diag import extras
+
     if find_spec("Ice") is None:
-        raise Refused("Ice for Python is not installed: Debian has python3-zeroc-ice, pip has zeroc-ice")
+        raise Refused(
+            f"the Python of rcyaml ({sys.executable}) has no Ice: Debian has python3-zeroc-ice for its own Python, "
+            f"else {extras.command('ice')}"
+        )

@@ -16,7 +16,20 @@ if TYPE_CHECKING:
     from robocomp_yaml.diag.errors import Faulty
 
 
-class LibraryCommand(click.Command):
+class _WithExamples(click.Command):
+    """A command whose `--help` ends with examples."""
+
+    def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        from robocomp_yaml.commands._examples import examples_of  # unused but for `--help`
+
+        if lines := examples_of(ctx.command_path):
+            with formatter.section("Examples"):
+                for line in lines:
+                    formatter.write(f"{'':>{formatter.current_indent}}{line}\n")
+        super().format_epilog(ctx, formatter)
+
+
+class LibraryCommand(_WithExamples):
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         _plugin_choices.remember(ctx, args)
         with _library_errors(ctx):
@@ -27,7 +40,7 @@ class LibraryCommand(click.Command):
             return super().invoke(ctx)
 
 
-class CommandGroup(click.Group):
+class CommandGroup(_WithExamples, click.Group):
     """A group of such commands, which reports unknown commands in the same way at every level."""
 
     command_class = LibraryCommand

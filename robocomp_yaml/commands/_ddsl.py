@@ -54,7 +54,7 @@ class DocumentAnd(click.Argument):
             return found, words[1:]
         if self._limit == 0 or is_path or not of_kind(".", "ddsl"):
             if is_path or not self._running:
-                raise click.BadParameter(f"Path '{first}' does not exist.", ctx, self, "'[DDSL]'")
+                raise click.BadParameter(f"Path '{first}' does not exist.", ctx, self, "'DDSL'")
         return "" if self._running else ".", words
 
 

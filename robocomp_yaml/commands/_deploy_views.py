@@ -67,8 +67,9 @@ def result_text(network: Network, result: Result) -> str:
 def status_lines(
     network: Network, found: Sequence[Status], color: bool, room: int | None = None
 ) -> list[Shown]:  # fmt: skip
-    """A table of the processes. `room` is the width of a terminal in columns: the last column is cut to fit."""
-    rows = [("PROCESS", "STATE", "PID", "HOST", "UP", "RESTARTS", "MEMORY", "CPU", "SERVES")]
+    """A table of the processes. `room` is the width of a terminal in columns: the last column is cut to fit. Hosts are
+    shown if there are several."""
+    rows: list[tuple[str, ...]] = [("PROCESS", "STATE", "PID", "HOST", "UP", "RESTARTS", "MEMORY", "CPU", "SERVES")]
     for status in found:
         running = status.running
         alive = running if running and running.pid else None
@@ -85,6 +86,9 @@ def status_lines(
                 _endpoints(network, status.name),
             )
         )
+    if len({status.host for status in found}) < 2:
+        at = rows[0].index("HOST")
+        rows = [(*row[:at], *row[at + 1 :]) for row in rows]
     widths = [max(columns(row[column]) for row in rows) for column in range(len(rows[0]))]
     if room is not None:
         widths[-1] = min(widths[-1], max(room - sum(widths[:-1]) - 2 * len(widths[:-1]), len(rows[0][-1])))
@@ -143,7 +147,7 @@ def _verdict(one: ProbedProgram) -> tuple[str, str]:
         return "missing, or not executable", "31"
     if one.missing:
         return f"lacks {', '.join(one.missing)}", "31"
-    return f"{one.day} {one.digest}", "32"
+    return f"there, of {one.day}, digest {one.digest}", "32"
 
 
 class LogView:

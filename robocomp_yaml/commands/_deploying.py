@@ -235,7 +235,9 @@ class DeploySession(msgspec.Struct):
         if self.format_ == "json":
             self.end({"hosts": msgspec.to_builtins(answers)}, code)
         for host, found in answers.items():
-            terminal.say(f"{host} ({self.network.hosts[host].address}):", *views.probe_lines(found, self._color))
+            address = self.network.hosts[host].address
+            head = host if address == host else f"{host} ({address})"
+            terminal.say(f"{head}:", *views.probe_lines(found, self._color))
         self.end(code=code)
 
     def export(self, form: str, output: str | None) -> None:

@@ -26,11 +26,11 @@ include = click.option(
 )  # fmt: skip
 
 
-def _format(choices: Sequence[str]) -> Callable[[Any], Any]:
-    return click.option("--format", "format_", type=click.Choice(choices), default="text", help="The output format.")
+def format_of(choices: Sequence[str], meaning: str = "The output format.") -> Callable[[Any], Any]:
+    return click.option("--format", "format_", type=click.Choice(choices), default="text", help=meaning)
 
 
-format_, text_or_json = _format(FORMATS), _format(["text", "json"])
+format_, text_or_json = format_of(FORMATS), format_of(["text", "json"])
 
 
 class FailOn(msgspec.Struct, frozen=True):
@@ -117,12 +117,42 @@ def writing(path: str = "") -> Iterator[None]:
         raise click.ClickException(f"cannot write {named}: {reason}" if named else f"cannot write: {reason}") from error
 
 
-def report_file(done: str, what: str) -> None:
-    """Prints what `init` or `new` did with a file, or a note."""
-    if done == "note":
-        terminal.say(f"note: {what}", err=True)
-    elif click.get_current_context().obj.verbosity >= 0:
-        terminal.say(f"{done:<5} {what}")
+class FileReport:
+    """What `init` or `new` does with files, as text or as JSON. It is printed when all is done: `| head -1` must not
+    end a command that has written half of its files."""
+
+    def __init__(self, ctx: click.Context, format_: str) -> None:
+        self._is_json = format_ == "json"
+        self._is_quiet = ctx.obj.verbosity < 0
+        self._files: list[dict[str, str]] = []
+        self._notes: list[str] = []
+
+    @contextmanager
+    def writing(self) -> Iterator[None]:
+        """While files are written; afterwards, what was done is printed."""
+        try:
+            with writing():
+                yield
+        finally:
+            if not self._is_json and not self._is_quiet:
+                terminal.say(*(f"{one['done']:<5} {one['path']}" for one in self._files))
+
+    def add(self, done: str, what: str) -> None:
+        """What was done with a file, such as `wrote`; or `note`, with a text."""
+        if done == "note":
+            self._notes.append(what)
+            terminal.say(f"note: {what}", err=True)
+        else:
+            self._files.append({"done": done, "path": what})
+
+    def end(self, *following: str) -> None:
+        """The commands that one types next."""
+        if self._is_json:
+            from robocomp_yaml.diag.render.json import dumps
+
+            terminal.data(dumps({"files": self._files, "notes": self._notes, "next": list(following)}), json=True)
+        elif not self._is_quiet:
+            terminal.say(*(f"{'next:' if one is following[0] else '':<5} {one}" for one in following))
 
 
 async def ask(text: str, answers: tuple[str, ...]) -> str:
@@ -155,7 +185,7 @@ def report(
 ) -> NoReturn:  # fmt: skip
     """Prints the diagnostics and ends the command: with 1 if one is an error or counts for `fail_on`, else with 0."""
     shown = list(diagnostics)
-    if ctx.obj.verbosity >= 0 or shown:
+    if ctx.obj.verbosity >= 0 or shown or format_ != "text":
         tell(format_, shown, documents, colored(ctx))
     if format_ == "text":
         fail_on.explain(shown)

@@ -42,6 +42,9 @@ class PluginChoice(click.ParamType):  # type: ignore[type-arg]  # older ones are
                 plugins_at(path)  # raises Faulty if the choice may be that of a plug-in that is missing
         return str(click.Choice(choices).convert(value, param, ctx))
 
+    def get_missing_message(self, param: click.Parameter, ctx: click.Context | None = None) -> str:
+        return f"Choose from: {', '.join(self.choices(ctx))}"
+
     def choices(self, ctx: click.Context | None) -> list[str]:
         return list(dict.fromkeys(name for plugins in _plugins(ctx) for name in self._known(plugins)))
 

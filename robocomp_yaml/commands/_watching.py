@@ -20,7 +20,7 @@ import click
 from robocomp_yaml.api.living import LivingWorkspace
 from robocomp_yaml.api.watching import Concern, folders, is_current, shown
 from robocomp_yaml.api.workspace import Workspace
-from robocomp_yaml.diag import terminal
+from robocomp_yaml.diag import extras, terminal
 from robocomp_yaml.diag.errors import Faulty, Refused, reason_of
 from robocomp_yaml.diag.render import tell
 
@@ -75,7 +75,7 @@ def watch(
     try:
         import watchfiles
     except ImportError:
-        raise click.UsageError("--watch needs watchfiles: pip install 'rcyaml[watch]'", ctx) from None
+        raise click.UsageError(f"--watch needs watchfiles: {extras.command('watch')}", ctx) from None
     loop = _Loop(paths, LivingWorkspace(paths, include), run, Queue(), watchfiles, os.getcwd())
     loop.run_once()
     gc.collect()

@@ -59,8 +59,9 @@ def command() -> None:
 @command.command(short_help="Write a first document, with defaults and docs as comments.")
 @click.argument("file", metavar="[COMPONENT]", default="")
 @_options.include
+@_options.text_or_json
 @click.pass_context
-def new(ctx: click.Context, file: str, include: tuple[str, ...]) -> None:
+def new(ctx: click.Context, file: str, include: tuple[str, ...], format_: str) -> None:
     """Write a first values document to etc/config.yaml in a component's folder. COMPONENT is that folder, the
     component's document (or that of its parameters), or its name; if there is only one component, it may be omitted. It
     may also be the values document to write, NAME.config.yaml, for the component beside it or one folder up.
@@ -70,8 +71,10 @@ def new(ctx: click.Context, file: str, include: tuple[str, ...]) -> None:
     from robocomp_yaml.api.values import write_new
 
     target = write_new(file, include)
-    if ctx.obj.verbosity >= 0:
-        terminal.say(f"wrote {target}", f"next: {terminal.typed('rcyaml', 'config', 'check', target)}")
+    report = _options.FileReport(ctx, format_)
+    with report.writing():
+        report.add("wrote", target)
+    report.end(terminal.typed("rcyaml", "config", "check", target))
 
 
 @command.command(short_help="Report everything that is wrong with the values.")

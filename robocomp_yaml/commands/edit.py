@@ -7,9 +7,13 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import click
+from click.core import ParameterSource
 
+from robocomp_yaml import languages
 from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._command import CommandGroup
+from robocomp_yaml.commands._plugin_choices import PluginChoice
+from robocomp_yaml.commands.new import languages_with
 from robocomp_yaml.diag import terminal
 
 if TYPE_CHECKING:
@@ -148,14 +152,16 @@ def _(group: str, names: tuple[str, ...]) -> DocumentChange:
 
 
 def _used(key: str) -> Callable[..., Any]:
-    return click.option(f"--{key}", multiple=True, metavar="INTERFACE", help=f"With --new: what it {key}; repeatable.")
+    meaning = f"With --new: what it {_SAID.get(key, key)}; may be repeated."
+    return click.option(f"--{key}", multiple=True, metavar=_CARRIED.get(key, "INTERFACE"), help=meaning)
 
 
 @_changing("add", "Add a component or a program.",
            _entry, click.argument("what", metavar="COMPONENT|PROGRAM"), click.argument("args", nargs=-1),
            click.option("--program", "is_program", is_flag=True, help="It is a program with arguments."),
            click.option("--new", "is_new", is_flag=True, help="Write a new component with this name, and add it."),
-           click.option("--language", default="", help="With --new: the language of its code."),
+           click.option("--language", type=PluginChoice(languages_with), default=languages.DEFAULT, show_default=True,
+                        help="With --new: the language of its code."),
            *map(_used, _LISTS.values()),
            click.option("--host", default="", metavar="NAME", help="The host that it runs on."))  # fmt: skip
 def _(
@@ -170,7 +176,8 @@ def _(
         raise click.UsageError("only a program has arguments here: add --program")
     if is_program and is_new:
         raise click.UsageError("--program and --new exclude each other")
-    if not is_new and (language or any(uses.values())):
+    chosen = click.get_current_context().get_parameter_source("language") is not ParameterSource.DEFAULT
+    if not is_new and (chosen or any(uses.values())):
         raise click.UsageError("only a new component gets these options: add --new")
     if is_new:
         return AddNew(entry, what, language, host=host, **uses)
@@ -281,15 +288,18 @@ for _name, _key in _LISTS.items():
 @click.argument("position", metavar="[X Y]", nargs=-1, type=click.FloatRange(0))
 @_deployment
 @_options.include
+@_options.text_or_json
 @click.pass_context
 def place(
-    ctx: click.Context, name: str, position: tuple[float, ...], deployment: str | None, include: tuple[str, ...]
-) -> None:
+    ctx: click.Context, name: str, position: tuple[float, ...], deployment: str | None, include: tuple[str, ...],
+    format_: str,
+) -> None:  # fmt: skip
     """Put NAME, a process or a topic, at X and Y of the picture of `rcyaml manager` and `rcyaml graph --as json`:
     pixels from its upper left corner. Without X and Y, the picture decides."""
     from robocomp_yaml.api import load
     from robocomp_yaml.api.editing import layout
     from robocomp_yaml.api.refusals import require
+    from robocomp_yaml.diag.render.json import dumps
 
     if len(position) not in (0, 2):
         raise click.UsageError("a position is two numbers: X Y", ctx)
@@ -298,8 +308,13 @@ def place(
     if position and picture is not None:
         require("node", name, picture.nodes, document)
     layout.move(document, {name: (position[0], position[1]) if position else None})
-    if ctx.obj.verbosity >= 0:
-        terminal.say(f"wrote {os.path.relpath(layout.path_of(document))}: place {name}")
+    path = os.path.relpath(layout.path_of(document))
+    if format_ == "json":
+        terminal.data(
+            dumps({"document": document, "layout": path, "name": name, "position": position or None}), json=True
+        )
+    elif ctx.obj.verbosity >= 0:
+        terminal.say(f"wrote {path}: place {name}")
 
 
 @command.command(short_help="Undo the last change of a document.")
@@ -346,7 +361,7 @@ def _show(
     if not only_diff:
         editor.write(revision, force=force)
     elif format_ == "text":
-        terminal.data(revision.diff)
+        terminal.diff([revision.diff], _options.colored(ctx))
     _report(ctx, revision, format_, is_written=not only_diff)
 
 
@@ -365,7 +380,7 @@ def _report(ctx: click.Context, revision: Revision, format_: str, *, is_written:
         if is_written and ctx.obj.verbosity >= 0:
             terminal.say(f"{'unchanged' if revision.is_empty else 'wrote'} {revision.path}: {revision.what}")
         if is_written and ctx.obj.verbosity > 0:
-            terminal.data(revision.diff)
+            terminal.diff([revision.diff], _options.colored(ctx))
         if revision.new_errors:
             texts = {revision.path: revision.after.decode("utf-8", "surrogateescape")}
             tell("text", revision.new_errors, revision.documents, _options.colored(ctx), err=True, texts=texts)

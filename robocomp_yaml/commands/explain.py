@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import shutil
+import sys
 from collections.abc import Iterable
 
 import click
@@ -56,9 +58,10 @@ def _codes() -> dict[str, Code]:
 
 
 def _listed(rows: list[Code]) -> str:
-    return "".join(
-        f"{row.id}  {row.severity:<7}  {row.messages[0]}{' …' if len(row.messages) > 1 else ''}\n" for row in rows
-    )
+    lines = [f"{row.id}  {row.severity:<7}  {row.messages[0]}{' …' if len(row.messages) > 1 else ''}" for row in rows]
+    if sys.stdout.isatty():
+        lines = [terminal.cut(line, _width()) for line in lines]
+    return "".join(f"{line}\n" for line in lines)
 
 
 def _explained(row: Code) -> str:
@@ -73,10 +76,15 @@ def _explained(row: Code) -> str:
     return "\n\n".join(part.rstrip("\n") for part in parts) + "\n"
 
 
+def _width() -> int:
+    """Columns of a line: as many as the terminal has, at most 100."""
+    return min(100, shutil.get_terminal_size().columns)
+
+
 def _wrapped(text: str) -> str:
     import textwrap
 
-    return "\n\n".join(textwrap.fill(paragraph, 100) for paragraph in text.split("\n\n"))
+    return "\n\n".join(textwrap.fill(paragraph, _width()) for paragraph in text.split("\n\n"))
 
 
 def _tree(files: Files) -> str:
@@ -89,9 +97,10 @@ def _tree(files: Files) -> str:
         elif isinstance(content, str) and text.startswith("-> "):
             out.append(f"  {path} {text}  (a link)")
         else:
-            lines = [line if len(line) <= 100 else line[:97] + "…" for line in text.splitlines()]
+            room = _width() - 2
+            lines = [line if len(line) <= room else f"{line[: room - 1]}…" for line in text.splitlines()]
             out.append("\n".join([f"  # {path}", *(f"  {line}".rstrip() for line in lines)]))
-    return "\n".join(out)
+    return "\n\n".join(out)
 
 
 def _text(content: str | bytes | Repeated | None) -> str | None:

@@ -19,7 +19,7 @@ STDIN = "-"
 
 @click.command(cls=LibraryCommand, short_help="Format documents; what they mean does not change.")
 @click.argument("paths", nargs=-1, metavar="[PATH]...", type=click.Path(exists=True, allow_dash=True))
-@click.option("--check", is_flag=True, help="Write nothing; end with 1 if a document would change.")
+@click.option("--check", is_flag=True, help="Write nothing; exit with 1 if a document would change.")
 @click.option("--diff", is_flag=True, help="Show what would change, and write nothing.")
 @click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text", help="The output format.")
 @click.pass_context

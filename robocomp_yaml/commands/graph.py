@@ -11,16 +11,18 @@ from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._command import LibraryCommand
 from robocomp_yaml.commands._plugin_choices import PluginChoice
 from robocomp_yaml.diag import terminal
+from robocomp_yaml.diag.render import FORMATS
 from robocomp_yaml.emit.graphs.forms import forms
 from robocomp_yaml.transactions import whole_file
 
 
 @click.command(cls=LibraryCommand, short_help="Draw a deployment, or the components of a folder.")
 @click.argument("path", metavar="[DDSL]", default=".", type=click.Path(exists=True))
-@click.option("--as", "form", type=PluginChoice(forms), default="text", show_default=True, help="The format.")
+@click.option("--as", "form", type=PluginChoice(forms), default="text", show_default=True,
+              help="The form of the drawing.")  # fmt: skip
 @click.option("-o", "--output", metavar="FILE", type=click.Path(dir_okay=False), help="Write to FILE.")
 @_options.include
-@_options.format_
+@_options.format_of(FORMATS, "How diagnostics are printed; json: the drawing, too.")
 @click.pass_context
 def command(
     ctx: click.Context, path: str, form: str, output: str | None, include: tuple[str, ...], format_: str

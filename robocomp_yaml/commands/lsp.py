@@ -6,6 +6,7 @@ import click
 
 from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._command import LibraryCommand
+from robocomp_yaml.diag import extras
 
 
 @click.command(cls=LibraryCommand, short_help="Serve editors: diagnostics as you type, fixes, formatting.")
@@ -23,5 +24,5 @@ def command(ctx: click.Context, stdio: bool, include: tuple[str, ...]) -> None:
     except ImportError as error:
         if (error.name or "").partition(".")[0] not in ("pygls", "lsprotocol"):
             raise
-        raise click.UsageError("lsp needs pygls: pip install 'rcyaml[lsp]'", ctx) from None
+        raise click.UsageError(f"lsp needs pygls: {extras.command('lsp')}", ctx) from None
     features.make(include).start_io()

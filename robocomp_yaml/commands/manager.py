@@ -10,7 +10,7 @@ import click
 from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._command import LibraryCommand
 from robocomp_yaml.deploy.engines import ENGINES
-from robocomp_yaml.diag import terminal
+from robocomp_yaml.diag import extras, terminal
 
 if TYPE_CHECKING:
     from robocomp_yaml.manager.access import AccessRules
@@ -62,7 +62,7 @@ def command(
     except ImportError as error:
         if (error.name or "").partition(".")[0] not in _LIBRARIES:
             raise
-        raise click.UsageError("manager needs Starlette and uvicorn: pip install 'rcyaml[manager]'", ctx) from None
+        raise click.UsageError(f"manager needs Starlette and uvicorn: {extras.command('manager')}", ctx) from None
     from robocomp_yaml.api import which
     from robocomp_yaml.manager.managed import ManagedDeployment
     from robocomp_yaml.manager.watching import Watcher

@@ -29,12 +29,13 @@ def command() -> None:
 
 @command.command(short_help="Write new interface documents.")
 @click.argument("names", nargs=-1, required=True, metavar="NAME...")
+@_options.text_or_json
 @click.pass_context
-def interface(ctx: click.Context, names: tuple[str, ...]) -> None:
+def interface(ctx: click.Context, names: tuple[str, ...], format_: str) -> None:
     """Write interfaces/NAME.idsl.yaml: a module with an interface NAME. Several NAMEs make several documents."""
     from robocomp_yaml.api.new.documents import interface_document
 
-    _create(ctx, lambda root: [interface_document(root, name) for name in dict.fromkeys(names)])
+    _create(ctx, format_, lambda root: [interface_document(root, name) for name in dict.fromkeys(names)])
 
 
 def _names(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[str]:
@@ -46,7 +47,8 @@ def _names(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[
     return [name for name in interfaces_of(root) if name.startswith(incomplete)] if root else []
 
 
-def _languages(plugins: Plugins) -> list[str]:
+def languages_with(plugins: Plugins) -> list[str]:
+    """The languages of components: the built-in ones, and those of plug-ins."""
     return [*languages.table(), *(one.name for one in plugins.languages)]
 
 
@@ -58,17 +60,18 @@ def _uses(name: str, meaning: str, metavar: str = "INTERFACE") -> Callable[[Any]
 
 @command.command(short_help="Write a new component document.")
 @click.argument("name")
-@click.option("--language", type=PluginChoice(_languages), default=languages.DEFAULT, show_default=True,
+@click.option("--language", type=PluginChoice(languages_with), default=languages.DEFAULT, show_default=True,
               help="The language of its code.")  # fmt: skip
 @_uses("implements", "interfaces that it serves")
 @_uses("requires", "interfaces of others that it calls")
 @_uses("publishes", "topics that it publishes", "TOPIC")
 @_uses("subscribes", "topics that it receives", "TOPIC")
 @_options.include
+@_options.text_or_json
 @click.pass_context
 def component(
-    ctx: click.Context, /, name: str, language: str, include: tuple[str, ...], **uses: tuple[str, ...]
-) -> None:
+    ctx: click.Context, /, name: str, language: str, include: tuple[str, ...], format_: str, **uses: tuple[str, ...]
+) -> None:  # fmt: skip
     """Write components/NAME/NAME.cdsl.yaml (in lower case): a component NAME.
 
     INTERFACE and TOPIC are names that a document of the workspace defines, or Module.NAME if several documents define
@@ -76,33 +79,37 @@ def component(
     """
     from robocomp_yaml.api.new.documents import component_document
 
-    _create(ctx, lambda root: [component_document(root, name, language, uses, include)])
+    _create(ctx, format_, lambda root: [component_document(root, name, language, uses, include)])
 
 
 @command.command(short_help="Write a new parameters document of a component.")
 @click.argument("name")
+@_options.text_or_json
 @click.pass_context
-def parameters(ctx: click.Context, name: str) -> None:
+def parameters(ctx: click.Context, name: str, format_: str) -> None:
     """Write the parameters document of the component NAME, beside the component's document."""
     from robocomp_yaml.api.new.documents import parameters_document
 
-    _create(ctx, lambda root: [parameters_document(root, name)])
+    _create(ctx, format_, lambda root: [parameters_document(root, name)])
 
 
 @command.command(short_help="Write a new deployment document.")
 @click.argument("name")
+@_options.text_or_json
 @click.pass_context
-def deployment(ctx: click.Context, name: str) -> None:
+def deployment(ctx: click.Context, name: str, format_: str) -> None:
     """Write deployments/NAME.ddsl.yaml (in lower case): the components of the workspace, on this machine."""
     from robocomp_yaml.api.new.deployment import deployment_document
 
-    _create(ctx, lambda root: [deployment_document(root, name)], "deploy plan")
+    _create(ctx, format_, lambda root: [deployment_document(root, name)], "deploy plan")
 
 
-def _create(ctx: click.Context, make: Callable[[str], list[NewDocument]], next_: str = "compile") -> None:
+def _create(
+    ctx: click.Context, format_: str, make: Callable[[str], list[NewDocument]], next_: str = "compile"
+) -> None:  # fmt: skip
     from robocomp_yaml.api.new import workspace
 
-    with _options.writing():
-        paths = workspace.create(make, _options.report_file)
-    if ctx.obj.verbosity >= 0:
-        terminal.say(f"next: {terminal.typed('rcyaml', *next_.split(), *paths)}")
+    report = _options.FileReport(ctx, format_)
+    with report.writing():
+        paths = workspace.create(make, report.add)
+    report.end(terminal.typed("rcyaml", *next_.split(), *paths))

@@ -46,8 +46,9 @@ def _print_kinds() -> None:
     from robocomp_yaml.link.workspace_files import GLOBS
 
     paths = installed(root_above(".") or ".")
+    width = max(len(", ".join(globs)) for globs in GLOBS.values())
     for name, globs in GLOBS.items():
-        terminal.say(f"{name:<10} {', '.join(globs):<28} {paths[name]}".rstrip())
+        terminal.say(f"{name:<9}  {', '.join(globs):<{width}}  {paths[name]}".rstrip())
 
 
 def _print_schema_of(document: str) -> None:

@@ -89,7 +89,7 @@ def state_in(sections: Sections) -> OwnState | None:
     facts = sections[STATE][0]
     return OwnState(
         facts.texts.get("state", ""),
-        facts.numbers.get("since", 0.0),
+        round(facts.numbers.get("since", 0.0), 3),
         facts.texts.get("for", ""),
         facts.texts.get("at", ""),
         facts.texts.get("why", ""),

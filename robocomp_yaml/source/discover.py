@@ -23,6 +23,9 @@ _MODELINE = re.compile(
     rb"[ \t]*#[ \t]*yaml-language-server:[ \t]*\$schema=\S*(?:\.rcyaml/schemas|generated)/config\.schema\.json"
     rb"[ \t]*(?:\r?\n|\Z)"
 )
+_HEAD = 4096  # bytes of a document, in which its first keys are
+_KEY = re.compile(r"^([a-z]+)[ \t]*:", re.MULTILINE)
+_SHOWN_BY = {"idsl": {"module"}, "ddsl": {"deployment"}, "cdsl": {"component", "language"}}
 WORKSPACE_FILE = "rcyaml.yaml"
 MANIFEST = ".rcyaml/manifest.json"
 _SKIPPED = frozenset(("node_modules", "__pycache__", "build", "generated"))
@@ -98,7 +101,10 @@ def discover(paths: list[str] | tuple[str, ...], disk: Disk | None = None) -> Di
             if name == "rcyaml.yaml":
                 hint = f"`{typed('rcyaml', 'check', os.path.dirname(path) or '.')}` reads it with the documents"
             elif not name.endswith(".yaml"):
-                hint = f"`{typed('rcyaml', 'migrate', path)}` converts legacy files"
+                hint = f"if it is a legacy file, `{typed('rcyaml', 'migrate', path)}` converts it"
+            elif kind := _kind_in(disk.peek(path, _HEAD)):
+                named = f"{path.removesuffix('.yaml')}.{kind}.yaml"
+                hint = f"its content is that of {kind.upper()}: rename it, `{typed('mv', path, named)}`"
             diagnostics.append(codes.UNKNOWN_KIND.at(Span(path), name=name, kinds=expected, hint=hint))
             continue
         else:
@@ -107,6 +113,12 @@ def discover(paths: list[str] | tuple[str, ...], disk: Disk | None = None) -> Di
     return DiscoveredDocuments(
         tuple(documents), tuple(folders), tuple(roots), tuple(dict.fromkeys(scripts)), tuple(diagnostics)
     )
+
+
+def _kind_in(head: bytes) -> str:
+    """The kind that the first keys of a document show, or ''."""
+    keys = set(_KEY.findall(head.decode("utf-8", "replace")))
+    return next((kind for kind, needed in _SHOWN_BY.items() if needed <= keys), "")
 
 
 def _renamed(path: str) -> str:

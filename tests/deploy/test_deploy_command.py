@@ -452,6 +452,10 @@ def test_a_program_that_a_host_lacks(robot: Path, rcyaml: Rcyaml) -> None:
     write_tree(robot, {"robot.ddsl.yaml": ROBOT.replace("program: sleep", "program: no-such-sleep")})
     result = deploy(rcyaml, "probe")
     assert result.exit_code == 1 and "no-such-sleep  missing, or not executable, for arm" in result.stdout
+    lines = result.stdout.splitlines()
+    assert lines[0] == "localhost:" and re.search(
+        r" sh +there, of \d{4}-\d\d-\d\d, digest [0-9a-f]+, for base$", result.stdout, re.MULTILINE
+    )
 
 
 def test_a_program_that_lacks_something(robot: Path, rcyaml: Rcyaml) -> None:

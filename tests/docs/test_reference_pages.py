@@ -15,6 +15,7 @@ import pytest
 
 from conftest import ROOT
 from robocomp_yaml.cli import COMMANDS, EPILOG, group
+from robocomp_yaml.commands._examples import examples_of
 from robocomp_yaml.source.schema import schema as schema_of
 
 REFERENCE = ROOT / "docs" / "reference"
@@ -23,7 +24,8 @@ COMMANDS_HEAD = """\
 # All commands
 
 Every command with all its arguments and options, as the command line itself describes them: this page is generated from
-it. [The command line](../cli.md) explains what commands have in common: paths, exit codes, output.
+it. [The command line](../cli.md) explains what commands have in common: paths, exit codes, output. The examples are
+about the robot of the [tutorial](../tutorial/README.md), with its topic and its parameters.
 
 `rcyaml` itself has these options, which are written before the command: `rcyaml -q check`.
 
@@ -60,6 +62,8 @@ def command(one: click.Command | None, name: str, parent: click.Context, marks: 
     usage = " ".join([context.command_path, *one.collect_usage_pieces(context)])
     text = "\n\n".join(" ".join(part.split()) for part in (one.help or "").replace("\b", "").split("\n\n"))
     page = f"\n{marks} {context.command_path}\n\n```text\n{usage}\n```\n\n{escaped(text)}\n\n{options(one, context)}"
+    if examples := examples_of(context.command_path):
+        page += "\n```text\n{}\n```\n".format("\n".join(examples))
     if isinstance(one, click.Group):
         for inner in one.list_commands(context):
             page += command(one.get_command(context, inner), inner, context, "###")

@@ -13,6 +13,7 @@ from robocomp_yaml.deploy.here import is_near
 from robocomp_yaml.deploy.readiness import listens
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.deploy.states import OVER
+from robocomp_yaml.diag import extras
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
@@ -37,7 +38,7 @@ def missing() -> str:
     """What the engine needs and this machine lacks, or ''."""
     # Ice's compiled module works only with the Python that it was compiled for.
     if not all(map(importlib.util.find_spec, ("Ice", "IceGrid", "IcePy"))):
-        return "Ice for Python is not installed (`pip install 'rcyaml[ice]'`, Debian: python3-zeroc-ice)"
+        return f"Ice for Python is not installed (`{extras.command('ice')}`, Debian: python3-zeroc-ice)"
     for program, package in (("icegridregistry", "zeroc-icegrid"), ("icegridnode", "zeroc-icegrid"),
                              ("openssl", "openssl"), ("setpriv", "util-linux")):  # fmt: skip
         if shutil.which(program) is None:

@@ -29,6 +29,14 @@ def test_a_table_of_states_fits_its_terminal() -> None:
     assert any(line.endswith("  Laser…") for line in least)  # no narrower than the column's head
 
 
+def test_hosts_are_shown_if_there_are_several() -> None:
+    network = speaking()
+    found = [Status(process.name, process.host, False) for process in network.enabled()]
+    assert len({one.host for one in found}) > 1 and "HOST" in status_lines(network, found, False)[0]
+    here = [one for one in found if one.host == found[0].host]
+    assert "HOST" not in status_lines(network, here, False)[0]
+
+
 class Terminal(io.StringIO):
     def isatty(self) -> bool:
         return True

@@ -122,7 +122,7 @@ def test_a_new_component_is_added_as_rcyaml_new_writes_it() -> None:
     for words, text in (
         (("add", "nose", "mouth", "--implements", "Speech"), "add --new"),
         (("add", "nose", "x", "--new", "--program"), "exclude each other"),
-        (("add", "nose", "NoseComp", "--new", "--language", "pascal"), "no language 'pascal'"),
+        (("add", "nose", "NoseComp", "--new", "--language", "pascal"), "'pascal' is not one of"),
         (("add", "nose", "NoseComp", "--new", "--implements", "Speach"), "did you mean 'Speech'"),
     ):
         done = edit(*words)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 import subprocess
 from collections.abc import Callable
@@ -55,8 +56,18 @@ def test_git_ignores_build_results_but_not_programs(rcyaml: Run, tmp_path: Path)
 
 
 def test_the_next_command_works(rcyaml: Run, tmp_path: Path) -> None:
-    assert rcyaml("init").stdout.splitlines()[-1].startswith("next: rcyaml check")
-    assert rcyaml("init", "my robot").stdout.splitlines()[-1].startswith("next: cd 'my robot', then rcyaml check")
+    assert rcyaml("init").stdout.splitlines()[-3:] == ["next: rcyaml check", "      rcyaml compile", "      rcyaml run"]
+    lines = rcyaml("init", "my robot").stdout.splitlines()
+    assert lines[-4:-2] == ["next: cd 'my robot'", "      rcyaml check"] and max(map(len, lines)) <= 80
+
+
+def test_json(rcyaml: Run, tmp_path: Path) -> None:
+    data = json.loads(rcyaml("-q", "init", "--bare", "--format", "json").stdout)
+    assert {"done": "wrote", "path": "rcyaml.yaml"} in data["files"] and data["notes"] == []
+    assert data["next"][0] == "rcyaml new interface NAME"
+    data = json.loads(rcyaml("new", "interface", "Camera", "--format", "json").stdout)
+    assert data["files"] == [{"done": "wrote", "path": "interfaces/Camera.idsl.yaml"}]
+    assert data["next"] == ["rcyaml compile interfaces/Camera.idsl.yaml"]
 
 
 def test_another_folder_may_be_named(rcyaml: Run, tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -44,7 +45,9 @@ def test_an_empty_folder_has_one_summary(
         (["migrate"], "`rcyaml migrate .` converts all below this folder"),
         (["top"], "`rcyaml new deployment NAME` writes one"),
         (["explain", "RC9999"], "`rcyaml explain` lists all"),
-        (["fmt", "nowhere"], "Path 'nowhere' does not exist"),
+        (["fmt", "nowhere"], "Invalid value for 'PATH': Path 'nowhere' does not exist"),
+        (["deploy", "plan", "nowhere.yaml"], "Invalid value for 'DDSL': Path 'nowhere.yaml' does not exist"),
+        (["deploy", "export"], "Missing option '--as'. Choose from: compose, icegrid, rcmanager, systemd"),
         (["mock", "notes.txt"], "--script notes.txt reads a script"),
     ],
 )
@@ -90,3 +93,44 @@ def test_another_reference_or_the_default_replace_it(rcyaml: Run, arm: Path) -> 
 
 def test_explain_needs_only_the_digits(rcyaml: Run) -> None:
     assert rcyaml("explain", "2003").stdout == rcyaml("explain", "RC2003").stdout
+
+
+@pytest.mark.parametrize("columns", [60, 80, 300])
+def test_explanations_fit_the_terminal(
+    columns: int, rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", str(columns))
+    for code in ("RC0101", "RC2003", "RC4002"):
+        lines = rcyaml("explain", code).stdout.partition("\n\n")[2].splitlines()  # without the message
+        assert max(map(len, lines)) <= min(columns, 100)
+
+
+def test_the_files_of_an_explanation_are_apart(rcyaml: Run, tmp_path: Path) -> None:
+    lines = rcyaml("explain", "RC2003").stdout.splitlines()
+    assert all(lines[number - 1] == "" for number, line in enumerate(lines) if line.startswith("  # "))
+
+
+def test_quiet_json_is_still_json(rcyaml: Run, arm: Path) -> None:
+    assert json.loads(rcyaml("-q", "check", "--format", "json").stdout)["diagnostics"] == []
+    assert rcyaml("-q", "check").stdout == ""
+
+
+def test_the_kinds_are_a_table(rcyaml: Run, arm: Path) -> None:
+    rcyaml("init")
+    lines = rcyaml("schema").stdout.splitlines()
+    assert len({line.index(".rcyaml/schemas/") for line in lines}) == 1
+
+
+def test_an_unknown_language_of_a_new_entry_is_wrong_usage(rcyaml: Run, arm: Path) -> None:
+    rcyaml("new", "deployment", "Robot")
+    done = rcyaml("edit", "add", "leg", "LegComp", "--new", "--language", "rust")
+    assert done.exit_code == 2 and "'rust' is not one of 'python', 'cpp', 'java'" in " ".join(done.stderr.split())
+    done = rcyaml("edit", "add", "leg", "arm.cdsl.yaml", "--language", "python")
+    assert done.exit_code == 2 and "add --new" in done.stderr
+
+
+def test_the_place_of_a_node_as_json(rcyaml: Run, arm: Path) -> None:
+    rcyaml("new", "deployment", "Robot")
+    data = json.loads(rcyaml("edit", "place", "arm", "10", "20", "--format", "json").stdout)
+    assert data["name"] == "arm" and data["position"] == [10, 20]
+    assert json.loads(rcyaml("edit", "place", "arm", "--format", "json").stdout)["position"] is None

@@ -42,6 +42,7 @@ def test_a_name_needs_no_document_before_it(rcyaml: Rcyaml, tmp_path: Path) -> N
     ("args", "message"),
     [
         (("plan", "bsae"), "has no process or group 'bsae'; did you mean 'base'?"),
+        (("plan", "something"), "has no process or group 'something'; choose one of "),
         (("plan", "robot.ddsl.yml"), "Path 'robot.ddsl.yml' does not exist"),
         (("down", "other/place"), "Path 'other/place' does not exist"),
         (("probe", "moon"), "has no host 'moon'"),

@@ -72,3 +72,15 @@ def test_json_is_valid_whatever_a_name_is(command: str, tmp_path: Path) -> None:
         assert place["artifactLocation"]["uri"] == "caf%E9/Speech.idsl.yaml"
     else:
         assert data["diagnostics"][0]["file"] == f"{ODD}/Speech.idsl.yaml"
+
+
+@pytest.mark.processes
+def test_a_reader_that_goes_away_leaves_a_whole_workspace(tmp_path: Path) -> None:
+    for number in range(5):
+        words = [sys.executable, "-m", "robocomp_yaml", "init", "--bare", str(tmp_path / str(number))]
+        with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+            assert process.stdout and process.stderr
+            process.stdout.close()
+            assert process.stderr.read() == b"" and process.wait() == 141
+        assert (tmp_path / str(number) / "interfaces").is_dir()
+        assert (tmp_path / str(number) / ".vscode" / "settings.json").is_file()
