@@ -86,9 +86,10 @@ class DeployFailed(Exception):
 
 
 class EngineHangs(DeployFailed):
-    """What runs the network is there, and does not answer. `end` kills it, with all its processes."""
+    """What runs the network is there, and does not answer. `end` kills it, with all its processes, and returns their
+    names."""
 
-    def __init__(self, diagnostic: Diagnostic, end: Callable[[], Awaitable[None]]) -> None:
+    def __init__(self, diagnostic: Diagnostic, end: Callable[[], Awaitable[list[str]]]) -> None:
         super().__init__(diagnostic)
         self.end = end
 

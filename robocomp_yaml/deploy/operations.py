@@ -10,7 +10,7 @@ import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml.deploy import ice_ping, remains
-from robocomp_yaml.deploy.carry_out import Report, StartOutcome, carry_out, stop_all, undo
+from robocomp_yaml.deploy.carry_out import GONE, ProcessEvent, Report, StartOutcome, carry_out, stop_all, undo
 from robocomp_yaml.deploy.engine import LOST, STOPPED, Engine, EngineHangs, Running
 from robocomp_yaml.deploy.introspection import OwnState
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, plan, with_dependents
@@ -211,14 +211,17 @@ async def take_down(engine: Engine, network: Network, names: Collection[str], re
     except EngineHangs as hanging:
         if names:
             raise
-        await hanging.end()
-        is_running = False
-    if is_running:
-        return await down(engine, names, report, network.folder)
+        ended = await hanging.end()
+        for name in ended:
+            report(ProcessEvent(name, GONE))
+    else:
+        if is_running:
+            return await down(engine, names, report, network.folder)
+        ended = []
     await engine.close(end=not names)
     if not names:  # what is left of a network whose engine was killed, and whose processes with it
         remains.after_down(network.folder)
-    return []
+    return ended
 
 
 def leaving(running: Mapping[str, Running], names: Collection[str]) -> set[str]:

@@ -98,7 +98,7 @@ def test_after_the_supervisor_hangs(
         assert "`rcyaml deploy down` ends it" in said.stderr
     assert is_alive(pid) and rcyaml("deploy", "ls").stdout.count("running") == 1
     said = rcyaml("deploy", "down", document if has_document else "Robot")
-    assert said.exit_code == 0 and "RC7007" in said.stderr
+    assert said.exit_code == 0 and "RC7007" in said.stderr and said.stdout == "base  stopped\n"
     assert not is_alive(pid) and not procfs.marked(place.folder)
     assert left(place) == [] and rcyaml("deploy", "ls").stdout == "no deployment is running\n"
 

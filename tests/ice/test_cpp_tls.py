@@ -34,7 +34,7 @@ Rcyaml = Callable[..., Result]
 NETWORK = """\
 deployment: Robot
 security: tls
-alive: {{every: 500 ms}}
+alive: {{every: 500 ms, within: 5 s}}
 services: {{storm: {{icestorm: {{port: {storm}, publish: {publish}}}}}}}
 components:
   server: {{component: "{server}", ports: {{Arm: {arm}, Hand: {hand}, CommonBehavior: {behavior}}}}}

@@ -87,9 +87,10 @@ class LocalEngine:
         failed = self._folder_failed(self._network.folder, f"{who}: {hint}")
         return EngineHangs(failed.diagnostic, self._end_hung)
 
-    async def _end_hung(self) -> None:
-        await asyncio.to_thread(record.end_hung, self._network.folder)
+    async def _end_hung(self) -> list[str]:
+        names = await asyncio.to_thread(record.end_hung, self._network.folder)
         self.notes.append(deploying.SUPERVISOR_KILLED.at(Span(self._network.path)))
+        return names
 
     def _register(self, pid: int) -> None:
         found = procfs.entry(pid) if pid else None

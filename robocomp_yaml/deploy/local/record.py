@@ -51,8 +51,10 @@ def supervisor(folder: str) -> int:
     return next((one.pid for one in children if procfs.mark_of(one.pid) == f"{folder}:"), 0)
 
 
-def end_hung(folder: str) -> None:
-    """Kills a supervisor that does not answer. Its keeper ends the processes; if that hangs, too, it is killed."""
+def end_hung(folder: str) -> list[str]:
+    """Kills a supervisor that does not answer. Its keeper ends the processes; if that hangs, too, it is killed. Returns
+    the names of the processes."""
+    names = {procfs.mark_of(pid).removeprefix(f"{folder}:") for pid in procfs.marked(folder)}
     if pid := supervisor(folder):
         with contextlib.suppress(OSError):
             os.kill(pid, signal.SIGKILL)
@@ -60,6 +62,7 @@ def end_hung(folder: str) -> None:
         while _keeper(folder) and time.monotonic() < until:
             time.sleep(0.01)
     clear_up(folder)
+    return sorted(names - {""})
 
 
 def is_there(folder: str) -> bool:
