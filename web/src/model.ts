@@ -118,3 +118,11 @@ export class Model {
     return rate === undefined ? "" : `${rate < 10 ? rate.toFixed(1) : rate.toFixed(0)} Hz`;
   }
 }
+
+export function isInside(box: Placed, [x, y]: [number, number]): boolean {
+  return x >= box.x && x <= box.x + box.width && y >= box.y && y <= box.y + box.height;
+}
+
+export function touch(one: Placed, other: Placed): boolean {
+  return one.x < other.x + other.width && other.x < one.x + one.width && one.y < other.y + other.height && other.y < one.y + one.height;
+}

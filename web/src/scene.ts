@@ -1,11 +1,12 @@
 // The picture on the canvas: it is drawn from the model whenever something changed, at most once in a frame.
 
-import { CLOSED, Edge, Look, Model, Node, Placed, SIGNS } from "./model";
+import { around, FAINT, lines } from "./lines";
+import { CLOSED, Edge, isInside, Look, Model, Node, Placed, SIGNS, touch } from "./model";
 
 const MOVING = 200; // milliseconds after a move until the picture is painted anew
 const MANY = 200; // nodes from which on the view moves a still picture
 const READABLE = 11; // pixels of the screen
-const FAINT = 0.16, FAR = 0.3, READ = 0.9, SMALLEST = 6, MARGIN = 16, REACH = 9;
+const READ = 0.9, SMALLEST = 6, MARGIN = 16, REACH = 9;
 const COLORS = ["back", "text", "soft", "host", "group", "node", "frame", "line", "topic", "ready", "busy", "down", "idle", "other", "alarm", "chosen"] as const;
 
 export type Hit = { kind: "end"; edge: Edge } | { kind: "handle" | "node"; node: Node } | { kind: "host" | "group"; name: string };
@@ -219,79 +220,12 @@ export class Scene {
     context.lineJoin = "round";
     const [left, top] = this.point(0, 0), [right, bottom] = this.point(this.size.width, this.size.height);
     const isSeen = (box: Placed) => box.x <= right && box.y <= bottom && box.x + box.width >= left && box.y + box.height >= top;
-    this.lines(graph.edges.filter((edge) => isSeen(around(edge))), line);
+    const { isFar, size, x, y } = this;
+    lines({ context, model, colors, zoom, isFar, size, x, y }, graph.edges.filter((edge) => isSeen(around(edge))), line);
     this.nodes(graph.nodes.filter(isSeen), line);
     context.globalAlpha = 1;
     if (this.isFar) this.far([...graph.hosts.map((host) => [host, host.title]), ...graph.groups.map((group) => [group, group.name])] as [Placed, string][]);
     this.drag(line);
-  }
-
-  /** The lines, faint ones first. Their pieces are horizontal or vertical, so that they are filled as rectangles of
-   * whole pixels without transparency: without a graphics card, strokes would take most of the time. */
-  private lines(edges: Edge[], line: number): void {
-    const { context, model, isFar } = this, ratio = devicePixelRatio || 1;
-    const alike = new Map<string, { edges: Edge[]; alpha: number; color: string; isChosen: boolean; isDashed: boolean }>();
-    for (const edge of edges) {
-      const isClear = model.selected ? this.touches(edge) : model.shows(edge.from) && model.shows(edge.to);
-      const isBad = edge.faults.some((fault) => fault.severity === "error");
-      const name = isBad ? "down" : edge.kind === "uses" ? "line" : edge.kind === "after" ? "soft" : "topic";
-      const alpha = !isClear ? FAINT : isFar && !model.selected && !isBad ? FAR : 1;
-      const isDashed = edge.kind === "after" && !isFar, isChosen = isClear && Boolean(model.selected);
-      const key = `${name} ${alpha} ${isDashed} ${isChosen}`;
-      const found = alike.get(key) ?? { edges: [], alpha, color: this.mixed(name, alpha), isChosen, isDashed };
-      found.edges.push(edge);
-      alike.set(key, found);
-    }
-    const [left, top] = this.point(0, 0), [right, bottom] = this.point(this.size.width, this.size.height);
-    context.globalAlpha = 1;
-    for (const one of [...alike.values()].sort((a, b) => a.alpha - b.alpha)) {
-      const width = Math.max(1, Math.round((one.isChosen ? 2 : 1) * line * this.zoom * ratio));
-      context.fillStyle = one.color;
-      context.setTransform(1, 0, 0, 1, 0, 0);
-      for (const edge of one.edges) this.pieces(edge, width, one.isDashed ? Math.round(4 * this.zoom * ratio) || 1 : 0);
-      context.setTransform(ratio * this.zoom, 0, 0, ratio * this.zoom, ratio * this.x, ratio * this.y);
-      if (isFar) continue;
-      context.beginPath();
-      for (const edge of one.edges) {
-        const [x, y] = edge.points[edge.points.length - 1];
-        if (x < left || x - 6 > right || y < top - 4 || y > bottom + 4) continue;
-        context.moveTo(x, y);
-        context.lineTo(x - 6, y - 3.5);
-        context.lineTo(x - 6, y + 3.5);
-      }
-      context.fill();
-    }
-  }
-
-  /** The pieces of a line, in pixels of the screen; `dash` is the length of dashes, 0 for none. */
-  private pieces(edge: Edge, width: number, dash: number): void {
-    const { context } = this, ratio = devicePixelRatio || 1, scale = ratio * this.zoom, half = width >> 1;
-    const [wide, high] = [this.size.width * ratio, this.size.height * ratio];
-    let [x, y] = [0, 0];
-    edge.points.forEach((point, at) => {
-      const [left, top] = [x, y];
-      x = Math.round(point[0] * scale + this.x * ratio) - half;
-      y = Math.round(point[1] * scale + this.y * ratio) - half;
-      if (!at) return;
-      const [u, v] = [Math.min(x, left), Math.min(y, top)], [w, h] = [Math.abs(x - left) + width, Math.abs(y - top) + width];
-      if (u > wide || v > high || u + w < 0 || v + h < 0) return;
-      if (!dash) context.fillRect(u, v, w, h);
-      else if (w > h) for (let from = hidden(u, dash); from < Math.min(w, wide - u); from += 2 * dash) context.fillRect(u + from, v, Math.min(dash, w - from), width);
-      else for (let from = hidden(v, dash); from < Math.min(h, high - v); from += 2 * dash) context.fillRect(u, v + from, width, Math.min(dash, h - from));
-    });
-  }
-
-  /** A colour as it looks on the background with this transparency. */
-  private mixed(name: string, alpha: number): string {
-    if (alpha === 1) return this.colors[name];
-    const [over, under] = [parts(this.colors[name]), parts(this.colors.host)];
-    return `rgb(${over.map((one, at) => Math.round(one * alpha + under[at] * (1 - alpha))).join(" ")})`;
-  }
-
-  /** Whether a line begins or ends at what is selected, or at the closed box around it. */
-  private touches(edge: Edge): boolean {
-    const { selected } = this.model, isIt = (name: string) => name === selected || Boolean(this.model.nodes.get(name)?.members?.some((one) => one.name === selected));
-    return isIt(edge.from) || isIt(edge.to);
   }
 
   /** The names of hosts and groups from afar, where the texts of their boxes are too small: as long as there is room.
@@ -463,35 +397,4 @@ export class Scene {
 /** Where a line to be connected begins. */
 export function handle(node: Placed): [number, number] {
   return [node.x + node.width, node.y + node.height - 9];
-}
-
-function isInside(box: Placed, [x, y]: [number, number]): boolean {
-  return x >= box.x && x <= box.x + box.width && y >= box.y && y <= box.y + box.height;
-}
-
-function touch(one: Placed, other: Placed): boolean {
-  return one.x < other.x + other.width && other.x < one.x + one.width && one.y < other.y + other.height && other.y < one.y + one.height;
-}
-
-/** How much of a dashed line is before the edge of the canvas: whole dashes. */
-function hidden(from: number, dash: number): number {
-  return from < 0 ? Math.floor(-from / (2 * dash)) * 2 * dash : 0;
-}
-
-/** Red, green and blue of #rgb or #rrggbb. */
-function parts(color: string): number[] {
-  const digits = color.slice(1), wide = digits.length === 3 ? [...digits].map((one) => one + one).join("") : digits;
-  return [0, 2, 4].map((at) => parseInt(wide.slice(at, at + 2), 16));
-}
-
-const boxes = new WeakMap<Edge["points"], Placed>();
-
-/** The box around a line. */
-function around(edge: Edge): Placed {
-  const known = boxes.get(edge.points);
-  if (known) return known;
-  const xs = edge.points.map(([x]) => x), ys = edge.points.map(([, y]) => y), x = Math.min(...xs), y = Math.min(...ys);
-  const made = { x, y, width: Math.max(...xs) - x, height: Math.max(...ys) - y };
-  boxes.set(edge.points, made);
-  return made;
 }

@@ -4,7 +4,7 @@
 import { autocompletion, closeBrackets, CompletionContext, completionKeymap, CompletionResult } from "@codemirror/autocomplete";
 import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirror/commands";
 import { yaml } from "@codemirror/lang-yaml";
-import { HighlightStyle, indentUnit, syntaxHighlighting, syntaxTree } from "@codemirror/language";
+import { HighlightStyle, ensureSyntaxTree, indentUnit, syntaxHighlighting, syntaxTree } from "@codemirror/language";
 import { Diagnostic, forceLinting, linter, lintGutter, lintKeymap } from "@codemirror/lint";
 import { highlightSelectionMatches, search, searchKeymap } from "@codemirror/search";
 import { Annotation, EditorState, StateEffect, StateField, Text } from "@codemirror/state";
@@ -27,6 +27,7 @@ interface Item { label: string; detail: string; insert: string; start: number; e
 
 const byServer = Annotation.define<boolean>(), marked = StateEffect.define<{ from: number; to: number } | null>();
 const WIRES = ["implements", "requires", "publishes", "subscribes"];
+const PARSING = 500; // milliseconds at most, for a document that was just opened
 const PAUSE = 300; // milliseconds without a key before the text is checked
 
 const markField = StateField.define<DecorationSet>({
@@ -75,6 +76,7 @@ export class TextPane {
   private readonly problem = element("p", "", { role: "alert", class: "fault", hidden: "" });
   private readonly place = element("div", "", { class: "editor" });
   private wanted = ""; // the process whose lines are marked next
+  private later = ""; // the one that was selected before the first document was there
   private asked = 0;
   private isDrawn = false; // the picture is that of the unsaved text
 
@@ -121,7 +123,8 @@ export class TextPane {
     this.view?.destroy();
     this.view = this.editor(this.shown.text);
     this.say();
-    this.remark();
+    if (this.later) this.mark(this.later);
+    else this.remark();
   }
 
   close(): void {
@@ -161,6 +164,7 @@ export class TextPane {
    * process. */
   mark(process: string): void {
     this.wanted = process;
+    this.later = this.view || this.root.hidden ? "" : process;
     const component = this.facts.componentOf(process), isAbout = this.isComponent || !this.facts.entry(process);
     if (this.view && component && isAbout && component !== this.shown.document && !this.isChanged) void this.open(component);
     else this.remark();
@@ -246,7 +250,7 @@ export class TextPane {
 
   /** The keys of the document, or of the mapping below one of them. */
   private pairs(below = ""): { name: string; from: number; to: number }[] {
-    const { state } = this.view!, top = syntaxTree(state).topNode.getChild("Document")?.firstChild;
+    const { state } = this.view!, top = (ensureSyntaxTree(state, state.doc.length, PARSING) ?? syntaxTree(state)).topNode.getChild("Document")?.firstChild;
     const value = (mapping: SyntaxNode | null | undefined, key: string) => pairs(mapping).find((pair) => name(pair) === key)?.lastChild;
     const name = (pair: SyntaxNode) => {
       const key = pair.getChild("Key");
