@@ -179,7 +179,9 @@ def test_parts_of_the_class_may_be_in_other_files(component: Path, language: str
         (component / "src/voice.py").write_text("class Voice:\n    def Speech_stop(self):\n        pass\n")
         path = component / "src/specificworker.py"
         text = path.read_text().replace("(GenericWorker)", "(GenericWorker, Voice)")
-        text = text.replace("from generated.genericworker", "from voice import Voice\n\nfrom generated.genericworker", 1)
+        text = text.replace(
+            "from generated.genericworker", "from voice import Voice\n\nfrom generated.genericworker", 1
+        )
         path.write_text(text.replace("def Speech_stop(", "def quiet("))
     else:
         path = component / "src/specificworker.cpp"
