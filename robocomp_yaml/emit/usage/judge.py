@@ -226,6 +226,10 @@ class _Judging(msgspec.Struct):
                 return self._at(codes.UNKNOWN_MODULE, word, known, hint, component=component)
             case offers.ENUM:
                 return self._at(codes.UNKNOWN_ENUMERATOR, word, known, _listed(known, "it has"), enum=now.name)
+            case offers.FUTURE:
+                return codes.UNKNOWN_MEMBER.at(
+                    word.span, struct=now.name, name=name, hint="result() waits for the result"
+                )
             case offers.STRUCT | offers.LOG:
                 members = _listed(known, "it has") if now.kind == offers.STRUCT else ""
                 return self._at(codes.UNKNOWN_MEMBER, word, known, members, struct=now.name)
@@ -275,8 +279,10 @@ class _Judging(msgspec.Struct):
         if parameter.type.is_basic:
             return parameter.type.text
         ports = (*self.linked.requires, *self.linked.publishes)
-        scope = next((port.scope for port in ports if port.interface.name == owner.name), None)
-        found = scope.find(parameter.type) if scope is not None else None
+        scopes = [port.scope for port in ports if port.interface.name == owner.name]
+        if owner.kind == offers.MODULE:
+            scopes = [scope for scope in self.linked.modules() if scope.module.name == owner.name]
+        found = next((found for scope in scopes if (found := scope.find(parameter.type)) is not None), None)
         return found[1].name if found is not None and isinstance(found[1], (Enum, Struct)) else ""
 
     def _assigned(

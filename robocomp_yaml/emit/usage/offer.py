@@ -18,9 +18,9 @@ from robocomp_yaml.model.interface import Enum, ExceptionType, Interface, Member
 from robocomp_yaml.model.statemachine import StateMachine
 from robocomp_yaml.parameters.types import ListType, MapType, RecordType, ResolvedMember, Type
 
-WORKER, PROXY, TOPIC, PARAMETERS, RECORD, EVENTS, MODULES, MODULE, ENUM, STRUCT, RESULTS, PLAIN, LOG, OTHER = (
+WORKER, PROXY, TOPIC, PARAMETERS, RECORD, EVENTS, MODULES, MODULE, ENUM, STRUCT, RESULTS, PLAIN, LOG, FUTURE, OTHER = (
     "worker", "proxy", "topic", "parameters", "record", "events", "modules", "module", "enum", "struct", "results",
-    "plain", "log", "other",
+    "plain", "log", "future", "other",
 )  # fmt: skip
 
 

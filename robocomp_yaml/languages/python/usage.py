@@ -59,7 +59,7 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
         returned,
         outputs=False,
         keywords=_keywords,
-        future=Offer(offers.LOG, "the future", dict.fromkeys(_OF_FUTURES, OfferedMember())),
+        future=Offer(offers.FUTURE, "the future", dict.fromkeys(_OF_FUTURES, OfferedMember())),
     )
     if is_own:
         values = offers.record(linked.parameters.parameters.root, LANGUAGE.in_code)

@@ -90,10 +90,10 @@ def _undefined(
     caught = {name for node in ast.walk(tree) if isinstance(node, ast.ExceptHandler) for name in names_of(node.type)}
     if "NameError" in caught:
         return
-    owners = set[int]()  # the names before a dot
+    owners = set[ast.AST]()  # the names before a dot
     for node in _outside_annotations(tree):
         if isinstance(node, ast.Attribute):
-            owners.add(id(node.value))
+            owners.add(node.value)
         if (
             isinstance(node, ast.Name)
             and isinstance(node.ctx, ast.Load)
@@ -102,7 +102,7 @@ def _undefined(
         ):
             if (word := at(node.id, node)) is not None:
                 seen.add(node.id)
-                meant = _import_of(node.id, imported, is_owner=id(node) in owners)
+                meant = _import_of(node.id, imported, is_owner=node in owners)
                 yield Slip(UNDEFINED, word, meant, tuple(sorted({*bound, *imported})))
 
 

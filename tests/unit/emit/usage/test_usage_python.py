@@ -300,7 +300,7 @@ class SpecificWorker(GenericWorker):
         ("self.button.clicked.connect(self.x)", "self.mouth_proxy.shut()", [("RC6302", "shut")]),
         ("self.nose_proxy = proxy_map['NoseProxy']", "self.nose_proxy.smell()", []),
         ("self.nose_proxy.smell()", "pass", [("RC6301", "nose_proxy")]),
-        ("ifaces.RoboCompMouth.Pose(1, 2)", "ifaces.Path([ifaces.RoboCompMouth.Pos()])", [("RC6314", "Pos")]),
+        ("ifaces.RoboCompMouth.Pose(1)", "ifaces.Path([ifaces.RoboCompMouth.Pos()])", [("RC6314", "Pos")]),
         ("RoboCompMouth.Shape.oval", "Pose(1)", [("RC6315", "oval")]),
         ("ifaces.RoboCompNose.A()", "pass", [("RC6313", "RoboCompNose")]),
         ("pass", "self.params = params\n        self.a = self.params['spede']", [("RC6309", "spede")]),
