@@ -161,7 +161,7 @@ def measured(command: list[str], small: Path, large: Path, runs: int) -> Figures
     server.quiet()
     found[IN_LARGE] = keys(server, path, runs)
     opened(server, path := large / KINDS["the deployment"])
-    found[IN_DEPLOYMENT] = keys(server, path, max(runs // 3, 1))
+    found[IN_DEPLOYMENT] = keys(server, path, max(runs // 3, 3))
     found[MEMORY] = server.memory(), 0
     server.stop()
     return found

@@ -138,16 +138,19 @@ def once(make: Callable[..., _Result], key: Scalar, node: Node, *more: Any) -> _
 
 def found_in(find: Callable[..., Iterable[_Result]], outer: Node, node: Node, *more: Any) -> Iterable[_Result]:
     """What a search finds in a node of `outer`; kept with the node if it is an entry that was parsed by itself. It
-    depends on nothing else than the node and `more`."""
+    depends on nothing else than the node and `more`. The last two searches are kept: a document is looked at by itself
+    and with the others in turn."""
     if node.base is TOP or outer.base is not TOP:
         return find(node, *more)
     if node.made is None:
         node.made = {}
-    known = node.made.get(find)
-    if known is None or known[0] != more:
-        node.made[find] = known = more, tuple(find(node, *more))
-    result: tuple[_Result, ...] = known[1]
-    return result
+    known: tuple[tuple[tuple[Any, ...], tuple[_Result, ...]], ...] = node.made.get(find, ())
+    for used, result in known:
+        if used == more:
+            return result
+    made = tuple(find(node, *more))
+    node.made[find] = (more, made), *known[:1]
+    return made
 
 
 def below(root: Node) -> Iterable[Node]:
