@@ -42,10 +42,12 @@ def in_line(data: Any) -> str:
 
 
 def read(type_: str, text: str) -> Any:
+    """The data that a text means in a type of CommonBehavior's list; None if it means none. A hidden secret stays."""
     return text if text == HIDDEN else texts.read(type_, text)
 
 
 def same(type_: str, left: str, right: str) -> bool:
+    """Whether two texts mean the same value, as far as a `float` can hold it."""
     first, second = texts.read(type_, left), texts.read(type_, right)
     if isinstance(first, float) and isinstance(second, (int, float)):
         return math.isclose(first, second, rel_tol=_ROUNDING)
@@ -85,6 +87,7 @@ def _rows(type_: Type, path: Path, listed: Mapping[str, Listed], used: set[str])
 
 
 def names_in(type_: ListType | MapType, key: str, listed: Mapping[str, Listed]) -> list[Step]:
+    """The indexes of a list, or the keys of a map, at a dotted path."""
     if isinstance(type_, ListType):
         entry = listed.get(f"{key}.size")
         return list(range(texts.count(entry.text, 1_000_000) or 0)) if entry else []

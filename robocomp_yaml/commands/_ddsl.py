@@ -76,7 +76,8 @@ def named_document(text: str) -> str:
     if os.path.exists(text):
         return text
     is_path = "/" in text or text.endswith((".yaml", ".yml"))
-    return _running(text, is_path=is_path) or ("" if is_path else _of_name(text))
+    found = _running(text, is_path=is_path) or ("" if is_path else _of_name(text))
+    return "" if os.path.isdir(found) else found  # the folder of one whose document is another deployment's now
 
 
 def only_running() -> str:

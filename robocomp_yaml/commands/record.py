@@ -48,12 +48,17 @@ class _Group(CommandGroup):
             args = ["start", *args]
         return super().parse_args(ctx, args)
 
+    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """The options of `start`, which are those of this command, too."""
+        self.commands["start"].format_options(ctx, formatter)
+        self.format_commands(ctx, formatter)
+
 
 @click.group(cls=_Group, short_help="Record topics to MCAP files, and play them.", invoke_without_command=False,
              subcommand_metavar="[TOPIC]... | COMMAND [ARGS]...")  # fmt: skip
 def command() -> None:
     """Record the messages of TOPICs, by default of all topics of the deployment, to an MCAP file with Protobuf, until
-    Ctrl-C. `rcyaml record start --help` prints the options.
+    Ctrl-C. TOPIC.MESSAGE means only this one.
 
     Readers of MCAP decode the values. The file is complete at any time: what a killed recorder leaves can be read.
     """

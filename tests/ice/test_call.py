@@ -229,13 +229,13 @@ def test_another_version_is_there(server: Server, rcyaml: Rcyaml, tmp_path: Path
 
 def test_one_that_hangs(server: Server, rcyaml: Rcyaml) -> None:
     began = time.monotonic()
-    done = rcyaml("call", "arm.block", "seconds=20", "--timeout", "500ms")
+    done = rcyaml("call", "arm.block", "seconds=300", "--timeout", "500ms")
     assert done.exit_code == 1 and "did not return within 0.5 s; it hangs, or needs more time" in done.output
     server.running.process.send_signal(signal.SIGSTOP)
     done = rcyaml("call", "arm.state", "--timeout", "500ms")
     assert done.exit_code == 1 and "it does not answer within 0.5 s" in done.output
     assert "or one with TLS (ssl:HOST:PORT) listens there" in done.output
-    assert time.monotonic() - began < 10
+    assert time.monotonic() - began < 100  # a busy machine takes its time, too
 
 
 def test_what_is_not_utf8(tmp_path: Path) -> None:
