@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import asyncio
 import gc
+import logging
 import traceback
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, TypeVar
+from typing import Any, BinaryIO, TypeVar
 
 from lsprotocol import types
 from pygls.lsp.server import LanguageServer
@@ -51,6 +52,13 @@ class Server(LanguageServer):
         self._at_rest: dict[str, asyncio.TimerHandle] = {}
         self._shown: dict[str, str] = {}  # the URIs with diagnostics, by path
         self.schema_server = AUTO
+
+    def start_io(self, stdin: BinaryIO | None = None, stdout: BinaryIO | None = None) -> None:
+        """Serves an editor until it ends the session. The protocol tells it all errors. They are not logged to the
+        standard error as well: where an editor does not read it, its pipe would be full after some fifty refused
+        requests, and the server would wait for ever."""
+        logging.getLogger().addHandler(logging.NullHandler())
+        super().start_io(stdin, stdout)
 
     async def run(self, job: Callable[[], _Made]) -> _Made:
         """The result of a job in the thread of analyses. The analysis of a workspace that runs there is given up."""

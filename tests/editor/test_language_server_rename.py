@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from pathlib import Path
 
 import pytest
@@ -105,6 +106,20 @@ def test_a_renaming_is_refused_with_its_reason(ws: Path) -> None:
                 await _renamed(editor, path, line, column, name)
         await _renamed(editor, interface, 2, 4, "Talk")  # it lives on
         assert not editor.messages
+
+    edited(test)
+
+
+def test_an_editor_that_does_not_read_the_standard_error_can_be_refused_often(ws: Path) -> None:
+    """The client of these tests does not read it: its pipe takes 64 KiB, some fifty logged refusals."""
+    interface = ws / "interfaces/Speech.idsl.yaml"
+
+    async def test(editor: Editor) -> None:
+        await editor.start(ws)
+        editor.open(interface)
+        for _ in range(80):
+            with pytest.raises(JsonRpcException, match="no name"):
+                await asyncio.wait_for(_renamed(editor, interface, 2, 4, "no name"), 60)
 
     edited(test)
 
