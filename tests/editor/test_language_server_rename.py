@@ -111,15 +111,15 @@ def test_a_renaming_is_refused_with_its_reason(ws: Path) -> None:
 
 
 def test_an_editor_that_does_not_read_the_standard_error_can_be_refused_often(ws: Path) -> None:
-    """The client of these tests does not read it: its pipe takes 64 KiB, some fifty logged refusals."""
+    """The client of these tests does not read it: its pipe and buffer take 192 KiB, some 180 logged refusals."""
     interface = ws / "interfaces/Speech.idsl.yaml"
 
     async def test(editor: Editor) -> None:
         await editor.start(ws)
         editor.open(interface)
-        for _ in range(80):
+        for _ in range(300):
             with pytest.raises(JsonRpcException, match="no name"):
-                await asyncio.wait_for(_renamed(editor, interface, 2, 4, "no name"), 60)
+                await asyncio.wait_for(_renamed(editor, interface, 2, 4, "no name"), 30)
 
     edited(test)
 
