@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from robocomp_yaml.api import mock_scripts
 from robocomp_yaml.api.expected import Expectations
-from robocomp_yaml.api.refusals import without_ice
+from robocomp_yaml.api.refusals import require, without_ice
 from robocomp_yaml.deploy import ice_ping
 from robocomp_yaml.deploy.alone import local_ports
 from robocomp_yaml.deploy.beside import beside
@@ -65,7 +65,12 @@ class Mock:
 
     def addresses(self, given: Mapping[str, str] | None = None) -> dict[str, list[Address]]:
         """Where each interface is served, by its type id: as `given` by its name, else as the script says, else
-        wherever components of this workspace and its deployments expect it on this machine."""
+        wherever components of this workspace and its deployments expect it on this machine. Raises Refused if `given`
+        names an interface that is not served."""
+        served = [(one.interface.scope.module.name, one.interface.interface.name) for one in self._script.served]
+        known = [name for _, name in served] + [f"{module}.{name}" for module, name in served]
+        for name in given or ():
+            require("interface", name, known, "this mock")
         return {one.interface.id: self._addresses(one, given or {}) for one in self._script.served}
 
     def topics(self, storm: str = "") -> dict[str, list[Topic]]:

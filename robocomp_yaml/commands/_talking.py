@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from robocomp_yaml.api.addresses import Addresses
 
 
-class _Deployment(click.ParamType):  # type: ignore[type-arg]  # older ones are not generic
+class DeploymentName(click.ParamType):  # type: ignore[type-arg]  # older ones are not generic
     """A deployment: its document, or its name, as the path of the document."""
 
     name = "ddsl"
@@ -43,7 +43,7 @@ def _default_deployment(ctx: click.Context, param: click.Parameter, value: str |
 
 
 deployment = click.option(
-    "--deployment", metavar="DDSL", type=_Deployment(), callback=_default_deployment,
+    "--deployment", metavar="DDSL", type=DeploymentName(), callback=_default_deployment,
     help="The deployment: its document, or its name; by default, the only one of the workspace, and without "
          "documents, the only one that runs.",
 )  # fmt: skip

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from robocomp_yaml.commands import _options
+from robocomp_yaml.commands import _options, _talking
 from robocomp_yaml.commands._command import LibraryCommand
 from robocomp_yaml.source.discover import kind_of
 
@@ -40,7 +40,8 @@ _ARGUMENTS = "robocomp_yaml.run.arguments"
 @click.command(cls=_RunCommand, short_help="Run one component in the foreground, with what it needs.")
 @click.argument("words", nargs=-1, metavar="[NAME]")
 @click.option("--with-needed", is_flag=True, help="Start what it needs beside it, and stop that at the end.")
-@click.option("--deployment", default="", metavar="DDSL", help="The deployment; by default, the one that has it.")
+@click.option("--deployment", metavar="DDSL", type=_talking.DeploymentName(),
+              help="The deployment: its document, or its name; by default, the one that has it.")  # fmt: skip
 @click.option("--alone", is_flag=True, help="With its own configuration, whether or not a deployment has it.")
 @click.option(
     "--set", "settings", multiple=True, metavar="NAME=VALUE", help="A parameter for this run; may be repeated."
@@ -53,7 +54,7 @@ _ARGUMENTS = "robocomp_yaml.run.arguments"
 @_options.text_or_json
 @click.pass_context
 def command(
-    ctx: click.Context, words: tuple[str, ...], with_needed: bool, deployment: str, alone: bool,
+    ctx: click.Context, words: tuple[str, ...], with_needed: bool, deployment: str | None, alone: bool,
     settings: tuple[str, ...], config: str | None, build: bool, dry_run: bool, include: tuple[str, ...], format_: str,
 ) -> None:  # fmt: skip
     """Run NAME in the foreground, as `deploy up` would run it: an entry of a deployment, or a component by its name or
@@ -68,7 +69,7 @@ def command(
     from robocomp_yaml.diag.errors import Faulty
     from robocomp_yaml.diag.render.json import dumps
 
-    name, deployment = _name(words, deployment)
+    name, deployment = _name(words, deployment or "")
     if alone and deployment:
         raise click.UsageError("--alone and --deployment exclude each other")
     run = Run(

@@ -296,6 +296,8 @@ groups:
             2,
             "robot.ddsl.yaml has no entry or component 'cam7'; did you mean 'cam1'?",
         ),
+        (["cam7", "--deployment", "Robot"], 2, "robot.ddsl.yaml has no entry or component 'cam7'"),
+        (["cam0", "--deployment", "Robto"], 2, "there is no document 'Robto', and no deployment of this name"),
         (["arm", "--alone"], 2, "unknown component 'arm'"),
         (["arm", "fast"], 2, "'fast' is unexpected: arguments of the program follow `--`"),
         (["robot.ddsl.yaml"], 2, "which of its entries? `rcyaml run robot.ddsl.yaml NAME`"),

@@ -122,6 +122,7 @@ def test_topics_are_published_at_a_rate(build: Build, start: Start, icestorm: St
         ([], 2, "name the interfaces to stand in for"),
         (["Muoth"], 2, "did you mean 'Mouth'?"),
         (["Mouth", "--endpoint", "Mouth"], 2, "'Mouth' is not NAME=ENDPOINT"),
+        (["Mouth", "--endpoint", "Mout=tcp -p 3"], 2, "this mock has no interface 'Mout'; did you mean 'Mouth'?"),
         (["Mouth", "--endpoint", "Mouth=tcp -q 3"], 2, "Mouth cannot be served at 'tcp -q 3'"),
         (["--script", "nowhere.mock.yaml"], 2, "nowhere.mock.yaml"),
         (["--script", "bad.mock.yaml"], 1, "'width' is missing"),
