@@ -263,8 +263,7 @@ class Addresses:
             for name, found in served.items()
         ]
         name, path = linked.component.name, os.path.relpath(linked.component.path)
-        program = linked.component.language.target.program.format(name=name)
-        hint = f"start it with {os.path.join(os.path.dirname(path), program)}"
+        hint = f"start it with `rcyaml run {os.path.dirname(path) or '.'}`"
         if entries := self._entries_of(linked):
             listed = " or ".join(f"'{one}'" for one in entries)
             hint = f"its own address is meant here, and {self.path} runs it as {listed}: use that name, or {hint}"

@@ -31,6 +31,8 @@ def component(argument: str) -> str:
         return argument
     if os.path.lexists(argument) or os.path.basename(argument) != argument or argument.endswith((".yaml", ".yml")):
         problem = "is not a document of a component" if os.path.lexists(argument) else "does not exist"
+        if kind_of(argument) == "ddsl" and os.path.lexists(argument):
+            problem = "is a deployment; name one of its components, or a folder"
         raise Refused(f"'{argument}' {problem}")
     return _named(argument)
 

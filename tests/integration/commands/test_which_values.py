@@ -53,11 +53,12 @@ def test_the_other_commands_accept_all_forms(rcyaml: Run, tmp_path: Path, argume
     (["show", "x.config.yaml"], "'x.config.yaml' does not exist"),
     (["new", "components/arm/a.cdsl.yaml"], "'components/arm/a.cdsl.yaml' does not exist"),
     (["new", "rcyaml.yaml"], "'rcyaml.yaml' is not a document of a component"),
+    (["new", "robot.ddsl.yaml"], "'robot.ddsl.yaml' is a deployment; name one of its components"),
     (["show", "empty"], "'empty' has no component; `rcyaml new component NAME` writes one"),
     (["get", "components/arm/arm.pdsl.yaml"], "components/arm/etc/config.yaml does not exist yet"),
 ])  # fmt: skip
 def test_unclear_arguments_are_rejected(rcyaml: Run, tmp_path: Path, args: list[str], problem: str) -> None:
-    write_tree(tmp_path, {**TREE, **BASE, "empty": None})
+    write_tree(tmp_path, {**TREE, **BASE, "empty": None, "robot.ddsl.yaml": "deployment: Robot\n"})
     result = rcyaml("config", *args)
     assert result.exit_code == 2, result.output
     assert problem in result.output
