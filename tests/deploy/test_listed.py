@@ -26,14 +26,23 @@ components:
 
 
 @pytest.fixture
+def place(tmp_path: Path) -> Iterator[Place]:
+    """A folder for one deployment, alone in its parent."""
+    place = Place(tmp_path / "above" / "robot")
+    yield place
+    kill_left(place.folder)
+
+
+@pytest.fixture
 def robot(place: Place, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, rcyaml: Rcyaml) -> Iterator[Path]:
     """A folder with a running deployment; the working folder is another one."""
     monkeypatch.setenv("XDG_STATE_HOME", f"{tmp_path}/own")
-    write_tree(tmp_path, {"robot.ddsl.yaml": DOCUMENT.format(name="Robot"), "elsewhere": None})
-    assert rcyaml("deploy", "up", f"{tmp_path}/robot.ddsl.yaml").exit_code == 0
-    monkeypatch.chdir(tmp_path / "elsewhere")
-    yield tmp_path
-    kill_left(f"{tmp_path}/.rcyaml/deployments/Other")
+    root = place.root
+    write_tree(root, {"robot.ddsl.yaml": DOCUMENT.format(name="Robot"), "elsewhere": None})
+    assert rcyaml("deploy", "up", f"{root}/robot.ddsl.yaml").exit_code == 0
+    monkeypatch.chdir(root / "elsewhere")
+    yield root
+    kill_left(f"{root}/.rcyaml/deployments/Other")
 
 
 def rows(rcyaml: Rcyaml) -> list[list[str]]:
