@@ -98,15 +98,18 @@ def test_right_code_has_no_findings_even_before_a_compile(workspace: Path, rcyam
 @pytest.mark.parametrize(
     ("right", "wrong", "text", "rule"),
     [
-        ('"elbow", 1,', '"elbow", "1",', '"1"', "invalid-argument-type"),
+        ('"elbow", 1,', '"elbow", "1",', '"1"', "RC6328"),
         ("True, {", '"True", {', '"True"', "RC6328"),
         ("count: int", "count: str", "self.arm_proxy.move(", "invalid-assignment"),
         ("blocked.at.name", "blocked.at.nmae", "nmae", "RC6325"),
-        (".result(2.5)", ".reslut(2.5)", None, "missing-attribute"),
+        (".result(2.5)", ".reslut(2.5)", "reslut", "RC6325"),
+        (".result(2.5)", ".result(fast=2.5)", "fast=2.5", "unknown-argument"),
+        ("getProperties().getProperty", "getProperties().getPropert", None, "missing-attribute"),
         ("joints[0].name", "joints.name", "joints.name", "missing-attribute"),
         ("speed = 4", "speed = speeed", "speeed", "RC6331"),
-        ("moved(1.5)", "moved([1.5])", "[1.5]", "invalid-argument-type"),
-        ("self.log.info(", "self.log.inform(", "self.log.inform", "missing-attribute"),
+        ("moved(1.5)", "moved([1.5])", "[1.5]", "RC6328"),
+        ("moved(1.5)", 'moved("1.5 2".split())', '"1.5 2".split()', "invalid-argument-type"),
+        ("self.log.info(", "self.log.inform(", "inform", "RC6325"),
     ],
 )
 def test_wrong_types_are_reported_where_they_are(
@@ -131,7 +134,8 @@ def test_wrong_types_are_reported_where_they_are(
 def test_types_are_those_of_the_documents_as_they_are_now(workspace: Path, rcyaml: Rcyaml) -> None:
     assert rcyaml("compile").exit_code == 0
     document = workspace / "interfaces/Arm.idsl.yaml"
-    document.write_text(TREE["interfaces/Arm.idsl.yaml"].replace("angle: float", "angle: string"), encoding="utf-8")
+    text = TREE["interfaces/Arm.idsl.yaml"].replace("angle: float", "angle: string")
+    document.write_text(text.replace("returns: int", "returns: string"), encoding="utf-8")
     found = json.loads(rcyaml("check", "--code", "--format", "json").stdout)["diagnostics"]
     assert {one["code"] for one in found} == {"RC6318", "RC6328"}
 
