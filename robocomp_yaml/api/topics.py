@@ -42,10 +42,10 @@ class KnownTopic(msgspec.Struct, frozen=True):
     def type(self) -> str:
         return f"{self.scope.module.name}.{self.interface.name}" if self.scope and self.interface else ""
 
-    def inputs(self, message: str) -> list[str]:
+    def inputs(self, name: str) -> list[str]:
         """The names of the arguments of a message; of all its messages if none is named."""
         methods = self.interface.methods if self.interface is not None else ()
-        return [each.name for one in methods if message in ("", one.name) for each in one.inputs]
+        return [each.name for one in methods if name in ("", one.name) for each in one.inputs]
 
 
 class Message(msgspec.Struct, frozen=True):

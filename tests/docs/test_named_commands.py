@@ -43,7 +43,7 @@ def wrong(line: str) -> str:
     """Why a command line is not possible, or ''."""
     words = line.replace("…", " ").split()
     command: click.Command = group
-    context = click.Context(group, info_name="rcyaml")
+    context = click.Context(group, info_name="rcyaml", **group.context_settings)
     while words and words[0].startswith("-"):
         words = words[1:]
     while words and isinstance(command, click.Group) and re.fullmatch(r"[a-z][a-z-]*", words[0]):

@@ -55,6 +55,7 @@ def test_a_command_says_what_to_type_instead(
     words: list[str], said: str, rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))  # no deployment runs, whatever other tests have left
     (tmp_path / "notes.txt").write_text("hi\n")
     done = rcyaml(*words)
     assert done.exit_code == 2 and said in " ".join(done.stderr.split())

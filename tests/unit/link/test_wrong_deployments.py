@@ -21,7 +21,7 @@ def wrong(text: str, others: dict[str, str]) -> list[Said]:
     ("text", "others"),
     [
         ('groups: {arm: {include: arm.ddsl.yaml, expose: {Mouth: elbow}}}\n', {'arm.ddsl.yaml': ARM}),
-        ('components: {speech: {component: speech, after: [speech]}, mouth: {component: mouth}}\n', {}),
+        ('components: {speech: {component: speech, after: [mouth]}, mouth: {component: mouth}}\n', {}),
         (TWO + 'groups: {g: {components: [mouth]}}\n', {}),
         ('hosts: {a: 10.0.0.1, b: 10.0.0.2}\ngroups: {g: {include: arm.ddsl.yaml, host: b}}\n', {'arm.ddsl.yaml': ARM}),
         ('hosts: {a: 10.0.0.1}\ninclude: [arm.ddsl.yaml]\n', {'arm.ddsl.yaml': ARM}),

@@ -107,8 +107,8 @@ macro(rcyaml_use_module name)
   endif()
 endmacro()
 
-# A library of the linker's search path; in code for RoboComp's own tool also one of the modules of RoboComp's build, which
-# its documents named.
+# A library of the linker's search path; in code for RoboComp's own tool also one of the modules of RoboComp's build,
+# which its documents named.
 macro(rcyaml_use_library name)
   string(MAKE_C_IDENTIFIER "component_${name}_library" component_variable)
   find_library(${component_variable} NAMES ${name})

@@ -6,7 +6,7 @@ What is not declared here has the type Any.
 
 import builtins
 from collections.abc import Callable, Generator, Sequence
-from typing import Any, Generic, TypeVar
+from typing import Any, ClassVar, Generic, TypeVar
 
 from typing_extensions import Self
 
@@ -176,6 +176,9 @@ class Object:
 class EnumBase:
     """The base of enums: their values are attributes of their classes."""
 
+    _enumerators: ClassVar[dict[int, Any]]
+    @classmethod
+    def valueOf(cls, value: int) -> Self: ...
     def __init__(self, name: str, value: int) -> None: ...
     @property
     def name(self) -> str: ...
