@@ -30,9 +30,12 @@ def component(argument: str) -> str:
     if kind_of(argument) in ("cdsl", "pdsl") and os.path.isfile(argument):
         return argument
     if os.path.lexists(argument) or os.path.basename(argument) != argument or argument.endswith((".yaml", ".yml")):
-        problem = "is not a document of a component" if os.path.lexists(argument) else "does not exist"
-        if kind_of(argument) == "ddsl" and os.path.lexists(argument):
+        if not os.path.lexists(argument):
+            problem = "does not exist"
+        elif kind_of(argument) == "ddsl":
             problem = "is a deployment; name one of its components, or a folder"
+        else:
+            problem = "is not a document of a component"
         raise Refused(f"'{argument}' {problem}")
     return _named(argument)
 
