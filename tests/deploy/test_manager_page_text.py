@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -163,10 +164,18 @@ def test_documents_of_components_follow_their_processes_and_these_them(head: Pat
     until(lambda: shown.evaluate(publishes), "the line is back")
 
 
-def test_components_have_a_picture_of_their_own_beside_their_documents(head: Path, shown: Page) -> None:
+@pytest.fixture
+def eyes(head: Path) -> Iterator[Path]:
+    """A component that is in no network."""
+    folder = head / "eyes"
+    folder.mkdir()
+    yield folder
+    shutil.rmtree(folder)
+
+
+def test_components_have_a_picture_of_their_own_beside_their_documents(head: Path, eyes: Path, shown: Page) -> None:
     """Text and picture follow each other in both directions; a component need not be in the network."""
-    (head / "eyes").mkdir()
-    (head / "eyes/eyes.cdsl.yaml").write_text("component: EyesComp  # two\nlanguage: python\nimports: [Talk]\n")
+    (eyes / "eyes.cdsl.yaml").write_text("component: EyesComp  # two\nlanguage: python\nimports: [Talk]\n")
     shown.get_by_role("button", name="Components").click()
     until(lambda: shown.evaluate("model.nodes.has('EyesComp')"), "all components are drawn")
     assert under(shown, *middle(shown, "EyesComp")) == "EyesComp"
@@ -180,7 +189,7 @@ def test_components_have_a_picture_of_their_own_beside_their_documents(head: Pat
     shown.keyboard.type("\nrequires: [Mouth]")
     until(lambda: shown.evaluate(lines) == [["EyesComp", "MouthComp", "uses"]], "what is typed is drawn")
     shown.keyboard.press("Control+s")
-    until(lambda: "requires" in (head / "eyes/eyes.cdsl.yaml").read_text(), "it is saved")
+    until(lambda: "requires" in (eyes / "eyes.cdsl.yaml").read_text(), "it is saved")
     choose(shown, "EyesComp", "Interfaces…")  # and from the picture to the text
     dialog = shown.get_by_role("dialog")
     dialog.get_by_label("It", exact=True).select_option("publishes")
@@ -198,7 +207,6 @@ def test_components_have_a_picture_of_their_own_beside_their_documents(head: Pat
     assert "  eyes: {component: eyes" in text(head)
     shown.get_by_role("button", name="Components").click()
     expect(item(shown, "eyes")).to_be_visible()
-    shutil.rmtree(head / "eyes")
 
 
 def test_the_keyboard_moves_boxes_and_the_view(head: Path, shown: Page) -> None:

@@ -216,6 +216,7 @@ function nudge(name: string, dx: number, dy: number): void {
 
 /** The document beside the picture; the editor is loaded when it is first wanted. */
 async function openText(name = "", document = ""): Promise<void> {
+  const before = model.selected;
   const { TextPane } = await import("./text");
   const found = (nodes: string[]) => {
     const first = nodes.find((one) => model.nodes.has(one));
@@ -223,7 +224,9 @@ async function openText(name = "", document = ""): Promise<void> {
   };
   text ??= new TextPane(find("text"), can, path, found, facts, load, (isOpen) => find("text-button").setAttribute("aria-expanded", String(isOpen)), draft, () => ({ closed: [...closed], of }));
   await text.open(document || (facts.entry(name)?.document ?? model.graph!.document));
-  if (name) text.mark(name);
+  await known;
+  const wanted = model.selected === before ? name : model.selected; // another one was selected while the editor was loaded
+  if (wanted) text.mark(wanted);
 }
 
 function bars(): void {
