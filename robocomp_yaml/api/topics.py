@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 import msgspec
@@ -23,6 +24,9 @@ from robocomp_yaml.network.network import TOPIC
 
 if TYPE_CHECKING:
     from robocomp_yaml.wire.interfaces import Operation, WireInterface
+    from robocomp_yaml.wire.storm import Subscriptions
+
+_EVERY = 2.0  # seconds between two looks at an IceStorm
 
 
 class KnownTopic(msgspec.Struct, frozen=True):
@@ -66,6 +70,17 @@ class Message(msgspec.Struct, frozen=True):
     def data(self) -> dict[str, Any]:
         """As JSON has it."""
         return {"time": self.time, "topic": self.topic.name, "method": self.operation.name, "arguments": self.arguments}
+
+
+class StormChange(msgspec.Struct, frozen=True):
+    """An IceStorm, by its proxy, does not answer any more; without an error, it does again."""
+
+    storm: str
+    error: NoAnswer | None
+
+    @property
+    def text(self) -> str:
+        return f"{self.error}; waiting until it does" if self.error else f"IceStorm answers again at '{self.storm}'"
 
 
 class Topics:
@@ -216,25 +231,31 @@ class Topics:
         return KnownTopic(name, storm, scope, interface), method
 
     @contextmanager
-    def listening(self, topics: Sequence[KnownTopic], on_message: Callable[[Message], None]) -> Iterator[None]:
-        """Subscribes to topics while the context lasts; `on_message` is called in a thread of Ice, in order. Raises
-        NoAnswer."""
+    def listening(
+        self, topics: Sequence[KnownTopic], on_message: Callable[[Message], None],
+        on_storm: Callable[[StormChange], None] = lambda change: None,
+    ) -> Iterator[None]:  # fmt: skip
+        """Subscribes to topics while the context lasts; `on_message` is called in a thread of Ice, in order. An
+        IceStorm that goes away is waited for; `on_storm` is called in a thread when it does not answer, and when it
+        does again. Raises NoAnswer."""
         from robocomp_yaml.wire import storm as ice_storm
         from robocomp_yaml.wire.client import client
 
-        with ExitStack() as stack:
-            made = stack.enter_context(client(self._config, self._timeout, self._secured))
-            managers: dict[str, Any] = {}
-            adapters: dict[str, Any] = {}
-            for topic in topics:
-                if topic.storm not in managers:
-                    manager = ice_storm.topic_manager(made.communicator, topic.storm, self._patience)
-                    managers[topic.storm] = manager
-                    adapters[topic.storm] = ice_storm.listening_adapter(made.communicator, manager)
-                    adapters[topic.storm].activate()
-                proxy = adapters[topic.storm].addWithUUID(wire_interface(topic).servant(_Receiver(topic, on_message)))
-                stack.enter_context(ice_storm.subscribed(managers[topic.storm], topic.name, proxy))
-            yield
+        of_storms: dict[str, ice_storm.Subscriptions] = {}
+        is_over = threading.Event()
+        watching = threading.Thread(target=lambda: _watch(list(of_storms.values()), on_storm, is_over), daemon=True)
+        with client(self._config, self._timeout, self._secured) as made:
+            try:
+                for topic in topics:
+                    if topic.storm not in of_storms:
+                        of_storms[topic.storm] = ice_storm.Subscriptions(made.communicator, topic.storm, self._patience)
+                    of_storms[topic.storm].add(topic.name, wire_interface(topic).servant(_Receiver(topic, on_message)))
+                watching.start()
+                yield
+            finally:
+                is_over.set()
+                for each in of_storms.values():
+                    each.end()
 
     @contextmanager
     def publisher(self, topic: KnownTopic) -> Iterator[Publisher]:
@@ -301,6 +322,25 @@ class _Receiver:
 
     def __call__(self, operation: Operation, arguments: tuple[Any, ...]) -> None:
         self._on_message(Message(self._topic, operation, arguments, time.time(), time.monotonic()))
+
+
+def _watch(
+    of_storms: Sequence[Subscriptions], on_storm: Callable[[StormChange], None], is_over: threading.Event
+) -> None:
+    """Renews subscriptions, and reports which IceStorm does not answer, or does again."""
+    away = set[str]()
+    while not is_over.wait(_EVERY):
+        for one in of_storms:
+            try:
+                one.renew()
+                error = None
+            except NoAnswer as failure:
+                error = failure
+            if is_over.is_set():
+                return
+            if (error is not None) != (one.storm in away):
+                away ^= {one.storm}
+                on_storm(StormChange(one.storm, error))
 
 
 def wire_interface(topic: KnownTopic) -> WireInterface:

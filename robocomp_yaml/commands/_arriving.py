@@ -9,10 +9,12 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+import click
+
 from robocomp_yaml.commands import _signals
 
 if TYPE_CHECKING:
-    from robocomp_yaml.api.topics import KnownTopic, Message, Topics
+    from robocomp_yaml.api.topics import KnownTopic, Message, StormChange, Topics
 
 MOST_WAITING = 20_000  # messages that arrived and are not handled yet; later ones are dropped, and counted
 
@@ -76,8 +78,15 @@ Chosen = Sequence[tuple["KnownTopic", str]]
 
 @contextmanager
 def arriving_messages(topics: Topics, chosen: Chosen, duration: float | None) -> Iterator[Arriving]:
-    """What arrives while the context lasts. The subscriptions end however it ends."""
+    """What arrives while the context lasts. The subscriptions end however it ends. Exit code 1 where an IceStorm does
+    not answer at the end."""
     from robocomp_yaml.diag import terminal
+
+    away = set[str]()
+
+    def on_storm(change: StormChange) -> None:
+        (away.add if change.error else away.discard)(change.storm)
+        terminal.say(change.text, err=True)
 
     methods: dict[str, set[str]] = {topic.name: set() for topic, _ in chosen}
     whole = {topic.name for topic, method in chosen if not method}
@@ -86,9 +95,11 @@ def arriving_messages(topics: Topics, chosen: Chosen, duration: float | None) ->
             methods[topic.name].add(method)
     distinct = list({(topic.name, topic.storm): topic for topic, _ in chosen}.values())
     arriving = Arriving(methods, time.monotonic() + duration if duration else None)
-    with _signals.hangup_handled(), topics.listening(distinct, arriving.add):
+    with _signals.hangup_handled(), topics.listening(distinct, arriving.add, on_storm):
         try:
             yield arriving
         finally:
             if number := arriving.dropped.total():
                 terminal.say(f"{number} messages were dropped: they came too fast", err=True)
+    if away:
+        click.get_current_context().exit(1)

@@ -90,7 +90,7 @@ def list_(ctx: click.Context, topics: Topics, format_: str) -> None:
         for row in rows:
             cells = [terminal.pad(cell, width) for cell, width in zip(row, widths, strict=False)]
             terminal.say(terminal.line(*(f"{cell}  " for cell in cells), row[4]))
-    else:
+    elif not failures:
         terminal.say("no topics")
     for failure in failures:
         terminal.say(f"Error: {failure}", err=True)

@@ -26,7 +26,8 @@ _EVENTS = (
     ("log-events", "Server-sent events: the last lines of the logs, and all that follow, as `line`.",
      (("name", "A process or group; may be repeated. Without it, all."),
       ("last", "The number of lines of each process; by default 20."))),
-    ("topic", "Server-sent events: each message of a topic as it comes, as `message`; if they come too fast, not all.",
+    ("topic", "Server-sent events: each message of a topic as it comes, as `message`; if they come too fast, not all. "
+     "`storm`: its IceStorm does not answer, or does again.",
      (("topic", "The topic, or one of its messages after a dot, as for `rcyaml topic echo`."),)),
 )  # fmt: skip
 

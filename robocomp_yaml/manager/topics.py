@@ -18,9 +18,9 @@ from robocomp_yaml.diag.render.json import plain
 from robocomp_yaml.manager.events import ServerEvent
 
 if TYPE_CHECKING:
-    from robocomp_yaml.api.topics import KnownTopic, Message, Topics
+    from robocomp_yaml.api.topics import KnownTopic, Message, StormChange, Topics
 
-MESSAGE = "message"
+MESSAGE, STORM = "message", "storm"
 _EVERY = 0.1  # seconds between two batches
 _MOST = 50  # messages in a batch: the last ones
 _LARGEST = 100_000  # characters of a value
@@ -30,17 +30,19 @@ _LISTENERS = 64  # of one deployment
 
 
 class TopicFeed:
-    """The subscription to one topic. `arrived` are the times of the last messages."""
+    """The subscription to one topic. `arrived` are the times of the last messages; `storm` is what was said last of its
+    IceStorm, which went away or came back."""
 
     def __init__(self, topics: Topics, topic: KnownTopic) -> None:
         self.topic, self.arrived = topic, deque[float](maxlen=20_000)
         self.queues: list[deque[Message]] = []
+        self.storm = ""
         self._topics = topics
         self._context: contextlib.AbstractContextManager[None] | None = None
 
     def open(self) -> None:
         """Blocks. Raises NoAnswer."""
-        context = self._topics.listening([self.topic], self._add)
+        context = self._topics.listening([self.topic], self._add, self._change)
         context.__enter__()
         self._context = context
 
@@ -55,6 +57,10 @@ class TopicFeed:
         self.arrived.append(message.clock)
         for queue in tuple(self.queues):
             queue.append(message)
+
+    def _change(self, change: StormChange) -> None:
+        """In a thread."""
+        self.storm = change.text
 
     @property
     def rate(self) -> float:
@@ -112,7 +118,7 @@ class TopicFeeds:
 
     async def texts(self, feed: TopicFeed, queue: deque[Message], method: str) -> AsyncIterator[str]:
         """The events for one listener, until it leaves. `method` is the only message that is sent, '' for all."""
-        quiet = 0.0
+        quiet, storm = 0.0, ""
         try:
             yield ": listening\n\n"
             while True:
@@ -122,6 +128,9 @@ class TopicFeeds:
                 quiet = 0.0 if wanted else quiet + _EVERY
                 if wanted:
                     yield await asyncio.to_thread(_as_text, wanted)
+                if feed.storm != storm:
+                    storm = feed.storm
+                    yield ServerEvent(STORM, {"text": storm}).text
                 elif quiet > _PULSE:
                     quiet = 0.0
                     yield ": still here\n\n"

@@ -137,7 +137,7 @@ def reason_of(error: Exception) -> str:
     reason = getattr(error, "reason", "") or getattr(error, "str", "") or getattr(error, "unknown", "")
     if isinstance(error, Ice.ConnectionRefusedException):
         return "nothing listens there"
-    if isinstance(error, Ice.ConnectTimeoutException):
+    if isinstance(error, Ice.TimeoutException):
         return "it does not answer in time"
     if isinstance(error, Ice.ObjectNotExistException):
         return f"there is no object '{Ice.identityToString(error.id)}'"

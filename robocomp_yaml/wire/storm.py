@@ -1,9 +1,8 @@
-"""IceStorm: its topic manager, publishers, and subscriptions that end."""
+"""IceStorm: its topic manager, publishers, and subscriptions that are renewed."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from typing import Any
 
 import Ice
@@ -21,12 +20,17 @@ def topic_manager(communicator: Any, text: str, patience: int = PATIENCE) -> Any
     proxy = proxy_of(communicator, text).ice_invocationTimeout(patience)
     try:
         manager = IceStorm.TopicManagerPrx.checkedCast(proxy)
-        reason = "" if manager is not None else "what answers there is not its topic manager"
     except Ice.Exception as error:
-        reason = "it does not answer in time" if isinstance(error, Ice.TimeoutException) else reason_of(error)
-    if reason:
-        raise NoAnswer(f"IceStorm, which carries topics, does not answer at '{text}': {reason}")
+        raise no_answer(text, error) from None
+    if manager is None:
+        raise no_answer(text, "what answers there is not its topic manager")
     return manager
+
+
+def no_answer(text: str, error: Ice.Exception | str) -> NoAnswer:
+    """Why the IceStorm at a proxy does not answer."""
+    reason = error if isinstance(error, str) else reason_of(error)
+    return NoAnswer(f"IceStorm, which carries topics, does not answer at '{text}': {reason}")
 
 
 def topic(manager: Any, name: str) -> Any:
@@ -56,17 +60,53 @@ def listening_adapter(communicator: Any, manager: Any) -> Any:
     return communicator.createObjectAdapterWithEndpoints("", f"{protocol} -h {host}")
 
 
-@contextmanager
-def subscribed(manager: Any, name: str, subscriber: Any) -> Iterator[None]:
-    """Subscribes an object to a topic while the context lasts. Raises NoAnswer."""
-    oneway = subscriber.ice_oneway()
-    try:
-        found = topic(manager, name)
-        found.subscribeAndGetPublisher({}, oneway)
-    except Ice.Exception as error:
-        raise NoAnswer(f"IceStorm does not provide the topic '{name}': {reason_of(error)}") from None
-    try:
-        yield
-    finally:
-        with suppress(Ice.Exception):  # IceStorm removes subscribers that do not answer
-            found.ice_invocationTimeout(PATIENCE).unsubscribe(oneway)
+class Subscriptions:
+    """Objects to which one IceStorm sends topics. `storm` is the proxy of its topic manager, and `patience` are
+    milliseconds. Raises NoAnswer, and Refused if the text is not a proxy."""
+
+    def __init__(self, communicator: Any, storm: str, patience: int = PATIENCE) -> None:
+        self.storm = storm
+        self._manager = topic_manager(communicator, storm, patience)
+        self._connection = self._manager.ice_getCachedConnection()
+        self._adapter = listening_adapter(communicator, self._manager)
+        self._adapter.activate()
+        self._subscribers: dict[str, Any] = {}
+        self._answers = True
+
+    def add(self, name: str, servant: Any) -> None:
+        """Subscribes an object to a topic. Raises NoAnswer."""
+        subscriber = self._adapter.addWithUUID(servant).ice_oneway()
+        try:
+            topic(self._manager, name).subscribeAndGetPublisher({}, subscriber)
+        except Ice.Exception as error:
+            raise NoAnswer(f"IceStorm does not provide the topic '{name}': {reason_of(error)}") from None
+        self._subscribers[name] = subscriber
+
+    def renew(self) -> None:
+        """Subscribes again where IceStorm was started again, and forgot. Raises NoAnswer if it does not answer."""
+        try:
+            self._ping()
+            connection = self._manager.ice_getCachedConnection()
+            if connection != self._connection or not self._answers:
+                for name, subscriber in self._subscribers.items():
+                    found = topic(self._manager, name)
+                    if subscriber.ice_getIdentity() not in found.getSubscribers():
+                        found.subscribeAndGetPublisher({}, subscriber)
+            self._connection, self._answers = connection, True
+        except Ice.Exception as error:
+            self._answers = False
+            raise no_answer(self.storm, error) from None
+
+    def _ping(self) -> None:
+        try:
+            self._manager.ice_ping()
+        except (Ice.CloseConnectionException, Ice.ConnectionLostException):
+            self._manager.ice_ping()  # it may have been started again meanwhile
+
+    def end(self) -> None:
+        """Ends the subscriptions. An IceStorm that does not answer removes them when it cannot send to them."""
+        for name, subscriber in self._subscribers.items() if self._answers else ():
+            try:
+                topic(self._manager.ice_invocationTimeout(PATIENCE), name).unsubscribe(subscriber)
+            except Ice.Exception:
+                return

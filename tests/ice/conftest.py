@@ -74,23 +74,9 @@ def icestorm(ice: Any, free_port: Ports, tmp_path_factory: pytest.TempPathFactor
     if shutil.which("icebox") is None:
         pytest.skip("icebox is not installed (Debian: zeroc-icebox, libzeroc-icestorm3.7)")
     folder = tmp_path_factory.mktemp("icestorm")
-    (folder / "db").mkdir()
-    manager_port, publish_port = free_port(), free_port()
-    (folder / "storm.cfg").write_text(
-        "IceStorm.InstanceName=IceStorm\n"
-        f"IceStorm.TopicManager.Endpoints=tcp -h 127.0.0.1 -p {manager_port}\n"
-        f"IceStorm.Publish.Endpoints=tcp -h 127.0.0.1 -p {publish_port}\n"
-        "IceStorm.LMDB.Path=db\n"
-        "IceStorm.LMDB.MapSize=10\n"
-    )
-    (folder / "box.cfg").write_text(
-        "IceBox.Service.IceStorm=IceStormService,37:createIceStorm --Ice.Config=storm.cfg\nIceBox.InheritProperties=1\n"
-    )
-    process = subprocess.Popen(
-        ["icebox", "--Ice.Config=box.cfg"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
-    )
+    storm = Storm.new(folder, free_port(), free_port())
+    process = subprocess.Popen(storm.command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     running = Running(process)
-    storm = Storm(f"IceStorm/TopicManager:tcp -h 127.0.0.1 -p {manager_port}")
     until(lambda: answers(ice, storm.manager), lambda: f"IceStorm:\n{running.output}")
     yield storm
     process.terminate()

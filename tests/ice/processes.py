@@ -13,6 +13,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -150,9 +151,28 @@ class Ports:
 
 @dataclass(frozen=True)
 class Storm:
-    """A running IceStorm: the proxy string of its topic manager."""
+    """An IceStorm in icebox: the proxy string of its topic manager, and how it is started."""
 
     manager: str
+    command: tuple[str, ...]
+
+    @staticmethod
+    def new(folder: Path, manager_port: int, publish_port: int) -> Storm:
+        """One that keeps its configuration and its topics in a folder."""
+        (folder / "db").mkdir()
+        (folder / "storm.cfg").write_text(
+            "IceStorm.InstanceName=IceStorm\n"
+            f"IceStorm.TopicManager.Endpoints=tcp -h 127.0.0.1 -p {manager_port}\n"
+            f"IceStorm.Publish.Endpoints=tcp -h 127.0.0.1 -p {publish_port}\n"
+            f"IceStorm.LMDB.Path={folder}/db\n"
+            "IceStorm.LMDB.MapSize=10\n"
+        )
+        (folder / "box.cfg").write_text(
+            f"IceBox.Service.IceStorm=IceStormService,37:createIceStorm --Ice.Config={folder}/storm.cfg\n"
+            "IceBox.InheritProperties=1\n"
+        )
+        manager = f"IceStorm/TopicManager:tcp -h 127.0.0.1 -p {manager_port}"
+        return Storm(manager, ("icebox", f"--Ice.Config={folder}/box.cfg"))
 
 
 def answers(ice: Any, proxy: str) -> bool:

@@ -19,7 +19,7 @@ from conftest import write_tree
 from cpp_programs import Programs as CppPrograms
 from cpp_programs import needs_cpp
 from java_programs import needs_java
-from processes import Ports, Start, Storm, until
+from processes import Ports, Start, Storm, answers, until
 from scenario import INTERFACES, cdsl
 from test_call import tls  # noqa: F401 (the fixture)
 from test_java import Program, built, program  # noqa: F401 (fixtures)
@@ -181,6 +181,73 @@ print("sent in", time.monotonic() - began)
     assert echo.exit_code() == 0
     numbers = [json.loads(line)["arguments"]["n"] for line in echo.output.splitlines()]
     assert numbers == list(range(5000))
+
+
+@pytest.fixture
+def storm(ice: object, free_port: Ports, tmp_path: Path) -> Storm:
+    """An IceStorm of one's own, which a test starts and kills."""
+    if shutil.which("icebox") is None:
+        pytest.skip("icebox is not installed (Debian: zeroc-icebox, libzeroc-icestorm3.7)")
+    write_tree(tmp_path, {**INTERFACES, "rcyaml.yaml": "interfaces: [.]\n"})
+    (tmp_path / "storm").mkdir()
+    return Storm.new(tmp_path / "storm", free_port(), free_port())
+
+
+def test_an_icestorm_that_goes_away_is_waited_for(
+    ice: object, storm: Storm, start: Start, rcyaml: Rcyaml, tmp_path: Path
+) -> None:
+    """Started again, it may have forgotten its subscribers, or be the same one that was only halted."""
+    options = ["--storm", storm.manager, "--timeout", "1s"]
+    running = start(storm.command)
+    until(lambda: answers(ice, storm.manager), lambda: running.output)
+    echo = start([RCYAML, "topic", "echo", "ArmEvents", *options], cwd=tmp_path)
+    hz = start([RCYAML, "topic", "hz", "ArmEvents", *options], cwd=tmp_path)
+    record = start([RCYAML, "record", "ArmEvents", *options, "--count", "3", "-o", "all.mcap"], cwd=tmp_path)
+
+    def heard(n: int) -> None:
+        assert rcyaml("topic", "pub", "ArmEvents.count", f"n={n}", *options).exit_code == 0
+        echo.wait_for(f"ArmEvents.count(n: {n})")
+
+    listening = lambda: "3 subscribers" in rcyaml("topic", "list", *options).stdout  # noqa: E731
+    until(listening, lambda: echo.output + hz.output + record.output)
+    heard(1)
+    running.process.kill()
+    for each in (echo, hz, record):
+        each.wait_for(f"does not answer at '{storm.manager}': nothing listens there; waiting until it does")
+    shutil.rmtree(tmp_path / "storm/db")
+    (tmp_path / "storm/db").mkdir()
+    running = start(storm.command)
+    for each in (echo, hz, record):
+        each.wait_for(f"IceStorm answers again at '{storm.manager}'")
+    until(listening, lambda: echo.output + hz.output + record.output)
+    heard(2)
+    running.process.send_signal(signal.SIGSTOP)
+    echo.wait_for("it does not answer in time; waiting")
+    running.process.send_signal(signal.SIGCONT)
+    until(lambda: echo.output.count("answers again") == 2, lambda: echo.output)
+    heard(3)
+    assert record.exit_code() == 0 and "3 messages" in record.output
+    running.process.kill()
+    until(lambda: hz.output.count("nothing listens there") == 2, lambda: hz.output)
+    began = time.monotonic()
+    assert (echo.stop(signal.SIGINT), hz.stop(signal.SIGINT)) == (130, 130) and time.monotonic() - began < 5
+
+
+def test_what_ends_while_icestorm_is_away(
+    ice: object, storm: Storm, start: Start, rcyaml: Rcyaml, tmp_path: Path
+) -> None:
+    """Exit code 1: messages may be missing."""
+    running = start(storm.command)
+    until(lambda: answers(ice, storm.manager), lambda: running.output)
+    options = ["--storm", storm.manager, "--for", "6s"]
+    every = [
+        start([RCYAML, *words, "ArmEvents", *options], cwd=tmp_path)
+        for words in (["topic", "echo"], ["topic", "hz"], ["record", "-o", "short.mcap"])
+    ]
+    until(lambda: "3 subscribers" in rcyaml("topic", "list", *options[:2]).stdout, lambda: every[0].output)
+    running.process.kill()
+    assert [one.exit_code() for one in every] == [1, 1, 1], [one.output for one in every]
+    assert rcyaml("record", "info", "short.mcap").exit_code == 0
 
 
 @pytest.mark.parametrize(

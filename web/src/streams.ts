@@ -10,7 +10,7 @@ class Lines {
   readonly root = element("div");
   protected readonly list: HTMLPreElement;
   private search = "";
-  private events: Events;
+  protected readonly events: Events;
 
   constructor(label: string, address: string, kind: string, private readonly text: (data: never) => string) {
     this.list = element("pre", "", { tabindex: "0", role: "log", "aria-label": label, class: "lines" });
@@ -21,7 +21,7 @@ class Lines {
     this.events.on("open", () => this.list.replaceChildren());
   }
 
-  private add(text: string): void {
+  protected add(text: string): void {
     const { list } = this, isAtEnd = list.scrollTop + list.clientHeight >= list.scrollHeight - 4;
     const line = element("span", `${text}\n`);
     line.hidden = !this.has(text);
@@ -65,6 +65,7 @@ export class Echo extends Lines {
   constructor(path: string, topic: string) {
     super(`messages of ${topic}`, `api/${path}/topic?topic=${encodeURIComponent(topic)}`, "message",
       (one: { time: number; method: string; value: unknown; size?: number }) => `${clock(one.time)} ${one.method} ${one.size ? `${one.size} characters` : JSON.stringify(one.value)}`);
+    this.events.on("storm", (event) => this.add((JSON.parse(event.data) as { text: string }).text));
     this.root.append(buttons(button("Clear", () => this.clear())));
   }
 }
