@@ -16,11 +16,14 @@ from robocomp_yaml.patterns import pattern
 from robocomp_yaml.source.spelled import DocumentText
 from robocomp_yaml.source.tree import Node, Scalar, below, pairs_below
 
-OURS = re.compile(rb"#[ \t]*rcyaml[ \t]*(?::|allow\b)")
+_BEGIN = r"#[ \t]*(?:rcyaml[ \t]*:|(?i:rcyaml[ \t]*:?[ \t]*allow\b))"
+OURS = re.compile(_BEGIN.encode())
 """A document that does not match has no such comment."""
 
-_COMMENT = pattern(r"(?:(?<=[ \t])|(?<![^\r\n]))#[ \t]*rcyaml(?:[ \t]*:|(?=[ \t]*allow\b))[^\r\n]*")
-_PARTS = pattern(r"#[ \t]*rcyaml(?P<colon>[ \t]*:)?[ \t]*(?P<verb>\w*)(?P<codes>.*?)(?:(?<=[ \t])--(?P<reason>.*))?")
+_COMMENT = pattern(rf"(?:(?<=[ \t])|(?<![^\r\n])){_BEGIN}[^\r\n]*")
+_PARTS = pattern(
+    r"#[ \t]*(?i:rcyaml)(?P<colon>[ \t]*:)?[ \t]*(?P<verb>\w*)(?P<codes>.*?)(?:(?<=[ \t])--(?P<reason>.*))?"
+)
 _WORD = pattern(r"[^\s,]+")
 _CODE = pattern(r"(?i:RC\d{4})|[A-Z]{2,}\d{3,4}")
 GUESSED = "guessed"
@@ -96,7 +99,7 @@ def _read(
     diagnostics: list[Diagnostic] = []
     if parts["colon"] is None:
         at = comment.start() + parts.start("verb")
-        colon = text.edit(comment.start() + comment[0].index("rcyaml") + len("rcyaml"), at, ": ")
+        colon = text.edit(comment.start() + comment[0].lower().index("rcyaml") + len("rcyaml"), at, ": ")
         diagnostics.append(
             codes.ALLOW_MALFORMED.at(
                 whole,
@@ -105,7 +108,7 @@ def _read(
                 fixes=[Fix("insert it", (colon,), True)],
             )
         )
-    if parts["verb"] != "allow":
+    if parts["verb"].lower() != "allow":
         verb = text.span(comment.start() + parts.start("verb"), comment.start() + parts.end("verb"))
         hint = Hint(_FORM, parts["verb"], "allow") if _CODE.search(parts["codes"]) and parts["verb"] else _FORM
         fixes = [Fix("write 'allow'", (Edit(verb, "allow"),))] if isinstance(hint, Hint) else []

@@ -248,4 +248,6 @@ def test_codes_are_offered_behind_allow() -> None:
     assert line[column - 1 :] == "RC" and codes[0].text == found[0].code and codes[0].doc == "reported here"
     assert len(codes) > 200 and len({one.text for one in codes}) == len(codes)
     assert codes_at("# rcyaml: allow RC1010, ", 25, (), 1) is not None
-    assert codes_at("# allow RC", 11, (), 1) is None and codes_at("a: # rcyaml: guessed", 21, (), 1) is None
+    assert codes_at("# allow RC", 11, (), 1) is None and codes_at("a: # rcyaml: guessed x", 23, (), 1) is None
+    start, verbs = codes_at("a: 1  # rcyaml: al", 19, (), 1) or (0, [])
+    assert (start, [one.text for one in verbs]) == (17, ["allow"])

@@ -215,12 +215,15 @@ def _component_paths(path: str, place: TypedPlace, known: Names, key: str) -> It
             yield Proposal(where, names.COMPONENT, one.says, one.doc)
 
 
-_ALLOW = re.compile(r"#[ \t]*rcyaml[ \t]*:?[ \t]*allow\b[ \t]*(?:[\w,]+[ \t,]+)*(?P<code>\w*)\Z")
+_ALLOW = re.compile(r"#[ \t]*rcyaml[ \t]*:?[ \t]*allow\b[ \t]*(?:[\w,]+[ \t,]+)*(?P<code>\w*)\Z", re.IGNORECASE)
+_VERB = re.compile(r"#[ \t]*rcyaml[ \t]*:[ \t]*(?P<verb>\w*)\Z")
 
 
 def codes_at(line: str, column: int, found: Iterable[Diagnostic], number: int) -> tuple[int, list[Proposal]] | None:
     """The codes behind `# rcyaml: allow`, and the column at which the word begins: those that are reported here first,
-    or in the next line. None anywhere else."""
+    or in the next line. Behind `# rcyaml:`, the word `allow`. None anywhere else."""
+    if verb := _VERB.search(line[: column - 1]):
+        return verb.start("verb") + 1, [Proposal("allow", CODE, "suppresses diagnostics of this line or the next one")]
     typed = _ALLOW.search(line[: column - 1])
     if typed is None:
         return None

@@ -41,6 +41,7 @@ ALLOWED = {
         f"{METHODS}      # rcyaml: allow RC1006 RC1027 -- no C++ here\n      find: {{in: {{with: string, EOF: string}}}}\n"
     ),
     "without blanks": f"{METHODS}      find: {{in: {{with: string}}}} #rcyaml:allow rc1006 -- x\n",
+    "in capitals": f"{METHODS}      find: {{in: {{with: string}}}}  # RCYAML: Allow RC1006 -- x\n",
     "in brackets over several lines": (
         f"{METHODS}      find: {{in: {{ # all\n        what: string,\n        with: string,  {ALLOW}\n      }}}}\n"
     ),
