@@ -34,6 +34,9 @@ LONGEST = (
     "test_cpp_corpus", "test_cpp_absent", "test_values_ice", "test_docs", "test_statemachine", "test_schemas", "test_codes",
 )  # fmt: skip
 
+IS_LONG = "RCYAML_ALL_BUILDS" in os.environ
+"""Whether this is `make test-long`."""
+
 needs_corpus = pytest.mark.skipif(not CORPUS.is_dir(), reason="the corpus of legacy files is not beside the checkout")
 
 

@@ -25,7 +25,7 @@ from robocomp_yaml.source.yaml_text import flow
 
 Judge = Callable[[Parameters, Any], bool]
 CASES = int(os.environ.get("RCYAML_CASES", "200"))
-CPP_DOCUMENTS = int(os.environ.get("RCYAML_CPP_DOCUMENTS", "25"))
+CPP_DOCUMENTS = int(os.environ.get("RCYAML_CPP_DOCUMENTS", "12"))
 _LAST: list[Any] = []  # the parameters that were asked for last, and the validators of their schema
 
 

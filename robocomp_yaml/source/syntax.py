@@ -73,6 +73,9 @@ _MESSAGES = (
 )
 
 
+_LONG = 20_000  # characters
+
+
 class SyntaxFault(Exception):
     """The text is not YAML."""
 
@@ -113,6 +116,8 @@ def compose(path: str, text: str, *, by_libyaml: bool = False) -> Node | None:
         fault = error
     if by_libyaml:
         raise Rejected
+    if len(text) > _LONG and _is_refused_nearby(text, fault):
+        raise SyntaxFault(_diagnostic(path, text, fault))
     try:
         return _compose_as_1_2(text)
     except MarkedYAMLError as error:
@@ -176,6 +181,45 @@ def _compose_as_1_2(text: str) -> Node | None:
         if not _has_explicit_tag(text, node.start_mark.index):
             node.ctag = UNTAGGED
     return root
+
+
+def _is_refused_nearby(text: str, fault: MarkedYAMLError) -> bool:
+    """Whether the lines where libyaml stopped, below the lines that contain them, are no YAML 1.2: then the whole text
+    is none, and the parser that decides need not read it. Only where libyaml stops there for the same reason."""
+    if fault.problem_mark is None:
+        return False
+    first, last = (fault.context_mark or fault.problem_mark).line, fault.problem_mark.line
+    lines = text.split("\n")
+    above: list[str] = []
+    depth = _indentation(lines[first]) if first < len(lines) else 0
+    for line in reversed(lines[:first]):
+        if not depth:
+            break
+        if line.strip() and not line.lstrip().startswith("#") and _indentation(line) < depth:
+            above.append(line)
+            depth = _indentation(line)
+    nearby = "\n".join([*reversed(above), *lines[first : last + 1], ""])
+    try:
+        _Composer(nearby).get_single_node()
+        return False
+    except MarkedYAMLError as error:
+        mark = error.problem_mark
+        here = mark and (mark.line + first - len(above), mark.column)
+        if error.problem != fault.problem or here != (last, fault.problem_mark.column):
+            return False
+    try:
+        _compose_as_1_2(nearby)
+    except MarkedYAMLError:
+        return True
+    except (RecursionError, ValueError, AttributeError, NotImplementedError):
+        return False
+    return False
+
+
+def _indentation(line: str) -> int:
+    """How far inside a line is. An item of a list may be as far right as the key of the list."""
+    blanks = len(line) - len(line.lstrip(" "))
+    return 2 * blanks + line.startswith("- ", blanks)
 
 
 def _has_explicit_tag(text: str, index: int) -> bool:

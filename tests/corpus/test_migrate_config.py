@@ -16,7 +16,7 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
-from conftest import CORPUS, needs_corpus
+from conftest import CORPUS, IS_LONG, needs_corpus
 from robocomp_yaml.cli import group
 from robocomp_yaml.parameters.layers.effective import Effective, effective
 from robocomp_yaml.parameters.writing.properties import properties, property_text
@@ -91,7 +91,7 @@ def test_ice_reads_the_same(run: str, tmp_path: Path, request: pytest.FixtureReq
     sources = {file["outputs"][0]: file["source"] for file in files}
     by_document = {os.path.realpath(document): Path(source) for document, source in sources.items()}
     different = []
-    for document, (linked, made) in values(list(sources)).items():
+    for document, (linked, made) in values(list(sources)[:: 1 if IS_LONG else 4]).items():
         sections, faults = properties(linked, made)
         assert faults == []
         target = tmp_path / "config"

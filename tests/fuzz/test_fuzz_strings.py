@@ -193,7 +193,7 @@ HOSTILE = st.sampled_from(STRINGS)
 
 
 @given(st.lists(st.tuples(st.integers(0, 10**6), HOSTILE), min_size=1, max_size=60))
-@examples(12, times=3)
+@examples(5, times=8)
 def test_everywhere(chosen: list[tuple[int, str]]) -> None:
     free = places(free=True)
     same_structure({free[number % len(free)]: text for number, text in chosen})
@@ -201,7 +201,7 @@ def test_everywhere(chosen: list[tuple[int, str]]) -> None:
 
 @given(st.integers(0, 10**6), HOSTILE | st.text(max_size=4))
 @example(799, "http://a:b@c/")  # a warning in the graph
-@examples(12, times=3)
+@examples(5, times=8)
 def test_in_one_place(number: int, text: str) -> None:
     every = places(free=False)
     same_structure({every[number % len(every)]: text})

@@ -131,3 +131,31 @@ def test_a_long_document_that_is_broken_near_its_end_is_parsed_from_there(
         parts.parse_in_parts("a.yaml", text, known)
     assert sum(read) < len(text) / 10
     assert parse("a.yaml", text) == (None, [caught.value.diagnostic])
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_what_is_refused_nearby_is_refused_as_a_whole(monkeypatch: pytest.MonkeyPatch, seed: int) -> None:
+    """With the lines around an error alone, the same is YAML, and the errors are the same."""
+    random, nearby, quick = Random(seed), syntax._is_refused_nearby, []
+    for document in DOCUMENTS:
+        text = document
+        for _ in range(40):
+            text = edited(text, random) if random.random() < 0.7 else edited(document, random)
+            monkeypatch.setattr(syntax, "_LONG", 1 << 30)
+            slow = parse("a.yaml", text)
+            monkeypatch.setattr(syntax, "_LONG", 0)
+            monkeypatch.setattr(syntax, "_is_refused_nearby", lambda *args: quick.append(nearby(*args)) or quick[-1])
+            fast = parse("a.yaml", text)
+            assert fast[1] == slow[1], text
+            assert (fast[0] is None) == (slow[0] is None), text
+    assert sum(quick) > 20
+
+
+def test_an_error_in_a_long_list_is_found_fast(monkeypatch: pytest.MonkeyPatch) -> None:
+    read: list[int] = []
+    slow = syntax._compose_as_1_2
+    monkeypatch.setattr(syntax, "_compose_as_1_2", lambda text: read.append(len(text)) or slow(text))
+    text = "points:\n" + "".join(f"- {{x: {n}, y: 2}}\n" for n in range(2000))
+    _, found = parse("a.yaml", text.replace("x: 1500, y: 2}", "x: 1500, y: 2"))
+    assert [(one.code, one.span.line) for one in found] == [("RC0101", 1503)]
+    assert sum(read) < 200
