@@ -31,7 +31,7 @@ from robocomp_yaml.deploy.probe import ProbedProgram
 from robocomp_yaml.deploy.time_limit import TimeLimit
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import ERROR, WARNING, Diagnostic, has_errors
-from robocomp_yaml.diag.errors import Faulty, Refused
+from robocomp_yaml.diag.errors import Faulty, Refused, reason_of
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.network.network import Network
 from robocomp_yaml.pipeline import Analysis
@@ -382,8 +382,7 @@ class Deployment:
         except BrokenPipeError:
             raise  # the reader of standard output closed the pipe
         except OSError as error:
-            reason = error.strerror or str(error)
-            reason = reason[:1].lower() + reason[1:]
+            reason = reason_of(error)
         finally:
             work.close()
             self._lock.close()

@@ -9,7 +9,7 @@ from functools import lru_cache
 import msgspec
 
 from robocomp_yaml.api.refusals import meant
-from robocomp_yaml.diag.errors import Refused
+from robocomp_yaml.diag.errors import Refused, reason_of
 from robocomp_yaml.link.workspace import root_above
 from robocomp_yaml.link.workspace_files import GLOBS, modeline, schema_of, schema_path
 from robocomp_yaml.link.workspace_names import names_below
@@ -98,6 +98,6 @@ def _named(document: str) -> str:
         with open(document, encoding="utf-8", errors="replace", opener=regular) as file:
             head = file.read(_HEAD)
     except OSError as error:
-        raise Refused(f"cannot read {document}: {error.strerror}") from error
+        raise Refused(f"cannot read {document}: {reason_of(error)}") from error
     match = _MODELINE.search(head)
     return match[1] if match else ""

@@ -23,6 +23,7 @@ from robocomp_yaml.deploy.plan import with_dependents
 from robocomp_yaml.deploy.spec import ProcessSpec, spec_of
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.errors import reason_of
 from robocomp_yaml.network.network import Network, Process, Readiness
 
 _PERIOD = 0.3  # seconds between two looks at the processes beside
@@ -137,7 +138,7 @@ class SingleRun(msgspec.Struct):
             mark = f"{self.folder}:{spec.name}"
             child = await Foreground.start(self.command, spec.process.cwd, environment, mark)
         except OSError as error:
-            reason = error.strerror or str(error)
+            reason = reason_of(error)
             at = spec.process.span
             raise DeployFailed(deploying.CANNOT.at(at, name=spec.name, what="started", reason=reason)) from error
         on_start(child.pid)

@@ -15,7 +15,7 @@ import msgspec
 import uvicorn
 
 from robocomp_yaml.api.refusals import cannot_write
-from robocomp_yaml.diag.errors import Refused
+from robocomp_yaml.diag.errors import Refused, reason_of
 from robocomp_yaml.manager.access import TOKEN, AccessRules
 from robocomp_yaml.manager.app import application
 from robocomp_yaml.manager.watching import Watcher
@@ -56,7 +56,7 @@ def bound(where: Listening) -> socket.socket:
             return made
         except OSError as error:
             made.close()
-            reason = (error.strerror or str(error)).lower()
+            reason = reason_of(error)
     raise Refused(f"cannot listen at {where.address}, port {where.port or PORT}: {reason}")
 
 

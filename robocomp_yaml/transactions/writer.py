@@ -9,6 +9,7 @@ from msgspec.structs import replace
 
 from robocomp_yaml.diag.codes import emitting as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
+from robocomp_yaml.diag.errors import reason_of
 from robocomp_yaml.diag.listing import some
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
@@ -67,7 +68,7 @@ def recover(plans: Iterable[RootPlan], others: Iterable[str] = ()) -> list[Diagn
             diagnostics.append(codes.CANNOT_WRITE.at(Span(shown), path=shown, reason=failure.reason))
         except OSError as error:
             shown = root.shown("")
-            diagnostics.append(codes.CANNOT_WRITE.at(Span(shown), path=shown, reason=error.strerror or str(error)))
+            diagnostics.append(codes.CANNOT_WRITE.at(Span(shown), path=shown, reason=reason_of(error)))
     return diagnostics
 
 

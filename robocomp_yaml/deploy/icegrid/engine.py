@@ -30,6 +30,7 @@ from robocomp_yaml.deploy.local.obstacles import CheckedSpecs, obstacles
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.errors import reason_of
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.deployment import ResourceLimits
 from robocomp_yaml.network.network import NEVER, PROGRAM, Network, RestartRule
@@ -396,5 +397,5 @@ class IceGridEngine:
             raise DeployFailed(deploying.CANNOT.at(where, name=name, what=what, reason=error)) from error
         except OSError as error:
             path = error.filename or self._network.folder
-            reason = (error.strerror or str(error)).lower()
+            reason = reason_of(error)
             raise DeployFailed(deploying.FOLDER.at(Span(self._network.path), path=path, reason=reason)) from error

@@ -24,6 +24,7 @@ from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.deploy.time_limit import until
 from robocomp_yaml.diag.codes import deploying as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.errors import reason_of
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.network.network import Network, NetworkHost
 
@@ -72,7 +73,7 @@ def created(files: GridFiles, network: Network) -> GridSession:
             registry = Registry(address, free_port(address))
             files.keep_registry(registry)
         except OSError as error:
-            raise _failed(network, error.strerror or str(error)) from error
+            raise _failed(network, reason_of(error)) from error
     return _session(files, registry, network)
 
 
@@ -81,7 +82,7 @@ def _session(files: GridFiles, registry: Registry, network: Network) -> GridSess
         try:
             daemons.start_registry(files, registry)
         except OSError as error:
-            raise _failed(network, error.strerror or str(error)) from error
+            raise _failed(network, reason_of(error)) from error
     try:  # while the registry starts, which takes about as long as the import of Ice
         from robocomp_yaml.deploy.icegrid.grid import Unreachable, reach
     except ImportError as error:

@@ -20,6 +20,7 @@ from robocomp_yaml.deploy.probe import ProbeFailed, run_on
 from robocomp_yaml.deploy.registered import RegisteredDeployment, RegisteredHost
 from robocomp_yaml.diag.codes import deploying as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.errors import reason_of
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.network.network import Network, NetworkHost
 from robocomp_yaml.source.digest import digest
@@ -144,7 +145,7 @@ def _with_nodes(network: Network, wanted: list[HostUnit]) -> tuple[list[HostUnit
             found.append(replace(unit, files={**unit.files, path: node}))
         files.keep_nodes({**files.nodes(), **{unit.host.name: False for unit in found if not unit.is_here}})
     except OSError as error:
-        reason = error.strerror or str(error)
+        reason = reason_of(error)
         return [], codes.NO_REGISTRY.at(Span(network.path), reason=reason)
     return found, None
 

@@ -29,6 +29,7 @@ from robocomp_yaml.deploy.local.service import PROTOCOL
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
+from robocomp_yaml.diag.errors import reason_of
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.network.network import PEM, Network
 
@@ -70,7 +71,7 @@ class LocalEngine:
             await self._disconnect()
             raise self._hangs() from error
         except OSError as error:
-            raise self._folder_failed(network.folder, error.strerror or str(error)) from error
+            raise self._folder_failed(network.folder, reason_of(error)) from error
         except SupervisorGone as error:
             raise self._gone() from error
         if hello["protocol"] != PROTOCOL:
@@ -136,7 +137,7 @@ class LocalEngine:
         try:
             yield
         except OSError as error:
-            raise self._folder_failed(error.filename or self._network.folder, error.strerror or str(error)) from error
+            raise self._folder_failed(error.filename or self._network.folder, reason_of(error)) from error
 
     async def start(self, name: str) -> None:
         spec = self._specs[name]

@@ -15,6 +15,7 @@ from robocomp_yaml.deploy.local import procfs, program
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.errors import reason_of
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.network.draft import PUBLISH
 from robocomp_yaml.network.network import FOLDER, ICESTORM, RUNS, Network, Process
@@ -142,5 +143,5 @@ def _why_not(spec: ProcessSpec) -> str:
     try:
         program.find(spec.command[0], folder, whole_environment_of(spec.process))
     except OSError as error:
-        return error.strerror or str(error)
+        return reason_of(error)
     return ""

@@ -13,6 +13,7 @@ from robocomp_yaml.building.job import BuildStep, ComponentBuild, Job
 from robocomp_yaml.building.unit import Unit
 from robocomp_yaml.diag.codes import building as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
+from robocomp_yaml.diag.errors import reason_of
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.languages.python import LANGUAGE
 
@@ -50,7 +51,7 @@ def _tried(job: Job, unit: Unit) -> tuple[int, float, list[str]]:
             env={"QT_QPA_PLATFORM": "offscreen"},
         )
     except OSError as error:
-        return 1, 0.0, [f"{python} cannot be started: {error.strerror or error}"]
+        return 1, 0.0, [f"{python} cannot be started: {reason_of(error)}"]
     return ended.code, ended.cpu, lines
 
 
