@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from robocomp_yaml.api.workspace import Workspace
 from robocomp_yaml.diag.listing import some
@@ -12,6 +12,8 @@ from robocomp_yaml.source.disk import Disk, documents_in, names_in, state_of
 from robocomp_yaml.source.text import read_bytes
 
 _SOURCES = "src"
+Version = tuple[int, int]
+"""What a file has another one of after it was written: when it was changed, and its inode."""
 
 
 def folders(workspace: Workspace, paths: Iterable[str], home: str) -> list[str]:
@@ -34,17 +36,16 @@ def folders(workspace: Workspace, paths: Iterable[str], home: str) -> list[str]:
 
 class Concern:
     """Whether a run that used this workspace depends on a path below the watched `folders`. `written` are the files
-    that the run itself wrote."""
+    that the run itself wrote, with their versions then."""
 
-    def __init__(self, workspace: Workspace, folders: Iterable[str], written: Iterable[str] = ()) -> None:
-        self._disk, self._folders = workspace.analysis.disk, tuple(folders)
-        asked = (*self._disk.contents, *self._disk.states)
-        self._asked = {os.path.realpath(path) for path in asked}
+    def __init__(self, workspace: Workspace, folders: Iterable[str], written: Mapping[str, Version]) -> None:
+        self._disk, self._folders, self._written = workspace.analysis.disk, tuple(folders), written
+        real = _RealPaths()
+        self._asked = {real.of(path) for path in (*self._disk.contents, *self._disk.states)}
         self._sources = tuple(
-            os.path.join(os.path.realpath(os.path.dirname(linked.component.path) or os.curdir), _SOURCES, "")
+            os.path.join(real.folder(os.path.dirname(linked.component.path)), _SOURCES, "")
             for linked in workspace.analysis.program.components.values()
         )
-        self._written = {os.path.realpath(path): _version(path) for path in written}
 
     def about(self, path: str) -> bool:
         """Whether a change of this file or folder may change the result."""
@@ -96,7 +97,30 @@ def _relative(path: str) -> str:
     return path if relative.startswith(os.pardir) else relative
 
 
-def _version(path: str) -> tuple[int, int]:
+class _RealPaths:
+    """Real paths of many files in few folders, each of which is resolved once."""
+
+    def __init__(self) -> None:
+        self._folders: dict[str, str] = {}
+
+    def folder(self, path: str) -> str:
+        if path not in self._folders:
+            self._folders[path] = os.path.realpath(path or os.curdir)
+        return self._folders[path]
+
+    def of(self, path: str) -> str:
+        folder, name = os.path.split(path)
+        real = os.path.join(self.folder(folder), name)
+        return os.path.realpath(path) if name in ("", os.curdir, os.pardir) or os.path.islink(real) else real
+
+
+def versions(paths: Iterable[str]) -> dict[str, Version]:
+    """The versions of files that a run has written, by their real paths."""
+    real = _RealPaths()
+    return {each: _version(each) for each in map(real.of, paths)}
+
+
+def _version(path: str) -> Version:
     try:
         status = os.stat(path)
     except OSError:

@@ -18,7 +18,7 @@ from typing import NoReturn
 import click
 
 from robocomp_yaml.api.living import LivingWorkspace
-from robocomp_yaml.api.watching import Concern, folders, is_current, shown
+from robocomp_yaml.api.watching import Concern, Version, folders, is_current, shown, versions
 from robocomp_yaml.api.workspace import Workspace
 from robocomp_yaml.diag import extras, terminal
 from robocomp_yaml.diag.errors import Faulty, Refused, reason_of
@@ -92,7 +92,7 @@ def watch(
 
 
 class _Loop:
-    """The state between two runs. `workspace` is that of the last run, `written` are the files that it wrote."""
+    """The state between two runs. `workspace` is that of the last run, `written` has its files with their versions."""
 
     watcher: _Watcher
     workspace: Workspace
@@ -103,17 +103,18 @@ class _Loop:
     ) -> None:  # fmt: skip
         self.paths, self.living, self.run, self.changes = paths, living, run, changes
         self.watchfiles, self.home = watchfiles, home
-        self.written: Sequence[str] = ()
+        self.written: dict[str, Version] = {}
+        self.concern: Concern | None = None  # of the last run, and the watched folders
         self.is_sure = False  # that nothing changed before the folders were watched
         self.failed = False  # the folder had gone at the last run
 
     def run_once(self) -> None:
-        self.written, self.failed = (), False
+        self.written, self.concern, self.failed = {}, None, False
         try:
             os.chdir(self.home)  # if it was deleted and made again, it is another folder
             self.living.forget()  # its result has a stamp
             self.workspace = self.living.load()
-            self.written = self.run(self.workspace)
+            self.written = versions(self.run(self.workspace))
         except Faulty as faulty:
             tell("text", faulty.diagnostics, faulty.documents)
         except Refused as refused:
@@ -124,7 +125,7 @@ class _Loop:
 
     def watch(self) -> None:
         self.watcher = _Watcher(self.watchfiles, folders(self.workspace, self.paths, self.home), self.changes)
-        self.is_sure = False
+        self.concern, self.is_sure = None, False
 
     def next_change(self) -> set[str]:
         """The next changed paths on which the result may depend; none if it turns out not to."""
@@ -132,7 +133,9 @@ class _Loop:
         if not self.watcher.is_valid or folders(self.workspace, self.paths, self.home) != list(self.watcher.asked):
             self.watcher.stop()
             self.watch()
-        concern, disk = Concern(self.workspace, self.watcher.asked, self.written), self.workspace.analysis.disk
+        if self.concern is None:
+            self.concern = Concern(self.workspace, self.watcher.asked, self.written)
+        concern, disk = self.concern, self.workspace.analysis.disk
         concerning = {path for path in changed if concern.about(path)}
         if changed and not concerning:
             return set()
