@@ -47,7 +47,7 @@ class CppFile(UsageFile):
         """The classes with their bases."""
         if b"class" not in self._bytes and b"struct" not in self._bytes:
             return
-        for node in _of_types(self._tree.root_node, ("class_specifier", "struct_specifier"), _IN_SCOPES):
+        for node in of_types(self._tree.root_node, ("class_specifier", "struct_specifier"), _IN_SCOPES):
             if node.child_by_field_name("body") is not None:
                 clause = next((child for child in node.children if child.type == "base_class_clause"), None)
                 bases = [one for one in clause.named_children if one.type != "access_specifier"] if clause else []
@@ -55,13 +55,13 @@ class CppFile(UsageFile):
 
     def methods(self, workers: Collection[str]) -> Iterator[Word]:
         """The names of the methods that the worker's classes declare and define."""
-        for node in _of_types(self._tree.root_node, ("function_declarator",), _IN_CLASSES):
+        for node in of_types(self._tree.root_node, ("function_declarator",), IN_CLASSES):
             name = node.child_by_field_name("declarator")
             if name is None:
                 continue
             if name.type == "qualified_identifier" and text(field(name, "scope")) in workers:
                 name = field(name, "name")
-            elif name.type != "field_identifier" or _class_around(node) not in workers:
+            elif name.type != "field_identifier" or class_around(node) not in workers:
                 continue
             if name.type in ("identifier", "field_identifier"):
                 yield self._word(name)
@@ -313,7 +313,7 @@ def function_around(node: Node) -> Node | None:
     return now
 
 
-def _class_around(node: Node) -> str:
+def class_around(node: Node) -> str:
     now: Node | None = node
     while now is not None:
         if now.type in ("class_specifier", "struct_specifier"):
@@ -331,13 +331,13 @@ _IN_SCOPES = frozenset(
     """translation_unit namespace_definition declaration_list declaration preproc_ifdef preproc_if
     linkage_specification""".split()
 )
-_IN_CLASSES = _IN_SCOPES | frozenset(
+IN_CLASSES = _IN_SCOPES | frozenset(
     """class_specifier struct_specifier field_declaration_list field_declaration declaration function_definition
     pointer_declarator reference_declarator""".split()
 )
 
 
-def _of_types(root: Node, types: Collection[str], scopes: Collection[str]) -> Iterator[Node]:
+def of_types(root: Node, types: Collection[str], scopes: Collection[str]) -> Iterator[Node]:
     """The nodes of these types in the scopes, in order."""
     todo = [root]
     while todo:
