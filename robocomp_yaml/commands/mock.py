@@ -129,13 +129,8 @@ def _begin(value: Any) -> Any:
 
 
 def _count(value: Any) -> str:
-    match value:
-        case list() | dict():
-            return f" ({len(value)} values)"
-        case str():
-            return f" ({len(value)} characters)"
-        case _:
-            return ""
+    what = "characters" if isinstance(value, str) else "values"
+    return f" ({len(value)} {what})" if isinstance(value, (str, list, dict)) and len(value) > _LONGEST else ""
 
 
 def _results(results: Mapping[str, Any]) -> Any:
