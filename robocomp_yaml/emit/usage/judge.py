@@ -131,9 +131,13 @@ class _Judging(msgspec.Struct):
         word = step.word
         if step.arguments is None:
             return codes.NOT_CALLED.at(word.span, name=word.text, hint=f"write {word.text}()") if member.read else None
+        if "TypeError" in chain.caught:
+            return None
+        if member.value is not None and member.value.kind == offers.ENUM and member.signature:
+            return codes.NOT_CALLABLE.at(word.span, name=word.text, hint=f"write {member.signature}")
         is_value = member.parameter is not None or now.kind in (offers.STRUCT, offers.ENUM)
         is_value |= member.value is not None and member.value.kind in _VALUES
-        if not is_value or member.most is not None or member.result is not None or "TypeError" in chain.caught:
+        if not is_value or member.most is not None or member.result is not None:
             return None
         return codes.NOT_CALLABLE.at(word.span, name=word.text, hint=f"write {word.text}, without ()")
 

@@ -258,13 +258,14 @@ def states(machine: StateMachine) -> tuple[str, ...]:
 def modules(
     linked: LinkedComponent, variable: Callable[[str], str], in_code: Callable[[str], str],
     others: Callable[[str], bool], instance: Callable[[object, LinkedModule], Offer | None], *,
-    exceptions: bool = False,
+    classes: bool = False,
 ) -> Offer:  # fmt: skip
     """The Slice modules with their types, as attributes. Two documents may define parts of one module. `instance` makes
-    what a value of a type has. With `exceptions`, these are made like structs."""
+    what a value of a type has. With `classes`, exceptions are made like structs, and nobody
+    makes a value of an enum."""
     found: dict[str, dict[str, OfferedMember]] = {}
     for scope in linked.modules():
-        found.setdefault(variable(scope.module.name), {}).update(_types(scope, in_code, instance, exceptions))
+        found.setdefault(variable(scope.module.name), {}).update(_types(scope, in_code, instance, classes))
     broken = {variable(scope.module.name) for scope in linked.modules() if scope.unresolved or linked.broken}
     offers = {
         name: OfferedMember(Offer(MODULE, name, members, is_complete=name not in broken, others=_is_internal))
@@ -279,7 +280,7 @@ def _is_internal(name: str) -> bool:
 
 def _types(
     scope: LinkedModule, in_code: Callable[[str], str], instance: Callable[[object, LinkedModule], Offer | None],
-    exceptions: bool,
+    classes: bool,
 ) -> dict[str, OfferedMember]:  # fmt: skip
     found = {}
     for definition in scope.module.definitions:
@@ -288,10 +289,12 @@ def _types(
             case Enum(enumerators=enumerators):
                 enumerator = OfferedMember(Offer(PLAIN, definition.name, is_complete=False))
                 names = {in_code(one.name): enumerator for one in enumerators}
-                found[name] = OfferedMember(Offer(ENUM, definition.name, names, others=_is_of_enum))
+                value = Offer(ENUM, definition.name, names, others=_is_of_enum)
+                such = f"{name}.{next(iter(names))}, or {name}.valueOf(NUMBER)" if classes and names else ""
+                found[name] = OfferedMember(value, signature=such)
             case Struct(members=members) | ExceptionType(members=members):
                 fields = frozenset(in_code(one.name) for one in members)
-                is_known = exceptions or isinstance(definition, Struct)
+                is_known = classes or isinstance(definition, Struct)
                 found[name] = OfferedMember(
                     result=instance(definition, scope), most=len(members) if is_known else None,
                     inputs=members if is_known else (), keywords=fields if is_known else None,

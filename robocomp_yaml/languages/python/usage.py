@@ -85,7 +85,7 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
     served = offers.served(ports)
     members |= {name: OfferedMember() for one in served for name in one.methods if name not in members}
     modules = offers.modules(
-        linked, module_variable, python_name, _is_in_interfaces, types.of_definition, exceptions=True
+        linked, module_variable, python_name, _is_in_interfaces, types.of_definition, classes=True
     )  # fmt: skip
     if is_own and not linked.broken:
         modules = _as_hints(linked, modules)

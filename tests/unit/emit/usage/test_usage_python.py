@@ -133,6 +133,8 @@ def worker(body: str, head: str = "") -> dict[str, str]:
         ("self.mutex.lock()", "RC6325", "lock"),
         ("self.log('x')", "RC6334", "log"),
         ("print(RoboCompMouth.Shape.wide())", "RC6334", "wide"),
+        ("print(RoboCompMouth.Shape('wide'))", "RC6334", "Shape"),
+        ("print(RoboCompMouth.Shape(1))", "RC6334", "Shape"),
         ("print(self.parameters.motors[0][0])", "RC6330", "0"),
         ("print(self.parameters.motors[0][path])", "RC6330", "path"),
         ("print(self.parameters.camera[1])", "RC6330", "1"),
