@@ -36,6 +36,7 @@ _NEAR = 0.75  # similarity of a member that is surely misspelled
 _PROXY = re.compile(r"\w+_(?:pub)?proxy\d*_*\Z")
 _NEARLY = re.compile(r"([a-z]\w*?)_?(?:pub_?)?(?:[Pp]rox[yi]|[Pp]rx)\d*_*\Z")
 
+_LONGER, _MISTYPED = 3, 0.85  # characters, and similarity, of a proxy that is surely misspelled
 _FEW = 6  # members that are listed
 _VALUES = (offers.RECORD, offers.TOOL, offers.PROXY, offers.TOPIC, offers.EVENTS, offers.PARAMETERS)
 
@@ -46,10 +47,15 @@ def is_proxy(name: str) -> bool:
 
 
 def is_nearly_proxy(name: str, known: Iterable[str]) -> bool:
-    """Whether a name is one of the known proxies in another form, such as `mouthProxy`."""
+    """Whether a name is one of the known proxies in another form, such as `mouthProxy`, or with a typing error."""
     found = _NEARLY.match(name)
-    stems = {re.sub(r"_(?:pub)?proxy.*", "", one).lower() for one in known if is_proxy(one)}
-    return found is not None and found[1].lower().rstrip("_") in stems
+    proxies = [one for one in known if is_proxy(one)]
+    stems = {re.sub(r"_(?:pub)?proxy.*", "", one).lower() for one in proxies}
+    if found is not None:
+        return found[1].lower().rstrip("_") in stems
+    if "_" not in name or "x" not in name:
+        return False  # most words: likeness takes long
+    return any(abs(len(name) - len(one)) < _LONGER and likeness(name, one) > _MISTYPED for one in proxies)
 
 
 def judge(

@@ -34,7 +34,7 @@ _METHOD = re.compile(r"\b(?:sm_\w+|[A-Z]\w*_\w+)\b")
 def offer(linked: LinkedComponent) -> WorkerOffer:
     """What the worker of a component offers."""
     ports, machine = lowering.lower(linked, PORTS), linked.machine
-    types = OfferedTypes(ice_name, _is_of_every_struct, lambda name: True)
+    types = OfferedTypes(ice_name, _is_of_every_struct, _is_of_every_exception)
     returned = partial(types.result, tuples=False)
     members = offers.proxies(ports, PORTS.called, _is_of_every_proxy, returned, outputs=True)
     if linked.component.compatibility:
@@ -92,6 +92,10 @@ def _is_of_every_proxy(name: str) -> bool:
 
 def _is_of_every_struct(name: str) -> bool:
     return name.startswith(("ice_", "_", "operator"))
+
+
+def _is_of_every_exception(name: str) -> bool:
+    return name == "what" or _is_of_every_struct(name)
 
 
 def read(files: Mapping[str, str], linked: LinkedComponent, worker: WorkerOffer) -> CodeUsage:

@@ -170,7 +170,7 @@ class CppFile(UsageFile):
         type_ = field(declaration, "type") if declaration is not None else None
         if declaration is None or type_ is None or declaration.type not in ("declaration", "for_range_loop"):
             return
-        is_same = type_.type == "placeholder_type_specifier" or text(type_).endswith("PrxPtr")
+        is_same = type_.type == "placeholder_type_specifier" or text(type_).endswith(("PrxPtr", "Prx>"))
         declarator = parent.child_by_field_name("declarator")
         while declarator is not None and declarator.type == "reference_declarator":
             declarator = declarator.named_children[-1]

@@ -48,6 +48,10 @@ class TypedCppFile(CppFile):
             if named is None or named.type != "qualified_identifier" or named.child_by_field_name("scope") != node:
                 continue
             declaration, type_ = named.parent, named.child_by_field_name("name")
+            made = _initialized(named)
+            if made is not None and type_ is not None and not is_uncertain(named):
+                head = [Step(self._word(node)), Step(self._word(type_), Arguments(is_exact=False))]
+                yield from self._of_variable(MODULES, head, *made)
             if declaration is None or declaration.type not in _DECLARING or type_ is None:
                 continue
             if declaration.child_by_field_name("type") != named or type_.type != "type_identifier":
@@ -134,6 +138,22 @@ class TypedCppFile(CppFile):
             node = self._tree.root_node.descendant_for_byte_range(found.start(), found.end())
             if node is not None and node.type == "string_literal":
                 yield node
+
+
+def _initialized(type_: Node) -> tuple[Node, Node] | None:
+    """The variable that a new value of a type initializes, as in `auto pose = RoboCompMouth::Pose{};`, and its
+    declaration."""
+    value = type_.parent
+    if value is None or value.type not in ("call_expression", "compound_literal_expression"):
+        return None
+    if value.named_children[0] != type_ or value.parent is None or value.parent.type != "init_declarator":
+        return None
+    declaration, name = value.parent.parent, _name(value.parent)
+    if declaration is None or declaration.type != "declaration" or name is None:
+        return None
+    declared = declaration.child_by_field_name("type")
+    is_auto = declared is not None and declared.type == "placeholder_type_specifier"
+    return (name, declaration) if is_auto and value.parent.child_by_field_name("value") == value else None
 
 
 def _falls_off(node: Node) -> bool:
