@@ -75,8 +75,27 @@ class CppFile(UsageFile):
                 continue
             steps, end = self._steps([Step(self._word(node))], start)
             yield Occurrence(chain=Chain(WORKER, tuple(steps)))
-            for chain in (*self._compared(WORKER, steps, end), *self._through_variable(WORKER, steps, end)):
+            more = (*self._through_variable(WORKER, steps, end), *self._changed(steps, end))
+            for chain in (*self._compared(WORKER, steps, end), *more):
                 yield Occurrence(chain=chain)
+
+    def _changed(self, steps: list[Step], end: Node) -> Iterator[Chain]:
+        """The chains in the function that changes the parameters: `parameters.change([](auto& values) { … })`."""
+        given = end.child_by_field_name("arguments") if end.type == "call_expression" else None
+        called = given.named_children[0] if given is not None and given.named_children else None
+        if [step.word.text for step in steps] != ["parameters", "change"] or called is None:
+            return
+        body, declared = called.child_by_field_name("body"), called.child_by_field_name("declarator")
+        found = re.fullmatch(r"\(\s*(?:auto|[\w:]*\bValues)\s*&\s*(\w+)\s*\)", text(declared) if declared else "")
+        if called.type != "lambda_expression" or body is None or found is None:
+            return
+        uses = [one for one in self._nodes(found[1], body.start_byte, body.end_byte) if one.type == "identifier"]
+        if all(one.parent is not None and _is_used(one, one.parent) for one in uses):
+            head = [steps[0], Step(Word("now", steps[1].word.span), Arguments(is_exact=False))]
+            for node in uses:
+                longer, _ = self._steps(head, node, is_value=True)
+                if len(longer) > len(head) and not is_uncertain(node):
+                    yield Chain(WORKER, tuple(longer))
 
     def qualified(self, module: str) -> Iterator[Chain]:
         """The names in a Slice module: `RoboCompMouth::Shape::round`."""
@@ -109,6 +128,8 @@ class CppFile(UsageFile):
     def _start(self, node: Node, name: str, workers: Collection[str]) -> Node | Occurrence:
         """The node at which a chain begins, if the word is a use of the worker."""
         parent = node.parent
+        if parent is not None and parent.type == "qualified_identifier" and node.type == "namespace_identifier":
+            return _OTHER  # the namespace of something, such as `parameters::Values`
         if parent is None or text(node) != name or node.type not in ("identifier", "field_identifier"):
             return _DECLARED
         start = node
