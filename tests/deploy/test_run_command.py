@@ -194,7 +194,7 @@ def test_one_that_is_given_up_ends_the_run(robot: Callable[[str], Path], run: Ru
     one = run("hand", "--with-needed")
     assert one.process.wait(PATIENCE) == 1
     assert "hand is open" in one.said and "tidy" in one.said
-    assert "error[RC7009]: 'arm'" in one.said and "arm | no more" in one.said
+    assert "error[RC7009]: 'arm'" in one.said and "arm | no more" in one.said and "─ robot.ddsl.yaml:" in one.said
     nothing_is_left(root)
 
 
