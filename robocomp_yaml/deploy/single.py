@@ -174,8 +174,7 @@ async def _failed(engine: LocalEngine | None, beside: Network | None) -> list[Di
 
 async def _why(engine: LocalEngine | None, beside: Network | None, one: Running) -> Diagnostic:
     assert engine and beside
-    lines = [line.text async for line in await engine.lines([one.name], operations.SHOWN_LINES, False)]
-    more = "\n".join(f"{one.name} | {line}" for line in lines)
+    more = "\n".join(await operations.last_lines(engine, one.name))
     return deploying.GIVEN_UP.at(beside.span_of(one.name), name=one.name, how=one.end, more=more)
 
 

@@ -184,6 +184,9 @@ def test_one_that_does_not_become_ready(robot: Callable[[str], Path], run: Run) 
     assert "error[RC7004]: 'arm' ended before it was ready: exit code 4" in one.said and "arm | no arm" in one.said
     assert "hand is open" not in one.said
     nothing_is_left(root)
+    again = run("hand", "--with-needed")  # the lines of the first run are not those of the second
+    assert again.process.wait(PATIENCE) == 1
+    assert again.said.count("arm | no arm") == again.said.count("arm | rcyaml: started") == 1
 
 
 def test_one_that_is_given_up_ends_the_run(robot: Callable[[str], Path], run: Run) -> None:
