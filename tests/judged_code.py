@@ -15,6 +15,8 @@ types:
   Shape: {enum: [round, wide]}
   Pose: {struct: {opening: float, shape: Shape}}
   Path: {sequence: Pose}
+exceptions:
+  Blocked: {struct: {why: string}}
 interfaces:
   Mouth:
     methods:
@@ -33,6 +35,7 @@ types:
 parameters:
   speed: {type: int, range: [1, 400], default: 150, editable: true}
   device: {type: string, default: tty}
+  words: {list: string, default: []}
   mode: {type: string, values: [slow, fast], default: slow}
   motors: {list: Motor, default: [{name: left}], editable: true}
   offsets: {map: Motor, default: {}, editable: true}

@@ -16,7 +16,7 @@ from robocomp_yaml.building.unit import Unit, unit_of
 from robocomp_yaml.deploy.outdated import outdated_components
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
 from robocomp_yaml.diag.errors import Faulty
-from robocomp_yaml.source.discover import of_kind
+from robocomp_yaml.source.discover import kind_of, of_kind
 
 if TYPE_CHECKING:
     from robocomp_yaml.link.program import LinkedComponent
@@ -44,15 +44,20 @@ def units(analysis: Analysis, components: Iterable[LinkedComponent] | None = Non
 
 
 def _components(analysis: Analysis, documents: Iterable[str] = ()) -> list[LinkedComponent]:
-    components = analysis.program.components
+    """The components of these documents, which may be deployments; by default, the requested ones. Those of a
+    deployment are all that it starts, also on other hosts, to which `deploy push` brings what is built here."""
+    components, deployments = analysis.program.components, analysis.program.deployments
     chosen = [os.path.realpath(path) for path in documents] or analysis.program.requested_components()
-    linked = [components[real] for real in chosen if real in components]
-    return sorted(linked, key=lambda linked: linked.component.path)
+    linked = {real: components[real] for real in chosen if real in components}
+    started = [one for real in chosen if real in deployments for one in deployments[real].instances.values()]
+    every = {*linked.values(), *(one.component for one in started if one.component is not None)}
+    return sorted(every, key=lambda linked: linked.component.path)
 
 
 def _unread(analysis: Analysis, documents: Iterable[str]) -> list[Diagnostic]:
     """The diagnostics of documents that cannot be read. The other components are built all the same."""
-    unread = {path for path in documents if os.path.realpath(path) not in analysis.program.components}
+    known = {*analysis.program.components, *analysis.program.deployments}
+    unread = {path for path in documents if os.path.realpath(path) not in known}
     return [one for one in analysis.diagnostics if one.span.file in unread]
 
 
@@ -95,13 +100,15 @@ def _cpu() -> float:
 
 
 def documents(names: Sequence[str]) -> list[str]:
-    """The documents of components, by name, folder or document; by default, all below the working folder. Raises
-    Refused if a name is unknown."""
+    """The documents of components, by name, folder or document, and those of deployments, which stand for all that they
+    start; by default, all components below the working folder. Raises Refused if a name is unknown."""
     from robocomp_yaml.api import which
 
     paths: dict[str, None] = {}
     for name in names or (".",):
         below = of_kind(name, "cdsl") if os.path.isdir(name) else []
+        if kind_of(name) == "ddsl" and os.path.isfile(name):
+            below = [name]
         paths |= dict.fromkeys(below or ([which.component(name)] if names else []))
     return list(paths)
 

@@ -105,6 +105,9 @@ class Values:
             self._linked = effective_values.flat_layer(file, program)
         elif self._linked is not None:
             self._replacing = effective_values.replacing(self._linked, program)
+        if self._linked is None and kind_of(file) == "ddsl":
+            shown = typed("rcyaml", "-v", "deploy", "plan", file)
+            raise Refused(f"{file} is a deployment: `{shown}` shows the values of its processes")
         if self._linked is None and not has_errors(self._analysis.diagnostics):
             raise Refused(f"{file} is not a values document: its name is config.yaml (in etc/, beside a component) "
                           "or NAME.config.yaml")  # fmt: skip

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -71,13 +72,21 @@ def running_document(text: str) -> str:
 
 
 def named_document(text: str) -> str:
-    """The document at a path, or that of the running deployment of this name, or the only one here of this name; '' if
-    there is none."""
+    """The document at a path, or that of the running deployment of this name, or the only one here of this name, or in
+    the workspace; '' if there is none."""
     if os.path.exists(text):
         return text
     is_path = "/" in text or text.endswith((".yaml", ".yml"))
-    found = _running(text, is_path=is_path) or ("" if is_path else _of_name(text))
+    found = _running(text, is_path=is_path) or ("" if is_path else _of_name(text) or _of_name(text, _documents_here()))
     return "" if os.path.isdir(found) else found  # the folder of one whose document is another deployment's now
+
+
+def known_names() -> list[str]:
+    """The names of the deployments here, and in the workspace."""
+    from robocomp_yaml.deploy.folder import deployment_in
+
+    documents = [*of_kind(".", "ddsl"), *_documents_here()]
+    return sorted({name for document in documents if (name := deployment_in(document))})
 
 
 def only_running() -> str:
@@ -137,12 +146,12 @@ def _shares(one: RegisteredDeployment) -> bool:
     return any(other.document == one.document and other.folder != one.folder for other in registered.every())
 
 
-def _of_name(word: str) -> str:
-    """The only document below this folder of the deployment of this name, which need not run; '' if there is none, or
-    if the word can also be the name of a process."""
+def _of_name(word: str, documents: Sequence[str] | None = None) -> str:
+    """The only document of the deployment of this name, by default below this folder, which need not run; '' if there
+    is none, or if the word can also be the name of a process."""
     from robocomp_yaml.deploy.folder import deployment_in
 
-    documents = of_kind(".", "ddsl")
+    documents = of_kind(".", "ddsl") if documents is None else documents
     found = [document for document in documents if deployment_in(document) == word]
     return found[0] if len(found) == 1 and not any(_may_name(one, word) for one in documents) else ""
 

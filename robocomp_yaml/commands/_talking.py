@@ -24,11 +24,13 @@ class DeploymentName(click.ParamType):  # type: ignore[type-arg]  # older ones a
     name = "ddsl"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
-        from robocomp_yaml.commands._ddsl import named_document
+        from robocomp_yaml.api.refusals import meant
+        from robocomp_yaml.commands._ddsl import known_names, named_document
 
         found = named_document(value)
         if not found:
-            self.fail(f"there is no document '{value}', and no deployment of this name", param, ctx)
+            hint = meant(value, known_names())
+            self.fail(f"there is no document '{value}', and no deployment of this name{hint}", param, ctx)
         return found
 
     def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:

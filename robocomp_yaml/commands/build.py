@@ -39,7 +39,8 @@ def command(
     ctx: click.Context, components: tuple[str, ...], type_: str | None, jobs: int | None, defines: tuple[str, ...],
     clean: bool, include: tuple[str, ...], format_: str,
 ) -> None:  # fmt: skip
-    """Build COMPONENTs (by name, folder or document; by default, all below this folder) as they were compiled last.
+    """Build COMPONENTs (by name, folder or document; by default, all below this folder) as they were compiled last. The
+    document of a deployment stands for the components that it starts.
 
     C++ is built with CMake and Ninja, with one build tree for all components of a workspace, build/TYPE/; Java with the
     JDK; Python is compiled to bytecode and imported once. If a component fails, the others are built all the same.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 import threading
 import time
@@ -101,8 +102,8 @@ def _line(call: Call) -> str:
     at = time.strftime("%H:%M:%S", time.localtime(call.time))
 
     def shown(value: Any) -> str:
-        text = flow(value)
-        return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}… ({len(text)} characters)"
+        text = flow(_begin(value))
+        return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}…{_count(value)}"
 
     arguments = ", ".join(f"{name}: {shown(value)}" for name, value in call.arguments.items())
     if call.is_published:
@@ -112,6 +113,24 @@ def _line(call: Call) -> str:
     else:
         end = f" returns {shown(_results(call.results))}" if call.results else ""
     return f"{at} {'published ' if call.is_published else ''}{call.interface}.{call.method}({arguments}){end}"
+
+
+def _begin(value: Any) -> Any:
+    """A value without the elements that are not shown: to write all of an image takes seconds."""
+    match value:
+        case list():
+            return [_begin(one) for one in value[:_LONGEST]]
+        case dict():
+            return {name: _begin(one) for name, one in itertools.islice(value.items(), _LONGEST)}
+        case str():
+            return value[: _LONGEST + 1]
+        case _:
+            return value
+
+
+def _count(value: Any) -> str:
+    what = "characters" if isinstance(value, str) else "values"
+    return f" ({len(value)} {what})" if isinstance(value, (str, list, dict)) and len(value) > _LONGEST else ""
 
 
 def _results(results: Mapping[str, Any]) -> Any:

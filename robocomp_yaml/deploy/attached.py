@@ -35,7 +35,7 @@ async def attached(engine: Engine, network: Network, stays: Attached | None) -> 
     returns diagnostics."""
     printer = asyncio.create_task(_print(engine, network, stays.on_line)) if stays and stays.on_line else None
     try:
-        yield lambda: _stay(engine, stays)
+        yield lambda: _stay(engine, network, stays)
     except asyncio.CancelledError:
         if stays:  # cancelled while the network came up
             await _take_down(engine)
@@ -54,7 +54,7 @@ async def _print(engine: Engine, network: Network, on_line: Callable[[Line], Non
         on_line(line)
 
 
-async def _stay(engine: Engine, stays: Attached | None) -> list[Diagnostic]:
+async def _stay(engine: Engine, network: Network, stays: Attached | None) -> list[Diagnostic]:
     ended = asyncio.Event()
     if stays:
         stays.on_up(ended)
@@ -63,7 +63,7 @@ async def _stay(engine: Engine, stays: Attached | None) -> list[Diagnostic]:
         running = await engine.observe()
         for one in running.values():
             if one.spec and one.state in OVER and fault(one, is_server=one.spec.process.is_server):
-                failed[one.name] = deploying.GIVEN_UP.at(one.spec.process.span, name=one.name, how=one.end)
+                failed[one.name] = deploying.GIVEN_UP.at(network.span_of(one.name), name=one.name, how=one.end)
         if not any(one.is_alive for one in running.values()):
             break
         with suppress(TimeoutError):

@@ -141,7 +141,7 @@ async def _undo(
 async def _what_failed(engine: Engine, network: Network, result: Result, limit: TimeLimit) -> list[Diagnostic]:
     """A diagnostic for each failed process, with the last lines of its log, and one for all that were late."""
     outcome = result.outcome
-    logs = {name: await _last_lines(engine, name) for name in outcome.failed}
+    logs = {name: await last_lines(engine, name) for name in outcome.failed}
     failed = {name: reason for name, reason in outcome.failed.items() if name not in outcome.late}
     reported = list(dict.fromkeys(replace(reason, more="\n".join(logs[name])) for name, reason in failed.items()))
     if not outcome.is_late:
@@ -159,9 +159,12 @@ async def _what_failed(engine: Engine, network: Network, result: Result, limit: 
     return [late, *reported]
 
 
-async def _last_lines(engine: Engine, name: str) -> list[str]:
+async def last_lines(engine: Engine, name: str) -> list[str]:
+    """The last lines of the last run of a process."""
     async with aclosing(await engine.lines([name], SHOWN_LINES, False)) as lines:
-        return [f"{name} | {line.text}" async for line in lines]
+        found = [line.text async for line in lines]
+    starts = [number for number, line in enumerate(found) if line.startswith("rcyaml: started, pid ")]
+    return [f"{name} | {line}" for line in found[starts[-1] if starts else 0 :]]
 
 
 async def status(engine: Engine, network: Network, names: Collection[str], reached: bool) -> list[Status]:

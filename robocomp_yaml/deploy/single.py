@@ -143,7 +143,7 @@ class SingleRun(msgspec.Struct):
             raise DeployFailed(deploying.CANNOT.at(at, name=spec.name, what="started", reason=reason)) from error
         on_start(child.pid)
         ended = asyncio.create_task(child.wait())
-        failing = asyncio.create_task(_failed(engine))
+        failing = asyncio.create_task(_failed(engine, self.beside))
         await _either(ended, interruptions.more_than(0), failing)
         if failing.done():
             result.diagnostics += failing.result()
@@ -160,7 +160,7 @@ async def _either(*works: object) -> None:
             task.cancel()
 
 
-async def _failed(engine: LocalEngine | None) -> list[Diagnostic]:
+async def _failed(engine: LocalEngine | None, beside: Network | None) -> list[Diagnostic]:
     """Waits until a process beside is given up. Returns why."""
     while True:
         await asyncio.sleep(_PERIOD)
@@ -170,14 +170,13 @@ async def _failed(engine: LocalEngine | None) -> list[Diagnostic]:
             return [error.diagnostic]
         given_up = [one for one in found.values() if one.state == GIVEN_UP and one.spec]
         if given_up:
-            return [await _why(engine, one) for one in given_up]
+            return [await _why(engine, beside, one) for one in given_up]
 
 
-async def _why(engine: LocalEngine | None, one: Running) -> Diagnostic:
-    assert engine and one.spec
-    lines = [line.text async for line in await engine.lines([one.name], operations.SHOWN_LINES, False)]
-    more = "\n".join(f"{one.name} | {line}" for line in lines)
-    return deploying.GIVEN_UP.at(one.spec.process.span, name=one.name, how=one.end, more=more)
+async def _why(engine: LocalEngine | None, beside: Network | None, one: Running) -> Diagnostic:
+    assert engine and beside
+    more = "\n".join(await operations.last_lines(engine, one.name))
+    return deploying.GIVEN_UP.at(beside.span_of(one.name), name=one.name, how=one.end, more=more)
 
 
 async def _end(engine: LocalEngine, report: Report, interruptions: Interruptions) -> None:

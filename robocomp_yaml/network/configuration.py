@@ -221,7 +221,11 @@ class Configuration(msgspec.Struct):
         else:
             properties = self._connections(CLASSIC)
             found = made.derived((each.key, each.value, each.span or self.draft.span) for each in properties)
-        return [*found, *(run_time_defaults() if self.draft.instance.component is not None else ())]
+        shown = list(found)
+        known = {one.key for one in shown}
+        if self.draft.instance.component is not None:
+            shown += (one for one in run_time_defaults() if one.key not in known)
+        return shown
 
     @property
     def _file(self) -> str:

@@ -14,6 +14,7 @@ from robocomp_yaml.link.program import LinkedModule
 from robocomp_yaml.model.build_component import seconds
 from robocomp_yaml.model.interface import Interface
 from robocomp_yaml.source import tree
+from robocomp_yaml.source.ice_texts import ENDPOINT, PROXY, of_text
 from robocomp_yaml.source.tree import Node, Scalar
 from robocomp_yaml.wire.interfaces import RETURNS, Operation, WireInterface
 from robocomp_yaml.wire.types import Types
@@ -83,8 +84,10 @@ class Reader:
     def of_document(self, root: tree.Mapping) -> Script:
         """The script of a document, which has the shape of its schema."""
         script = Script(storm=_text(root.get("storm")))
+        script.diagnostics += _of_ice(PROXY, root.get("storm"))
         for key, node in _entries(root.get("interfaces")):
             found = self._interface(key, script, is_topic=False)
+            script.diagnostics += _of_ice(ENDPOINT, node.get("endpoint") if isinstance(node, tree.Mapping) else None)
             if found is not None:
                 methods = node.get("methods") if isinstance(node, tree.Mapping) else None
                 answers = {
@@ -210,6 +213,11 @@ def _mapping(node: Node) -> tree.Mapping:
 
 def _entries(node: Node | None) -> Iterable[tuple[Scalar, Node]]:
     return list(node.items()) if isinstance(node, tree.Mapping) else ()
+
+
+def _of_ice(what: str, node: Node | None) -> list[Diagnostic]:
+    found = of_text(what, node) if isinstance(node, Scalar) else None
+    return [found] if found is not None else []
 
 
 def _text(node: Node | None) -> str:

@@ -337,6 +337,14 @@ def test_an_attached_up_ends_with_its_processes(robot: Path, rcyaml: Rcyaml, pla
     place.wait_gone()
 
 
+def test_an_attached_up_says_which_entry_was_given_up(robot: Path, rcyaml: Rcyaml, place: Place) -> None:
+    entry = 'a: {program: sh, args: [-c, "sleep 1; exit 4"], restart: "no"}'
+    write_tree(robot, {"robot.ddsl.yaml": f"deployment: Robot\ncomponents:\n  {entry}\n"})
+    result = deploy(rcyaml, "up", "--attach")
+    assert result.exit_code == 1 and "RC7009" in result.stderr and "─ robot.ddsl.yaml:3:3" in result.stderr
+    place.wait_gone()
+
+
 def test_logs_are_followed(robot: Path, rcyaml: Rcyaml) -> None:
     deploy(rcyaml, "up")
     following = start(robot, "logs", "robot.ddsl.yaml", "-f", "-n", "0", stdout=subprocess.PIPE)

@@ -184,6 +184,9 @@ def test_one_that_does_not_become_ready(robot: Callable[[str], Path], run: Run) 
     assert "error[RC7004]: 'arm' ended before it was ready: exit code 4" in one.said and "arm | no arm" in one.said
     assert "hand is open" not in one.said
     nothing_is_left(root)
+    again = run("hand", "--with-needed")  # the lines of the first run are not those of the second
+    assert again.process.wait(PATIENCE) == 1
+    assert again.said.count("arm | no arm") == again.said.count("arm | rcyaml: started") == 1
 
 
 def test_one_that_is_given_up_ends_the_run(robot: Callable[[str], Path], run: Run) -> None:
@@ -194,7 +197,7 @@ def test_one_that_is_given_up_ends_the_run(robot: Callable[[str], Path], run: Ru
     one = run("hand", "--with-needed")
     assert one.process.wait(PATIENCE) == 1
     assert "hand is open" in one.said and "tidy" in one.said
-    assert "error[RC7009]: 'arm'" in one.said and "arm | no more" in one.said
+    assert "error[RC7009]: 'arm'" in one.said and "arm | no more" in one.said and "─ robot.ddsl.yaml:" in one.said
     nothing_is_left(root)
 
 
@@ -297,7 +300,7 @@ groups:
             "robot.ddsl.yaml has no entry or component 'cam7'; did you mean 'cam1'?",
         ),
         (["cam7", "--deployment", "Robot"], 2, "robot.ddsl.yaml has no entry or component 'cam7'"),
-        (["cam0", "--deployment", "Robto"], 2, "there is no document 'Robto', and no deployment of this name"),
+        (["cam0", "--deployment", "Robto"], 2, "and no deployment of this name; did you mean 'Robot'?"),
         (["arm", "--alone"], 2, "unknown component 'arm'"),
         (["arm", "fast"], 2, "'fast' is unexpected: arguments of the program follow `--`"),
         (["robot.ddsl.yaml"], 2, "which of its entries? `rcyaml run robot.ddsl.yaml NAME`"),
@@ -320,6 +323,16 @@ def test_an_entry_of_one_of_several_deployments(tmp_path: Path, rcyaml: Rcyaml) 
     both = rcyaml("run", "same", "--dry-run")
     assert both.exit_code == 2
     assert "choose one by `--deployment arm.ddsl.yaml` or `--deployment leg.ddsl.yaml`" in both.stderr
+
+
+def test_a_deployment_of_the_workspace_is_named_from_any_folder(
+    tmp_path: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    one = "deployment: NAME\ncomponents: {same: {program: 'true'}}\n"
+    write_tree(tmp_path, {f"d/{name}.ddsl.yaml": one.replace("NAME", name) for name in ("Arm", "Leg")})
+    write_tree(tmp_path, {"rcyaml.yaml": "", "components/x/notes": ""})
+    monkeypatch.chdir(tmp_path / "components" / "x")
+    assert "../../d/Leg.ddsl.yaml" in rcyaml("run", "same", "--deployment", "Leg", "--dry-run").stdout
 
 
 def test_a_broken_deployment_beside_does_not_matter(tmp_path: Path, rcyaml: Rcyaml) -> None:

@@ -312,6 +312,13 @@ MISTAKES = [
     one(CREATING, "a wrong indentation", WORKER, "        return True\n", "       return True\n", "RC6317", f"{WORKER}:21:19"),
     one(CREATING, "a forgotten import of the standard library", WORKER, "self.words.clear()", "time.sleep(1)", "RC6331", f"{WORKER}:24:9"),
     one(CREATING, "an unknown method of the log", WORKER, "self.log.info(\"%s\"", "self.log.inform(\"%s\"", "RC6325", f"{WORKER}:27:18"),
+    one(CREATING, "a method that is asynchronous", WORKER, "def Speech_stop", "async def Speech_stop", "RC6336", f"{WORKER}:23:15"),
+    one(CREATING, "a method that is a generator", WORKER, "self.words.clear()", "yield self.words", "RC6336", f"{WORKER}:23:9"),
+    one(CREATING, "a method that is a property", WORKER, "    def Speech_stop", "    @property\n    def Speech_stop", "RC6336", f"{WORKER}:24:9"),
+    one(CREATING, "a result of another type", WORKER, "return True", "return \"done\"", "RC6335", f"{WORKER}:21:16"),
+    one(CREATING, "a path without the result that others expect", WORKER, "        return True\n", "        if volume > 3:\n            self.words.clear()\n", "RC6329", f"{WORKER}:19:9"),
+    one(CREATING, "a method without its result, in C++", SOURCE, "    return pose;\n", "", "RC6329", f"{SOURCE}:13:37"),
+    one(CREATING, "a wrong argument of the worker's own method", WORKER, "self.words: list[str] = []", "self.words: list[str] = []; self.setPeriod(\"fast\")", "RC6308", f"{WORKER}:9:52"),
     one(CREATING, "the name that C++ has in other tools", MOUTH, "language: cpp", "language: c++", "RC0204", f"{MOUTH}:2:11"),
     #
     one(PROXIES, "a requirement in other letters", SPEECH, "requires: [Mouth]", "requires: [mouth]", "RC2003", f"{SPEECH}:5:12"),
@@ -353,6 +360,7 @@ MISTAKES = [
     one(PROXIES, "an argument that is computed, and too many", WORKER, "self.mouth_proxy.close()", "self.mouth_proxy.close(len(self.words))", "RC6304", f"{WORKER}:15:26"),
     one(PROXIES, "an enumerator as an argument of another type", WORKER, "move(pose, True)", "move(RoboCompMouth.Shape.round, True)", "RC6328", f"{WORKER}:13:41"),
     one(PROXIES, "a wrong type of argument, by its name", WORKER, "move(pose, True)", "move(target=10.0, fast=True)", "RC6328", f"{WORKER}:13:48"),
+    one(PROXIES, "a struct that is indexed with a number", WORKER, "reached.opening)", "reached[0])", "RC6330", f"{WORKER}:14:91"),
     one(PROXIES, "a struct that is indexed", WORKER, "reached.opening)", "reached['opening'])", "RC6330", f"{WORKER}:14:92"),
     one(PROXIES, "the result of an asynchronous call, without `result()`", WORKER, "= self.mouth_proxy.move(pose, True)", "= self.mouth_proxy.moveAsync(pose, True)", "RC6325", f"{WORKER}:14:91"),
     #

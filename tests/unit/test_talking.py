@@ -8,8 +8,11 @@ import time
 import pytest
 
 from robocomp_yaml.api.topics import Rate
+from robocomp_yaml.commands import mock
 from robocomp_yaml.commands._talking import as_json, as_text, times
 from robocomp_yaml.commands.record import _Size
+
+stand_ins = pytest.importorskip("robocomp_yaml.wire.stand_ins", reason="Ice for Python is not installed")
 
 
 def test_json_has_no_infinite_numbers() -> None:
@@ -33,6 +36,22 @@ def test_times_do_not_drift() -> None:
     assert len(at) == 4
     assert at[0] < 0.02 <= at[1] and at[2] >= 0.06
     assert list(times(3, None)) == [0, 1, 2]
+
+
+@pytest.mark.parametrize(
+    ("value", "end"),
+    [
+        ([0] * 5000, "… (5000 values)) returns 7"),
+        ([[0] * 5000], "…) returns 7"),
+        ({"a": "b" * 5000}, "bbb…) returns 7"),
+        ("b" * 5000, "bbb… (5000 characters)) returns 7"),
+        ([1, {"a": "b"}], "([1, {a: b}]) returns 7"),
+    ],
+)
+def test_only_the_beginning_of_a_long_value_is_shown(value: object, end: str) -> None:
+    call = stand_ins.Call("Arm", "store", {"image": value}, {"returns": 7})
+    shown = mock._line(call)
+    assert shown.replace("image: ", "").endswith(end) and len(shown) < 300
 
 
 def test_rate_and_jitter() -> None:

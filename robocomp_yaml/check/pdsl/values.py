@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 from robocomp_yaml.diag.codes import values as codes
-from robocomp_yaml.diag.codes.files import BAD_ICE_TEXT
 from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic, has_errors
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.attachments import refers_to
@@ -16,12 +15,8 @@ from robocomp_yaml.parameters.layers.effective import Effective, document_faults
 from robocomp_yaml.parameters.writing.properties import properties
 from robocomp_yaml.parameters.writing.writable import is_surely_writable
 from robocomp_yaml.semantics.texts import unquoted
-from robocomp_yaml.source.ice_endpoint import parse_endpoints
-from robocomp_yaml.source.ice_options import InvalidIceText
-from robocomp_yaml.source.ice_proxy import parse_proxy
+from robocomp_yaml.source.ice_texts import ENDPOINT, PROXY, of_text
 from robocomp_yaml.source.tree import Mapping, Node, Scalar
-
-_SUCH_AS = {"endpoint": "tcp -p 10001", "proxy": '"mouth:tcp -h localhost -p 10002"'}
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
@@ -53,29 +48,16 @@ def texts_of_ice(linked: LinkedValues) -> Iterator[Diagnostic]:
     """Reports endpoints and proxies that Ice would reject."""
     root = linked.document.root
     manager = root.get("topics")
-    texts: list[tuple[str, Node | None, Callable[[str], object]]]
-    texts = [("endpoint", node, parse_endpoints) for node in _own(root.get("endpoints"))]
-    texts += [("proxy", node, parse_proxy) for node in _own(root.get("proxies"))]
-    texts += [("proxy", manager.get("manager"), parse_proxy)] if isinstance(manager, Mapping) else []
-    for what, value, parse in texts:
+    texts: list[tuple[str, Node | None]] = [(ENDPOINT, node) for node in _own(root.get("endpoints"))]
+    texts += [(PROXY, node) for node in _own(root.get("proxies"))]
+    texts += [(PROXY, manager.get("manager"))] if isinstance(manager, Mapping) else []
+    for what, value in texts:
         node = value.get("proxy") if isinstance(value, Mapping) else value
         if not isinstance(node, Scalar) or node.data is None:
             continue
-        text = unquoted(node.lexeme)
-        if not text and not linked.document.path.endswith(".yaml"):
+        if not unquoted(node.lexeme) and not linked.document.path.endswith(".yaml"):
             continue  # of a flat config: it is not set
-        try:
-            parse(text)
-        except InvalidIceText as refused:
-            fault = BAD_ICE_TEXT.at(
-                node.span.inside(text, refused.start, refused.end),
-                what=what,
-                text=text,
-                problem=refused.problem,
-                hint=did_you_mean(
-                    text[refused.start : refused.end], refused.meant, otherwise=f"such as {_SUCH_AS[what]}"
-                ),
-            )
+        if (fault := of_text(what, node)) is not None:
             yield fault.as_severity(WARNING) if "legacy" in root.entries else fault
 
 

@@ -1,4 +1,4 @@
-"""Arguments of a call of which the code says what they are, and that the parameters of the method cannot be."""
+"""Arguments and results of which the code says what they are, and that the method of an interface cannot have."""
 
 from __future__ import annotations
 
@@ -6,39 +6,91 @@ from collections.abc import Iterator
 
 from robocomp_yaml.diag.codes import usage as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.usage import offer as offers
-from robocomp_yaml.emit.usage.code import MAPPING, NOTHING, Arguments, Chain, Constant, Step, Word
-from robocomp_yaml.emit.usage.literals import NUMBERS, wanted
+from robocomp_yaml.emit.usage.code import (
+    LIST,
+    MAPPING,
+    MODULES,
+    NOTHING,
+    TEXT,
+    TUPLE,
+    Arguments,
+    Chain,
+    Constant,
+    Returned,
+    Step,
+    Word,
+)
+from robocomp_yaml.emit.usage.kinds import Kind, instead_of, of_basic, unfit
 from robocomp_yaml.emit.usage.offer import Offer, OfferedMember, WorkerOffer
 from robocomp_yaml.model.interface import Member
 from robocomp_yaml.parameters.types import BasicType, EnumType
 
-_NUMBER, _TEXT, _TRUTH = "a number", "a text", "true or false"
-_FORMS = frozenset(("a list", "a tuple", "a set", "a function", "a generator", MAPPING, _NUMBER, _TEXT, _TRUTH))
+_Wrong = tuple[Span, str, str]
+"""Where something is, what it is, and what is expected instead."""
 
 
 def wrong_arguments(
-    owner: str, inputs: tuple[Member, ...], kinds: tuple[str, ...], arguments: Arguments, worker: WorkerOffer
+    owner: str, inputs: tuple[Member, ...], kinds: tuple[Kind | None, ...], arguments: Arguments, worker: WorkerOffer
 ) -> Iterator[Diagnostic]:  # fmt: skip
-    """Arguments that the parameters of a method cannot be. `kinds` are the types of these, '' if unknown."""
-    for number, constant in enumerate(arguments.values[: len(inputs)]):
-        yield from _wrong(owner, inputs[number], kinds[number], constant, _given(arguments, number, worker))
-    by_name = {member.name: (member, kind) for member, kind in zip(inputs, kinds, strict=True)}
+    """Arguments that the parameters of a method cannot be. `kinds` are those of these, None if unknown."""
+    for number, member in enumerate(inputs[: arguments.count]):
+        for span, value, needed in _wrong(kinds[number], arguments, number, worker):
+            yield codes.WRONG_LITERAL.at(span, owner=owner, name=member.name, value=value, wanted=needed)
+    by_name = {member.name: kind for member, kind in zip(inputs, kinds, strict=True)}
     for name, constant in zip(arguments.names, arguments.named, strict=False):
-        if name.text in by_name:
-            yield from _wrong(owner, *by_name[name.text], constant, None)
+        kind = by_name.get(name.text)
+        if kind is not None and constant is not None:
+            for span, value, needed in _wrong_literal(kind, constant, worker):
+                yield codes.WRONG_LITERAL.at(span, owner=owner, name=name.text, value=value, wanted=needed)
 
 
-def _wrong(
-    owner: str, member: Member, kind: str, constant: Constant | None, given: Word | None
-) -> Iterator[Diagnostic]:  # fmt: skip
+def wrong_results(returned: Returned, worker: WorkerOffer) -> Iterator[Diagnostic]:
+    """Results that the callers of a method of the worker cannot get."""
+    results = worker.answering[returned.method]
+    values, name = returned.values, returned.method
+    if not values.is_exact:
+        return
+    if len(results) > 1 and not returned.is_tuple:
+        given = _given(values, 0, worker)
+        text = repr(values.values[0].value) if values.values[0] is not None else given.text if given else ""
+        if text and (given is None or given.text not in (LIST, TUPLE)):
+            yield _no_result(returned.span, name, text, f"{len(results)} values")
+    elif len(results) > 1 and values.count != len(results):
+        yield _no_result(returned.span, name, f"{values.count} values", str(len(results)))
+    elif len(results) == 1 and returned.is_tuple:
+        kind = results[0][1]
+        if kind is not None and (needed := unfit(kind, TUPLE)):
+            yield _no_result(returned.span, name, TUPLE, needed)
+    else:
+        for number, (result, kind) in enumerate(results):
+            for span, value, needed in _wrong(kind, values, number, worker):
+                yield _no_result(span, name, f"{value} as {result}" if len(results) > 1 else value, needed)
+
+
+def _no_result(span: Span, name: str, value: str, needed: str) -> Diagnostic:
+    return codes.WRONG_RESULT.at(span, name=name, value=value, wanted=needed)
+
+
+def _wrong(kind: Kind | None, arguments: Arguments, number: int, worker: WorkerOffer) -> Iterator[_Wrong]:
+    """What is wrong with an argument by position."""
+    if kind is None or number >= len(arguments.values):
+        return
+    constant, given = arguments.values[number], _given(arguments, number, worker)
     if constant is not None:
-        if needed := wanted(kind, constant.value, integers=True):
-            yield codes.WRONG_LITERAL.at(
-                constant.span, owner=owner, name=member.name, value=repr(constant.value), wanted=needed
-            )
-    elif given is not None and (needed := _unfit(kind, given.text)):
-        yield codes.WRONG_LITERAL.at(given.span, owner=owner, name=member.name, value=given.text, wanted=needed)
+        yield from _wrong_literal(kind, constant, worker)
+    elif given is not None and (needed := unfit(kind, given.text)):
+        yield given.span, given.text, needed
+    elif kind.element is not None and number < len(arguments.inside):
+        for one in arguments.inside[number]:
+            for span, value, needed in _wrong_literal(kind.element, one, worker):
+                yield span, f"a list with {value}", f"a list, each {needed}"
+
+
+def _wrong_literal(kind: Kind, constant: Constant, worker: WorkerOffer) -> Iterator[_Wrong]:
+    if needed := instead_of(kind, constant.value, exact=worker.is_exact):
+        yield constant.span, repr(constant.value), needed
 
 
 def is_context(arguments: Arguments, number: int, worker: WorkerOffer) -> bool:
@@ -54,7 +106,7 @@ def _given(arguments: Arguments, number: int, worker: WorkerOffer) -> Word | Non
     if number < len(arguments.forms) and (form := arguments.forms[number]) is not None:
         return form
     chain = arguments.chains[number] if number < len(arguments.chains) else None
-    text = _what(*leads_to(chain, worker)) if chain is not None else ""
+    text = _what(chain, *leads_to(chain, worker)) if chain is not None else ""
     return Word(text, chain.steps[-1].word.span) if chain is not None and text else None
 
 
@@ -65,7 +117,7 @@ def leads_to(chain: Chain, worker: WorkerOffer) -> tuple[Offer | None, OfferedMe
         if now is None:
             return None, None
         if step.is_index:
-            now, member = now.each if step.is_each else now.element, None
+            now, member = now.at(step), None
             continue
         member = now.members.get(step.word.text)
         if member is None:
@@ -79,34 +131,30 @@ def after(step: Step, member: OfferedMember) -> Offer | None:
     return member.result if step.arguments is not None and member.result is not None else member.value
 
 
-def _what(now: Offer | None, member: OfferedMember | None) -> str:
+def _what(chain: Chain, now: Offer | None, member: OfferedMember | None) -> str:
+    if now is None and member is not None and member.result is not None:  # it is named, and not called
+        if chain.root == MODULES:
+            return f"the type {member.result.name}" if member.result.name else ""
+        return "a method without ()"
     if now is None:
         type_ = member.parameter.type if member is not None and member.parameter is not None else None
-        if isinstance(type_, EnumType):
-            return _TEXT
-        return _basic(type_.name) if isinstance(type_, BasicType) else ""
+        return TEXT if isinstance(type_, EnumType) else of_basic(type_.name) if isinstance(type_, BasicType) else ""
     match now.kind:
         case offers.PLAIN:
-            return _basic(now.name) or f"a {now.name}"
+            return of_basic(now.name) or f"a {now.name}"
         case offers.STRUCT:
             return f"a {now.name}"
         case offers.ENUM:
             return f"the enum {now.name}"
+        case offers.LIST:
+            return LIST
+        case offers.RECORD:
+            return f"{now.name} of the parameters" if now.name else ""
+        case offers.PROXY | offers.TOPIC:
+            return "a proxy"
+        case offers.FUTURE:
+            return now.name
+        case offers.RESULTS:
+            return TUPLE if now.count else NOTHING
         case _:
             return ""
-
-
-def _basic(name: str) -> str:
-    return _TEXT if name == "string" else _TRUTH if name == "bool" else _NUMBER if name in NUMBERS else ""
-
-
-def _unfit(kind: str, given: str) -> str:
-    """What a type of an interface expects instead of something; '' if that may be right."""
-    if given == NOTHING:  # a struct, a text and a list may be None
-        return _NUMBER if kind in NUMBERS else ""
-    if not kind or (given not in _FORMS and not given.startswith(("a ", "the "))):
-        return ""
-    expected = _basic(kind) or f"a {kind}"
-    if given == expected or (given in (_NUMBER, _TRUTH) and expected in (_NUMBER, _TRUTH)):
-        return ""
-    return expected

@@ -19,7 +19,9 @@ class Word(msgspec.Struct, frozen=True):
     span: Span
 
 
-MAPPING, NOTHING = "a mapping", "None"
+NUMBER, TEXT, TRUTH, LIST, TUPLE, SET = "a number", "a text", "true or false", "a list", "a tuple", "a set"
+MAPPING, NOTHING, NO_MAPPING, FUNCTION, GENERATOR = "a mapping", "None", "no mapping", "a function", "a generator"
+"""What a value surely is, in words."""
 
 
 class Constant(msgspec.Struct, frozen=True):
@@ -34,7 +36,8 @@ class Arguments(msgspec.Struct, frozen=True):
     is the first one if it is a literal text, `keys` are those of the first one if it is a literal mapping. `constant`
     is the last one by position if it is a literal; `values` are all by position, None for those that are not, and
     `named` those by keyword. `forms` says what those by position surely are, such as MAPPING or "a list", `chains` are
-    those that are chains; None if unknown."""
+    those that are chains; None if unknown. `inside` are the literals in each that is a literal list or tuple, and
+    `under` those of the `keys`."""
 
     count: int = 0
     names: tuple[Word, ...] = ()
@@ -46,16 +49,21 @@ class Arguments(msgspec.Struct, frozen=True):
     named: tuple[Constant | None, ...] = ()
     forms: tuple[Word | None, ...] = ()
     chains: tuple[Chain | None, ...] = ()
+    inside: tuple[tuple[Constant, ...], ...] = ()
+    under: tuple[Constant | None, ...] = ()
 
 
 class Step(msgspec.Struct, frozen=True):
     """One step of a chain: a name, called if it has `arguments`; or an index, whose name is '' unless it is a literal
-    text; or an element in a loop (`is_each`)."""
+    text; or an element in a loop (`is_each`). `shown` is an index as it is written, and `place` its value if that is a
+    literal number."""
 
     word: Word
     arguments: Arguments | None = None
     is_index: bool = False
     is_each: bool = False
+    shown: Word | None = None
+    place: int | None = None
 
 
 class Chain(msgspec.Struct, frozen=True):
@@ -77,7 +85,11 @@ class Chain(msgspec.Struct, frozen=True):
 
 
 WITHOUT_SELF, NO_SELF, NOT_CALLED, NOT_GENERATED = "without self", "no self", "not called", "not generated"
-UNDEFINED, REPEATED, NO_INIT, NO_RESULT = "undefined", "repeated", "no init", "no result"
+UNDEFINED, REPEATED, NO_INIT, NO_RESULT, NO_METHOD = "undefined", "repeated", "no init", "no result", "no method"
+
+ASYNC, YIELDS, PROPERTY = "async", "a generator", "a property"
+STATIC, VALUE = "a static method with self", "a value"
+"""What is there instead of a method that the generated code calls."""
 
 
 class Slip(msgspec.Struct, frozen=True):
@@ -87,6 +99,15 @@ class Slip(msgspec.Struct, frozen=True):
     word: Word
     meant: str = ""
     known: tuple[str, ...] = ()
+
+
+class Returned(msgspec.Struct, frozen=True):
+    """A value that a method of the worker returns; `values` are its elements if `is_tuple`, else the value alone."""
+
+    method: str
+    span: Span
+    values: Arguments
+    is_tuple: bool = False
 
 
 class CodeUsage(msgspec.Struct, frozen=True):
@@ -106,6 +127,7 @@ class CodeUsage(msgspec.Struct, frozen=True):
     is_shared: bool = False
     faults: tuple[tuple[str, Span], ...] = ()
     slips: tuple[Slip, ...] = ()
+    returned: tuple[Returned, ...] = ()
 
 
 def literal_head(steps: tuple[Step, ...]) -> tuple[Step, ...]:

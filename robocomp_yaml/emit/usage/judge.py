@@ -10,12 +10,10 @@ import msgspec
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import usage as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.diag.fix import Edit, Fix
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean, likeness, suggest
-from robocomp_yaml.emit.usage import code
 from robocomp_yaml.emit.usage import offer as offers
-from robocomp_yaml.emit.usage.arguments import after, is_context, wrong_arguments
+from robocomp_yaml.emit.usage.arguments import after, is_context, wrong_arguments, wrong_results
 from robocomp_yaml.emit.usage.code import (
     SETTINGS,
     WORKER,
@@ -23,19 +21,24 @@ from robocomp_yaml.emit.usage.code import (
     Chain,
     CodeUsage,
     Constant,
-    Slip,
     Step,
     Word,
 )
-from robocomp_yaml.emit.usage.literals import never_equal, of_setting, wanted
+from robocomp_yaml.emit.usage.kinds import Kind, kind_of, of_basic, wanted
+from robocomp_yaml.emit.usage.literals import never_equal, of_setting
 from robocomp_yaml.emit.usage.offer import Offer, OfferedMember, ServedInterface, WorkerOffer
+from robocomp_yaml.emit.usage.slips import of_slip
 from robocomp_yaml.emit.usage.values import EDITABLE, keys, unknown, unknown_setting, where, wrong_paths, wrong_value
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.model.interface import Enum, Member, Struct
+from robocomp_yaml.model.interface import Member
 
 _NEAR = 0.75  # similarity of a member that is surely misspelled
 _PROXY = re.compile(r"\w+_(?:pub)?proxy\d*_*\Z")
 _NEARLY = re.compile(r"([a-z]\w*?)_?(?:pub_?)?(?:[Pp]rox[yi]|[Pp]rx)\d*_*\Z")
+
+_LONGER, _MISTYPED = 3, 0.85  # characters, and similarity, of a proxy that is surely misspelled
+_FEW = 6  # members that are listed
+_VALUES = (offers.RECORD, offers.TOOL, offers.PROXY, offers.TOPIC, offers.EVENTS, offers.PARAMETERS)
 
 
 def is_proxy(name: str) -> bool:
@@ -44,10 +47,15 @@ def is_proxy(name: str) -> bool:
 
 
 def is_nearly_proxy(name: str, known: Iterable[str]) -> bool:
-    """Whether a name is one of the known proxies in another form, such as `mouthProxy`."""
+    """Whether a name is one of the known proxies in another form, such as `mouthProxy`, or with a typing error."""
     found = _NEARLY.match(name)
-    stems = {re.sub(r"_(?:pub)?proxy.*", "", one).lower() for one in known if is_proxy(one)}
-    return found is not None and found[1].lower().rstrip("_") in stems
+    proxies = [one for one in known if is_proxy(one)]
+    stems = {re.sub(r"_(?:pub)?proxy.*", "", one).lower() for one in proxies}
+    if found is not None:
+        return found[1].lower().rstrip("_") in stems
+    if "_" not in name or "x" not in name:
+        return False  # most words: likeness takes long
+    return any(abs(len(name) - len(one)) < _LONGER and likeness(name, one) > _MISTYPED for one in proxies)
 
 
 def judge(
@@ -58,7 +66,7 @@ def judge(
         yield codes.SYNTAX.at(span, text=text)
     if usage.faults:
         return
-    yield from map(_slip, usage.slips)
+    yield from map(of_slip, usage.slips)
     judging = _Judging(linked, usage, offer)
     seen = set[tuple[str, Span]]()  # chains through variables share their first steps
     for chain in usage.chains:
@@ -72,32 +80,8 @@ def judge(
             if not chain.is_again:
                 yield from unknown_setting(linked, chain, config)
     yield from judging.methods()
-
-
-def _slip(slip: Slip) -> Diagnostic:
-    match slip.kind:
-        case code.WITHOUT_SELF:
-            hint = f"write {slip.meant}"
-            fix = Fix(hint, (Edit(slip.word.span, slip.meant),), True)
-            return codes.WITHOUT_SELF.at(slip.word.span, name=slip.word.text, hint=hint, fixes=(fix,))
-        case code.NO_SELF:
-            return codes.NO_SELF.at(slip.word.span, name=slip.word.text, hint="its first parameter must be self")
-        case code.NOT_CALLED:
-            return codes.NOT_CALLED.at(slip.word.span, name=slip.word.text, hint=f"write {slip.word.text}(…)")
-        case code.UNDEFINED if slip.meant:
-            return codes.UNDEFINED.at(slip.word.span, name=slip.word.text, hint=f"write `{slip.meant}`")
-        case code.UNDEFINED:
-            near = did_you_mean(slip.word.text, slip.known)
-            return unknown(codes.UNDEFINED, slip.word, near.meant, otherwise="", safe=False)
-        case code.REPEATED:
-            hint = "rename one of the two"
-            return codes.REPEATED.at(slip.word.span, name=slip.word.text, line=int(slip.meant), hint=hint)
-        case code.NO_INIT:
-            return codes.NO_INIT.at(slip.word.span, hint="call super().__init__ with its arguments first")
-        case code.NO_RESULT:
-            return codes.NO_RESULT.at(slip.word.span, name=slip.word.text)
-    meant = did_you_mean(slip.word.text, slip.known, otherwise=_listed(slip.known, "it has"))
-    return unknown(codes.NOT_GENERATED, slip.word, meant.meant, otherwise=meant.text, safe=meant.safe)
+    for returned in usage.returned:
+        yield from wrong_results(returned, offer)
 
 
 class _Judging(msgspec.Struct):
@@ -115,15 +99,16 @@ class _Judging(msgspec.Struct):
             if now is None:
                 return
             if step.is_index:
-                if step.word.text and not chain.is_again and "TypeError" not in chain.caught:
-                    yield from self._indexed(now, step.word)
-                now, member = now.each if step.is_each else now.element, None
+                word = step.word if step.word.text else step.shown
+                if word is not None and not chain.is_again and "TypeError" not in chain.caught:
+                    yield from self._indexed(now, word, is_text=bool(step.word.text))
+                now, member = now.at(step), None
                 continue
             member = now.members.get(step.word.text)
             if member is None and step.word.text in now.lacks and "AttributeError" not in chain.caught:
                 if not chain.is_again:
                     hint = now.lacks[step.word.text]
-                    yield codes.UNKNOWN_MEMBER.at(step.word.span, struct="a list", name=step.word.text, hint=hint)
+                    yield codes.UNKNOWN_MEMBER.at(step.word.span, struct=now.name, name=step.word.text, hint=hint)
                 return
             if member is None:
                 if not chain.is_again and not self._may_exist(now, step, chain):
@@ -152,9 +137,13 @@ class _Judging(msgspec.Struct):
         word = step.word
         if step.arguments is None:
             return codes.NOT_CALLED.at(word.span, name=word.text, hint=f"write {word.text}()") if member.read else None
-        is_value = member.parameter is not None or now.kind == offers.STRUCT
-        is_value |= member.value is not None and member.value.kind == offers.RECORD
-        if not is_value or member.most is not None or member.result is not None or "TypeError" in chain.caught:
+        if "TypeError" in chain.caught:
+            return None
+        if member.value is not None and member.value.kind == offers.ENUM and member.signature:
+            return codes.NOT_CALLABLE.at(word.span, name=word.text, hint=f"write {member.signature}")
+        is_value = member.parameter is not None or now.kind in (offers.STRUCT, offers.ENUM)
+        is_value |= member.value is not None and member.value.kind in _VALUES
+        if not is_value or member.most is not None or member.result is not None:
             return None
         return codes.NOT_CALLABLE.at(word.span, name=word.text, hint=f"write {word.text}, without ()")
 
@@ -171,9 +160,11 @@ class _Judging(msgspec.Struct):
         count = count if now.kind == offers.RESULTS else f"one {now.name}"
         return codes.WRONG_RESULTS.at(word.span, owner=word.text, count=count, used=used)
 
-    def _indexed(self, now: Offer, word: Word) -> Iterator[Diagnostic]:
-        """A text as the index of what has attributes, or of a list."""
-        if now.kind == offers.PARAMETERS:
+    def _indexed(self, now: Offer, word: Word, *, is_text: bool) -> Iterator[Diagnostic]:
+        """An index of what has attributes, or a text as the one of a list."""
+        if now.kind == offers.PARAMETERS and not is_text:
+            yield codes.NOT_INDEXED.at(word.span, owner="the parameters", name=word.text, hint="they are attributes")
+        elif now.kind == offers.PARAMETERS:
             attributes = list(keys(self.linked.parameters.parameters.root))
             meant = word.text if word.text in attributes else suggest(word.text, attributes)
             called = "()" if any(member.most == 0 for member in now.members.values()) else ""
@@ -182,7 +173,10 @@ class _Judging(msgspec.Struct):
         elif now.kind in (offers.STRUCT, offers.ENUM, offers.RECORD):
             hint = f"write .{word.text}" if word.text in now.members else _listed(now.members, "it has")
             yield codes.NOT_INDEXED.at(word.span, owner=now.name or "it", name=word.text, hint=hint)
-        elif now.each is not None:
+        elif now.kind == offers.PLAIN and now.is_complete and (is_text or now.name != "string"):
+            hint = "an index is a number" if now.name == "string" else ""
+            yield codes.NOT_INDEXED.at(word.span, owner=of_basic(now.name), name=word.text, hint=hint)
+        elif now.each is not None and is_text:
             yield codes.NOT_INDEXED.at(word.span, owner="a list", name=word.text, hint="an index is a number")
 
     def _may_exist(self, now: Offer, step: Step, chain: Chain) -> bool:
@@ -194,7 +188,7 @@ class _Judging(msgspec.Struct):
                 return True
             is_proxy_name = is_proxy(name) or is_nearly_proxy(name, now.members)
             return not is_proxy_name and (self.usage.is_shared or not now.is_complete)
-        if now.kind in (offers.STRUCT, offers.LOG) and (chain.is_assigned or name in self.usage.own):
+        if now.kind in (offers.STRUCT, offers.TOOL) and (chain.is_assigned or name in self.usage.own):
             near = suggest(name, now.members)  # in Python, they may get further attributes
             return near is None or likeness(name, near) < _NEAR
         return not now.is_complete
@@ -230,9 +224,14 @@ class _Judging(msgspec.Struct):
                 return codes.UNKNOWN_MEMBER.at(
                     word.span, struct=now.name, name=name, hint="result() waits for the result"
                 )
-            case offers.STRUCT | offers.LOG:
-                members = _listed(known, "it has") if now.kind == offers.STRUCT else ""
+            case offers.STRUCT | offers.TOOL:
+                members = _listed(known, "it has") if now.kind == offers.STRUCT or len(known) < _FEW else ""
                 return self._at(codes.UNKNOWN_MEMBER, word, known, members, struct=now.name)
+            case offers.PLAIN | offers.LIST:
+                return self._at(codes.UNKNOWN_MEMBER, word, known, struct=of_basic(now.name) or now.name)
+            case offers.MAP:
+                hint = f'write ["{name}"]'
+                return self._at(codes.UNKNOWN_MEMBER, word, known, hint, struct=now.name)
             case offers.RESULTS:
                 count = "nothing" if not now.count else f"{now.count} values"
                 return codes.WRONG_RESULTS.at(word.span, owner=now.name, count=count, used=f"one with '{name}'")
@@ -267,23 +266,22 @@ class _Judging(msgspec.Struct):
         owner = f"{now.name}.{word.text}" if is_operation else word.text
         if count < member.least or (member.most is not None and count > member.most) or is_surplus:
             hint = f"it is {member.signature}" if member.signature else ""
-            yield codes.WRONG_ARGUMENTS.at(
-                word.span, owner=owner, expected=_arguments(member.least), count=count, hint=hint
-            )
+            is_open = not is_operation and member.most is not None and count > member.most > member.least
+            expected = f"at most {_arguments(member.most or 0)}" if is_open else _arguments(member.least)
+            yield codes.WRONG_ARGUMENTS.at(word.span, owner=owner, expected=expected, count=count, hint=hint)
         else:
             kinds = tuple(self._kind(now, one) for one in member.inputs)
             yield from wrong_arguments(owner, member.inputs, kinds, arguments, self.offer)
 
-    def _kind(self, owner: Offer, parameter: Member) -> str:
-        """The type of a parameter of an operation, or of a member of a struct, if literals can be compared with it."""
-        if parameter.type.is_basic:
-            return parameter.type.text
+    def _kind(self, owner: Offer, parameter: Member) -> Kind | None:
+        """What a parameter of an operation is, or a member of a struct."""
         ports = (*self.linked.requires, *self.linked.publishes)
         scopes = [port.scope for port in ports if port.interface.name == owner.name]
         if owner.kind == offers.MODULE:
             scopes = [scope for scope in self.linked.modules() if scope.module.name == owner.name]
-        found = next((found for scope in scopes if (found := scope.find(parameter.type)) is not None), None)
-        return found[1].name if found is not None and isinstance(found[1], (Enum, Struct)) else ""
+        if parameter.type.is_basic:
+            return Kind(of_basic(parameter.type.text), parameter.type.text)
+        return next((kind for scope in scopes if (kind := kind_of(parameter.type, scope)) is not None), None)
 
     def _assigned(
         self, now: Offer, member: OfferedMember, word: Word, constant: Constant | None

@@ -8,13 +8,12 @@ from robocomp_yaml.diag.codes import usage as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.emit.usage.code import Chain, Constant
+from robocomp_yaml.emit.usage.kinds import wanted
 from robocomp_yaml.emit.usage.offer import PLAIN, Offer, OfferedMember
 from robocomp_yaml.emit.usage.values import rejected, type_of_setting
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.parameters.types import BasicType, EnumType, Type
 from robocomp_yaml.parameters.words import in_words
-
-NUMBERS = ("byte", "short", "int", "long", "float", "double")
 
 
 def never_equal(
@@ -23,7 +22,7 @@ def never_equal(
     """Comparisons of a parameter, or of a member of a struct, that are always false. With `integers`, an enumerator
     never equals one."""
     for constant in chain.compared:
-        name = chain.steps[-1].word.text
+        name = next((step.word.text for step in reversed(chain.steps) if step.word.text), "")
         parameter = (member.read or member.parameter) if member is not None else None
         if member is not None and parameter is not None:
             yield from _of_parameter(parameter.type, member.path or parameter.name, constant)
@@ -51,15 +50,3 @@ def _of_parameter(type_: Type | None, path: str, constant: Constant) -> Iterator
         yield codes.NEVER_EQUAL.at(
             constant.span, name=path, value=repr(constant.value), wanted=needed, hint=hint.text
         )  # fmt: skip
-
-
-def wanted(type_: str, value: object, *, integers: bool = False) -> str:
-    """What a type of an interface expects instead of a literal value; '' if the value may be right. With `integers`,
-    they are no enumerators."""
-    if type_ == "string":
-        return "" if isinstance(value, str) else "a text"
-    if type_ in NUMBERS:
-        return "a number" if isinstance(value, str) else ""
-    if type_ == "bool":
-        return "true or false" if isinstance(value, str) else ""
-    return f"a {type_}" if type_ and (integers or isinstance(value, (str, float))) else ""

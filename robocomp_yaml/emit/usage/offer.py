@@ -11,23 +11,33 @@ import msgspec
 from msgspec import structs
 
 from robocomp_yaml.emit.lowering.ports import LoweredPorts
-from robocomp_yaml.emit.lowering.types import results
+from robocomp_yaml.emit.usage.code import Step
+from robocomp_yaml.emit.usage.kinds import Kind, kind_of
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule
 from robocomp_yaml.model import machine_names
 from robocomp_yaml.model.interface import Enum, ExceptionType, Interface, Member, Method, Struct
 from robocomp_yaml.model.statemachine import StateMachine
-from robocomp_yaml.parameters.types import ListType, MapType, RecordType, ResolvedMember, Type
+from robocomp_yaml.parameters.types import (
+    BasicType,
+    EnumType,
+    ListType,
+    MapType,
+    RecordType,
+    ResolvedMember,
+    Type,
+)
 
-WORKER, PROXY, TOPIC, PARAMETERS, RECORD, EVENTS, MODULES, MODULE, ENUM, STRUCT, RESULTS, PLAIN, LOG, FUTURE, OTHER = (
+WORKER, PROXY, TOPIC, PARAMETERS, RECORD, EVENTS, MODULES, MODULE, ENUM, STRUCT, RESULTS = (
     "worker", "proxy", "topic", "parameters", "record", "events", "modules", "module", "enum", "struct", "results",
-    "plain", "log", "future", "other",
 )  # fmt: skip
+PLAIN, LIST, MAP, TOOL, FUTURE, OTHER = "plain", "list", "map", "tool", "future", "other"
 
 
 class Offer(msgspec.Struct, frozen=True):
     """What a value has. `name` is what messages call it by. Unless it `is_complete`, it may have other members, too;
     `others` says whether a name is one of them. `element` is what an index leads to, `each` what a loop leads to.
-    `count` is the number of RESULTS of a call. `lacks` are names that a list surely does not have, each with a hint."""
+    `count` is the number of RESULTS of a call, and `items` are what these are. `lacks` are names that a list surely
+    does not have, each with a hint."""
 
     kind: str
     name: str = ""
@@ -37,7 +47,19 @@ class Offer(msgspec.Struct, frozen=True):
     element: Offer | None = None
     each: Offer | None = None
     count: int = 0
+    items: tuple[Offer | None, ...] = ()
     lacks: Mapping[str, str] = {}
+
+    def at(self, step: Step) -> Offer | None:
+        """What an index leads to, or a loop."""
+        if step.is_each:
+            return self.each
+        if self.kind == MAP and step.place is not None and step.shown is None:
+            return None  # a variable to which a mapping is unpacked is one of its keys
+        if self.items:
+            place = len(self.items) if step.place is None else step.place
+            return self.items[place] if 0 <= place < len(self.items) else None
+        return self.element
 
 
 class OfferedMember(msgspec.Struct, frozen=True):
@@ -75,13 +97,15 @@ class ServedInterface(msgspec.Struct, frozen=True):
 
 class WorkerOffer(msgspec.Struct, frozen=True):
     """All that code can use: by the root of its chains. `handlers` are the methods that the state machine calls;
-    `states` its states, `answering` the methods that others expect a result of."""
+    `states` its states, `answering` the methods that others expect results of, each with names and kinds of these.
+    `is_exact`: the language converts no number."""
 
     roots: Mapping[str, Offer]
     served: tuple[ServedInterface, ...] = ()
     handlers: tuple[str, ...] = ()
     states: tuple[str, ...] = ()
-    answering: frozenset[str] = frozenset()
+    answering: Mapping[str, tuple[tuple[str, Kind | None], ...]] = {}
+    is_exact: bool = False
 
 
 ASYNC = "Async"
@@ -91,27 +115,33 @@ NOTHING = Offer(OTHER, is_complete=False)
 
 
 Returned = Callable[[Method, LinkedModule], Offer | None]
+Natives = Mapping[str, Mapping[str, OfferedMember]]
+"""The members that values of basic types, lists and maps have in a language, if they are known."""
+UNKNOWN: Natives = {}
+
+
+def plain(name: str, natives: Natives) -> Offer:
+    """What a value of a basic type has."""
+    return Offer(PLAIN, name, natives.get(name, {}), is_complete=name in natives)
 
 
 def proxies(
     ports: LoweredPorts, called: Callable[[str], str], others: Callable[[str], bool], returned: Returned, *,
-    outputs: bool, keywords: Callable[[Method], Iterable[str]] | None = None, future: Offer | None = None,
+    outputs: bool, keywords: Callable[[Method], Iterable[str]] | None = None,
+    future: Callable[[Offer | None], Offer] | None = None,
 ) -> dict[str, OfferedMember]:  # fmt: skip
     """The proxies of the worker. `called` makes the name of an operation, and `returned` what a call returns; `others`
-    are methods of every proxy, and an asynchronous call returns a `future`. With `outputs`, calls have arguments for
-    them. Every call may have a context."""
+    are methods of every proxy, and `future` makes what an asynchronous call returns. With `outputs`, calls have
+    arguments for them. Every call may have a context."""
     found = {}
     for accessor, is_topic in [*((one, False) for one in ports.requires), *((one, True) for one in ports.publishes)]:
         port = accessor.port
-        methods = {
-            called(method.name): structs.replace(
-                _operation(method, called, outputs, keywords), result=returned(method, port.scope)
-            )
-            for method in port.interface.methods
-        }
-        methods |= {
-            f"{called(method.name)}{ASYNC}": OfferedMember(result=future) for method in port.interface.methods
-        }  # fmt: skip
+        methods: dict[str, OfferedMember] = {}
+        for method in port.interface.methods:
+            name, result = called(method.name), returned(method, port.scope)
+            methods[name] = structs.replace(_operation(method, called, outputs, keywords), result=result)
+            later = OfferedMember() if future is None else structs.replace(methods[name], result=future(result))
+            methods.setdefault(f"{name}{ASYNC}", later)
         offer = Offer(TOPIC if is_topic else PROXY, port.interface.name, methods, others=others)
         found[accessor.name] = OfferedMember(offer)
     return found
@@ -129,10 +159,17 @@ def _operation(
     )  # fmt: skip
 
 
-def answering(ports: LoweredPorts) -> frozenset[str]:
-    """The methods of the user's class that return something."""
-    every = (called for service in ports.implements for called in service.methods)
-    return frozenset(called.name for called in every if results(called.method))
+def answering(ports: LoweredPorts, *, outputs: bool = True) -> dict[str, tuple[tuple[str, Kind | None], ...]]:
+    """The methods of the user's class that return something, with the names and kinds of the results; with `outputs`,
+    they return these, too."""
+    found = {}
+    for called in (called for service in ports.implements for called in service.methods):
+        method, scope = called.method, called.port.scope
+        every = [] if method.returns is None else [("the result", kind_of(method.returns, scope))]
+        every += ((one.name, kind_of(one.type, scope)) for one in method.outputs if outputs)
+        if every:
+            found[called.name] = tuple(every)
+    return found
 
 
 def served(ports: LoweredPorts) -> tuple[ServedInterface, ...]:
@@ -146,36 +183,58 @@ def served(ports: LoweredPorts) -> tuple[ServedInterface, ...]:
     )  # fmt: skip
 
 
-def record(type_: RecordType, in_code: Callable[[str], str], path: str = "", name: str = "") -> Offer:
+def record(
+    type_: RecordType, in_code: Callable[[str], str], path: str = "", name: str = "", natives: Natives = UNKNOWN
+) -> Offer:  # fmt: skip
     """The members of a record of parameters, as attributes. `path` is the one of the group, '' also in a struct."""
     members = {}
     for member in type_.members:
         below = f"{path}.{member.name}" if path else member.name
         is_known = bool(path) or not name
         members[in_code(member.code_name)] = OfferedMember(
-            value(member.type, in_code, below if is_known and member.is_group else ""),
+            value(member.type, in_code, below if is_known and member.is_group else "", natives),
             parameter=member,
             path=below if is_known else "",
         )
     return Offer(RECORD, name or (f"the group {path}" if path else ""), members)
 
 
-def of_list(element: Offer | None, lists: Mapping[str, str] = {}) -> Offer:
+def of_list(element: Offer | None, lists: Mapping[str, str] = {}, natives: Natives = UNKNOWN) -> Offer:
     """What a list has. `lists` are names that no list has in the language; it also lacks those of its elements."""
-    own = dict.fromkeys(element.members, "its elements have it") if element is not None and lists else {}
+    own = dict.fromkeys(element.members, "its elements have it") if element is not None and (lists or natives) else {}
     lacks = {name: hint for name, hint in {**own, **lists}.items() if not hasattr(list, name)}
-    return Offer(OTHER, is_complete=False, element=element, each=element, lacks=lacks)
+    members = natives.get(LIST, {})
+    name = "a tuple" if members and "append" not in members else "a list"
+    return Offer(LIST, name, members, LIST in natives, element=element, each=element, lacks=lacks)
 
 
-def value(type_: Type, in_code: Callable[[str], str], path: str = "") -> Offer | None:
+def of_map(element: Offer | None, natives: Natives = UNKNOWN) -> Offer:
+    """What a mapping has."""
+    if MAP not in natives:
+        return Offer(MAP, is_complete=False, element=element)
+    pair = Offer(OTHER, is_complete=False, items=(None, element))
+    more = {
+        "get": OfferedMember(result=element),
+        "values": OfferedMember(result=Offer(OTHER, is_complete=False, each=element)),
+        "items": OfferedMember(result=Offer(OTHER, is_complete=False, each=pair)),
+    }
+    members = {name: more.get(name, member) for name, member in natives[MAP].items()}
+    return Offer(MAP, "a mapping", members, element=element)
+
+
+def value(type_: Type, in_code: Callable[[str], str], path: str = "", natives: Natives = UNKNOWN) -> Offer | None:
     """What a value of a type has."""
     match type_:
         case ListType(element=element):
-            return of_list(value(element, in_code))
+            return of_list(value(element, in_code, natives=natives), natives=natives)
         case MapType(element=element):
-            return Offer(OTHER, is_complete=False, element=value(element, in_code))
+            return of_map(value(element, in_code, natives=natives), natives)
         case RecordType(name=name):
-            return record(type_, in_code, path, f"the struct {name}" if name else "")
+            return record(type_, in_code, path, f"the struct {name}" if name else "", natives)
+        case BasicType(name=name) if name in natives:
+            return plain(name, natives)
+        case EnumType() if natives:
+            return plain("string", natives)
         case _:
             return None
 
@@ -198,13 +257,15 @@ def states(machine: StateMachine) -> tuple[str, ...]:
 
 def modules(
     linked: LinkedComponent, variable: Callable[[str], str], in_code: Callable[[str], str],
-    others: Callable[[str], bool], instance: Callable[[object, LinkedModule], Offer | None],
+    others: Callable[[str], bool], instance: Callable[[object, LinkedModule], Offer | None], *,
+    classes: bool = False,
 ) -> Offer:  # fmt: skip
     """The Slice modules with their types, as attributes. Two documents may define parts of one module. `instance` makes
-    what a value of a type has."""
+    what a value of a type has. With `classes`, exceptions are made like structs, and nobody
+    makes a value of an enum."""
     found: dict[str, dict[str, OfferedMember]] = {}
     for scope in linked.modules():
-        found.setdefault(variable(scope.module.name), {}).update(_types(scope, in_code, instance))
+        found.setdefault(variable(scope.module.name), {}).update(_types(scope, in_code, instance, classes))
     broken = {variable(scope.module.name) for scope in linked.modules() if scope.unresolved or linked.broken}
     offers = {
         name: OfferedMember(Offer(MODULE, name, members, is_complete=name not in broken, others=_is_internal))
@@ -218,7 +279,8 @@ def _is_internal(name: str) -> bool:
 
 
 def _types(
-    scope: LinkedModule, in_code: Callable[[str], str], instance: Callable[[object, LinkedModule], Offer | None]
+    scope: LinkedModule, in_code: Callable[[str], str], instance: Callable[[object, LinkedModule], Offer | None],
+    classes: bool,
 ) -> dict[str, OfferedMember]:  # fmt: skip
     found = {}
     for definition in scope.module.definitions:
@@ -227,14 +289,15 @@ def _types(
             case Enum(enumerators=enumerators):
                 enumerator = OfferedMember(Offer(PLAIN, definition.name, is_complete=False))
                 names = {in_code(one.name): enumerator for one in enumerators}
-                found[name] = OfferedMember(Offer(ENUM, definition.name, names, others=_is_of_enum))
+                value = Offer(ENUM, definition.name, names, others=_is_of_enum)
+                such = f"{name}.{next(iter(names))}, or {name}.valueOf(NUMBER)" if classes and names else ""
+                found[name] = OfferedMember(value, signature=such)
             case Struct(members=members) | ExceptionType(members=members):
                 fields = frozenset(in_code(one.name) for one in members)
-                most = len(members) if isinstance(definition, Struct) else None
+                is_known = classes or isinstance(definition, Struct)
                 found[name] = OfferedMember(
-                    result=instance(definition, scope), most=most,
-                    inputs=members if isinstance(definition, Struct) else (),
-                    keywords=fields if isinstance(definition, Struct) else None,
+                    result=instance(definition, scope), most=len(members) if is_known else None,
+                    inputs=members if is_known else (), keywords=fields if is_known else None,
                     signature=f"{definition.name}({', '.join(one.name for one in members)})",
                 )  # fmt: skip
             case Interface():

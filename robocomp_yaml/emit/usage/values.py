@@ -76,8 +76,15 @@ def wrong_paths(linked: LinkedComponent, arguments: Arguments) -> Iterator[Diagn
                 current = current.element if isinstance(current, (ListType, MapType)) else None
         if current is not None and member is not None and not is_editable and not member.is_group:
             yield codes.NOT_EDITABLE.at(word.span, name=word.text, hint=EDITABLE)
-        elif current is not None and word == arguments.text and arguments.constant is not None:
-            yield from wrong_value(current, word.text, arguments.constant)
+        elif current is not None and (constant := _under(word, arguments)) is not None:
+            yield from wrong_value(current, word.text, constant)
+
+
+def _under(word: Word, arguments: Arguments) -> Constant | None:
+    """The literal that is set at a path."""
+    if word == arguments.text:
+        return arguments.constant
+    return dict(zip(arguments.keys, arguments.under, strict=False)).get(word)
 
 
 def _unknown_path(

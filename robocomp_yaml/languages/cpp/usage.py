@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 
 from msgspec import structs
 
 from robocomp_yaml.emit.lowering import ports as lowering
 from robocomp_yaml.emit.usage import offer as offers
-from robocomp_yaml.emit.usage.code import MODULES, WORKER, CodeUsage
+from robocomp_yaml.emit.usage.code import MODULES, NO_RESULT, WORKER, Arguments, Chain, CodeUsage, Slip, Step, Word
 from robocomp_yaml.emit.usage.judge import is_nearly_proxy, is_proxy
 from robocomp_yaml.emit.usage.offer import Offer, OfferedMember, WorkerOffer
 from robocomp_yaml.emit.usage.types import OfferedTypes
@@ -34,7 +34,7 @@ _METHOD = re.compile(r"\b(?:sm_\w+|[A-Z]\w*_\w+)\b")
 def offer(linked: LinkedComponent) -> WorkerOffer:
     """What the worker of a component offers."""
     ports, machine = lowering.lower(linked, PORTS), linked.machine
-    types = OfferedTypes(ice_name, _is_of_every_struct, lambda name: True)
+    types = OfferedTypes(ice_name, _is_of_every_struct, _is_of_every_exception)
     returned = partial(types.result, tuples=False)
     members = offers.proxies(ports, PORTS.called, _is_of_every_proxy, returned, outputs=True)
     if linked.component.compatibility:
@@ -54,7 +54,7 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
         )
     return WorkerOffer(
         {WORKER: Offer(offers.WORKER, linked.component.name, members, is_complete=False), MODULES: modules},
-        served, handled, offers.states(machine) if machine else (),
+        served, handled, offers.states(machine) if machine else (), offers.answering(ports, outputs=False),
     )  # fmt: skip
 
 
@@ -94,6 +94,10 @@ def _is_of_every_struct(name: str) -> bool:
     return name.startswith(("ice_", "_", "operator"))
 
 
+def _is_of_every_exception(name: str) -> bool:
+    return name == "what" or _is_of_every_struct(name)
+
+
 def read(files: Mapping[str, str], linked: LinkedComponent, worker: WorkerOffer) -> CodeUsage:
     """The use that the files below src/ make of the worker, by their paths there."""
     known = worker.roots[WORKER].members
@@ -129,9 +133,31 @@ def read(files: Mapping[str, str], linked: LinkedComponent, worker: WorkerOffer)
     compiled = [file for file in parsed if not is_robocomp or "specificworker." in file.path]
     for file in compiled:
         chains += tuple(chain for name in sorted(modules) for chain in (*file.qualified(name), *file.typed(name)))
+    chains += tuple(_of_members(compiled, modules, worker.roots[WORKER], workers))
     methods = unused([word for file in parsed for word in file.methods(workers)], files.values(), _METHOD)
     first = tuple({word.text: word for word in reversed(methods)}.values())  # not its definition, too
-    return CodeUsage((*chains, *settings), first, frozenset(declared), frozenset(texts), is_shared=True)
+    silent = "noreturn" not in words
+    slips = [Slip(NO_RESULT, word) for file in compiled if silent for word in file.silent(worker.answering, workers)]
+    return CodeUsage(
+        (*chains, *settings), first, frozenset(declared), frozenset(texts), is_shared=True, slips=tuple(slips)
+    )  # fmt: skip
+
+
+def _of_members(
+    files: Sequence[TypedCppFile], modules: Collection[str], worker: Offer, workers: Collection[str]
+) -> Iterator[Chain]:  # fmt: skip
+    """The chains that begin at members of the worker which are proxies, or of another type of a Slice module. The name
+    of a member has one declaration in all files."""
+    proxies = {one.value.name: name for name, one in worker.members.items() if one.value is not None and is_proxy(name)}
+    for name, type_ in [member for file in files for member in file.members(workers)]:
+        interface = re.sub(r"Prx(Ptr)?\Z", "", type_.type.text)
+        root, head = MODULES, [Step(type_.module), Step(type_.type, Arguments(is_exact=False))]
+        if interface != type_.type.text and interface in proxies:
+            root, head = WORKER, [Step(Word(proxies[interface], type_.type.span))]
+        if type_.module.text in modules:
+            found = [file.of_member(name, root, head, workers) for file in files]
+            if sum(declared for _, declared in found) == 1:
+                yield from (chain for chains, _ in found for chain in chains)
 
 
 def _extended(texts: Iterable[str]) -> set[str]:

@@ -47,7 +47,7 @@ class CppFile(UsageFile):
         """The classes with their bases."""
         if b"class" not in self._bytes and b"struct" not in self._bytes:
             return
-        for node in _of_types(self._tree.root_node, ("class_specifier", "struct_specifier"), _IN_SCOPES):
+        for node in of_types(self._tree.root_node, ("class_specifier", "struct_specifier"), _IN_SCOPES):
             if node.child_by_field_name("body") is not None:
                 clause = next((child for child in node.children if child.type == "base_class_clause"), None)
                 bases = [one for one in clause.named_children if one.type != "access_specifier"] if clause else []
@@ -55,13 +55,13 @@ class CppFile(UsageFile):
 
     def methods(self, workers: Collection[str]) -> Iterator[Word]:
         """The names of the methods that the worker's classes declare and define."""
-        for node in _of_types(self._tree.root_node, ("function_declarator",), _IN_CLASSES):
+        for node in of_types(self._tree.root_node, ("function_declarator",), IN_CLASSES):
             name = node.child_by_field_name("declarator")
             if name is None:
                 continue
             if name.type == "qualified_identifier" and text(field(name, "scope")) in workers:
                 name = field(name, "name")
-            elif name.type != "field_identifier" or _class_around(node) not in workers:
+            elif name.type != "field_identifier" or class_around(node) not in workers:
                 continue
             if name.type in ("identifier", "field_identifier"):
                 yield self._word(name)
@@ -75,8 +75,27 @@ class CppFile(UsageFile):
                 continue
             steps, end = self._steps([Step(self._word(node))], start)
             yield Occurrence(chain=Chain(WORKER, tuple(steps)))
-            for chain in (*self._compared(WORKER, steps, end), *self._through_variable(WORKER, steps, end)):
+            more = (*self._through_variable(WORKER, steps, end), *self._changed(steps, end))
+            for chain in (*self._compared(WORKER, steps, end), *more):
                 yield Occurrence(chain=chain)
+
+    def _changed(self, steps: list[Step], end: Node) -> Iterator[Chain]:
+        """The chains in the function that changes the parameters: `parameters.change([](auto& values) { … })`."""
+        given = end.child_by_field_name("arguments") if end.type == "call_expression" else None
+        called = given.named_children[0] if given is not None and given.named_children else None
+        if [step.word.text for step in steps] != ["parameters", "change"] or called is None:
+            return
+        body, declared = called.child_by_field_name("body"), called.child_by_field_name("declarator")
+        found = re.fullmatch(r"\(\s*(?:auto|[\w:]*\bValues)\s*&\s*(\w+)\s*\)", text(declared) if declared else "")
+        if called.type != "lambda_expression" or body is None or found is None:
+            return
+        uses = [one for one in self._nodes(found[1], body.start_byte, body.end_byte) if one.type == "identifier"]
+        if all(one.parent is not None and _is_used(one, one.parent) for one in uses):
+            head = [steps[0], Step(Word("now", steps[1].word.span), Arguments(is_exact=False))]
+            for node in uses:
+                longer, _ = self._steps(head, node, is_value=True)
+                if len(longer) > len(head) and not is_uncertain(node):
+                    yield Chain(WORKER, tuple(longer))
 
     def qualified(self, module: str) -> Iterator[Chain]:
         """The names in a Slice module: `RoboCompMouth::Shape::round`."""
@@ -109,6 +128,8 @@ class CppFile(UsageFile):
     def _start(self, node: Node, name: str, workers: Collection[str]) -> Node | Occurrence:
         """The node at which a chain begins, if the word is a use of the worker."""
         parent = node.parent
+        if parent is not None and parent.type == "qualified_identifier" and node.type == "namespace_identifier":
+            return _OTHER  # the namespace of something, such as `parameters::Values`
         if parent is None or text(node) != name or node.type not in ("identifier", "field_identifier"):
             return _DECLARED
         start = node
@@ -170,7 +191,7 @@ class CppFile(UsageFile):
         type_ = field(declaration, "type") if declaration is not None else None
         if declaration is None or type_ is None or declaration.type not in ("declaration", "for_range_loop"):
             return
-        is_same = type_.type == "placeholder_type_specifier" or text(type_).endswith("PrxPtr")
+        is_same = type_.type == "placeholder_type_specifier" or text(type_).endswith(("PrxPtr", "Prx>"))
         declarator = parent.child_by_field_name("declarator")
         while declarator is not None and declarator.type == "reference_declarator":
             declarator = declarator.named_children[-1]
@@ -313,7 +334,7 @@ def function_around(node: Node) -> Node | None:
     return now
 
 
-def _class_around(node: Node) -> str:
+def class_around(node: Node) -> str:
     now: Node | None = node
     while now is not None:
         if now.type in ("class_specifier", "struct_specifier"):
@@ -331,13 +352,13 @@ _IN_SCOPES = frozenset(
     """translation_unit namespace_definition declaration_list declaration preproc_ifdef preproc_if
     linkage_specification""".split()
 )
-_IN_CLASSES = _IN_SCOPES | frozenset(
+IN_CLASSES = _IN_SCOPES | frozenset(
     """class_specifier struct_specifier field_declaration_list field_declaration declaration function_definition
     pointer_declarator reference_declarator""".split()
 )
 
 
-def _of_types(root: Node, types: Collection[str], scopes: Collection[str]) -> Iterator[Node]:
+def of_types(root: Node, types: Collection[str], scopes: Collection[str]) -> Iterator[Node]:
     """The nodes of these types in the scopes, in order."""
     todo = [root]
     while todo:

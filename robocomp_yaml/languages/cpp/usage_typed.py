@@ -6,16 +6,36 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterator
 
+import msgspec
 from tree_sitter import Node
 
 from robocomp_yaml.emit.specific.code import field, text
-from robocomp_yaml.emit.usage.code import MODULES, SETTINGS, Arguments, Chain, Step
-from robocomp_yaml.languages.cpp.usage_files import CppFile, function_around, is_uncertain, worker_around
+from robocomp_yaml.emit.usage.code import MODULES, SETTINGS, Arguments, Chain, Step, Word
+from robocomp_yaml.languages.cpp.usage_files import (
+    IN_CLASSES,
+    CppFile,
+    Occurrence,
+    class_around,
+    function_around,
+    is_uncertain,
+    of_types,
+    worker_around,
+)
 
 _DECLARING = ("declaration", "parameter_declaration", "for_range_loop")
 _SETTINGS = re.compile(r"(?:this->)?(params|configLoader)\Z")
 _ENDS = re.compile(r"\b(?:qFatal|throw|exit|_exit|abort|terminate|quick_exit|rethrow_exception|return\s+false)\b")
+_LEAVING = frozenset("return_statement throw_statement co_return_statement goto_statement".split())
+_LEAVES = re.compile("[A-Z][A-Z0-9_]+|abort|exit|_exit|terminate|quick_exit|rethrow_exception|qFatal|unreachable")
 _GETTERS = frozenset(("at", "get", "find", "count", "contains"))
+_NAMED = re.compile(r"(?:::|std::shared_ptr<\s*(?:::)?)?(\w+)::(\w+)\s*>?")
+
+
+class TypeName(msgspec.Struct, frozen=True):
+    """A type of a module as the code names it."""
+
+    module: Word
+    type: Word
 
 
 class TypedCppFile(CppFile):
@@ -28,6 +48,10 @@ class TypedCppFile(CppFile):
             if named is None or named.type != "qualified_identifier" or named.child_by_field_name("scope") != node:
                 continue
             declaration, type_ = named.parent, named.child_by_field_name("name")
+            made = _initialized(named)
+            if made is not None and type_ is not None and not is_uncertain(named):
+                head = [Step(self._word(node)), Step(self._word(type_), Arguments(is_exact=False))]
+                yield from self._of_variable(MODULES, head, *made)
             if declaration is None or declaration.type not in _DECLARING or type_ is None:
                 continue
             if declaration.child_by_field_name("type") != named or type_.type != "type_identifier":
@@ -38,6 +62,52 @@ class TypedCppFile(CppFile):
             for declarator in declaration.children_by_field_name("declarator"):
                 if (name := _name(declarator)) is not None:
                     yield from self._of_variable(MODULES, head, name, declaration)
+
+    def members(self, workers: Collection[str]) -> Iterator[tuple[str, TypeName]]:
+        """The members of the worker's classes that are of a type of a module, each with the type."""
+        if b"RoboComp" not in self._bytes and b"::" not in self._bytes:
+            return
+        for node in of_types(self._tree.root_node, ("field_declaration",), IN_CLASSES):
+            named = node.child_by_field_name("type")
+            found = _NAMED.fullmatch(text(named)) if named is not None else None
+            if named is None or found is None or class_around(node) not in workers or is_uncertain(node):
+                continue
+            start = named.start_byte + found.start(1)
+            module = self._tree.root_node.descendant_for_byte_range(start, start + 1)
+            for name in node.children_by_field_name("declarator"):
+                if name.type == "field_identifier" and module is not None:
+                    yield text(name), TypeName(self._word(module), Word(found[2], self._word(named).span))
+
+    def of_member(self, name: str, root: str, head: list[Step], workers: Collection[str]) -> tuple[list[Chain], int]:
+        """The chains that begin at a member of the worker, and how often the file declares its name."""
+        found: list[Chain] = []
+        declared = 0
+        is_value = root == MODULES
+        for node in self._nodes(name, 0, len(self._bytes)):
+            start = self._start(node, name, workers)
+            if isinstance(start, Occurrence):
+                declared += start.is_declared
+                continue
+            steps, end = self._steps(head, start, is_value=is_value)
+            found += (Chain(root, tuple(steps)) for _ in steps[len(head) : len(head) + 1])
+            found += self._compared(root, steps, end)
+            found += self._through_variable(root, steps, end)
+        return found, declared
+
+    def silent(self, names: Collection[str], workers: Collection[str]) -> Iterator[Word]:
+        """The methods of the worker's classes among these that surely return nothing."""
+        for node in of_types(self._tree.root_node, ("function_definition",), IN_CLASSES):
+            declarator = node.child_by_field_name("declarator")
+            while declarator is not None and declarator.type in ("pointer_declarator", "reference_declarator"):
+                declarator = next(iter(declarator.named_children), None)
+            name = declarator.child_by_field_name("declarator") if declarator is not None else None
+            body = node.child_by_field_name("body")
+            if name is not None and name.type == "qualified_identifier" and text(field(name, "scope")) in workers:
+                name = field(name, "name")
+            elif name is None or name.type != "field_identifier" or class_around(node) not in workers:
+                continue
+            if text(name) in names and body is not None and not is_uncertain(node) and _falls_off(body):
+                yield self._word(name)
 
     def settings(self, workers: Collection[str]) -> Iterator[Chain]:
         """The properties that RoboComp's code reads: `params.at("speed")`, `configLoader.get<int>("speed")`. A handler
@@ -68,6 +138,35 @@ class TypedCppFile(CppFile):
             node = self._tree.root_node.descendant_for_byte_range(found.start(), found.end())
             if node is not None and node.type == "string_literal":
                 yield node
+
+
+def _initialized(type_: Node) -> tuple[Node, Node] | None:
+    """The variable that a new value of a type initializes, as in `auto pose = RoboCompMouth::Pose{};`, and its
+    declaration."""
+    value = type_.parent
+    if value is None or value.type not in ("call_expression", "compound_literal_expression"):
+        return None
+    if value.named_children[0] != type_ or value.parent is None or value.parent.type != "init_declarator":
+        return None
+    declaration, name = value.parent.parent, _name(value.parent)
+    if declaration is None or declaration.type != "declaration" or name is None:
+        return None
+    declared = declaration.child_by_field_name("type")
+    is_auto = declared is not None and declared.type == "placeholder_type_specifier"
+    return (name, declaration) if is_auto and value.parent.child_by_field_name("value") == value else None
+
+
+def _falls_off(node: Node) -> bool:
+    """Whether a function surely reaches its end, and returns nothing."""
+    if node.is_error or node.type.startswith(("preproc", "asm", "gnu_asm")):
+        return False
+    if node.type in _LEAVING or (node.type == "identifier" and _LEAVES.fullmatch(text(node))):
+        return False
+    if node.type in ("while_statement", "do_statement") and re.search(r"[(]\s*(true|1)\s*[)]", text(node)):
+        return False
+    if node.type == "for_statement" and node.child_by_field_name("condition") is None:
+        return False
+    return all(_falls_off(child) for child in node.named_children if child.type != "lambda_expression")
 
 
 def _signature(node: Node) -> str:

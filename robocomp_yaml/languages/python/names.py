@@ -18,8 +18,8 @@ _KEYWORDS = ICE_ESCAPES.union(NOT_ESCAPED)
 
 # Attributes of every worker: accessors and methods of the same name are renamed.
 WORKER_ATTRIBUTES = frozenset(
-    "communicator compute getPeriod initialize initializeGui killYourSelf log mutex parameters runInGui runInWorker "
-    "setPeriod ui window".split()
+    "communicator compute getPeriod initialize initializeGui killYourSelf log mayTake mutex parameters runInGui "
+    "runInWorker setPeriod ui window".split()
 )
 
 # Names that the generated files use beside the Slice modules.

@@ -19,6 +19,7 @@ from robocomp_yaml.emit.lowering import ports as lowering
 from robocomp_yaml.emit.usage import offer as offers
 from robocomp_yaml.emit.usage.code import MODULES, SERVED, WORKER, CodeUsage, Slip
 from robocomp_yaml.emit.usage.judge import is_proxy
+from robocomp_yaml.emit.usage.kinds import NUMBERS
 from robocomp_yaml.emit.usage.offer import Offer, OfferedMember, WorkerOffer
 from robocomp_yaml.emit.usage.types import OfferedTypes
 from robocomp_yaml.languages.python import LANGUAGE
@@ -29,7 +30,8 @@ from robocomp_yaml.languages.python.usage_files import FileUsage, UsageReader
 from robocomp_yaml.languages.python.usage_slips import slips
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model import machine_names
-from robocomp_yaml.model.interface import Map, Method, Sequence
+from robocomp_yaml.model.interface import Map, Member, Method, Sequence, TypeRef
+from robocomp_yaml.parameters.types import RecordType
 
 _MAIN = "specificworker.py"
 _RELEVANT = (ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef, ast.Import, ast.ImportFrom)
@@ -48,9 +50,11 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
     ports, machine = lowering.lower(linked, PORTS), linked.machine
     is_own = not linked.component.compatibility
     members: dict[str, OfferedMember] = {name: OfferedMember() for name in WORKER_ATTRIBUTES} if is_own else {}
-    types = OfferedTypes(python_name, _is_of_every_struct, _is_of_every_exception, _OF_NO_LIST if is_own else {})
+    natives = {name: _members_of(*types) for name, types in _NATIVES.items()} if is_own else {}
+    lists = _OF_NO_LIST if is_own else {}
+    types = OfferedTypes(python_name, _is_of_every_struct, _is_of_every_exception, lists, natives)
     if is_own:
-        members["log"] = OfferedMember(Offer(offers.LOG, "log", dict.fromkeys(_OF_LOGS, OfferedMember())))
+        members |= _of_worker(linked)
     returned = partial(types.result, tuples=True)
     members |= offers.proxies(
         ports,
@@ -59,10 +63,11 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
         returned,
         outputs=False,
         keywords=_keywords,
-        future=Offer(offers.FUTURE, "the future", dict.fromkeys(_OF_FUTURES, OfferedMember())),
+        future=_future,
     )
     if is_own:
-        values = offers.record(linked.parameters.parameters.root, LANGUAGE.in_code)
+        of_parameters = {**natives, offers.LIST: _members_of(tuple)}
+        values = offers.record(linked.parameters.parameters.root, LANGUAGE.in_code, natives=of_parameters)
         members["parameters"] = OfferedMember(
             Offer(offers.PARAMETERS, linked.component.name,
                   {**values.members, **_LIVE, "now": OfferedMember(values)})
@@ -79,7 +84,9 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
         members |= dict.fromkeys((*handled, *(one.name for one in machine_names.actions(machine))), others)
     served = offers.served(ports)
     members |= {name: OfferedMember() for one in served for name in one.methods if name not in members}
-    modules = offers.modules(linked, module_variable, python_name, _is_in_interfaces, types.of_definition)
+    modules = offers.modules(
+        linked, module_variable, python_name, _is_in_interfaces, types.of_definition, classes=True
+    )  # fmt: skip
     if is_own and not linked.broken:
         modules = _as_hints(linked, modules)
     if not is_own:  # RoboComp's tool also has the sequences beside the modules
@@ -95,7 +102,50 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
         offers.handlers(machine) if machine else (),
         offers.states(machine) if machine else (),
         offers.answering(ports),
+        is_exact=True,
     )
+
+
+def _of_worker(linked: LinkedComponent) -> dict[str, OfferedMember]:
+    """The members that the worker of every component has."""
+    period = linked.parameters.parameters.root.member("period")
+    group = period.type if period is not None else None
+    compute = group.member("compute") if isinstance(group, RecordType) else None
+
+    def method(name: str, *inputs: str) -> OfferedMember:
+        number = TypeRef(text="float")
+        members = tuple(Member(name=one, type=number) for one in inputs)
+        return OfferedMember(
+            least=len(inputs), most=len(inputs), keywords=frozenset(inputs), inputs=members,
+            signature=f"{name}({', '.join(inputs)})",
+        )  # fmt: skip
+
+    return {
+        "log": OfferedMember(Offer(offers.TOOL, "log", dict.fromkeys(_OF_LOGS, OfferedMember()))),
+        "mutex": OfferedMember(Offer(offers.TOOL, "mutex", dict.fromkeys(("acquire", "release"), OfferedMember()))),
+        "getPeriod": method("getPeriod"),
+        "killYourSelf": method("killYourSelf"),
+        "mayTake": method("mayTake", "seconds"),
+        "setPeriod": structs.replace(
+            method("setPeriod", "period"), inputs=(), parameter=compute, path="period.compute"
+        ),
+    }
+
+
+def _future(result: Offer | None) -> Offer:
+    """What an asynchronous call returns."""
+    members = dict.fromkeys(_OF_FUTURES, OfferedMember())
+    members["result"] = OfferedMember(result=result)
+    return Offer(offers.FUTURE, "the future", members)
+
+
+def _members_of(*types: type) -> dict[str, OfferedMember]:
+    return {name: OfferedMember() for type_ in types for name in dir(type_) if not name.startswith("_")}
+
+
+_NATIVES: dict[str, tuple[type, ...]] = {
+    **dict.fromkeys(("bool", *NUMBERS), (int, float)), "string": (str,), offers.LIST: (list,), offers.MAP: (dict,)
+}  # fmt: skip
 
 
 def _as_hints(linked: LinkedComponent, modules: Offer) -> Offer:
@@ -154,6 +204,7 @@ _OF_LOGS = (
     "makeRecord manager name parent propagate removeFilter removeHandler root setLevel"
 ).split()
 
+_OF_LOG = frozenset("critical debug error exception info log warning".split())
 _OF_PROXIES = frozenset(("checkedCast", "uncheckedCast"))
 
 
@@ -207,7 +258,7 @@ def _read(files: Mapping[str, str], linked: LinkedComponent, worker: WorkerOffer
     modules = frozenset(worker.roots[MODULES].members)
     stored, served = _stored(trees), worker.roots[SERVED].members
     every = {
-        path: UsageReader(path, files[path], classes, modules, served, stored, is_robocomp).read(tree)
+        path: UsageReader(path, files[path], classes, modules, served, worker.answering, stored, is_robocomp).read(tree)
         for path, tree in trees.items()
     }
     whole = _together(every.values(), [one for path, one in every.items() if path in imported], classes)
@@ -234,13 +285,17 @@ def _slips(
 ) -> Iterator[Slip]:  # fmt: skip
     members = worker.roots[WORKER].members
     proxies = {name: one.value for name, one in members.items() if one.value is not None and is_proxy(name)}
-    attributes = {*proxies, *(name for name in ("events", "log", "parameters", "statemachine") if name in members)}
+    others = ("events", "log", "parameters", "statemachine")
+    attributes = {*proxies, *(name for name in others if name in members)}
     modules = worker.roots[MODULES]
-    methods = {name: set(proxy.members) for name, proxy in proxies.items()}
+    methods: dict[str, Collection[str]] = {name: set(proxy.members) for name, proxy in proxies.items()}
+    if "events" in members and (events := members["events"].value) is not None:
+        methods["events"] = set(events.members)
+    methods |= {"log": _OF_LOG, "parameters": set(_LIVE)}
+    names = (*worker.roots[SERVED].members, *worker.handlers, "compute", "initialize", "initializeGui")
+    called = {name: len(worker.answering.get(name, ())) for name in names}
     for path in sorted(imported & trees.keys()):
-        yield from slips(
-            path, files[path], trees[path], classes.workers, attributes, methods, modules.members, worker.answering
-        )
+        yield from slips(path, files[path], trees[path], classes.workers, attributes, methods, modules.members, called)
 
 
 def parsed(text: str) -> ast.Module:
@@ -298,6 +353,7 @@ def _together(every: Iterable[FileUsage], imported: Iterable[FileUsage], classes
         methods=tuple(word for one in mine for word in one.methods),
         own=classes.own.union(*(one.stored for one in known)),
         texts=frozenset().union(*(one.texts for one in known)),
+        returned=tuple(one for file in mine for one in file.returned),
         is_open=classes.is_open or any(one.is_open for one in known),
         is_shared=any(one.is_shared for one in known),
     )

@@ -6,7 +6,7 @@ from __future__ import annotations
 import ast
 import re
 from collections import Counter
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from functools import cached_property
 
 import msgspec
@@ -18,12 +18,14 @@ from robocomp_yaml.languages.python.usage_forms import form_of
 
 
 class Binding(msgspec.Struct, frozen=True):
-    """What a variable is bound to: the beginning of a chain, or an expression; `is_element`: an element of it."""
+    """What a variable is bound to: the beginning of a chain, or an expression; `is_element`: an element of it in a
+    loop; `places` are the positions in it, from the outer to the inner one."""
 
     root: str = ""
     steps: tuple[Step, ...] = ()
     value: ast.expr | None = None
     is_element: bool = False
+    places: tuple[int, ...] = ()
 
 
 Frame = Mapping[str, Binding | None]
@@ -76,11 +78,12 @@ class ChainReader:
                     values[name] = Binding(value=value)
                 case ast.AnnAssign(target=ast.Name(id=name), value=ast.expr() as value):
                     values[name] = Binding(value=value)
-                case (
-                    ast.For(target=ast.Name(id=name), iter=value)
-                    | ast.comprehension(target=ast.Name(id=name), iter=value)
-                ):
-                    values[name] = Binding(value=value, is_element=True)
+                case ast.Assign(targets=[ast.Tuple() | ast.List() as target], value=value):
+                    values |= {name: Binding(value=value, places=places) for name, places in _unpacked(target)}
+                case ast.For(target=target, iter=value) | ast.comprehension(target=target, iter=value):
+                    values |= {
+                        name: Binding(value=value, is_element=True, places=places) for name, places in _unpacked(target)
+                    }
             todo += ast.iter_child_nodes(node)
         self._again = {name for name in given if counts[name] > 2}
         return {
@@ -111,7 +114,8 @@ class ChainReader:
                 chain = self._chain(bound.value, frames[: index + 1], depth + 1)
                 if chain is None:
                     return None
-                return chain[0], (*chain[1], _ELEMENT) if bound.is_element else chain[1]
+                more = (*((_ELEMENT,) if bound.is_element else ()), *map(_place, bound.places))
+                return chain[0], (*chain[1], *more)
         return None
 
     def _chain(
@@ -131,7 +135,7 @@ class ChainReader:
                 case ast.Subscript(slice=ast.Slice() | ast.Tuple()):
                     return None  # several elements
                 case ast.Subscript(value=inner, slice=index) if arguments is None:
-                    steps.append(Step(self._key(index), is_index=True))
+                    steps.append(self._index(index))
                     now = inner
                 case ast.Call(func=function) if arguments is None:
                     arguments = self._arguments_of(now, frames, depth)
@@ -160,12 +164,13 @@ class ChainReader:
         names = [self._word(word.arg, word, word.col_offset) for word in call.keywords if word.arg is not None]
         first = call.args[0] if call.args else None
         text: Word | None = None
-        keys: tuple[Word, ...] = ()
+        under: dict[Word, Constant | None] = {}
         if isinstance(first, ast.Constant) and isinstance(first.value, str):
             text = self._text_word(first)
         elif isinstance(first, ast.Dict):
-            words = (self._text_word(key) for key in first.keys if isinstance(key, ast.Constant))
-            keys = tuple(word for word in words if word is not None)
+            for key, value in zip(first.keys, first.values, strict=True):
+                word = self._text_word(key) if isinstance(key, ast.Constant) else None
+                under |= {} if word is None else {word: self._constant(value)}
         last = call.args[-1] if call.args else None
         constant = self._constant(last) if last is not None and (text is None or last is not first) else None
         values = tuple(map(self._constant, call.args))
@@ -177,12 +182,21 @@ class ChainReader:
             forms = tuple(self._form(node, frames) for node in call.args)
             chains = tuple(self._as_chain(node, frames, depth + 1) for node in call.args)
             self._is_argument = False
-        return Arguments(len(call.args), tuple(names), is_exact, text, keys, constant, values, named, forms, chains)
+        inside = tuple(map(self._inside, call.args))
+        return Arguments(
+            len(call.args), tuple(names), is_exact, text, tuple(under), constant, values, named, forms, chains, inside,
+            tuple(under.values()),
+        )  # fmt: skip
+
+    def _inside(self, node: ast.expr) -> tuple[Constant, ...]:
+        """The literals in a literal list or tuple."""
+        elements = node.elts if isinstance(node, (ast.List, ast.Tuple)) else []
+        return tuple(found for found in map(self._constant, elements) if found is not None)
 
     def _form(self, node: ast.expr, frames: tuple[Frame, ...]) -> Word | None:
         def bound(name: str) -> ast.expr | None:
             found = next((frame[name] for frame in reversed(frames) if name in frame), None)
-            is_value = found is not None and not found.is_element and name not in self._rebound
+            is_value = found is not None and not found.is_element and not found.places and name not in self._rebound
             return found.value if found is not None and is_value else None
 
         form = form_of(node, bound, lambda name: not any(name in frame for frame in frames))
@@ -195,9 +209,14 @@ class ChainReader:
         last = msgspec.structs.replace(found[1][-1], word=Word(found[1][-1].word.text, self._span(node)))
         return Chain(found[0], (*found[1][:-1], last))
 
-    def _key(self, index: ast.expr) -> Word:
+    def _index(self, index: ast.expr) -> Step:
         word = self._text_word(index) if isinstance(index, ast.Constant) else None
-        return word or Word("", Span(self._path))
+        span = self._span(index)
+        line = self._lines[span.line - 1] if span.line == span.end_line else ""
+        shown = Word(line[span.column - 1 : span.end_column - 1], span) if line else None
+        value = constant(index)
+        place = value if isinstance(value, int) and not isinstance(value, bool) else None
+        return Step(word or Word("", Span(self._path)), is_index=True, shown=shown, place=place)
 
     def _text_word(self, node: ast.Constant) -> Word | None:
         """The text in a literal, without its quotes; None if it is not written as it is."""
@@ -229,6 +248,22 @@ class ChainReader:
         """The column, from 1 and in characters, of a position in bytes."""
         text = self._lines[line - 1] if line <= len(self._lines) else ""
         return byte + 1 if text.isascii() else len(text.encode()[:byte].decode(errors="replace")) + 1
+
+
+def _unpacked(target: ast.expr) -> Iterator[tuple[str, tuple[int, ...]]]:
+    """The variables to which a value is unpacked, each with its positions in it."""
+    match target:
+        case ast.Name(id=name):
+            yield name, ()
+        case ast.Tuple(elts=elements) | ast.List(elts=elements):
+            if not any(isinstance(one, ast.Starred) for one in elements):
+                for number, one in enumerate(elements):
+                    for name, places in _unpacked(one):
+                        yield name, (number, *places)
+
+
+def _place(number: int) -> Step:
+    return Step(Word("", Span("")), is_index=True, place=number)
 
 
 _ELEMENT = Step(Word("", Span("")), is_index=True, is_each=True)

@@ -17,6 +17,7 @@ from robocomp_yaml.emit.usage.code import (
     WORKER,
     Chain,
     Constant,
+    Returned,
     Step,
     Word,
     literal_head,
@@ -42,6 +43,7 @@ class FileUsage(msgspec.Struct):
     texts: set[str] = set()
     is_open: bool = False
     is_shared: bool = False
+    returned: list[Returned] = []
 
 
 class UsageReader(ChainReader):
@@ -52,16 +54,18 @@ class UsageReader(ChainReader):
         classes: UserClasses,
         modules: frozenset[str],
         served: Container[str],
+        answers: Container[str],
         stored: Counter[str],
         is_robocomp: bool,
     ) -> None:
         super().__init__(path, text, {"generated.interfaces", *(("interfaces",) if is_robocomp else ())})
         self._classes, self._stored = classes, stored
-        self._modules, self._served, self._is_robocomp = modules, served, is_robocomp
+        self._modules, self._served, self._answers, self._is_robocomp = modules, served, answers, is_robocomp
         self._found = FileUsage()
         self._caught: frozenset[str] = frozenset()
         self._is_lazy = False  # annotations are not evaluated
         self._is_hint = False
+        self._answering = ""  # the method of an interface around the present statement
 
     def read(self, tree: ast.Module) -> FileUsage:
         if "global " in self._text or "nonlocal " in self._text:
@@ -117,6 +121,10 @@ class UsageReader(ChainReader):
                 found = self._lookup(name, frames)
                 self._found.is_shared |= found is not None and found == (WORKER, ())
                 self._found.is_open |= name in ("exec", "eval", "vars")
+            case ast.Return(value=ast.expr() as value):
+                if self._answering:
+                    self._returned(value, frames)
+                self._visit(value, frames)
             case ast.FunctionDef() | ast.AsyncFunctionDef():
                 self._function(node, frames)
             case ast.Lambda():
@@ -200,7 +208,20 @@ class UsageReader(ChainReader):
         self._visit_all((*node.decorator_list, *node.args.defaults, *filter(None, node.args.kw_defaults)), frames)
         self._visit_hints(annotations_of(node), frames)
         frame = self._frame(node.body, node.args)
+        around, self._answering = self._answering, ""
         self._visit_all(node.body, (*frames, frame))
+        self._answering = around
+
+    def _returned(self, value: ast.expr, frames: tuple[Frame, ...]) -> None:
+        """What a method of an interface returns; each of two alternatives by itself."""
+        if isinstance(value, ast.IfExp):
+            self._returned(value.body, frames)
+            self._returned(value.orelse, frames)
+            return
+        is_tuple = isinstance(value, ast.Tuple)
+        call = ast.Call(value, value.elts if isinstance(value, ast.Tuple) else [value], [])
+        made = Returned(self._answering, self._span(value), self._arguments_of(call, frames, 0), is_tuple)
+        self._found.returned.append(made)
 
     def _class(self, node: ast.ClassDef, frames: tuple[Frame, ...]) -> None:
         is_worker = node.name in self._classes.workers and len(frames) == 1
@@ -220,7 +241,10 @@ class UsageReader(ChainReader):
             self._found.methods.append(word)
         self._visit_all((*node.decorator_list, *node.args.defaults), frames)
         self._visit_hints(annotations_of(node), frames)
+        is_plain = not node.decorator_list and isinstance(node, ast.FunctionDef)
+        self._answering = node.name if is_plain and node.name in self._answers else ""
         self._visit_all(node.body, (*frames, self._method_frame(node)))
+        self._answering = ""
 
     def _method_frame(self, node: ast.FunctionDef | ast.AsyncFunctionDef) -> dict[str, Binding | None]:
         """The variables of a method of the worker."""

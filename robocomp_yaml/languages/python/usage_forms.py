@@ -5,16 +5,30 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable
 
-from robocomp_yaml.emit.usage.code import MAPPING, NOTHING
+from robocomp_yaml.emit.usage.code import (
+    FUNCTION,
+    GENERATOR,
+    LIST,
+    MAPPING,
+    NO_MAPPING,
+    NOTHING,
+    NUMBER,
+    SET,
+    TEXT,
+    TRUTH,
+    TUPLE,
+)
 
-_NUMBER, _TEXT, _NO_MAPPING = "a number", "a text", "no mapping"
 _FORMS = {
-    ast.List: "a list", ast.ListComp: "a list", ast.Tuple: "a tuple", ast.Set: "a set", ast.SetComp: "a set",
-    ast.Dict: MAPPING, ast.DictComp: MAPPING, ast.JoinedStr: _TEXT, ast.Lambda: "a function",
-    ast.GeneratorExp: "a generator", ast.Compare: _NO_MAPPING,
+    ast.List: LIST, ast.ListComp: LIST, ast.Tuple: TUPLE, ast.Set: SET, ast.SetComp: SET, ast.Dict: MAPPING,
+    ast.DictComp: MAPPING, ast.JoinedStr: TEXT, ast.Lambda: FUNCTION, ast.GeneratorExp: GENERATOR,
+    ast.Compare: NO_MAPPING,
 }  # fmt: skip
-_BUILTINS = {"float": _NUMBER, "int": _NUMBER, "len": _NUMBER, "str": _TEXT, "repr": _TEXT, "list": "a list",
-             "tuple": "a tuple", "set": "a set", "dict": MAPPING, "bool": "true or false"}  # fmt: skip
+_BUILTINS = {
+    "float": NUMBER, "int": NUMBER, "len": NUMBER, "str": TEXT, "repr": TEXT, "list": LIST, "sorted": LIST,
+    "tuple": TUPLE, "set": SET, "dict": MAPPING, "bool": TRUTH, "print": NOTHING, "map": GENERATOR,
+    "filter": GENERATOR, "zip": GENERATOR, "reversed": GENERATOR, "enumerate": GENERATOR,
+}  # fmt: skip
 _MODULES = {"math": ("frexp", "modf"), "random": ("choices", "sample", "Random", "SystemRandom", "choice", "getstate")}
 """Modules whose functions return numbers, and those that do not."""
 _DEPTH = 8
@@ -31,25 +45,25 @@ def form_of(node: ast.expr, bound: Callable[[str], ast.expr | None], is_builtin:
             break
     match node:
         case ast.Constant(value=bool()):
-            return "true or false"
+            return TRUTH
         case ast.Constant(value=int() | float()) | ast.UnaryOp(operand=ast.Constant(value=int() | float())):
-            return _NUMBER
+            return NUMBER
         case ast.Constant(value=str()):
-            return _TEXT
+            return TEXT
         case ast.Constant(value=None):
             return NOTHING
         case ast.UnaryOp():
-            return _NO_MAPPING
+            return NO_MAPPING
         case ast.BinOp(op=ast.BitOr()):
             return ""
         case ast.BinOp(left=left, op=ast.Add() | ast.Sub() | ast.Mult() | ast.Div() | ast.FloorDiv(), right=right):
             sides = {form_of(side, bound, is_builtin) for side in (left, right)}
-            return _NUMBER if sides == {_NUMBER} else _NO_MAPPING
+            return NUMBER if sides == {NUMBER} else NO_MAPPING
         case ast.BinOp():
-            return _NO_MAPPING
+            return NO_MAPPING
         case ast.Call(func=ast.Name(id=name)) if is_builtin(name):
             return _BUILTINS.get(name, "")
         case ast.Call(func=ast.Attribute(value=ast.Name(id=module), attr=name)):
-            return _NUMBER if module in _MODULES and name not in _MODULES[module] else ""
+            return NUMBER if module in _MODULES and name not in _MODULES[module] else ""
         case _:
             return _FORMS.get(type(node), "")

@@ -6,22 +6,26 @@ from __future__ import annotations
 import ast
 import builtins
 import sys
+from collections import Counter
 from collections.abc import Callable, Collection, Iterator, Mapping
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.usage.code import (
     NO_INIT,
+    NO_METHOD,
     NO_RESULT,
     NO_SELF,
     NOT_CALLED,
     NOT_GENERATED,
     REPEATED,
     UNDEFINED,
+    VALUE,
     WITHOUT_SELF,
     Slip,
     Word,
 )
 from robocomp_yaml.languages.python.syntax import names_of
+from robocomp_yaml.languages.python.usage_methods import endless_functions, form_instead, returns_nothing
 
 GENERATED = frozenset("component genericworker interfaces parameters runtime statemachine".split())
 _OF_WORKER = frozenset(("GenericWorker",))
@@ -31,10 +35,11 @@ _Function = (ast.FunctionDef, ast.AsyncFunctionDef)
 
 def slips(
     path: str, text: str, tree: ast.Module, workers: Collection[str], attributes: Collection[str],
-    methods: Mapping[str, Collection[str]], modules: Collection[str], answering: Collection[str],
+    methods: Mapping[str, Collection[str]], modules: Collection[str], called: Mapping[str, int],
 ) -> Iterator[Slip]:  # fmt: skip
     """The slips of a file. `attributes` are those of the worker that no other name can mean, `methods` those of each
-    proxy, `modules` the Slice modules, and `answering` the methods that must return something."""
+    of these, `modules` the Slice modules, and `called` the methods that the generated code calls, with the number of
+    results."""
     lines = text.splitlines()
 
     def at(name: str, node: ast.expr | ast.stmt | ast.alias, end: bool = False) -> Word | None:
@@ -50,8 +55,15 @@ def slips(
     bound = _bound(tree)
     if bound is not None:
         yield from _undefined(tree, bound, {*modules, *_OF_WORKER}, attributes, at)
-    for class_ in (node for node in tree.body if isinstance(node, ast.ClassDef) and node.name in workers):
+    classes = [node for node in tree.body if isinstance(node, ast.ClassDef) and node.name in workers]
+    written = Counter(method.name for class_ in classes for method in class_.body if isinstance(method, _Function))
+    endless = endless_functions(tree)
+    for class_ in classes:
         seen = dict[str, int]()
+        own = _uncalled(class_, written)
+        for name, target in _constants(class_):
+            if name in called and (word := at(name, target)) is not None:
+                yield Slip(NO_METHOD, word, VALUE)
         for method in (node for node in class_.body if isinstance(node, _Function)):
             if not method.decorator_list and seen.setdefault(method.name, method.lineno) != method.lineno:
                 if (word := at(method.name, method)) is not None:
@@ -59,8 +71,11 @@ def slips(
             if method.name == "__init__" and "__init__" not in _called(method):
                 if (word := at(method.name, method)) is not None:
                     yield Slip(NO_INIT, word)
-            if method.name in answering and not method.decorator_list and _returns_nothing(method):
+            if method.name in called and (form := form_instead(method, called[method.name])):
                 if (word := at(method.name, method)) is not None:
+                    yield Slip(NO_METHOD, word, form)
+            elif called.get(method.name) and not method.decorator_list and returns_nothing(method, endless):
+                if written[method.name] == 1 and (word := at(method.name, method)) is not None:
                     yield Slip(NO_RESULT, word)
             given = method.args
             if not (given.posonlyargs or given.args or given.vararg or method.decorator_list):
@@ -77,6 +92,9 @@ def slips(
                     value=ast.Attribute(value=ast.Attribute(value=ast.Name(id="self"), attr=proxy), attr=name)
                 ):
                     if name in methods.get(proxy, ()) and (word := at(name, node.value, end=True)) is not None:
+                        yield Slip(NOT_CALLED, word)
+                case ast.Expr(value=ast.Attribute(value=ast.Name(id="self"), attr=name)):
+                    if name in own and (word := at(name, node.value, end=True)) is not None:
                         yield Slip(NOT_CALLED, word)
 
 
@@ -143,20 +161,18 @@ def _called(method: ast.AST) -> set[str]:
     return {name for node in ast.walk(method) if isinstance(node, ast.Call) for name in names_of(node.func)}
 
 
-def _returns_nothing(method: ast.FunctionDef | ast.AsyncFunctionDef) -> bool:
-    """Whether a method surely ends without a value."""
-    last = method.body[-1]
-    if isinstance(last, (ast.Raise, ast.While, ast.Try, ast.With, ast.If, ast.Match)):
-        return False  # it may end in another way
-    todo: list[ast.AST] = list(method.body)
-    while todo:
-        match node := todo.pop():
-            case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.ClassDef() | ast.Lambda():
-                continue
-            case ast.Return(value=ast.expr()) | ast.Yield() | ast.YieldFrom():
-                return False
-        todo += ast.iter_child_nodes(node)
-    return True
+def _uncalled(class_: ast.ClassDef, written: Counter[str]) -> set[str]:
+    """The methods of every worker, and those that the class defines once: to name one alone is no call."""
+    plain = {method.name for method in class_.body if isinstance(method, _Function) and not method.decorator_list}
+    return {name for name in plain if written[name] == 1} | {"getPeriod", "killYourSelf", "mayTake", "setPeriod"}
+
+
+def _constants(class_: ast.ClassDef) -> Iterator[tuple[str, ast.expr]]:
+    """The names to which a class binds literals."""
+    for node in class_.body:
+        match node:
+            case ast.Assign(targets=[ast.Name(id=name) as target], value=ast.Constant()):
+                yield name, target
 
 
 def _imports(tree: ast.Module, at: Callable[..., Word | None]) -> Iterator[Slip]:

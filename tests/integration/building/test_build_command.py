@@ -80,6 +80,17 @@ def test_named_components(workspace: Path, rcyaml: Rcyaml, name: str) -> None:
     assert states(rcyaml, name) == {"LegComp": "built"}
 
 
+def test_a_deployment_stands_for_the_components_that_it_starts(workspace: Path, rcyaml: Rcyaml) -> None:
+    (workspace / "robot.ddsl.yaml").write_text(
+        "deployment: Robot\ncomponents:\n  leg: {component: leg}\n  sh: {program: sh}\n"
+    )
+    assert states(rcyaml, "robot.ddsl.yaml") == {"LegComp": "built"}
+    assert states(rcyaml, "robot.ddsl.yaml", "arm") == {"ArmComp": "built", "LegComp": "up to date"}
+    (workspace / "robot.ddsl.yaml").write_text("deployment: Robot\ncomponents: {leg: {component: log}}\n")
+    result = rcyaml("build", "robot.ddsl.yaml")
+    assert result.exit_code == 1 and "RC4101" in result.output
+
+
 def test_named_components_from_a_folder(workspace: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(workspace / "leg")
     assert states(rcyaml) == {"LegComp": "built"}

@@ -34,6 +34,9 @@ def test_a_script_without_errors(tmp_path: Path, rcyaml: Rcyaml) -> None:
         ("interfaces:\n  Laser:\n    methods: {scan: {returns: far}}\n", "must be a number"),
         ("interfaces:\n  Laser:\n    methods: {scna: {}}\n", "did you mean 'scan'?"),
         ("interfaces:\n  Laser: {endpiont: tcp -p 1}\n", "unknown key 'endpiont'"),
+        ("interfaces:\n  Laser: {endpoint: tpc -p 1}\n", "did you mean 'tcp'?"),
+        ("interfaces:\n  Laser: {endpoint: tcp -p far}\n", "RC0208"),
+        ("storm: IceStorm/TopicManager:tcp -p\n", "RC0208"),
         ("interfaces: [\n", "RC0101"),
     ],
 )

@@ -54,6 +54,7 @@ def test_the_other_commands_accept_all_forms(rcyaml: Run, tmp_path: Path, argume
     (["new", "components/arm/a.cdsl.yaml"], "'components/arm/a.cdsl.yaml' does not exist"),
     (["new", "rcyaml.yaml"], "'rcyaml.yaml' is not a document of a component"),
     (["new", "robot.ddsl.yaml"], "'robot.ddsl.yaml' is a deployment; name one of its components"),
+    (["show", "robot.ddsl.yaml"], "`rcyaml -v deploy plan robot.ddsl.yaml` shows the values of its processes"),
     (["show", "empty"], "'empty' has no component; `rcyaml new component NAME` writes one"),
     (["get", "components/arm/arm.pdsl.yaml"], "components/arm/etc/config.yaml does not exist yet"),
 ])  # fmt: skip

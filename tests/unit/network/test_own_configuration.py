@@ -262,6 +262,15 @@ def test_every_value_names_its_source() -> None:
     assert [old.value for old in setting(found, "lips", "Mouth.Endpoints").overrode] == ["tcp -p 12345"]
 
 
+@pytest.mark.parametrize(
+    ("flat", "values"),
+    [("Ice.MessageSizeMax=7\n", ""), ("", "component: ../mouth.cdsl.yaml\nice: {MessageSizeMax: 7}\n")],
+)
+def test_a_default_of_the_run_time_is_not_shown_beside_what_replaces_it(flat: str, values: str) -> None:
+    found = network(files(flat=flat, values=values)).settings_of("lips")
+    assert [one.value for one in found if one.key == "Ice.MessageSizeMax"] == ["7"]
+
+
 def test_a_file_that_rcyaml_wrote_changes_nothing() -> None:
     first = FIRST + f"Mouth.Endpoints=tcp -p {default_port('MouthComp', 'Mouth')}\nperiod.compute=100\n"
     found = network(files(flat=first))

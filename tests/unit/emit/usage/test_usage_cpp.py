@@ -19,6 +19,10 @@ public slots:
     void Ear_hear(const std::string& text);
 private:
     int turns = 0;
+    RoboCompMouth::Pose last;
+    RoboCompMouth::Path path{};
+    RoboCompMouth::MouthPrxPtr mouth;
+    std::shared_ptr<RoboCompMouth::MouthPrx> shared;
 };
 #endif
 """
@@ -89,6 +93,22 @@ def worker(body: str, more: str = "", header: str = HEADER) -> dict[str, str]:
         ("mouth_proxy->move(pose, \"yes\");", "RC6328", "\"yes\""),
         ("news_pubproxy->told(3);", "RC6328", "3"),
         ("auto s = parameters[\"speed\"];", "RC6330", "speed"),
+        ("last.gap = 3;", "RC6325", "gap"),
+        ("this->last.gap = 3;", "RC6325", "gap"),
+        ("auto other = last; use(other.gap);", "RC6325", "gap"),
+        ("for (const auto& pose : path) use(pose.gap);", "RC6325", "gap"),
+        ("if (last.opening == \"wide\") turns++;", "RC6327", "\"wide\""),
+        ("mouth->shut();", "RC6302", "shut"),
+        ("shared->move(pose);", "RC6304", "move"),
+        ("mouth_porxy->close();", "RC6301", "mouth_porxy"),
+        ("this->moth_prox->close();", "RC6301", "moth_prox"),
+        ("auto pose = RoboCompMouth::Pose(); pose.gap = 3;", "RC6325", "gap"),
+        ("auto pose = RoboCompMouth::Pose{1}; use(pose.gap);", "RC6325", "gap"),
+        ("std::shared_ptr<RoboCompMouth::MouthPrx> other = mouth_proxy; other->shut();", "RC6302", "shut"),
+        ("try { go(); } catch (const RoboCompMouth::Blocked& error) { use(error.wy); }", "RC6325", "wy"),
+        ("parameters.change([](auto& values) { values.sped = 3; });", "RC6306", "sped"),
+        ("this->parameters.change([this](parameters::Values& v) { v.motors[0].velo = 3; });", "RC6306", "velo"),
+        ("parameters::Values copy; use(parameters.sped());", "RC6306", "sped"),
         ("events.begin();", "RC6310", "begin"),
         ("if (statemachine.isIn(\"quiet\")) return;", "RC6310", "quiet"),
     ],
@@ -148,6 +168,17 @@ def test_what_is_reported(link: Link, body: str, code: str, text: str) -> None:
         ("std::string mode = parameters.mode(); mode.append(\"x\"); if (mode == \"fast\") turns++;", ""),
         ("RoboCompMouth::MouthPrxPtr mouth = convert(mouth_proxy); mouth->shut();", ""),
         ("std::vector<int> parameters; parameters.push_back(1);", ""),
+        ("last.opening = 3; this->last.shape = RoboCompMouth::Shape::round; use(path.size(), path[0].opening);", ""),
+        ("other.last.gap = 3; other->last.gap = 3; mouth->close(); shared->ice_ping(); mouth = nullptr;", ""),
+        ("Other last; last.gap = 3;", ""),
+        ("parameters.change([](auto& v) { v.speed = 3; v.motors.push_back({}); v.camera.fps = 5; });", ""),
+        ("parameters.change([](auto& v) { Other v; v.sped = 3; }); parameters.change(function);", ""),
+        ("auto mouth_porxy = make(); mouth_porxy->close(); mouth_proxies->close(); youth_axis->close();", ""),
+        ("try { go(); } catch (const RoboCompMouth::Blocked& e) { use(e.why, e.what(), e.ice_id()); }", ""),
+        ("RoboCompMouth::Pose pose = RoboCompMouth::Pose(); pose.opening = 3; auto p = make(pose).gap;", ""),
+        ("f([](auto last) { last.gap; });", ""),
+        ("turns++;", "void Other::f() { last.gap = 3; }"),
+        ("turns++;", "struct Other { Something last; void f() { last.gap = 3; } };"),
     ],
 )  # fmt: skip
 def test_what_is_right_or_too_dynamic_to_know(link: Link, body: str, more: str) -> None:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import ast
 import textwrap
 
 import pytest
 
+from conftest import ROOT
 from judged_code import MACHINE, Link, component, found
 from robocomp_yaml.emit.usage.judge import judge
+from robocomp_yaml.languages.python.names import WORKER_ATTRIBUTES
 
 NAMES = "Fake, Foreign, Ice, Meta, contextlib, decorated, loadUi, name, other, path, run, speed, use"
 HEAD = (
@@ -118,6 +121,46 @@ def worker(body: str, head: str = "") -> dict[str, str]:
         ("print(self.mouth_proxy.move(other, True).opening())", "RC6334", "opening"),
         ("self.log.warnning('x')", "RC6325", "warnning"),
         ("path = RoboCompMouth.Path()", "RC6314", "Path"),
+        ("self.setPeriod('x')", "RC6308", "'x'"),
+        ("self.setPeriod(0)", "RC6308", "0"),
+        ("self.setPeriod()", "RC6304", "setPeriod"),
+        ("print(self.getPeriod(3))", "RC6304", "getPeriod"),
+        ("self.mayTake('long')", "RC6328", "'long'"),
+        ("self.killYourSelf", "RC6323", "killYourSelf"),
+        ("self.compute", "RC6323", "compute"),
+        ("self.events.start", "RC6323", "start"),
+        ("with self.mutex():\n    pass", "RC6334", "mutex"),
+        ("self.mutex.lock()", "RC6325", "lock"),
+        ("self.log('x')", "RC6334", "log"),
+        ("print(RoboCompMouth.Shape.wide())", "RC6334", "wide"),
+        ("print(RoboCompMouth.Shape('wide'))", "RC6334", "Shape"),
+        ("print(RoboCompMouth.Shape(1))", "RC6334", "Shape"),
+        ("print(self.parameters.motors[0][0])", "RC6330", "0"),
+        ("print(self.parameters.motors[0][path])", "RC6330", "path"),
+        ("print(self.parameters.camera[1])", "RC6330", "1"),
+        ("print(self.parameters[0])", "RC6330", "0"),
+        ("print(self.parameters.speed[0])", "RC6330", "0"),
+        ("print(self.parameters.device['tty'])", "RC6330", "tty"),
+        ("print(self.mouth_proxy.move(other, True)[0])", "RC6330", "0"),
+        ("print(self.parameters.offsets.left)", "RC6325", "left"),
+        ("print(self.parameters.offsets.left.vel)", "RC6325", "left"),
+        ("print(self.parameters.offsets.get('a').velo)", "RC6306", "velo"),
+        ("for name, motor in self.parameters.offsets.items():\n    print(motor.velo)", "RC6306", "velo"),
+        ("print([motor.velo for motor in self.parameters.offsets.values()])", "RC6306", "velo"),
+        ("print(self.parameters.device.uper())", "RC6325", "uper"),
+        ("print(self.parameters.speed.value)", "RC6325", "value"),
+        ("print(self.parameters.motors.append(other))", "RC6325", "append"),
+        ("pose, age = self.mouth_proxy.where()\nprint(pose.gap)", "RC6325", "gap"),
+        ("[pose, age] = self.mouth_proxy.where()\nprint(age.anything)", "RC6325", "anything"),
+        ("pose, age = self.mouth_proxy.where()\nself.mouth_proxy.move(age, True)", "RC6328", "age"),
+        ("self.mouth_proxy.move(self.mouth_proxy.where(), True)", "RC6328", "self.mouth_proxy.where()"),
+        ("self.mouth_proxy.moveAsync(other)", "RC6304", "moveAsync"),
+        ("print(self.mouth_proxy.moveAsync(other, True).result().gap)", "RC6325", "gap"),
+        ("self.parameters.change({'speed': 'x'})", "RC6308", "'x'"),
+        ("raise RoboCompMouth.Blocked('a', 2)", "RC6304", "Blocked"),
+        ("raise RoboCompMouth.Blocked(reason='a')", "RC6305", "reason"),
+        ("raise RoboCompMouth.Blocked(3)", "RC6328", "3"),
+        ("for word in self.parameters.words:\n    if word == 3: pass", "RC6327", "3"),
         ("self.events.begin()", "RC6310", "begin"),
         ("print(self.statemachine.is_in('quiet'))", "RC6310", "quiet"),
     ],
@@ -181,6 +224,19 @@ def test_what_is_reported(link: Link, body: str, code: str, text: str) -> None:
         "self.events.start()\nself.events.stop(3)\nprint(self.statemachine.states, self.statemachine.is_in('talking'))",
         "print(self.log, self.mutex, self.communicator, self.getPeriod(), self._own, self.Ear_hear, self.sm_silent)",
         "class Other:\n    def f(self):\n        return self.anything\nprint(Other())",
+        "self.setPeriod(100)\nself.setPeriod(other)\nself.setPeriod(period=20)\nself.setPeriod = other\nself.mayTake(2.5)",
+        "with self.mutex:\n    self.mutex.acquire()\n    self.mutex.release()\n    call = self.getPeriod",
+        "print(self.parameters.motors[-1].vel, self.parameters.device[0], self.parameters.offsets[path].vel)",
+        "print(self.parameters.offsets.keys(), len(self.parameters.offsets), self.parameters.speed.bit_length())",
+        "print(self.parameters.motors.index(other), self.parameters.words[0].title(), 'a' in self.parameters.words)",
+        "left, right = self.parameters.offsets\nprint(left.title(), right.anything)",
+        "(a, b), c = other\npose, age = self.mouth_proxy.where()\nage += 1\nprint(pose.opening, age.real, a.any, c.any)",
+        "pose, *rest = self.mouth_proxy.where()\nfirst, second = self.mouth_proxy.way()\nprint(first.opening, rest.any)",
+        "pose = RoboCompMouth.Pose()\npose.opening = other\nprint(pose.opening.item(), pose.shape.value)",
+        "for pose in self.mouth_proxy.way():\n    print(pose.opening.real)\nfor key, value in other.items():\n    print(value.gap)",
+        "future = self.mouth_proxy.moveAsync(other, True)\nprint(future.result().opening, future.done())",
+        "self.mouth_proxy.moveAsync(other, True, {}).add_done_callback(print)",
+        "raise RoboCompMouth.Blocked\nraise RoboCompMouth.Blocked('a')\nraise RoboCompMouth.Blocked(why=other)",
         "print('self.moth_proxy.close()')  # self.moth_proxy.close()",
     ],
 )
@@ -388,6 +444,21 @@ def test_the_import_that_a_name_lacks(link: Link, body: str, hint: str) -> None:
     offer = part.offer(linked)
     usage = part.read({"specificworker.py": SLIPS.replace("pass  # here", body)}, linked, offer)
     assert [one.hint for one in judge(linked, usage, offer)] == [hint]
+
+
+def test_every_attribute_of_the_worker_is_known(link: Link) -> None:
+    """What the run time's classes define, as their source says it."""
+    templates = "robocomp_yaml/languages/python/templates"
+    for path in ("runtime/worker.py", "qt/worker.py"):
+        tree = ast.parse((ROOT / templates / path).read_text(encoding="utf-8"))
+        (class_,) = (node for node in tree.body if isinstance(node, ast.ClassDef) and node.name.endswith("Worker"))
+        methods = {node.name for node in class_.body if isinstance(node, ast.FunctionDef)}
+        stored = {
+            node.attr
+            for node in ast.walk(class_)
+            if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store)
+        }
+        assert {name for name in methods | stored if not name.startswith("_")} <= WORKER_ATTRIBUTES
 
 
 def test_a_parameter_is_no_attribute_of_the_worker(link: Link) -> None:
