@@ -74,6 +74,7 @@ class Mutating:
         self.items = {item.nodeid: item for item in session.items}
         for path in files([]):
             importlib.import_module(".".join(path.relative_to(ROOT).with_suffix("").parts))
+        gc.unfreeze()  # what `conftest` froze is in no list
         self.functions = [one for one in gc.get_objects() if isinstance(one, FunctionType)]
         gc.freeze()
         self.look_at_new_ones()
@@ -197,7 +198,7 @@ def main() -> int:
     pytest.main(arguments, plugins=[run])
     fit = len(drawn) - len(run.unfit)
     noticed = fit - len(run.survivors)
-    run.say(f"\n{noticed} of {fit} were noticed: {noticed / fit:.0%}. Survivors:")
+    run.say(f"\n{noticed} of {fit} were noticed: {noticed / fit:.0%}; {len(run.unfit)} could not be put in. Survivors:")
     for mutant in run.survivors:
         run.say(f"  {mutant}")
     return 0
