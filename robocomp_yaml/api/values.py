@@ -31,7 +31,17 @@ from robocomp_yaml.parameters.editing.show import Value
 from robocomp_yaml.parameters.examples.new import lines_above
 from robocomp_yaml.parameters.hidden import hidden
 from robocomp_yaml.parameters.layers.effective import Effective
-from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, RecordType, Type, is_secret, leaves
+from robocomp_yaml.parameters.types import (
+    BasicType,
+    EnumType,
+    ListType,
+    MapType,
+    RecordType,
+    Type,
+    below,
+    is_secret,
+    leaves,
+)
 from robocomp_yaml.parameters.verdict.judge import judge
 from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.secrets import HIDDEN, hidden_lines
@@ -296,9 +306,7 @@ def references(type_: Type, data: object, path: str) -> Iterator[tuple[str, dict
             yield from references(type_.element, one, f"{path}[{number}]")
     elif isinstance(type_, MapType | RecordType):
         for key, one in (data if isinstance(data, dict) else {}).items():
-            of = {member.name: member.type for member in type_.members} if isinstance(type_, RecordType) else {}
-            inner = type_.element if isinstance(type_, MapType) else of.get(key)
-            if inner is not None:
+            if (inner := below(type_, key)) is not None:
                 yield from references(inner, one, f"{path}.{key}")
     elif isinstance(data, dict) and is_reference(data):
         yield path, data

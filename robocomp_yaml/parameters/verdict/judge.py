@@ -204,9 +204,8 @@ def _record(type_: RecordType, node: Node, path: Path, complete: bool, key: Scal
     if not isinstance(node, Mapping):
         yield _wrong_type(type_, node, path, key)
         return
-    members = {member.name: member for member in type_.members}
     for name, value in node.items():
-        member = members.get(name.lexeme)
+        member = type_.member(name.lexeme)
         if member is None:
             if complete or not name.lexeme.startswith("x-"):  # an extension of the user
                 yield unknown(name, type_, path, node)
