@@ -51,9 +51,7 @@ from robocomp_yaml.semantics.references import is_reference
 from robocomp_yaml.source import text as source_text
 from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.regular import whole
-from robocomp_yaml.source.tree import Mapping as Tree
-from robocomp_yaml.source.tree import Node, parse
-from robocomp_yaml.source.tree import Sequence as List
+from robocomp_yaml.source.tree import Node, node_at, parse
 from robocomp_yaml.source.yaml_text import flow
 from robocomp_yaml.transactions import whole_file
 from robocomp_yaml.transactions.changes import unified
@@ -220,9 +218,7 @@ class Values:
         steps, type_ = parameter_at(path, self._parameters.parameters.root)
         if self._linked is None or value == "null" or _REFERENCE.fullmatch(value):
             return ""
-        node = _node_at(
-            self._linked.document.root, ["parameters", *show.typed(self._parameters.parameters.root, steps)]
-        )
+        node = node_at(self._linked.document.root, ["parameters", *show.typed(self._parameters.parameters.root, steps)])
         if node is None:
             return ""
         new, _ = parse(path, json.dumps(value) if spells_text(type_, value) else value)
@@ -361,15 +357,3 @@ def parameter_at(path: str, root: RecordType) -> tuple[list[str], Type]:
         listed = f"known are {some(known, 8)}" if known else ""
         raise Refused(f"unknown parameter '{path}'{meant(path, known, listed)}")
     return steps, type_
-
-
-def _node_at(root: Tree, steps: Sequence[Step]) -> Node | None:
-    node: Node = root
-    for step in steps:
-        if isinstance(node, Tree) and isinstance(step, str) and step in node.entries:
-            node = node.entries[step][1]
-        elif isinstance(node, List) and isinstance(step, int) and step < len(node.items):
-            node = node.items[step]
-        else:
-            return None
-    return node

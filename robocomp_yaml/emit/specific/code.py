@@ -109,6 +109,14 @@ def field(node: Node, name: str) -> Node:
     return child if child is not None else node
 
 
+def around(node: Node, types: Collection[str]) -> Node | None:
+    """The innermost node of these types that contains a node, or is it."""
+    now: Node | None = node
+    while now is not None and now.type not in types:
+        now = now.parent
+    return now
+
+
 def words(node: Node, without: Collection[Node | None] = ()) -> Iterator[str]:
     """The tokens below a node, except those of the nodes in `without`."""
     todo = [node]

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable, Mapping
 import msgspec
 from msgspec import structs
 
+from robocomp_yaml.emit.lowering.parameters import Setter
 from robocomp_yaml.emit.lowering.ports import LoweredPorts
 from robocomp_yaml.emit.lowering.types import results
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule
@@ -158,6 +159,14 @@ def record(type_: RecordType, in_code: Callable[[str], str], path: str = "", nam
             path=below if is_known else "",
         )
     return Offer(RECORD, name or (f"the group {path}" if path else ""), members)
+
+
+def setters(made: Iterable[Setter]) -> dict[str, OfferedMember]:
+    """The setters of a parameter."""
+    return {
+        name: OfferedMember(least=1, most=1, signature=f"{name}(value)", parameter=member, path=path)
+        for name, member, path in made
+    }
 
 
 def of_list(element: Offer | None, lists: Mapping[str, str] = {}) -> Offer:

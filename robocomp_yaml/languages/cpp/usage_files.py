@@ -8,7 +8,7 @@ from collections.abc import Collection, Iterator
 import msgspec
 from tree_sitter import Node
 
-from robocomp_yaml.emit.specific.code import field, text
+from robocomp_yaml.emit.specific.code import around, field, text
 from robocomp_yaml.emit.usage.code import MODULES, WORKER, Arguments, Chain, Constant, Step, Word
 from robocomp_yaml.emit.usage.judge import is_proxy
 from robocomp_yaml.languages._shared.usage_file import UsageFile
@@ -307,19 +307,12 @@ def _has_scope(node: Node) -> bool:
 
 
 def function_around(node: Node) -> Node | None:
-    now: Node | None = node
-    while now is not None and now.type != "function_definition":
-        now = now.parent
-    return now
+    return around(node, ("function_definition",))
 
 
 def _class_around(node: Node) -> str:
-    now: Node | None = node
-    while now is not None:
-        if now.type in ("class_specifier", "struct_specifier"):
-            return text(field(now, "name"))
-        now = now.parent
-    return ""
+    inner = around(node, ("class_specifier", "struct_specifier"))
+    return text(field(inner, "name")) if inner is not None else ""
 
 
 def _called(node: Node) -> Node:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from pathlib import Path
 
 import pytest
 from msgspec.structs import replace
@@ -18,7 +17,7 @@ def of(program: str, **more: object) -> Process:
     return replace(process("p"), command=(program, "/an/argument"), kind=PROGRAM, **more)
 
 
-def test_a_program_with_its_libraries(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_program_with_its_libraries(monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[tuple[str, list[str]]] = []
 
     def libraries(program: str, skips: Callable[[str], object], searched: Iterable[str]) -> list[str]:
@@ -27,7 +26,7 @@ def test_a_program_with_its_libraries(tmp_path: Path, monkeypatch: pytest.Monkey
 
     monkeypatch.setattr(shared_libraries, "of", libraries)
     known: dict[str, tuple[str, ...]] = {}
-    program = str(tmp_path / "laser")
+    program = "/opt/robot/laser"
     path = (EnvironmentVariable("LD_LIBRARY_PATH", "/opt/lib:/opt/more"),)
     assert needed(of(program, env=path), known) == (program, "/opt/lib/a.so")
     assert needed(of(program, watched=("/opt/code.py", program)), known) == (program, "/opt/lib/a.so", "/opt/code.py")
