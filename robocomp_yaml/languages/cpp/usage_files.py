@@ -8,6 +8,7 @@ from collections.abc import Collection, Iterator
 import msgspec
 from tree_sitter import Node
 
+from robocomp_yaml.digraph import preorder
 from robocomp_yaml.emit.specific.code import around, field, text
 from robocomp_yaml.emit.usage.code import MODULES, WORKER, Arguments, Chain, Constant, Step, Word
 from robocomp_yaml.emit.usage.judge import is_proxy
@@ -332,10 +333,5 @@ _IN_CLASSES = _IN_SCOPES | frozenset(
 
 def _of_types(root: Node, types: Collection[str], scopes: Collection[str]) -> Iterator[Node]:
     """The nodes of these types in the scopes, in order."""
-    todo = [root]
-    while todo:
-        node = todo.pop()
-        if node.type in types:
-            yield node
-        if node.type in scopes:
-            todo += reversed(node.named_children)
+    every = preorder([root], lambda node: node.named_children if node.type in scopes else ())
+    return (node for node in every if node.type in types)

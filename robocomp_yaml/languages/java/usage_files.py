@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterator
 
 from tree_sitter import Node
 
+from robocomp_yaml.digraph import preorder
 from robocomp_yaml.emit.specific.code import around, field, text
 from robocomp_yaml.emit.usage.code import MODULES, WORKER, Arguments, Chain, Constant, Step, Word
 from robocomp_yaml.languages._shared.usage_file import UsageFile
@@ -326,10 +327,6 @@ def _is_in_worker(node: Node, workers: Collection[str]) -> bool:
 
 def _of_type(root: Node, type_: str) -> Iterator[Node]:
     """The nodes of a type, in order, also in classes inside of others, but not in methods."""
-    todo = [root]
-    while todo:
-        node = todo.pop()
-        if node.type == type_:
-            yield node
-        if node.type in ("program", "class_declaration", "class_body"):
-            todo += reversed(node.named_children)
+    scopes = ("program", "class_declaration", "class_body")
+    every = preorder([root], lambda node: node.named_children if node.type in scopes else ())
+    return (node for node in every if node.type == type_)

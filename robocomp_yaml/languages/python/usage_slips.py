@@ -6,9 +6,10 @@ from __future__ import annotations
 import ast
 import builtins
 import sys
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.digraph import preorder
 from robocomp_yaml.emit.usage.code import (
     NO_INIT,
     NO_RESULT,
@@ -126,16 +127,16 @@ _KNOWN = {
 
 
 def _outside_annotations(tree: ast.Module) -> Iterator[ast.AST]:
-    todo: list[ast.AST] = [tree]
-    while todo:
-        node = todo.pop(0)
-        yield node
-        skipped: list[ast.AST | None] = []
+
+    def inner(node: ast.AST) -> Iterable[ast.AST]:
+        annotation: ast.AST | None = None
         if isinstance(node, (ast.AnnAssign, ast.arg)):
-            skipped = [node.annotation]
+            annotation = node.annotation
         elif isinstance(node, _Function):
-            skipped = [node.returns]
-        todo += (child for child in ast.iter_child_nodes(node) if child not in skipped)
+            annotation = node.returns
+        return (child for child in ast.iter_child_nodes(node) if child is not annotation)
+
+    return preorder([tree], inner)
 
 
 def _called(method: ast.AST) -> set[str]:
@@ -148,15 +149,13 @@ def _returns_nothing(method: ast.FunctionDef | ast.AsyncFunctionDef) -> bool:
     last = method.body[-1]
     if isinstance(last, (ast.Raise, ast.While, ast.Try, ast.With, ast.If, ast.Match)):
         return False  # it may end in another way
-    todo: list[ast.AST] = list(method.body)
-    while todo:
-        match node := todo.pop():
-            case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.ClassDef() | ast.Lambda():
-                continue
-            case ast.Return(value=ast.expr()) | ast.Yield() | ast.YieldFrom():
-                return False
-        todo += ast.iter_child_nodes(node)
-    return True
+    scopes = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Lambda)
+    own = preorder(
+        list[ast.AST](method.body), lambda node: () if isinstance(node, scopes) else ast.iter_child_nodes(node)
+    )
+    return not any(
+        isinstance(node, (ast.Yield, ast.YieldFrom)) or (isinstance(node, ast.Return) and node.value) for node in own
+    )
 
 
 def _imports(tree: ast.Module, at: Callable[..., Word | None]) -> Iterator[Slip]:
