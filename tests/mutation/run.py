@@ -83,8 +83,9 @@ class Mutating:
         return True
 
     def look_at_new_ones(self) -> None:
-        """What is known of a test holds as long as the code stays as it is."""
-        code = digest(b"".join(path.read_bytes() for path in files([])))
+        """What is known of a test holds as long as the code and the tests stay as they are."""
+        tests = sorted((ROOT / "tests").glob("*.py")) + [path for one in TESTS for path in _modules(ROOT / one)]
+        code = digest(b"".join(path.read_bytes() for path in (*files([]), *tests)))
         kept = json.loads(KEPT.read_text()) if KEPT.is_file() else {}
         self.seen = kept if kept.get("code") == code else {"code": code, "lines": {}, "seconds": {}}
         began, new = time.monotonic(), [test for test in self.items if test not in self.seen["seconds"]]
