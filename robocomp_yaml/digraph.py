@@ -1,4 +1,4 @@
-"""Algorithms on directed graphs: reachable nodes, topological orders, cycles.
+"""Algorithms on trees and directed graphs: reachable nodes, orders, cycles.
 
 None of them recurses, because chains may be long.
 """
@@ -23,6 +23,16 @@ def reachable(starts: Iterable[Node], following: Callable[[Node], Iterable[Node]
                 seen[other] = None
                 queue.append(other)
     return seen
+
+
+def preorder(roots: Iterable[Node], inner: Callable[[Node], Iterable[Node]]) -> Iterator[Node]:
+    """All nodes of trees in depth-first order: each node before those below it, of which `inner` returns the next
+    ones."""
+    todo = [*roots][::-1]
+    while todo:
+        node = todo.pop()
+        yield node
+        todo += reversed([*inner(node)])
 
 
 def postorder(starts: Iterable[Node], inner: Callable[[Node], Iterable[Node]]) -> Iterator[Node]:

@@ -168,6 +168,8 @@ def settle_random_tests() -> None:
     settings.load_profile("fuzz" if FUZZING else "fixed")
 
 
+# After all plugins, some of which are registered this late.
+@pytest.hookimpl(trylast=True)
 def pytest_configure(config: pytest.Config) -> None:
     """Tests interrupt what they start, which ignores that if we do: so does what a script runs in the background."""
     if config.option.markexpr == "unit":

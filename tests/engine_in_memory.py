@@ -52,8 +52,8 @@ def running(one: Process, state: str = RUNNING, **more: Any) -> Running:
 
 class InMemory:
     """`done` is what was asked of it, in order. Of the processes, `ending` end while they are started, `silent`
-    never become ready, `blocked` cannot be started, which is seen before, and those in `needing` are ready as long as
-    another one runs."""
+    never become ready, `blocked` cannot be started, which is seen before, those in `needing` are ready as long as
+    another one runs, and those in `brief` end as soon as they were ready, in a state, or are gone."""
 
     name = "memory"
 
@@ -65,6 +65,7 @@ class InMemory:
         self.specs: dict[str, ProcessSpec] = {}
         self.logs: dict[str, list[str]] = {}
         self.needing: dict[str, str] = {}
+        self.brief: dict[str, str | None] = {}
 
     async def open(self, network: Network, *, create: bool) -> bool:
         return True
@@ -114,7 +115,12 @@ class InMemory:
 
     async def run(self, name: str, command: Sequence[str], within: float) -> int:
         needed = self.now.get(self.needing.get(name, name))
-        return 0 if name not in self.silent and needed and needed.state == RUNNING else 1
+        is_ready = name not in self.silent and needed and needed.state == RUNNING
+        if is_ready and name in self.brief:
+            state = self.brief[name]
+            self.now = {one: of for one, of in self.now.items() if one != name or state}
+            self.now |= {name: replace(self.now[name], state=state, last_exit="exit code 3")} if state else {}
+        return 0 if is_ready else 1
 
     async def close(self, *, end: bool = False) -> None:
         self.done.append("end" if end else "close")

@@ -31,7 +31,17 @@ from robocomp_yaml.parameters.editing.show import Value
 from robocomp_yaml.parameters.examples.new import lines_above
 from robocomp_yaml.parameters.hidden import hidden
 from robocomp_yaml.parameters.layers.effective import Effective
-from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, RecordType, Type, is_secret, leaves
+from robocomp_yaml.parameters.types import (
+    BasicType,
+    EnumType,
+    ListType,
+    MapType,
+    RecordType,
+    Type,
+    below,
+    is_secret,
+    leaves,
+)
 from robocomp_yaml.parameters.verdict.judge import judge
 from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.secrets import HIDDEN, hidden_lines
@@ -41,9 +51,7 @@ from robocomp_yaml.semantics.references import is_reference
 from robocomp_yaml.source import text as source_text
 from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.regular import whole
-from robocomp_yaml.source.tree import Mapping as Tree
-from robocomp_yaml.source.tree import Node, parse
-from robocomp_yaml.source.tree import Sequence as List
+from robocomp_yaml.source.tree import Node, node_at, parse
 from robocomp_yaml.source.yaml_text import flow
 from robocomp_yaml.transactions import whole_file
 from robocomp_yaml.transactions.changes import unified
@@ -213,9 +221,7 @@ class Values:
         steps, type_ = parameter_at(path, self._parameters.parameters.root)
         if self._linked is None or value == "null" or _REFERENCE.fullmatch(value):
             return ""
-        node = _node_at(
-            self._linked.document.root, ["parameters", *show.typed(self._parameters.parameters.root, steps)]
-        )
+        node = node_at(self._linked.document.root, ["parameters", *show.typed(self._parameters.parameters.root, steps)])
         if node is None:
             return ""
         new, _ = parse(path, json.dumps(value) if spells_text(type_, value) else value)
@@ -299,9 +305,7 @@ def references(type_: Type, data: object, path: str) -> Iterator[tuple[str, dict
             yield from references(type_.element, one, f"{path}[{number}]")
     elif isinstance(type_, MapType | RecordType):
         for key, one in (data if isinstance(data, dict) else {}).items():
-            of = {member.name: member.type for member in type_.members} if isinstance(type_, RecordType) else {}
-            inner = type_.element if isinstance(type_, MapType) else of.get(key)
-            if inner is not None:
+            if (inner := below(type_, key)) is not None:
                 yield from references(inner, one, f"{path}.{key}")
     elif isinstance(data, dict) and is_reference(data):
         yield path, data
@@ -356,15 +360,3 @@ def parameter_at(path: str, root: RecordType) -> tuple[list[str], Type]:
         listed = f"known are {some(known, 8)}" if known else ""
         raise Refused(f"unknown parameter '{path}'{meant(path, known, listed)}")
     return steps, type_
-
-
-def _node_at(root: Tree, steps: Sequence[Step]) -> Node | None:
-    node: Node = root
-    for step in steps:
-        if isinstance(node, Tree) and isinstance(step, str) and step in node.entries:
-            node = node.entries[step][1]
-        elif isinstance(node, List) and isinstance(step, int) and step < len(node.items):
-            node = node.items[step]
-        else:
-            return None
-    return node

@@ -14,6 +14,7 @@ from robocomp_yaml.deploy.alone import Alone
 from robocomp_yaml.diag.diagnostic import has_errors
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.diag.listing import some
+from robocomp_yaml.digraph import reachable
 from robocomp_yaml.link.deployments import LinkedDeployment
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.link.workspace import root_above
@@ -174,11 +175,5 @@ def _by_itself(
 def _servers(analysis: Analysis, linked: LinkedComponent) -> list[str]:
     """The documents of the components of the workspace that serve what a component requires, directly or not."""
     table = analysis.addresses.table(linked)
-    found, pending = dict[str, None](), [linked]
-    while pending:
-        for port in pending.pop().requires:
-            for other, _ in table.implementers.of(port):
-                if other.component.path not in found and other.component.path != linked.component.path:
-                    found[other.component.path] = None
-                    pending.append(other)
-    return list(found)
+    every = reachable([linked], lambda one: [of for port in one.requires for of, _ in table.implementers.of(port)])
+    return [one.component.path for one in every if one is not linked]

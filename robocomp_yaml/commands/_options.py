@@ -84,6 +84,17 @@ fail_on = click.option(
 )  # fmt: skip
 
 
+def pairs(given: Iterable[str], form: str, *, can_be_empty: bool = False) -> dict[str, str]:
+    """Arguments as names with values, which may be empty texts or not. `form` is shown to who writes something else."""
+    found = {}
+    for text in given:
+        name, _, value = text.partition("=")
+        if not name or not (value or (can_be_empty and "=" in text)):
+            raise click.UsageError(f"'{text}' is not {form}")
+        found[name] = value
+    return found
+
+
 def colored(ctx: click.Context, stream: Any = None) -> bool:
     """Whether output to a stream is coloured; by default, to standard output."""
     if ctx.color is not None:

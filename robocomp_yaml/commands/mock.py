@@ -51,17 +51,7 @@ def command(
     mock = Mock(interfaces, script or "", include)
     if check or mock.diagnostics:
         _options.report(ctx, format_, mock.diagnostics, 1)
-    _serve(ctx, mock, _pairs(endpoints), storm, format_)
-
-
-def _pairs(given: tuple[str, ...]) -> dict[str, str]:
-    pairs = {}
-    for text in given:
-        name, equals, endpoint = text.partition("=")
-        if not equals or not name or not endpoint:
-            raise click.UsageError(f"'{text}' is not NAME=ENDPOINT, such as Mouth='tcp -p 10005'")
-        pairs[name] = endpoint
-    return pairs
+    _serve(ctx, mock, _options.pairs(endpoints, "NAME=ENDPOINT, such as Mouth='tcp -p 10005'"), storm, format_)
 
 
 def _serve(ctx: click.Context, mock: Mock, endpoints: Mapping[str, str], storm: str, format_: str) -> None:

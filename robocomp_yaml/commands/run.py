@@ -74,7 +74,8 @@ def command(
         raise click.UsageError("--alone and --deployment exclude each other")
     run = Run(
         name, deployment=deployment, include=include, alone=alone, with_needed=with_needed,
-        settings=_pairs(settings), config=config or "", arguments=ctx.meta[_ARGUMENTS],
+        settings=_options.pairs(settings, "NAME=VALUE, such as period.compute=50", can_be_empty=True),
+        config=config or "", arguments=ctx.meta[_ARGUMENTS],
     )  # fmt: skip
     if dry_run:
         _describe(ctx, run, format_)
@@ -116,16 +117,6 @@ def _name(words: tuple[str, ...], deployment: str) -> tuple[str, str]:
     if len(words) > 1:
         raise click.UsageError(f"'{words[1]}' is unexpected: arguments of the program follow `--`")
     return (words[0] if words else "."), deployment
-
-
-def _pairs(settings: tuple[str, ...]) -> dict[str, str]:
-    pairs = {}
-    for text in settings:
-        name, equals, value = text.partition("=")
-        if not equals or not name:
-            raise click.UsageError(f"'{text}' is not NAME=VALUE, such as period.compute=50")
-        pairs[name] = value
-    return pairs
 
 
 def _shown(program: str) -> str:

@@ -13,7 +13,7 @@ from msgspec.structs import replace
 from robocomp_yaml.deploy.here import folder_on, is_behind, is_here
 from robocomp_yaml.network.network import Network, NetworkHost, Process
 from robocomp_yaml.source.digest import digest
-from robocomp_yaml.source.regular import regular
+from robocomp_yaml.source.regular import content
 
 _NOT_KEPT = ("span", "own_span", "extra", "build")
 
@@ -95,8 +95,5 @@ def _on(host: NetworkHost, process: Process) -> Process:
 
 def _digest_of(path: str) -> str:
     """The digest of a file, '' if it cannot be read. Special files are never opened, because they can block."""
-    try:
-        with open(path, "rb", opener=regular) as file:
-            return digest(file.read())
-    except OSError:
-        return ""
+    raw = content(path)
+    return digest(raw) if raw is not None else ""

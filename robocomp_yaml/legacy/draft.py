@@ -4,7 +4,7 @@ converters share."""
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Iterator
 from typing import Any
 
 import msgspec
@@ -152,6 +152,17 @@ class Reader(msgspec.Struct, eq=False):
         """Return the name of a construct, '' where it has none."""
         found = token(tree, "NAME")
         return plain(found) if found is not None else ""
+
+    def named(self, constructs: Iterable[Tree[Token]]) -> Iterator[tuple[str, Tree[Token]]]:
+        """Yield constructs with their names. Report those that repeat a name, and omit them."""
+        seen: set[str] = set()
+        for construct in constructs:
+            name = self.name(construct)
+            if name in seen:
+                self.repaired("repeated", construct, name)
+            else:
+                seen.add(name)
+                yield name, construct
 
     def report(self, code: Code, at: Tree[Token] | Token, **facts: Any) -> None:
         """Report a diagnostic at the location of a construct or a token."""

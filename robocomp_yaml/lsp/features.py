@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from lsprotocol import types
 
-from robocomp_yaml.lsp import commands, completion, navigation, notes, rename
+from robocomp_yaml.lsp import commands, completion, lenses, navigation, rename
 from robocomp_yaml.lsp.messages import real_path
 from robocomp_yaml.lsp.more_fixes import MORE, with_more
 from robocomp_yaml.lsp.server import Server, folders_of, of_code, watchers
@@ -123,5 +123,5 @@ def make(include: Iterable[str] = ()) -> Server:
     completion.add(server)
     rename.add(server)
     commands.add(server)
-    notes.add(server)
+    lenses.add(server)
     return server

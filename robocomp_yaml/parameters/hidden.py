@@ -42,8 +42,8 @@ def hidden(type_: Type, data: Any) -> Any:
             named = {key: secrets.HIDDEN for key, item in data.items() if _is_named(key, item)}
             return {key: hidden(element, item) for key, item in data.items()} | named
         case RecordType() if isinstance(data, dict):
-            types = {member.name: member.type for member in type_.members}
-            return {key: hidden(types[key], item) if key in types else item for key, item in data.items()}
+            members = type_.by_name
+            return {key: hidden(members[key].type, item) if key in members else item for key, item in data.items()}
         case _:
             return data
 

@@ -137,6 +137,7 @@ class _SchemaBuilder(msgspec.Struct):
     mode: str
     is_gate: bool = False
     definitions: dict[str, Schema] = {}
+    snippets: dict[tuple[str, str], Schema] = {}
 
     def __post_init__(self) -> None:
         self.definitions["reference"] = _REFERENCE_OF_GATES if self.is_gate else _REFERENCE
@@ -188,9 +189,16 @@ class _SchemaBuilder(msgspec.Struct):
             words = in_words(type_)
             made["else"]["errorMessage"] = f"this must be {words}"
             if not (isinstance(type_, RecordType) and type_.is_group):
-                snippet = {"label": label(type_), "description": words, "body": flow(example_of(type_))}
-                made["anyOf"] = [{"type": "string", "defaultSnippets": [snippet]}, {}]
+                made["anyOf"] = [{"type": "string", "defaultSnippets": [self.snippet(type_, words)]}, {}]
         return made
+
+    def snippet(self, type_: Type, words: str) -> Schema:
+        """What an editor inserts for a type; types that read the same have the same example."""
+        name = label(type_)
+        if (name, words) not in self.snippets:
+            made = {"label": name, "description": words, "body": flow(example_of(type_))}
+            self.snippets[name, words] = made
+        return self.snippets[name, words]
 
     def scalar(self, type_: ScalarType, nullable: bool) -> Schema:
         limits = self.limits(type_)

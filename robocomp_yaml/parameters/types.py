@@ -6,7 +6,8 @@ with those where the name is used. Values are judged in `double` precision, for 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -131,7 +132,7 @@ class MapType(msgspec.Struct, frozen=True):
     size: Size = Size()
 
 
-class RecordType(msgspec.Struct, frozen=True):
+class RecordType(msgspec.Struct, frozen=True, dict=True):
     """A struct, or a group, whose `name` is ''."""
 
     name: str
@@ -142,8 +143,12 @@ class RecordType(msgspec.Struct, frozen=True):
     def is_group(self) -> bool:
         return not self.name
 
+    @cached_property
+    def by_name(self) -> Mapping[str, ResolvedMember]:
+        return {member.name: member for member in self.members}
+
     def member(self, name: str) -> ResolvedMember | None:
-        return next((member for member in self.members if member.name == name), None)
+        return self.by_name.get(name)
 
 
 ScalarType = BasicType | EnumType
@@ -157,7 +162,7 @@ class Default(Located, frozen=True):
     node: Node | None = None
 
 
-class ResolvedMember(Located, frozen=True):
+class ResolvedMember(Located, frozen=True, dict=True):
     """A parameter, or a member of a group or struct. `code_name` is the name in code, before a language escapes it.
 
     A member without a default that is not optional is required. A group has neither default nor `optional`. `secret` is

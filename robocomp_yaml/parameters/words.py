@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
+from functools import wraps
 
 from robocomp_yaml.parameters.hidden import hidden
 from robocomp_yaml.parameters.types import (
@@ -108,6 +110,21 @@ def label(type_: Type) -> str:
     return type_.name
 
 
+def _once(words: Callable[[ResolvedMember], str]) -> Callable[[ResolvedMember], str]:
+    """Words of a member that are kept with it: code, schemas and pages have the same ones."""
+
+    @wraps(words)
+    def kept(member: ResolvedMember) -> str:
+        made = vars(member)
+        if words.__name__ not in made:
+            made[words.__name__] = words(member)
+        found: str = made[words.__name__]
+        return found
+
+    return kept
+
+
+@_once
 def default_in_words(member: ResolvedMember) -> str:
     """The default of a member that has one, on one line of at most 60 characters. Secrets are hidden."""
     assert member.default is not None
@@ -115,6 +132,7 @@ def default_in_words(member: ResolvedMember) -> str:
     return text if len(text) <= 60 else f"{text[:59]}…"
 
 
+@_once
 def for_editors(member: ResolvedMember) -> str:
     """The facts that an editor shows below the documentation of a parameter, with one line for each enumerator."""
     kind = in_words(member.type)
@@ -143,6 +161,7 @@ def for_documents(member: ResolvedMember) -> str:
     return "; ".join(facts)
 
 
+@_once
 def for_code(member: ResolvedMember) -> str:
     """The comment of an accessor, on one line; '' if there are no facts."""
     found = limits_in_words(member.type)
@@ -162,4 +181,4 @@ def for_code(member: ResolvedMember) -> str:
 
 def prose(doc: str) -> str:
     """A doc as Markdown without HTML: `<name>` is escaped."""
-    return _CODE_OR_TAG.sub(lambda found: found[0] if found[1] else "\\<", doc)
+    return _CODE_OR_TAG.sub(lambda found: found[0] if found[1] else "\\<", doc) if "<" in doc else doc

@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.source.file_names import is_deployment
-from robocomp_yaml.source.regular import regular
+from robocomp_yaml.source.regular import content
 from robocomp_yaml.source.text import MAX_DOCUMENT, read_bytes
 
 _Made = TypeVar("_Made")
@@ -39,11 +39,7 @@ def names_in(folder: str) -> list[str]:
 
 
 def _peek(path: str, size: int) -> bytes:
-    try:
-        with open(path, "rb", opener=regular) as file:
-            return file.read(size)
-    except OSError:
-        return b""
+    return content(path, size) or b""
 
 
 class Files:

@@ -182,6 +182,34 @@ def end_of(node: Node) -> int:
     return node.end
 
 
+def not_plain(node: Node) -> str:
+    """What a node is that has no plain value, in words; '' for one that has."""
+    if isinstance(node, Mapping):
+        return "a mapping"
+    if isinstance(node, Sequence):
+        return "a list"
+    return "empty" if node.data is None else ""
+
+
+def child(node: Node | None, step: str | int) -> tuple[Scalar | None, Node] | None:
+    """The key and the node one step below: an entry of a mapping, or an item of a sequence, which has no key; None if
+    there is none."""
+    if isinstance(node, Mapping) and isinstance(step, str):
+        return node.entries.get(step)
+    if isinstance(node, Sequence) and isinstance(step, int) and step < len(node.items):
+        return None, node.items[step]
+    return None
+
+
+def node_at(root: Node, steps: Iterable[str | int]) -> Node | None:
+    """The node at these steps below a root; None if there is none."""
+    node: Node | None = root
+    for step in steps:
+        found = child(node, step)
+        node = found[1] if found is not None else None
+    return node
+
+
 class Mark(msgspec.Struct, frozen=True):
     line: int
     column: int

@@ -22,6 +22,15 @@ def text(path: str, encoding: str = "utf-8") -> str | None:
         return None
 
 
+def content(path: str, size: int = -1) -> bytes | None:
+    """The bytes of a regular file, at most `size` if it is set; None if it cannot be read."""
+    try:
+        with open(path, "rb", opener=regular) as file:
+            return file.read(size)
+    except OSError:
+        return None
+
+
 def whole(path: str) -> tuple[bytes, os.stat_result]:
     """The bytes and the status of a regular file, with a third of the system calls of open(). Raises OSError."""
     opened, status = _opened(path, os.O_RDONLY)

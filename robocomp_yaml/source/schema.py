@@ -23,7 +23,7 @@ from robocomp_yaml.languages.record import TargetLanguage
 from robocomp_yaml.patterns import pattern
 from robocomp_yaml.source.retyped import retyped
 from robocomp_yaml.source.schema_text import schema_text
-from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, not_plain
 
 _IN_WORDS = {
     "string": "text",
@@ -257,13 +257,8 @@ def _where(instance_path: Path[str | int]) -> str:
 
 
 def _what(node: Node) -> str:
-    if isinstance(node, Mapping):
-        return "a mapping"
-    if isinstance(node, Sequence):
-        return "a list"
-    assert isinstance(node, Scalar)
-    if node.data is None:
-        return "empty"
+    if not isinstance(node, Scalar) or node.data is None:
+        return not_plain(node)
     kind = {bool: "a boolean", int: "a number", float: "a number"}.get(type(node.data), "text")
     shown = node.lexeme if len(node.lexeme) <= 30 else node.lexeme[:27] + "…"
     return f"{kind}, '{shown}'" if kind == "text" else f"{kind}, {shown}"

@@ -30,11 +30,14 @@ from robocomp_yaml.source.nodes import (
     Scalar,
     Sequence,
     below,
+    child,
     core,
     end_of,
     found_in,
     last_end,
     mapping_at,
+    node_at,
+    not_plain,
     once,
     pairs_below,
     scalar_at,
@@ -45,8 +48,9 @@ from robocomp_yaml.source.nodes import (
 from robocomp_yaml.source.text import MAX_SCALAR, position, size_in_words
 
 __all__ = [
-    "MAX_ALIASED", "Base", "Mapping", "Node", "Scalar", "Sequence", "below", "core", "end_of", "found_in", "last_end",
-    "mapping_at", "once", "pairs_below", "parse", "part", "scalar_at", "sequence_at", "text_at", "whole",
+    "MAX_ALIASED", "Base", "Mapping", "Node", "Scalar", "Sequence", "below", "child", "core", "end_of", "found_in",
+    "last_end", "mapping_at", "node_at", "not_plain", "once", "pairs_below", "parse", "part", "scalar_at",
+    "sequence_at", "text_at", "whole",
 ]  # fmt: skip
 MAX_ALIASED = 100_000  # nodes that all aliases together may add
 

@@ -9,7 +9,8 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 import accessors
-from parameters import HARD_TEXTS, TEXTS, Data, as_dict, documents, linked, values
+from parameters import Data, as_dict, linked, values
+from random_parameters import HARD_TEXTS, TEXTS, documents
 from robocomp_yaml.link.program import LinkedParameters
 from robocomp_yaml.parameters.layers.effective import effective
 from robocomp_yaml.parameters.writing.properties import properties, property_text

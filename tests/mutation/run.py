@@ -74,6 +74,7 @@ class Mutating:
         self.items = {item.nodeid: item for item in session.items}
         for path in files([]):
             importlib.import_module(".".join(path.relative_to(ROOT).with_suffix("").parts))
+        gc.unfreeze()  # what `conftest` froze is in no list
         self.functions = [one for one in gc.get_objects() if isinstance(one, FunctionType)]
         gc.freeze()
         self.look_at_new_ones()
@@ -82,8 +83,9 @@ class Mutating:
         return True
 
     def look_at_new_ones(self) -> None:
-        """What is known of a test holds as long as the code stays as it is."""
-        code = digest(b"".join(path.read_bytes() for path in files([])))
+        """What is known of a test holds as long as the code and the tests stay as they are."""
+        tests = sorted((ROOT / "tests").glob("*.py")) + [path for one in TESTS for path in _modules(ROOT / one)]
+        code = digest(b"".join(path.read_bytes() for path in (*files([]), *tests)))
         kept = json.loads(KEPT.read_text()) if KEPT.is_file() else {}
         self.seen = kept if kept.get("code") == code else {"code": code, "lines": {}, "seconds": {}}
         began, new = time.monotonic(), [test for test in self.items if test not in self.seen["seconds"]]
@@ -197,7 +199,7 @@ def main() -> int:
     pytest.main(arguments, plugins=[run])
     fit = len(drawn) - len(run.unfit)
     noticed = fit - len(run.survivors)
-    run.say(f"\n{noticed} of {fit} were noticed: {noticed / fit:.0%}. Survivors:")
+    run.say(f"\n{noticed} of {fit} were noticed: {noticed / fit:.0%}; {len(run.unfit)} could not be put in. Survivors:")
     for mutant in run.survivors:
         run.say(f"  {mutant}")
     return 0

@@ -19,7 +19,8 @@ from hypothesis import strategies as st
 
 import accessors
 from layouts import laid_out
-from parameters import HARD_TEXTS, JUNK, NAMES, Data, documents, linked, mutated
+from parameters import Data, linked
+from random_parameters import HARD_TEXTS, JUNK, NAMES, documents, mutated
 from robocomp_yaml.cli import group
 from robocomp_yaml.link.program import LinkedParameters
 from robocomp_yaml.parameters.types import ListType, MapType, RecordType, Type

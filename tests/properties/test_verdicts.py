@@ -9,7 +9,8 @@ from hypothesis import HealthCheck, Phase, example, given, settings
 from hypothesis import strategies as st
 
 from by_cerberus import cerberus_verdict
-from parameters import Data, documents, linked, mutated, values
+from parameters import Data, linked, values
+from random_parameters import documents, mutated
 from robocomp_yaml.parameters.defaults import with_defaults
 from robocomp_yaml.parameters.json_schema import DOCUMENT, document_schema, fits
 from robocomp_yaml.parameters.layers.completion import completed

@@ -16,7 +16,8 @@ import of_languages
 import spellings
 from conftest import FUZZING
 from constraints import CASES, CONSTRAINTS, subject
-from parameters import Data, as_dict, documents, linked, mutated, parameters, values
+from parameters import Data, as_dict, linked, parameters, values
+from random_parameters import documents, mutated
 from robocomp_yaml.parameters.expressions import evaluate
 from robocomp_yaml.parameters.layers.effective import effective
 from robocomp_yaml.parameters.types import Parameters, RecordType

@@ -15,6 +15,12 @@ def test_breadth_first_order() -> None:
     assert not digraph.reachable("", graph.__getitem__)
 
 
+def test_preorder_of_trees() -> None:
+    trees = {"a": "bc", "b": "d", "c": "de", "d": "", "e": ""}
+    assert list(digraph.preorder("eab", trees.__getitem__)) == ["e", "a", "b", "d", "c", "d", "e", "b", "d"]
+    assert len(list(digraph.preorder([0], CHAIN.__getitem__))) == LONG + 1
+
+
 def test_postorder_in_the_order_of_successors() -> None:
     graph = {"a": "bc", "b": "d", "c": "d", "d": ""}
     assert list(digraph.postorder("a", graph.__getitem__)) == ["d", "b", "c", "a"]

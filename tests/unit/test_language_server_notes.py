@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import pytest
 
-pytest.importorskip("pygls")
-
 from in_memory import ROOT, analysed, text_at
 from robocomp_yaml.lsp import notes, users
 from robocomp_yaml.lsp.session import KnownNames

@@ -16,7 +16,7 @@ from typing import Any
 from robocomp_yaml.parameters.editing.edit import NotEditable, set_value
 from robocomp_yaml.semantics.paths import Step
 from robocomp_yaml.source.parts import PartsParser
-from robocomp_yaml.source.tree import Mapping, Node, Scalar, below, end_of
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, below, end_of, node_at
 from robocomp_yaml.source.tree import Sequence as SequenceNode
 from robocomp_yaml.source.yaml_text import flow, quoted, single_quoted, text_of
 
@@ -40,16 +40,7 @@ class EditedText:
 
     def at(self, *steps: Step) -> Node | None:
         """The node at these steps from the root; None if there is none."""
-        node: Node | None = self.root
-        for step in steps:
-            if isinstance(node, Mapping) and isinstance(step, str):
-                entry = node.entries.get(step)
-                node = entry[1] if entry is not None else None
-            elif isinstance(node, SequenceNode) and isinstance(step, int) and step < len(node.items):
-                node = node.items[step]
-            else:
-                return None
-        return node
+        return node_at(self.root, steps)
 
     def data(self, *steps: Step) -> Any:
         node = self.at(*steps)

@@ -17,7 +17,7 @@ from robocomp_yaml.deploy.here import folder_on
 from robocomp_yaml.deploy.probe import ProbeFailed, run_on
 from robocomp_yaml.network.network import Network, NetworkHost
 from robocomp_yaml.source.digest import digest
-from robocomp_yaml.source.regular import regular
+from robocomp_yaml.source.regular import content, regular
 
 BROUGHT, SEEN = "B", "S"
 _ELF = "7f454c46"
@@ -128,11 +128,7 @@ def digest_of(path: str) -> str:
 
 def start_of(path: str) -> str:
     """The first bytes of a program of this machine, '' if it cannot be read."""
-    try:
-        with open(path, "rb", opener=regular) as file:
-            return file.read(20).hex()
-    except OSError:
-        return ""
+    return (content(path, 20) or b"").hex()
 
 
 def is_native(start: str) -> bool:

@@ -35,7 +35,7 @@ class Arranged(msgspec.Struct):
 def arrange(picture: Picture, kept: Mapping[str, Cell] = {}, wider: float = WIDER) -> Arranged:
     """The arrangement of a picture, in which nodes keep these cells, unless they are in another host or group now, or
     others are there. `wider`: see WIDER."""
-    needs = _needs(picture)
+    needs = picture.needs()
     cells = _kept(picture, kept)
     if not cells:
         cells = _fresh(picture, needs, wider)
@@ -46,14 +46,6 @@ def arrange(picture: Picture, kept: Mapping[str, Cell] = {}, wider: float = WIDE
 
 def _frame(node: PictureNode) -> Frame:
     return node.box, node.groups[0] if node.groups else ""
-
-
-def _needs(picture: Picture) -> dict[str, list[str]]:
-    found: dict[str, list[str]] = {}
-    for line in picture.lines:
-        if line.source != line.target and line.target not in found.setdefault(line.source, []):
-            found[line.source].append(line.target)
-    return found
 
 
 def _fresh(picture: Picture, needs: Mapping[str, Sequence[str]], wider: float) -> dict[str, Cell]:

@@ -39,11 +39,7 @@ class NodeGrid(msgspec.Struct):
 
 def grid_of(picture: Picture) -> NodeGrid:
     """The cells of all nodes and hosts of a picture."""
-    needs: dict[str, list[str]] = {}
-    for line in picture.lines:
-        if line.source != line.target and line.target not in needs.setdefault(line.source, []):
-            needs[line.source].append(line.target)
-    level = layers(picture.nodes, needs)
+    level = layers(picture.nodes, picture.needs())
     strips = [name for name in [*(box.name for box in picture.boxes), ""] if picture.inside(name)]
     columns = _columns(picture, strips)
     grid = NodeGrid()

@@ -87,6 +87,14 @@ class Picture(msgspec.Struct):
     cells: Mapping[str, Cell] = {}
     positions: Mapping[str, tuple[float, float]] = {}
 
+    def needs(self) -> dict[str, list[str]]:
+        """The other nodes that each node has a line to, each once."""
+        found: dict[str, list[str]] = {}
+        for line in self.lines:
+            if line.source != line.target and line.target not in found.setdefault(line.source, []):
+                found[line.source].append(line.target)
+        return found
+
     def inside(self, box: str) -> list[PictureNode]:
         """The nodes in a box; those outside for ''."""
         return [node for node in self.nodes.values() if node.box == box]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 
 import msgspec
 
@@ -22,6 +22,10 @@ from robocomp_yaml.parameters.words import for_code
 
 ROOT = "."
 """The path of the record of all parameters."""
+Setter = tuple[str, ResolvedMember, str]
+"""Name, member and path of a setter."""
+Accessors = tuple[str, ResolvedMember, list[Setter]]
+"""The name of a getter with its member, and the setters of the member."""
 
 
 class TypeSpelling(msgspec.Struct, frozen=True):
@@ -49,6 +53,7 @@ class Types:
     """The classes of all enums and records of parameters: `of` maps the name, or the path of a group, to the class."""
 
     def __init__(self, root: RecordType, names: NameAllocator, spelling: TypeSpelling) -> None:
+        self.root = root
         self.records, self.enums = records(root)
         self.spelling = spelling
         self.of = {enum.name: names.allocate(enum.name) for enum in self.enums}
@@ -74,7 +79,7 @@ class Types:
 
     def setters(
         self, member: ResolvedMember, names: NameAllocator, group: str = ROOT, prefix: str = ""
-    ) -> Iterator[tuple[str, ResolvedMember, str]]:
+    ) -> Iterator[Setter]:
         """Name, member and path of each setter: of the member, or of the members of its group."""
         in_code, path = inside(group, member.code_name), f"{prefix}{member.name}"
         if member.is_group and isinstance(member.type, RecordType):
@@ -82,6 +87,11 @@ class Types:
                 yield from self.setters(inner, names, in_code, f"{path}.")
         elif member.editable:
             yield names.allocate(f"set{capitals(in_code[1:])}"), member, path
+
+    def accessors(self, names: NameAllocator, in_code: Callable[[str], str]) -> Iterator[Accessors]:
+        getters = {member.name: names.allocate(in_code(member.code_name)) for member in self.root.members}
+        for member in self.root.members:
+            yield getters[member.name], member, list(self.setters(member, names))
 
     def about_record(self, path: str, record: RecordType) -> str:
         """The documentation of a record."""

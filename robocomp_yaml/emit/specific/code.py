@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from typing import TYPE_CHECKING
 
 import msgspec
 
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.digraph import preorder
 
 if TYPE_CHECKING:
     from tree_sitter import Node
@@ -109,16 +110,21 @@ def field(node: Node, name: str) -> Node:
     return child if child is not None else node
 
 
+def around(node: Node, types: Collection[str]) -> Node | None:
+    """The innermost node of these types that contains a node, or is it."""
+    now: Node | None = node
+    while now is not None and now.type not in types:
+        now = now.parent
+    return now
+
+
 def words(node: Node, without: Collection[Node | None] = ()) -> Iterator[str]:
     """The tokens below a node, except those of the nodes in `without`."""
-    todo = [node]
-    while todo:
-        current = todo.pop()
-        if current.type == "comment" or current in without:
-            continue
-        if current.child_count == 0:
-            yield text(current)
-        todo += reversed(current.children)
+
+    def inner(outer: Node) -> Iterable[Node]:
+        return (child for child in outer.children if child.type != "comment" and child not in without)
+
+    yield from (text(each) for each in preorder([node], inner) if each.child_count == 0)
 
 
 def below(root: Node, enters: Callable[[Node], bool]) -> Iterator[tuple[Node, bool]]:
@@ -135,9 +141,5 @@ def below(root: Node, enters: Callable[[Node], bool]) -> Iterator[tuple[Node, bo
 
 def faults(root: Node) -> int:
     """The number of syntax errors in a tree."""
-    count, todo = 0, [root] if root.has_error else []
-    while todo:
-        node = todo.pop()
-        count += node.is_error or node.is_missing
-        todo += [child for child in node.children if child.has_error or child.is_missing]
-    return count
+    wrong = preorder([root], lambda node: (child for child in node.children if child.has_error or child.is_missing))
+    return sum(node.is_error or node.is_missing for node in wrong)

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable, Mapping
 import msgspec
 from msgspec import structs
 
+from robocomp_yaml.emit.lowering.parameters import Setter
 from robocomp_yaml.emit.lowering.ports import LoweredPorts
 from robocomp_yaml.emit.usage.code import Step
 from robocomp_yaml.emit.usage.kinds import Kind, kind_of
@@ -197,6 +198,14 @@ def record(
             path=below if is_known else "",
         )
     return Offer(RECORD, name or (f"the group {path}" if path else ""), members)
+
+
+def setters(made: Iterable[Setter]) -> dict[str, OfferedMember]:
+    """The setters of a parameter."""
+    return {
+        name: OfferedMember(least=1, most=1, signature=f"{name}(value)", parameter=member, path=path)
+        for name, member, path in made
+    }
 
 
 def of_list(element: Offer | None, lists: Mapping[str, str] = {}, natives: Natives = UNKNOWN) -> Offer:

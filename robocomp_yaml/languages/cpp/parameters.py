@@ -8,6 +8,7 @@ import msgspec
 
 from robocomp_yaml.emit.lowering.kinds import Builders, pattern_count
 from robocomp_yaml.emit.lowering.parameters import (
+    Accessors,
     ConstraintView,
     Types,
     TypeSpelling,
@@ -145,7 +146,6 @@ class _Types(Types):
     def __init__(self, root: RecordType) -> None:
         taken = names(_TYPES_TAKEN)
         super().__init__(root, taken, _SPELLING)
-        self.root = root
         self.functions = {path: taken.allocate(f"kindOf{self.of[path]}") for path, _ in self.records}
         self.enumerators = {enum.name: _enumerators(enum) for enum in self.enums}
         self.tables = {enum.name: taken.allocate(f"namesOf{self.of[enum.name]}") for enum in self.enums}
@@ -227,14 +227,9 @@ class _Types(Types):
         return made if is_small else f"const {made}&"
 
 
-def accessors(
-    root: RecordType, types: _Types | None = None
-) -> Iterator[tuple[str, ResolvedMember, list[tuple[str, ResolvedMember, str]]]]:
-    """The name of each getter with its member, and name, member and path of each of its setters."""
-    types, taken = types or _Types(root), names(_METHODS_TAKEN)
-    getters = {member.name: taken.allocate(LANGUAGE.in_code(member.code_name)) for member in root.members}
-    for member in root.members:
-        yield getters[member.name], member, list(types.setters(member, taken))
+def accessors(root: RecordType, types: _Types | None = None) -> Iterator[Accessors]:
+    """The getters and setters of all parameters."""
+    return (types or _Types(root)).accessors(names(_METHODS_TAKEN), LANGUAGE.in_code)
 
 
 def _enumerators(enum: EnumType) -> dict[str, str]:

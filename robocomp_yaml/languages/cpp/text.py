@@ -30,11 +30,13 @@ def _plain(line: str) -> str:
 
 def literal(data: str) -> str:
     """A string literal. Characters that do not print become octal escapes, which have at most three digits."""
-    escaped = "".join(_CHARS.get(char) or (char if char.isprintable() else _octal(char)) for char in data)
+    escaped = data.translate(_CHARS)
+    if not escaped.isprintable():
+        escaped = "".join(char if char.isprintable() else _octal(char) for char in escaped)
     return f'"{escaped}"'
 
 
-_CHARS = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t", "\r": "\\r", "?": "\\?"}
+_CHARS = str.maketrans({"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t", "\r": "\\r", "?": "\\?"})
 
 
 def _octal(char: str) -> str:

@@ -78,10 +78,7 @@ def _parameters(linked: LinkedComponent) -> Offer:
     for getter, member, setters in accessors(root):
         value = offers.value(member.type, LANGUAGE.in_code, member.name if member.is_group else "")
         members[getter] = OfferedMember(value, most=0, signature=f"{getter}()", read=member)
-        for setter, inner, path in setters:
-            members[setter] = OfferedMember(
-                least=1, most=1, signature=f"{setter}(value)", parameter=inner, path=path
-            )  # fmt: skip
+        members |= offers.setters(setters)
     return Offer(offers.PARAMETERS, linked.component.name, members)
 
 

@@ -8,7 +8,8 @@ from collections.abc import Collection, Iterator
 import msgspec
 from tree_sitter import Node
 
-from robocomp_yaml.emit.specific.code import field, text
+from robocomp_yaml.digraph import preorder
+from robocomp_yaml.emit.specific.code import around, field, text
 from robocomp_yaml.emit.usage.code import MODULES, WORKER, Arguments, Chain, Constant, Step, Word
 from robocomp_yaml.emit.usage.judge import is_proxy
 from robocomp_yaml.languages._shared.usage_file import UsageFile
@@ -328,19 +329,12 @@ def _has_scope(node: Node) -> bool:
 
 
 def function_around(node: Node) -> Node | None:
-    now: Node | None = node
-    while now is not None and now.type != "function_definition":
-        now = now.parent
-    return now
+    return around(node, ("function_definition",))
 
 
 def class_around(node: Node) -> str:
-    now: Node | None = node
-    while now is not None:
-        if now.type in ("class_specifier", "struct_specifier"):
-            return text(field(now, "name"))
-        now = now.parent
-    return ""
+    inner = around(node, ("class_specifier", "struct_specifier"))
+    return text(field(inner, "name")) if inner is not None else ""
 
 
 def _called(node: Node) -> Node:
@@ -360,10 +354,5 @@ IN_CLASSES = _IN_SCOPES | frozenset(
 
 def of_types(root: Node, types: Collection[str], scopes: Collection[str]) -> Iterator[Node]:
     """The nodes of these types in the scopes, in order."""
-    todo = [root]
-    while todo:
-        node = todo.pop()
-        if node.type in types:
-            yield node
-        if node.type in scopes:
-            todo += reversed(node.named_children)
+    every = preorder([root], lambda node: node.named_children if node.type in scopes else ())
+    return (node for node in every if node.type in types)

@@ -9,6 +9,7 @@ import msgspec
 from robocomp_yaml.emit.lowering.kinds import Builders
 from robocomp_yaml.emit.lowering.names import NameAllocator
 from robocomp_yaml.emit.lowering.parameters import (
+    Accessors,
     ConstraintView,
     Types,
     TypeSpelling,
@@ -208,11 +209,6 @@ class _Types(Types):
             )
 
 
-def accessors(
-    root: RecordType, types: _Types | None = None
-) -> Iterator[tuple[str, ResolvedMember, list[tuple[str, ResolvedMember, str]]]]:
-    """The name of each getter with its member, and name, member and path of each of its setters."""
-    types, taken = types or _Types(root), NameAllocator(METHODS)
-    getters = {member.name: taken.allocate(LANGUAGE.in_code(member.code_name)) for member in root.members}
-    for member in root.members:
-        yield getters[member.name], member, list(types.setters(member, taken))
+def accessors(root: RecordType, types: _Types | None = None) -> Iterator[Accessors]:
+    """The getters and setters of all parameters."""
+    return (types or _Types(root)).accessors(NameAllocator(METHODS), LANGUAGE.in_code)

@@ -99,10 +99,7 @@ def _parameters(linked: LinkedComponent) -> Offer:
     for getter, member, setters in accessors(root):
         field = values.members[LANGUAGE.in_code(member.code_name)]
         members[getter] = replace(_java_member(field), parameter=None, read=member, most=0, signature=f"{getter}()")
-        for setter, inner, path in setters:
-            members[setter] = OfferedMember(
-                least=1, most=1, signature=f"{setter}(value)", parameter=inner, path=path
-            )  # fmt: skip
+        members |= offers.setters(setters)
     return Offer(
         offers.PARAMETERS, linked.component.name, members, others=lambda name: name in (*OBJECT_METHODS, "table")
     )

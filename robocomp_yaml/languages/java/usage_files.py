@@ -7,7 +7,8 @@ from collections.abc import Collection, Iterator
 
 from tree_sitter import Node
 
-from robocomp_yaml.emit.specific.code import field, text
+from robocomp_yaml.digraph import preorder
+from robocomp_yaml.emit.specific.code import around, field, text
 from robocomp_yaml.emit.usage.code import MODULES, WORKER, Arguments, Chain, Constant, Step, Word
 from robocomp_yaml.languages._shared.usage_file import UsageFile
 from robocomp_yaml.languages.java.code import COMMENTS, parse
@@ -25,6 +26,7 @@ _OTHERS = frozenset(
     record_declaration record_pattern_component type_parameter type_pattern""".split()
 )
 _CLASSES = ("class_declaration", "enum_declaration", "record_declaration", "interface_declaration", "class_body")
+_METHODS = ("method_declaration", "constructor_declaration")
 _EQUALS = ("equals", "equalsIgnoreCase", "contentEquals")
 _NUMBER = re.compile(r"(-?)\s*(\d[\d_]*|\d*\.\d+|\d+\.\d*)([fFdDlL]?)\Z")
 
@@ -232,18 +234,18 @@ class JavaFile(UsageFile):
 
     def _of_variable(self, root: str, steps: list[Step], name: Node, declaration: Node) -> Iterator[Chain]:
         """The chains of a variable that stands for some steps."""
-        method = _method_around(declaration)
+        method = around(declaration, _METHODS)
         if method is None or name.type != "identifier":
             return
         inside = [one for one in self._nodes(text(name)) if method.start_byte <= one.start_byte < method.end_byte]
         if any(self._is_declared(one) for one in inside if one != name):
             return
         for node in inside:
-            around = node.parent
-            if node == name or around is None or is_uncertain(node):
+            outer = node.parent
+            if node == name or outer is None or is_uncertain(node):
                 continue
-            if around.type in ("field_access", "method_invocation") and around.child_by_field_name("object") != node:
-                if around.type == "field_access" or around.child_by_field_name("name") == node:
+            if outer.type in ("field_access", "method_invocation") and outer.child_by_field_name("object") != node:
+                if outer.type == "field_access" or outer.child_by_field_name("name") == node:
                     continue
             longer, end = self._steps(steps, node)
             if len(longer) > len(steps):
@@ -323,19 +325,8 @@ def _is_in_worker(node: Node, workers: Collection[str]) -> bool:
     return False
 
 
-def _method_around(node: Node) -> Node | None:
-    now: Node | None = node
-    while now is not None and now.type not in ("method_declaration", "constructor_declaration"):
-        now = now.parent
-    return now
-
-
 def _of_type(root: Node, type_: str) -> Iterator[Node]:
     """The nodes of a type, in order, also in classes inside of others, but not in methods."""
-    todo = [root]
-    while todo:
-        node = todo.pop()
-        if node.type == type_:
-            yield node
-        if node.type in ("program", "class_declaration", "class_body"):
-            todo += reversed(node.named_children)
+    scopes = ("program", "class_declaration", "class_body")
+    every = preorder([root], lambda node: node.named_children if node.type in scopes else ())
+    return (node for node in every if node.type == type_)

@@ -11,6 +11,7 @@ import tree_sitter_python
 from msgspec.structs import replace
 from tree_sitter import Language, Node, Parser
 
+from robocomp_yaml.digraph import preorder
 from robocomp_yaml.emit.specific.code import (
     CLASS,
     ImportLine,
@@ -43,13 +44,8 @@ def read(path: str, source: str) -> SourceCode:
 
 def _python_2(root: Node) -> Node | None:
     """The first word of a statement that only Python 2 has."""
-    todo = [root]
-    while todo:
-        node = todo.pop()
-        if node.type in ("print_statement", "exec_statement"):
-            return node.children[0]
-        todo += reversed(node.children)
-    return None
+    every = preorder([root], lambda node: node.children)
+    return next((node.children[0] for node in every if node.type in ("print_statement", "exec_statement")), None)
 
 
 def _read(path: str, root: Node, lines: list[str]) -> SourceCode:

@@ -7,7 +7,10 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import msgspec
 
+from robocomp_yaml.digraph import preorder
+
 _GENERIC = "GenericWorker"
+_SCOPES = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
 _DYNAMIC = frozenset(("__getattr__", "__getattribute__", "__setattr__"))
 
 
@@ -71,14 +74,12 @@ def _known_bases(name: str, classes: Mapping[str, ast.ClassDef], seen: set[str])
 
 def _defined_in(body: list[ast.stmt]) -> Iterator[str]:
     """The names that a class body binds."""
-    todo: list[ast.AST] = list(body)
-    while todo:
-        node = todo.pop()
-        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)):
+    for node in preorder(
+        list[ast.AST](body), lambda node: () if isinstance(node, _SCOPES) else ast.iter_child_nodes(node)
+    ):
+        if isinstance(node, _SCOPES):
             yield node.name
-            continue
-        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
             yield node.id
         elif isinstance(node, ast.alias):
             yield (node.asname or node.name).partition(".")[0]
-        todo += ast.iter_child_nodes(node)

@@ -10,6 +10,7 @@ from collections.abc import Container, Iterable
 import msgspec
 
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.digraph import preorder
 from robocomp_yaml.emit.usage.code import (
     MODULES,
     SERVED,
@@ -337,14 +338,11 @@ def _unpacked(targets: list[ast.expr]) -> int:
 
 def _patterns(cases: list[ast.match_case]) -> ast.Tuple:
     """The literals of the cases of a match statement."""
-    found: list[ast.expr] = []
-    todo: list[ast.pattern] = [case.pattern for case in cases]
-    while todo:
-        match todo.pop(0):
-            case ast.MatchValue(value=value):
-                found.append(value)
-            case ast.MatchOr(patterns=patterns):
-                todo += patterns
-            case ast.MatchAs(pattern=ast.pattern() as pattern):
-                todo.append(pattern)
-    return ast.Tuple(found, ast.Load())
+
+    def inner(pattern: ast.pattern) -> Iterable[ast.pattern]:
+        if isinstance(pattern, ast.MatchAs):
+            return [pattern.pattern] if pattern.pattern is not None else []
+        return pattern.patterns if isinstance(pattern, ast.MatchOr) else []
+
+    every = preorder([case.pattern for case in cases], inner)
+    return ast.Tuple([one.value for one in every if isinstance(one, ast.MatchValue)], ast.Load())

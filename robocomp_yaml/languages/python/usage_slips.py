@@ -7,9 +7,10 @@ import ast
 import builtins
 import sys
 from collections import Counter
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.digraph import preorder
 from robocomp_yaml.emit.usage.code import (
     NO_INIT,
     NO_METHOD,
@@ -144,16 +145,16 @@ _KNOWN = {
 
 
 def _outside_annotations(tree: ast.Module) -> Iterator[ast.AST]:
-    todo: list[ast.AST] = [tree]
-    while todo:
-        node = todo.pop(0)
-        yield node
-        skipped: list[ast.AST | None] = []
+
+    def inner(node: ast.AST) -> Iterable[ast.AST]:
+        annotation: ast.AST | None = None
         if isinstance(node, (ast.AnnAssign, ast.arg)):
-            skipped = [node.annotation]
+            annotation = node.annotation
         elif isinstance(node, _Function):
-            skipped = [node.returns]
-        todo += (child for child in ast.iter_child_nodes(node) if child not in skipped)
+            annotation = node.returns
+        return (child for child in ast.iter_child_nodes(node) if child is not annotation)
+
+    return preorder([tree], inner)
 
 
 def _called(method: ast.AST) -> set[str]:

@@ -18,13 +18,7 @@ def convert(reader: Reader) -> ValuesDraft | None:
         path = str(named).strip('"') or path
     document, parameters = Map(block=True), Map(block=True)
     document.put("component", f"{path}.yaml", Notes(notes.head, notes.tail))
-    seen: set[str] = set()
-    for node in trees(config, "entry"):
-        name = reader.name(node)
-        if name in seen:
-            reader.repaired("repeated", node, name)
-            continue
-        seen.add(name)
+    for name, node in reader.named(trees(config, "entry")):
         parameters.put(name, value(literal(node)), reader.notes(node))
     document.put_some("parameters", parameters)
     reader.placed.around.foot[:0] = notes.foot

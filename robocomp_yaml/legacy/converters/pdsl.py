@@ -19,14 +19,8 @@ def convert(reader: Reader) -> ParametersDraft | None:
     notes = reader.notes(component)
     document, parameters = Map(block=True), Map(block=True)
     document.put("component", reader.name(component), Notes(notes.head, notes.tail))
-    seen: set[str] = set()
     has_flag = False
-    for node in trees(component, "parameter"):
-        name = reader.name(node)
-        if name in seen:
-            reader.repaired("repeated", node, name)
-            continue
-        seen.add(name)
+    for name, node in reader.named(trees(component, "parameter")):
         body = _parameter(reader, node)
         flag = next((token(each, "FLAG") for each in trees(node, "flag")), None)
         if flag == "T":

@@ -17,7 +17,7 @@ from msgspec.structs import replace
 from robocomp_yaml.semantics.limits import elements
 from robocomp_yaml.semantics.paths import Step
 from robocomp_yaml.source.parts import PartsParser
-from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, end_of, last_end, parse
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, child, end_of, last_end, parse
 from robocomp_yaml.source.yaml_text import quoted, scalar, single_quoted
 
 _COLON = re.compile(r"[ \t]*:")
@@ -82,14 +82,9 @@ def _at(data: Any, steps: list[Step]) -> Any:
 
 
 def _child(node: Node, step: Step) -> tuple[Scalar | None, Node] | None:
-    if isinstance(node, Mapping) and isinstance(step, str):
-        return node.entries.get(step)
-    if isinstance(node, Sequence) and isinstance(step, int):
-        count = len(node.items)
-        if step > count:
-            raise NotEditable(f"the list has {elements(count)}", node)
-        return (None, node.items[step]) if step < count else None
-    return None
+    if isinstance(node, Sequence) and isinstance(step, int) and step > len(node.items):
+        raise NotEditable(f"the list has {elements(len(node.items))}", node)
+    return child(node, step)
 
 
 def _same_but(before: object, after: object, steps: list[Step]) -> bool:

@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from robocomp_yaml import secrets
 from robocomp_yaml.parameters.hidden import hidden, holds_secret
 from robocomp_yaml.parameters.layers.effective import Effective
-from robocomp_yaml.parameters.layers.merge import MergedValue, Origin, child, node_of, step
+from robocomp_yaml.parameters.layers.merge import MergedValue, Origin, node_of, step
 from robocomp_yaml.parameters.types import (
     BasicType,
     ListType,
@@ -23,7 +23,7 @@ from robocomp_yaml.parameters.types import (
 )
 from robocomp_yaml.secrets import HIDDEN
 from robocomp_yaml.semantics.paths import Path, Step, in_words
-from robocomp_yaml.source.tree import Node, Scalar, parse
+from robocomp_yaml.source.tree import Node, Scalar, child, parse
 from robocomp_yaml.source.yaml_text import flow
 
 

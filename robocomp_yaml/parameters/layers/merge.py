@@ -14,7 +14,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.parameters.documents import LayeredValues
 from robocomp_yaml.parameters.types import ListType, MapType, RecordType, Type, below
 from robocomp_yaml.semantics.paths import Step
-from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, child
 
 
 class MergedValue(msgspec.Struct, frozen=True):
@@ -107,15 +107,6 @@ def _without_null(data: Any, type_: Type) -> Any:
             name: _without_null(value, below(type_, name) or type_) for name, value in kept.items() if value is not None
         }
     return data
-
-
-def child(node: Node | None, name: Step) -> LayerEntry | None:
-    """The key and the node one step below; None if there are none."""
-    if isinstance(node, Mapping) and isinstance(name, str):
-        return node.entries.get(name)
-    if isinstance(node, Sequence) and isinstance(name, int) and name < len(node.items):
-        return None, node.items[name]
-    return None
 
 
 def step(where: Origin, name: Step) -> Origin:

@@ -11,7 +11,7 @@ from robocomp_yaml.semantics import rows, texts
 
 def read_row(record: RecordType, names: tuple[str, ...], text: str, separator: str) -> rows.Row:
     """The texts of a row by member; None if the number of columns is wrong."""
-    members = {member.name: member for member in record.members}
+    members = record.by_name
     return rows.row(
         text, separator, names, lambda name: members[name].optional, lambda name: _is_string(members[name].type)
     )
@@ -54,8 +54,7 @@ def typed(type_: Type, read: Any) -> Any:
     if isinstance(type_, RecordType):
         if read is None:
             raise ValueError("the number of columns is wrong")
-        types = {member.name: member.type for member in type_.members}
-        return {name: typed(types[name], text) for name, text in read.items()}
+        return {name: typed(type_.by_name[name].type, text) for name, text in read.items()}
     found = texts.read(type_.name, read) if isinstance(type_, BasicType) else read
     if found is None:
         raise ValueError(f"'{read}' is not a value of its type")

@@ -30,7 +30,7 @@ from robocomp_yaml.semantics import references
 from robocomp_yaml.semantics.limits import CHOICE, PATTERN, RANGE, bounds, elements, one_of
 from robocomp_yaml.semantics.paths import Path, in_words
 from robocomp_yaml.source.retyped import TRUTHS, retyped
-from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, not_plain
 
 
 def judge(type_: Type, node: Node, path: Path, *, complete: bool, key: Scalar | None = None) -> Iterator[Diagnostic]:
@@ -49,13 +49,8 @@ def judge(type_: Type, node: Node, path: Path, *, complete: bool, key: Scalar | 
 
 def shown(node: Node, type_: Type) -> str:
     """A value for messages, shortened to 40 characters; HIDDEN for a secret."""
-    if isinstance(node, Mapping):
-        return "a mapping"
-    if isinstance(node, Sequence):
-        return "a list"
-    assert isinstance(node, Scalar)
-    if node.data is None:
-        return "empty"
+    if not isinstance(node, Scalar) or node.data is None:
+        return not_plain(node)
     if is_secret(type_):
         return f"the text {HIDDEN}" if isinstance(node.data, str) else HIDDEN
     return f"the text '{_short(node.lexeme)}'" if isinstance(node.data, str) else _short(node.lexeme)
@@ -204,9 +199,8 @@ def _record(type_: RecordType, node: Node, path: Path, complete: bool, key: Scal
     if not isinstance(node, Mapping):
         yield _wrong_type(type_, node, path, key)
         return
-    members = {member.name: member for member in type_.members}
     for name, value in node.items():
-        member = members.get(name.lexeme)
+        member = type_.member(name.lexeme)
         if member is None:
             if complete or not name.lexeme.startswith("x-"):  # an extension of the user
                 yield unknown(name, type_, path, node)

@@ -239,7 +239,7 @@ class Writer(msgspec.Struct):
         texts = self.columns(spelling, record, item, at)
         if texts is None:
             return
-        filled, members = list(texts.values()), {member.name: member for member in record.members}
+        filled, members = list(texts.values()), record.by_name
         while filled and not filled[-1] and members[spelling.columns[len(filled) - 1]].optional:
             del filled[-1]  # optional columns at the end of a row may be missing
         text = spelling.separator.join(filled)

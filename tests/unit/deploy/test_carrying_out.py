@@ -40,6 +40,17 @@ def test_each_process_starts_when_those_before_are_ready() -> None:
     assert all(0 <= event.seconds < 60 for event in engine.events), "each says how long it took"
 
 
+@pytest.mark.parametrize(("state", "how"), [(GIVEN_UP, "exit code 3"), (None, "it was stopped in the meantime")])
+def test_a_process_that_ends_right_after_it_was_ready_has_failed(state: str | None, how: str) -> None:
+    engine = InMemory()
+    engine.brief["motors"] = state
+    result = engine.up(network(replace(MOTORS, ready=Readiness(within=0.05, command=("ask",))), CAMERA))
+    assert list(result.outcome.failed) == ["motors"]
+    assert [(one.code, one.message) for one in result.diagnostics] == [
+        ("RC7004", f"'motors' ended before it was ready: {how}")
+    ]
+
+
 def test_an_unchanged_process_goes_on() -> None:
     engine = InMemory(running(MOTORS), running(BASE))
     assert not engine.up(network(MOTORS, BASE)).diagnostics
@@ -241,7 +252,8 @@ def test_a_rollback_ignores_unchanged_processes() -> None:
     before = {"motors": running(MOTORS)}
     done = plan(network(MOTORS, CAMERA), before)
     now = before | {"camera": running(CAMERA)}
-    assert {name: step.action for name, step in undo(done, before, now).steps.items()} == {"camera": STOP}
+    (step,) = undo(done, before, now).steps.values()
+    assert (step.name, step.action, step.running) == ("camera", STOP, now["camera"])
     assert undo(done, before, before).steps == {}, "it never came to be started"
 
 

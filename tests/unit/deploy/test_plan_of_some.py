@@ -29,6 +29,12 @@ SPARE = process("spare", enabled=False)
 ROBOT = network(MOTORS, BASE, ARM, CAMERA, SPARE)
 
 
+def test_a_process_is_found_by_each_of_its_names() -> None:
+    named = network(replace(MOTORS, aliases=("wheels", "m")), CAMERA)
+    names = ("motors", "wheels", "m", "camera", "x")
+    assert [one and one.name for one in map(named.find, names)] == ["motors", "motors", "motors", "camera", None]
+
+
 def actions(made: Plan) -> dict[str, str]:
     return {step.name: step.action for step in made.steps.values()}
 

@@ -10,7 +10,8 @@ from robocomp_yaml.source import parts
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.tree import parse
 
-HEAD = "parameters:\n" + "".join(f"  p{n}: {{type: int, default: {n}}}\n" for n in range(200))
+NOTE = "a long document has long texts, " * 20  # the parser of last resort takes its time for each token
+HEAD = "parameters:\n" + "".join(f"  p{n}: {{type: int, default: {n}, doc: '{NOTE}'}}\n" for n in range(12))
 
 
 @pytest.mark.parametrize(

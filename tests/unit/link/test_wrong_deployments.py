@@ -6,6 +6,7 @@ import pytest
 
 from deployments import deployed
 from in_memory import COMPONENT, Said, said
+from robocomp_yaml.link import deployment_documents
 
 NOT_BUILT = {"rcyaml.yaml": "lint: {RC4403: 'off', RC4201: 'off'}\n"}
 ARM = "deployment: Arm\ncomponents: {elbow: {component: mouth}}\n"
@@ -160,3 +161,17 @@ def test_hints_name_nothing_that_a_group_already_exposes() -> None:
         TWO + "groups: {g: {components: [speech], as: speech, expose: {Speech: speech, Speach: speech}}}\n", {}
     )
     assert (found.at, found.hint) == ("Speach", "'Speech' is already present")
+
+
+@pytest.mark.parametrize(("limit", "most"), [("MAX_DEPTH", 3), ("MAX_INSTANCES", 6)])
+def test_deployments_are_as_large_as_they_may_be(limit: str, most: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Three documents that include the next one, with two processes each."""
+    documents = {
+        f"d{n}.ddsl.yaml": f"deployment: D{n}\ninclude: [d{n + 1}.ddsl.yaml]\n"
+        f"components: {{'p{n}_{{i}}': {{program: sh, instances: 2}}}}\n"
+        for n in range(3)
+    }
+    documents["d2.ddsl.yaml"] = documents["d2.ddsl.yaml"].replace("include: [d3.ddsl.yaml]\n", "")
+    for allowed, expected in ((most, []), (most - 1, ["RC4108"])):
+        monkeypatch.setattr(deployment_documents, limit, allowed)
+        assert [one.code for one in said(documents, "d0.ddsl.yaml") if one.code == "RC4108"] == expected

@@ -43,6 +43,13 @@ def test_wrong_conditions(text: str) -> None:
         condition(text)
 
 
+def test_a_condition_has_so_many_words_and_no_more() -> None:
+    most = " or ".join(["low"] * (MAX_PARTS // 2))
+    assert condition(most).kind == "or"
+    with pytest.raises(NullSyntaxError, match=f"at most {MAX_PARTS} words"):
+        condition(f"{most} or low or low")
+
+
 @pytest.mark.parametrize(("text", "json"), [
     ("'a b'", '"a b"'), ('"é"', '"é"'), ("3", "3"), ("-2.5", "-2.5"), (".5", "0.5"), ("1e3", "1000"),
     ("True", "true"), ("false", "false"), ("''", '""'),

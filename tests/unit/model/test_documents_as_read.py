@@ -116,7 +116,7 @@ legacy:
 DDSL = """\
 deployment: Robot
 doc: All of it.
-hosts: {onboard: 10.0.0.2, head: {address: 10.0.0.3, user: pi, doc: Above.}}
+hosts: {onboard: 10.0.0.2, head: {address: 10.0.0.3, user: pi, doc: Above.}, boot: {address: b, systemd: user, listen: any, python: py, ssh: {user: me, port: 22, identity: key, known-hosts: known, jump: gate}}}
 services:
   storm: {icestorm: {host: head, port: 9999}, doc: Topics.}
 components:

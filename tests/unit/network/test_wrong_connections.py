@@ -20,6 +20,7 @@ def wrong(text: str, others: dict[str, str]) -> list[Said]:
         ('components:\n  speech: {component: speech}\n  mouth: {component: mouth, enabled: false}\n', {'speech': 'requires: [Mouth: {interface: Mouth, absent: ignore}]\n'}),
         ('components:\n  speech: {component: speech, connect: {Mouth: g.Lips}}\n  mouth: {component: mouth}\ngroups: {g: {components: [mouth], expose: {Lips: mouth.Mouth}}}\n', {}),
         ('components:\n  a: {component: speech, topics: {Heard: x}}\nservices: {storm: {icestorm: {}}}\n', {'speech': 'publishes: [Heard]\n'}),
+        ('security: tls\ncomponents:\n  p: {program: sh}\n  mouth: {component: mouth}\n', {}),
     ],
 )  # fmt: skip
 def test_nothing_is_wrong(text: str, others: dict[str, str]) -> None:
@@ -29,6 +30,7 @@ def test_nothing_is_wrong(text: str, others: dict[str, str]) -> None:
 @pytest.mark.parametrize(
     ("text", "others", "code", "at", "message", "hint"),
     [
+        ('security: tls\ncomponents:\n  p: {program: sh, endpoints: {Laser: tcp -p 10003}}\n', {}, 'RC4114', 'p', "'p' stays plain under `security: tls`: it is a program, and rcyaml does not know how it reads certificates", ''),
         ('components:\n  speech: {component: speech, connect: {Mouth: g}}\n  mouth: {component: mouth}\n  other: {component: mouth}\ngroups: {g: {components: [mouth, other]}}\n', {}, 'RC4202', 'g', "'speech' requires Mouth as Mouth, which several processes serve: mouth, other", 'write `connect: {Mouth: mouth}`, or another one'),
         ('components:\n  speech: {component: speech, connect: {Mouth: mouth}}\n  mouth: {component: mouth, enabled: false}\n', {}, 'RC4207', 'mouth', "'speech' requires Mouth from 'mouth', which is not enabled", ''),
         ('components:\n  speech: {component: speech, connect: {Mouth: p}}\n  p: {program: sh, endpoints: {Laser: tcp -p 5}}\n', {}, 'RC4204', 'p', "'p' does not serve Mouth", 'it serves Laser'),

@@ -9,6 +9,7 @@ import pytest
 
 from parameters import Data, linked, values
 from robocomp_yaml.link.program import Program
+from robocomp_yaml.parameters.hidden import secrets_of
 from robocomp_yaml.parameters.layers import effective as layers
 from robocomp_yaml.parameters.layers.effective import effective
 
@@ -32,6 +33,19 @@ def completed(**given: Any) -> Data:
     found, faults = effective(values(linked(DOCUMENT), {"camera": {"device": "d"}, **given}))
     assert found is not None, faults
     return found.data
+
+
+def test_extensions_in_lists_are_no_values() -> None:
+    arms = [{"name": "left", "at": {"x": 1, "x-at": {"a": 1}}, "x-note": "new"}]
+    assert completed(arms=arms)["arms"] == [LEFT]
+
+
+def test_the_names_of_secrets() -> None:
+    found = linked({
+        "types": {"Login": {"struct": {"user": "string", "pin": {"type": "string", "secret": True}}}},
+        "parameters": {"logins": {"list": "Login", "default": []}, "code": {"type": "string", "secret": True}, "n": "int"},
+    })  # fmt: skip
+    assert secrets_of(found) == ("code", "pin")
 
 
 def test_defaults_alone() -> None:
