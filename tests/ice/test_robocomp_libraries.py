@@ -153,6 +153,29 @@ def test_a_library_that_describes_itself(tmp_path: Path, monkeypatch: pytest.Mon
     assert "-DCLOUD" in commands(tmp_path, monkeypatch, "", "find_package(Cloud 1.7 REQUIRED)\n# ENV{ROBOCOMP}\n")
 
 
+def test_what_a_library_looks_for_in_turn(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Another version than the listed one is for the listed library only, and what that one finds is its own affair:
+    there, a module comes before a description that cannot be read twice."""
+    write_tree(tmp_path, {
+        "cloud/CloudConfig.cmake": (
+            "list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})\nfind_package(Fog 3 QUIET)\nfind_package(Fog)\n"
+            "add_definitions(-DCLOUD ${FOG})\nset(Cloud_FOUND ${Fog_FOUND})\n"
+        ),
+        "cloud/CloudConfigVersion.cmake": "set(PACKAGE_VERSION 2.0)\n",
+        "cloud/FindFog.cmake": "set(FOG -DMODULE)\nset(Fog_FOUND TRUE)\n",
+        "fog/FogConfig.cmake": "add_library(fog ALIAS water)\nset(Fog_FOUND TRUE)\n",
+    })  # fmt: skip
+    for name in ("Cloud", "Fog"):
+        monkeypatch.setenv(f"{name}_DIR", str(tmp_path / name.lower()))
+    made = commands(tmp_path, monkeypatch, "", "find_package(Cloud 1.7 REQUIRED)\nfind_package(Cloud 1.6 EXACT)\n")
+    assert {"-DCLOUD", "-DMODULE"} <= set(made.split()), made
+
+
+def test_sources_in_c(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    write_tree(tmp_path, {"bot/src/old.c": "int old(void) { return 1; }\n"})
+    assert "bot/src/old.c" in commands(tmp_path, monkeypatch, "", "SET(SOURCES specificworker.cpp old.c)\n")
+
+
 def test_classes_and_modules_of_robocomp_that_a_document_lists(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """`RoboCompClasses` and `RoboCompModules` named what is in RoboComp's own folder."""
     write_tree(tmp_path, {"robocomp/cmake/modules/cloud.cmake": "add_definitions(-DCLOUD)\n"})
