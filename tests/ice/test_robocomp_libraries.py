@@ -171,6 +171,16 @@ def test_what_a_library_looks_for_in_turn(tmp_path: Path, monkeypatch: pytest.Mo
     assert {"-DCLOUD", "-DMODULE"} <= set(made.split()), made
 
 
+def test_folders_and_sources_of_the_lists(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """They are relative to the folder of the lists, and a source needs no suffix."""
+    inner = {"inner/deep/step.h": "#pragma once\n", "inner/step.cpp": '#include "deep/step.h"\n'}
+    write_tree(tmp_path, {f"bot/src/{name}": text for name, text in inner.items()})
+    lists = "INCLUDE_DIRECTORIES(inner inner/deep /usr/share)\nSET(SOURCES specificworker.cpp inner/step)\n"
+    made = commands(tmp_path, monkeypatch, "", lists)
+    assert f"-I{tmp_path}/bot/src/inner -I{tmp_path}/bot/src/inner/deep -I/usr/share" in made
+    assert f"-c {tmp_path}/bot/src/inner/step.cpp" in made
+
+
 def test_sources_in_c(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     write_tree(tmp_path, {"bot/src/old.c": "int old(void) { return 1; }\n"})
     assert "bot/src/old.c" in commands(tmp_path, monkeypatch, "", "SET(SOURCES specificworker.cpp old.c)\n")

@@ -93,6 +93,20 @@ endforeach()
 
 set(CMAKE_CURRENT_SOURCE_DIR "${component_here}")
 
+# Folders that the lists name relatively are in the folder of the lists.
+foreach(property IN ITEMS INCLUDE_DIRECTORIES LINK_DIRECTORIES)
+  get_directory_property(component_folders ${property})
+  set(component_placed)
+  foreach(folder IN LISTS component_folders)
+    file(RELATIVE_PATH path "${component_here}" "${folder}")
+    if(NOT path MATCHES "^[.][.]" AND NOT IS_DIRECTORY "${folder}" AND IS_DIRECTORY "${component_root}/src/${path}")
+      set(folder "${component_root}/src/${path}")
+    endif()
+    list(APPEND component_placed "${folder}")
+  endforeach()
+  set_directory_properties(PROPERTIES ${property} "${component_placed}")
+endforeach()
+
 # OpenCV 4 has the constants of earlier versions in headers of their own, and no folder opencv/.
 set(component_opencv)
 set(component_opencv_first)
@@ -168,9 +182,12 @@ foreach(file IN LISTS SOURCES)
     set(file "${component_robocomp}/${CMAKE_MATCH_1}") # RoboComp was in another folder on another machine
   endif()
   get_filename_component(file "${file}" ABSOLUTE BASE_DIR "${component_root}/src")
-  if(EXISTS "${file}" AND file MATCHES "[.](c|cc|cpp|cxx)$")
-    list(APPEND component_listed "${file}")
-  endif()
+  foreach(suffix IN ITEMS "" .c .cc .cpp .cxx) # CMake of that time accepted a source without its suffix
+    if(EXISTS "${file}${suffix}" AND "${file}${suffix}" MATCHES "[.](c|cc|cpp|cxx)$")
+      list(APPEND component_listed "${file}${suffix}")
+      break()
+    endif()
+  endforeach()
 endforeach()
 if(component_listed)
   set(component_unlisted ${component_specific})
