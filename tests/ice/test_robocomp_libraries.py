@@ -192,6 +192,8 @@ def test_classes_and_modules_of_robocomp_that_a_document_lists(tmp_path: Path, m
     uses = "uses:\n  sources: [classes/plain/plain.h, classes/plain/plain.cpp]\n  libraries: [{link: cloud}]\n"
     made = commands(tmp_path, monkeypatch, "", "", uses)
     assert "-DCLOUD" in made and str(tmp_path / "robocomp/classes/plain/plain.cpp") in made
+    generic = (tmp_path / "bot/generated/genericworker.h").read_text()
+    assert "#include <plain.h>\n" in generic and "plain.cpp" not in generic
     assert "the library fog: the linker has no libfog" in commands(
         tmp_path, monkeypatch, "", "", uses.replace("cloud", "fog")
     )
