@@ -181,9 +181,11 @@ def test_folders_and_sources_of_the_lists(tmp_path: Path, monkeypatch: pytest.Mo
     assert f"-c {tmp_path}/bot/src/inner/step.cpp" in made
 
 
-def test_sources_in_c(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    write_tree(tmp_path, {"bot/src/old.c": "int old(void) { return 1; }\n"})
-    assert "bot/src/old.c" in commands(tmp_path, monkeypatch, "", "SET(SOURCES specificworker.cpp old.c)\n")
+@pytest.mark.parametrize("name", ["SOURCES", "SPECIFIC_SOURCES"])
+def test_sources_in_c(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    write_tree(tmp_path, {"bot/src/old.c": "int old(void) { return 1; }\n", "bot/src/older.cpp": "#error older\n"})
+    made = commands(tmp_path, monkeypatch, "", f"SET({name} specificworker.cpp old.c)\n")
+    assert "bot/src/old.c" in made and "older.cpp" not in made
 
 
 def test_classes_and_modules_of_robocomp_that_a_document_lists(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -72,6 +72,7 @@ if(component_lists)
   enable_language(C)
 endif()
 set(SOURCES)
+set(SPECIFIC_SOURCES) # as RoboComp's own tools have them
 set(LIBS)
 set(component_flags "")
 set(component_here "${CMAKE_CURRENT_SOURCE_DIR}")
@@ -177,7 +178,7 @@ endforeach()
 
 # The sources: those that are listed, else all of them; without the files that RoboComp's own tool generated.
 set(component_listed)
-foreach(file IN LISTS SOURCES)
+foreach(file IN LISTS SOURCES SPECIFIC_SOURCES)
   if(NOT EXISTS "${file}" AND file MATCHES "^/.*/robocomp/(.+)$")
     set(file "${component_robocomp}/${CMAKE_MATCH_1}") # RoboComp was in another folder on another machine
   endif()
