@@ -36,7 +36,9 @@ class DesiredRoot(msgspec.Struct, frozen=True):
         """One diagnostic for each document, and all others that have different contents for the same files."""
         for first, others in self._rivals().items():
             documents = [self.root.shown(owner) for owner in others]
-            paths = [*dict.fromkeys(path for pair in self.contested if pair[1] in others for path in self.contested[pair])]
+            paths = [
+                *dict.fromkeys(path for pair in self.contested if pair[1] in others for path in self.contested[pair])
+            ]
             more = f" and {len(paths) - 1} more" if len(paths) > 1 else ""
             yield codes.CONTESTED.at(
                 Span(documents[0]),
