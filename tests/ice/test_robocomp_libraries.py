@@ -41,6 +41,7 @@ LIBRARY = {
 }
 OSG = Path("/usr/include/osg/Node").exists() and Path("/usr/include/gsl/gsl_math.h").exists()
 QT5, EIGEN = list(Path("/usr/lib").glob("*/cmake/Qt5/Qt5Config.cmake")), Path("/usr/include/eigen3").exists()
+OPENGL = list(Path("/usr/lib").glob("*/cmake/Qt5OpenGL/Qt5OpenGLConfig.cmake"))
 pytestmark = [needs_cpp, pytest.mark.slow]
 
 
@@ -84,6 +85,16 @@ def test_the_version_of_qt(
     made = commands(tmp_path, monkeypatch, headers, lists)
     assert f"/qt{version}/" in made, made
     assert f"/qt{11 - version}/" not in made, made
+
+
+@pytest.mark.skipif(not OPENGL, reason="libqt5opengl5-dev is not installed")
+@pytest.mark.parametrize(("headers", "is_used"), [("#include <osgviewer/view.h>", True), ("#include <QWidget>", False)])
+def test_modules_of_qt_that_headers_of_robocomp_need(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, headers: str, is_used: bool
+) -> None:
+    write_tree(tmp_path, {"robocomp/libs/osgviewer/include/osgviewer/view.h": "#include <QGLWidget>\n"})
+    made = commands(tmp_path, monkeypatch, headers, "find_package(Qt5 COMPONENTS Core)\n")
+    assert ("/QtOpenGL" in made) == is_used, made
 
 
 @pytest.mark.skipif(not EIGEN, reason="libeigen3-dev is not installed")
