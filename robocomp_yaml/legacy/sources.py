@@ -18,6 +18,8 @@ from robocomp_yaml.legacy.formats import by_name, is_legacy_file
 from robocomp_yaml.legacy.rules import Formats, Rules
 from robocomp_yaml.link.workspace import root_above
 from robocomp_yaml.source.discover import documents_below, kind_of
+from robocomp_yaml.source.disk import Disk
+from robocomp_yaml.source.migrated import is_migrated
 from robocomp_yaml.transactions import manifest
 from robocomp_yaml.transactions.output_root import contents
 
@@ -115,6 +117,7 @@ def _below(
     linked: list[str] = []
     inside = os.path.join(os.path.realpath(folder), "")
     todo = deque([folder])
+    disk = Disk()
     while todo:
         start = todo.popleft()
         is_outside = outside is not None and not os.path.join(os.path.realpath(start), "").startswith(inside)
@@ -132,14 +135,19 @@ def _below(
                 continue
             for name in sorted(names):
                 path = os.path.normpath(os.path.join(where, name))
-                # A config that was migrated remains a source, though `compile` now generates it.
-                is_config = by_name(name, known) is None and os.path.exists(f"{path}.yaml")
-                if not name.startswith(".") and (path not in compiled or is_config) and is_legacy_file(path, known):
+                if name.startswith(".") or (path in compiled and not _is_source(path, known, disk)):
+                    continue
+                if is_legacy_file(path, known):
                     if os.path.islink(path):
                         linked.append(path)
                     else:
                         yield path
     yield from linked
+
+
+def _is_source(path: str, known: Formats, disk: Disk) -> bool:
+    """Whether a file that `compile` generated is a config that was migrated: it remains the source of its document."""
+    return by_name(os.path.basename(path), known) is None and is_migrated(f"{path}.yaml", disk)
 
 
 def _compiled(folder: str) -> set[str]:

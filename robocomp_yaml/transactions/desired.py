@@ -11,6 +11,7 @@ from msgspec.structs import replace
 
 from robocomp_yaml.diag.codes import emitting as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.listing import some
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.transactions.manifest import ManifestEntry
 from robocomp_yaml.transactions.output_root import Root
@@ -32,18 +33,31 @@ class DesiredRoot(msgspec.Struct, frozen=True):
     contested: Mapping[tuple[str, str], Sequence[str]] = {}
 
     def diagnostics(self) -> Iterator[Diagnostic]:
-        """One diagnostic for each two documents that have different contents for the same files."""
-        for (first, second), paths in self.contested.items():
-            documents = [self.root.shown(owner) for owner in (first, second)]
+        """One diagnostic for each document, and all others that have different contents for the same files."""
+        for first, others in self._rivals().items():
+            documents = [self.root.shown(owner) for owner in others]
+            paths = [
+                *dict.fromkeys(path for pair in self.contested if pair[1] in others for path in self.contested[pair])
+            ]
             more = f" and {len(paths) - 1} more" if len(paths) > 1 else ""
             yield codes.CONTESTED.at(
-                Span(documents[1]),
+                Span(documents[0]),
                 path=f"'{self.root.shown(paths[0])}'{more}",
-                one=documents[0],
-                other=documents[1],
-                related=[Related("the other document", Span(documents[0]))],
+                one=self.root.shown(first),
+                other=some(documents),
+                related=[Related("the other document", Span(self.root.shown(first)))],
                 hint=codes.APART,
             )
+
+    def _rivals(self) -> dict[str, list[str]]:
+        """The documents that contest a file of an earlier one, by the earliest of those."""
+        rivals: dict[str, list[str]] = {}
+        told: set[str] = set()
+        for first, second in self.contested:
+            if second not in told:
+                told.add(second)
+                rivals.setdefault(first, []).append(second)
+        return rivals
 
     def holders(self, path: str, entry: ManifestEntry | None) -> tuple[str, ...]:
         """The owners of a file: the documents that plan it now, and its earlier owners that still exist and were not

@@ -165,6 +165,7 @@ private:
 	bool startup_check_flag;
 	int limit, turns;
 	string owner;
+	QColor colour;
 };
 
 #endif

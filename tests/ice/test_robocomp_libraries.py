@@ -41,6 +41,7 @@ LIBRARY = {
 }
 OSG = Path("/usr/include/osg/Node").exists() and Path("/usr/include/gsl/gsl_math.h").exists()
 QT5, EIGEN = list(Path("/usr/lib").glob("*/cmake/Qt5/Qt5Config.cmake")), Path("/usr/include/eigen3").exists()
+OPENGL = list(Path("/usr/lib").glob("*/cmake/Qt5OpenGL/Qt5OpenGLConfig.cmake"))
 pytestmark = [needs_cpp, pytest.mark.slow]
 
 
@@ -84,6 +85,16 @@ def test_the_version_of_qt(
     made = commands(tmp_path, monkeypatch, headers, lists)
     assert f"/qt{version}/" in made, made
     assert f"/qt{11 - version}/" not in made, made
+
+
+@pytest.mark.skipif(not OPENGL, reason="libqt5opengl5-dev is not installed")
+@pytest.mark.parametrize(("headers", "is_used"), [("#include <osgviewer/view.h>", True), ("#include <QWidget>", False)])
+def test_modules_of_qt_that_headers_of_robocomp_need(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, headers: str, is_used: bool
+) -> None:
+    write_tree(tmp_path, {"robocomp/libs/osgviewer/include/osgviewer/view.h": "#include <QGLWidget>\n"})
+    made = commands(tmp_path, monkeypatch, headers, "find_package(Qt5 COMPONENTS Core)\n")
+    assert ("/QtOpenGL" in made) == is_used, made
 
 
 @pytest.mark.skipif(not EIGEN, reason="libeigen3-dev is not installed")
@@ -153,12 +164,49 @@ def test_a_library_that_describes_itself(tmp_path: Path, monkeypatch: pytest.Mon
     assert "-DCLOUD" in commands(tmp_path, monkeypatch, "", "find_package(Cloud 1.7 REQUIRED)\n# ENV{ROBOCOMP}\n")
 
 
+def test_what_a_library_looks_for_in_turn(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Another version than the listed one is for the listed library only, and what that one finds is its own affair:
+    there, a module comes before a description that cannot be read twice."""
+    write_tree(tmp_path, {
+        "cloud/CloudConfig.cmake": (
+            "list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})\nfind_package(Fog 3 QUIET)\nfind_package(Fog)\n"
+            "add_definitions(-DCLOUD ${FOG})\nset(Cloud_FOUND ${Fog_FOUND})\n"
+        ),
+        "cloud/CloudConfigVersion.cmake": "set(PACKAGE_VERSION 2.0)\n",
+        "cloud/FindFog.cmake": "set(FOG -DMODULE)\nset(Fog_FOUND TRUE)\n",
+        "fog/FogConfig.cmake": "add_library(fog ALIAS water)\nset(Fog_FOUND TRUE)\n",
+    })  # fmt: skip
+    for name in ("Cloud", "Fog"):
+        monkeypatch.setenv(f"{name}_DIR", str(tmp_path / name.lower()))
+    made = commands(tmp_path, monkeypatch, "", "find_package(Cloud 1.7 REQUIRED)\nfind_package(Cloud 1.6 EXACT)\n")
+    assert {"-DCLOUD", "-DMODULE"} <= set(made.split()), made
+
+
+def test_folders_and_sources_of_the_lists(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """They are relative to the folder of the lists, and a source needs no suffix."""
+    inner = {"inner/deep/step.h": "#pragma once\n", "inner/step.cpp": '#include "deep/step.h"\n'}
+    write_tree(tmp_path, {f"bot/src/{name}": text for name, text in inner.items()})
+    lists = "INCLUDE_DIRECTORIES(inner inner/deep /usr/share)\nSET(SOURCES specificworker.cpp inner/step)\n"
+    made = commands(tmp_path, monkeypatch, "", lists)
+    assert f"-I{tmp_path}/bot/src/inner -I{tmp_path}/bot/src/inner/deep -I/usr/share" in made
+    assert f"-c {tmp_path}/bot/src/inner/step.cpp" in made
+
+
+@pytest.mark.parametrize("name", ["SOURCES", "SPECIFIC_SOURCES"])
+def test_sources_in_c(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    write_tree(tmp_path, {"bot/src/old.c": "int old(void) { return 1; }\n", "bot/src/older.cpp": "#error older\n"})
+    made = commands(tmp_path, monkeypatch, "", f"SET({name} specificworker.cpp old.c)\n")
+    assert "bot/src/old.c" in made and "older.cpp" not in made
+
+
 def test_classes_and_modules_of_robocomp_that_a_document_lists(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """`RoboCompClasses` and `RoboCompModules` named what is in RoboComp's own folder."""
     write_tree(tmp_path, {"robocomp/cmake/modules/cloud.cmake": "add_definitions(-DCLOUD)\n"})
     uses = "uses:\n  sources: [classes/plain/plain.h, classes/plain/plain.cpp]\n  libraries: [{link: cloud}]\n"
     made = commands(tmp_path, monkeypatch, "", "", uses)
     assert "-DCLOUD" in made and str(tmp_path / "robocomp/classes/plain/plain.cpp") in made
+    generic = (tmp_path / "bot/generated/genericworker.h").read_text()
+    assert "#include <plain.h>\n" in generic and "plain.cpp" not in generic
     assert "the library fog: the linker has no libfog" in commands(
         tmp_path, monkeypatch, "", "", uses.replace("cloud", "fog")
     )

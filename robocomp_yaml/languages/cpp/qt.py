@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections import Counter
 from collections.abc import Iterator
 
@@ -49,7 +50,7 @@ class OlderName(msgspec.Struct, frozen=True):
 class RobocompView(msgspec.Struct, frozen=True):
     """What code for RoboComp's own tool needs. `tie`, `tuple_types` and `map` list the accessors; `methods` are
     declared for classes that override them, protected, so that nobody else calls them; `legacy_sources` are the names
-    of RoboComp's own files in `src/`."""
+    of RoboComp's own files in `src/`; `headers` are those of listed classes, which its generic part included."""
 
     base: str
     tuple_types: str
@@ -64,6 +65,7 @@ class RobocompView(msgspec.Struct, frozen=True):
     older: list[OlderName]
     handles: list[Handles]
     handle_names: list[str]
+    headers: list[str]
 
 
 def qt_view(linked: LinkedComponent) -> QtView | None:
@@ -100,6 +102,7 @@ def robocomp_view(linked: LinkedComponent, ports: Ports) -> RobocompView | None:
         older=[OlderName(classes[now], name, now) for name, now in older_names(classes)],
         handles=handles,
         handle_names=sorted({name for one in handles for name in one.names}),
+        headers=[os.path.basename(one.path) for one in component.sources if one.path.endswith((".h", ".hpp"))],
     )
 
 

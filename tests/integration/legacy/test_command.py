@@ -137,6 +137,16 @@ def test_generated_configs_are_not_migrated_again(rcyaml: Run, tmp_path: Path) -
     assert read_tree(tmp_path) == before
 
 
+def test_a_config_that_compile_wrote_from_a_users_document_is_no_source(rcyaml: Run, tmp_path: Path) -> None:
+    values = "component: ../speech.cdsl.yaml\nice: {Ice.Warn.Connections: 1}\n"
+    write_tree(tmp_path, {"speech.cdsl.yaml": "component: Speech\nlanguage: python\n", "etc/config.yaml": values})
+    assert rcyaml("compile").exit_code == 0
+    assert (tmp_path / "etc/config").is_file()
+    result = rcyaml("migrate", ".")
+    assert (result.exit_code, result.stdout) == (0, "")
+    assert "RC5021" in rcyaml("migrate", "etc/config").stdout, "the file itself, named, is one"
+
+
 @pytest.mark.parametrize("path", ["Speech.idsl", "Speech.idsl.yaml", "notes.txt"])
 def test_a_report_overwrites_nothing_but_a_report(path: str, rcyaml: Run, tmp_path: Path) -> None:
     files = {"Speech.idsl": SPEECH, "Speech.idsl.yaml": "module: Mine\n", "notes.txt": "mine\n"}

@@ -98,6 +98,18 @@ def test_two_documents_cannot_own_one_file(tmp_path: Path) -> None:
     assert not (tmp_path / "A.ice").exists() and changes.roots[0].refused
 
 
+def test_many_documents_of_one_folder_are_told_once(tmp_path: Path) -> None:
+    """The third one also contests a file that only the second one has."""
+    _, said = carry_out(*(
+        plan(tmp_path, always("a", f"{n}\n"), *([once("b", f"{n}\n")] if n in (1, 2) else []), owner=f"{n}.cdsl.yaml")
+        for n in range(6)
+    ))  # fmt: skip
+    assert codes(said) == ["RC6003"]
+    message = said[0].message.replace(said[0].span.file.removesuffix("1.cdsl.yaml"), "")
+    assert message.startswith("0.cdsl.yaml and 1.cdsl.yaml, 2.cdsl.yaml, 3.cdsl.yaml and 2 more generate different")
+    assert message.endswith("a' and 1 more"), message
+
+
 def test_an_owner_outside_a_linked_root_exists(tmp_path: Path) -> None:
     """`out` is a link: its `..` is another folder for the system than in the path. Neither meaning deletes a file."""
     (tmp_path / "docs").mkdir()

@@ -150,7 +150,7 @@ void EventLoop::carryOut()
         }
         catch (...)
         {
-            log_.error("a job in the main thread failed");
+            log_.error("a job in the main thread failed: " + describeCaught());
         }
     }
 }

@@ -90,7 +90,7 @@ protected:
             }
             catch (...)
             {
-                this->log.error("a job in the worker's thread failed");
+                this->log.error("a job in the worker's thread failed: " + describeCaught());
             }
         }
         return Base::betweenTurns();

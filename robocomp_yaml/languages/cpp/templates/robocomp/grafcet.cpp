@@ -136,7 +136,7 @@ void guarded(const std::string& what, const std::function<void()>& function)
     }
     catch (...)
     {
-        runtime::Log("worker").error(what + " failed");
+        runtime::Log("worker").error(what + " failed: " + runtime::describeCaught());
     }
 }
 

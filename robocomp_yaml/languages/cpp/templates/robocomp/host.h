@@ -5,6 +5,7 @@
 #include "../qt/eventloop.h"
 #include "../runtime/worker.h"
 #include "configloader.h"
+#include "starting.h"
 
 #include <CommonBehavior.ice.h>
 
@@ -102,16 +103,6 @@ decltype(auto) call(Worker& worker, Call byName, OldCall byOldName)
     }
 }
 
-template <typename Worker, typename = void>
-struct InitializesAlone : std::false_type
-{
-};
-
-template <typename Worker>
-struct InitializesAlone<Worker, std::void_t<decltype(std::declval<Worker&>().initialize())>> : std::true_type
-{
-};
-
 /// Creates the worker as that version of RoboComp's main program does for which its constructor was written.
 template <typename Worker, typename Tuple, typename Map>
 std::unique_ptr<Worker> construct(const Host& host, const Tuple& tuple, Map& map)
@@ -142,23 +133,23 @@ std::unique_ptr<Worker> construct(const Host& host, const Tuple& tuple, Map& map
     }
 }
 
-/// Starts the worker: by initialize(period), in which it starts its timer, or by the machine of steps, which calls
-/// initialize().
-template <typename Worker>
+/// Starts the worker as its generation of RoboComp's main program does.
+template <typename Map, typename Worker>
 void start(const Host& host, Worker& worker)
 {
     if (!worker.setParams(host.parameters()))
     {
         runtime::Log("worker").warning("setParams() has rejected the parameters");
     }
-    if constexpr (InitializesAlone<Worker>::value)
+    constexpr Starting starting = startingOf<Worker, Map>();
+    if constexpr (starting == Starting::machine)
     {
         if (!host.onlyCheck())
         {
             worker.startMachine();
         }
     }
-    else
+    else if constexpr (starting == Starting::period)
     {
         worker.initialize(host.getPeriod());
     }

@@ -44,7 +44,9 @@ while(component_files)
   foreach(line IN LISTS lines)
     if(line MATCHES "include[ \t]*[<\"]([^>\"]+)")
       set(header "${CMAKE_MATCH_1}")
-      foreach(folder IN ITEMS "${home}" "${component_robocomp}/classes" "${component_robocomp}/libs")
+      foreach(folder IN ITEMS "${home}" "${component_robocomp}/classes" "${component_robocomp}/libs"
+          "${component_robocomp}/libs/innermodel/include" "${component_robocomp}/libs/osgviewer/include"
+          "${component_robocomp}/libs/qmat/include")
         get_filename_component(path "${header}" ABSOLUTE BASE_DIR "${folder}")
         if(EXISTS "${path}")
           list(APPEND component_files "${path}")

@@ -132,7 +132,7 @@ void Application::work()
     }
     catch (...)
     {
-        fail("cannot start");
+        fail("cannot start: " + describeCaught());
     }
     shutdown_.request();
 }

@@ -3,8 +3,14 @@
 
 #include <Ice/LocalException.h>
 
+#include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <sstream>
+
+#if __has_include(<cxxabi.h>)
+#include <cxxabi.h>
+#endif
 
 namespace runtime
 {
@@ -42,6 +48,39 @@ std::string describe(const std::exception& problem)
     const auto name = shortName(*ice);
     const auto why = reason(problem);
     return why == name ? name : name + ": " + why;
+}
+
+std::string describeCaught()
+{
+    try
+    {
+        throw;
+    }
+    catch (const std::exception& problem)
+    {
+        return describe(problem);
+    }
+    catch (const std::string& text)
+    {
+        return onOneLine(text);
+    }
+    catch (const char* text)
+    {
+        return onOneLine(text);
+    }
+    catch (...)
+    {
+#if __has_include(<cxxabi.h>)
+        if (const auto type = abi::__cxa_current_exception_type())
+        {
+            int status = 0;
+            const std::unique_ptr<char, void (*)(void*)> name(
+                abi::__cxa_demangle(type->name(), nullptr, nullptr, &status), std::free);
+            return std::string("an exception of type ") + (name ? name.get() : type->name());
+        }
+#endif
+        return "an exception that is not a std::exception";
+    }
 }
 
 std::string reason(const std::exception& problem)

@@ -24,6 +24,9 @@ class Stopped
 /// An exception on one line: its message; for an exception of Ice, its name and meaning.
 std::string describe(const std::exception& problem);
 
+/// The caught exception on one line, in a `catch (...)`: a text that was thrown, else the name of its type.
+std::string describeCaught();
+
 /// An exception of Ice in a few words.
 std::string reason(const std::exception& problem);
 

@@ -78,7 +78,7 @@ private:
         catch (...)
         {
             count(Tally::End::failure);
-            fail(current, "an exception that is not a std::exception");
+            fail(current, describeCaught());
         }
     }
 

@@ -100,7 +100,7 @@ void Worker::run()
         }
         catch (...)
         {
-            log.error("compute() failed");
+            log.error("compute() failed: " + describeCaught());
         }
         countsTurns() ? turns_.end(failed) : turns_.idle();
     }
