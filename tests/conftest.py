@@ -37,6 +37,9 @@ LONGEST = (
 IS_LONG = "RCYAML_ALL_BUILDS" in os.environ
 """Whether this is `make test-long`."""
 
+# Where there is another one of its kind.
+in_long = pytest.mark.skipif(not IS_LONG, reason="another one of its kind is tested: RCYAML_ALL_BUILDS=1 tests all")
+
 needs_corpus = pytest.mark.skipif(not CORPUS.is_dir(), reason="the corpus of legacy files is not beside the checkout")
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from conftest import IS_LONG, needs_corpus
+from conftest import IS_LONG, in_long, needs_corpus
 from cpp_programs import FAST, cmake, needs_cpp
 from robocomp_yaml.cli import group
 from robocomp_yaml.diag.diagnostic import ERROR
@@ -71,6 +71,7 @@ def test_every_python_component_is_imported(migrated: Path, tmp_path: Path) -> N
 
 
 @needs_cpp
+@in_long
 def test_a_sample_of_the_cpp_components_is_built(migrated: Path, tmp_path: Path) -> None:
     """Build the largest component without a window. Components with windows need Qt, and are in the tests of
     windows."""

@@ -17,7 +17,7 @@ from typing import Any
 
 import pytest
 
-from conftest import IS_LONG, write_tree
+from conftest import in_long, write_tree
 from processes import Running, until
 from shifted_clock import Clock, make_clock
 from small_networks import Place
@@ -30,7 +30,6 @@ components:
   two: {{program: sh, args: [-c, "{COUNT.format("tock")}"], after: [one]}}
 """
 pytestmark = pytest.mark.slow
-IN_LONG = pytest.mark.skipif(not IS_LONG, reason="RCYAML_ALL_BUILDS=1 sets the clock both ways")
 ENGINES = [
     "local",
     pytest.param("icegrid", marks=pytest.mark.skipif(
@@ -100,7 +99,7 @@ def test_the_clock_is_shifted(tmp_path: Path) -> None:
     assert [round((now - float(line)) / 3600, 1) for line in said.stdout.split()] == [7.0] * 4
 
 
-@pytest.mark.parametrize("hours", [pytest.param(5, id="forward", marks=IN_LONG), pytest.param(-7, id="back")])
+@pytest.mark.parametrize("hours", [pytest.param(5, id="forward", marks=in_long), pytest.param(-7, id="back")])
 def test_running_processes_go_on(robot: Robot, hours: int) -> None:
     robot.deploy("up")
     before = robot.status()
@@ -202,7 +201,7 @@ def test_a_newer_restart_rule_does_not_depend_on_the_clock(robot: Robot) -> None
     robot.deploy("down")
 
 
-@pytest.mark.parametrize("year", [1970, pytest.param(2100, marks=IN_LONG)])
+@pytest.mark.parametrize("year", [1970, pytest.param(2100, marks=in_long)])
 def test_a_clock_that_is_wrong_from_the_start(robot: Robot, year: int) -> None:
     """As on a machine without a battery for its clock."""
     wrong = datetime(year, 1, 2, 12, tzinfo=UTC) - datetime.now(UTC)

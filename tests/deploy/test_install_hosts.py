@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from booted import Machine, need_systemd
-from conftest import write_tree
+from conftest import in_long, write_tree
 from processes import kill_left, until
 from ssh_host import NEEDS_SSHD, SshHost, prepared, ssh_host
 from three_hosts import three_hosts
@@ -51,7 +51,7 @@ class Robot:
         ) + self.deploy("status", code=None)
 
 
-@pytest.fixture(params=["user", "system"])
+@pytest.fixture(params=[pytest.param("user", marks=in_long), "system"])
 def robot(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Robot]:
     """Not running, and installed."""
     need_systemd()

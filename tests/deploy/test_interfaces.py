@@ -98,17 +98,12 @@ def test_on_several_hosts(talk: Deployment) -> None:
 def test_what_another_host_does_not_have(talk: Deployment) -> None:
     document = talk.root / "talk.ddsl.yaml"
     text = document.read_text()
-    for listen, said in (
-        ("[address, wlan7]", "'far' cannot listen on 'wlan7' of the host 'head': neither an interface nor an address"),
-        (
-            "[address, wlan7]",
-            "the interfaces are eth0 lo wifi".replace(" ", ", ").replace("the, interfaces, are, ", ""),
-        ),
-        ("[wifi]", "others cannot know the address of that interface: write `listen: [address, wifi]`"),
-    ):
+    unknown = "'far' cannot listen on 'wlan7' of the host 'head': neither an interface nor an address"
+    unknowable = "others cannot know the address of that interface: write `listen: [address, wifi]`"
+    for listen, said in (("[address, wlan7]", (unknown, "eth0, lo, wifi")), ("[wifi]", (unknowable,))):
         document.write_text(text.replace("[address, eth0, wifi]", listen))
         output = talk.deploy("up", code=1)
-        assert "RC7051" in output and said in output
+        assert "RC7051" in output and all(words in output for words in said)
     ip(talk, "head", "address flush dev wifi")
     document.write_text(text)
     assert "that interface has no address: is it connected?" in talk.deploy("up", code=1)

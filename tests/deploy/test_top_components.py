@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 from click.testing import Result
 
-from conftest import write_tree
+from conftest import in_long, write_tree
 from cpp_programs import FAST, cmake, needs_cpp
 from java_programs import java_build, needs_java
 from processes import Ports, until
@@ -147,7 +147,7 @@ def sampled(rcyaml: Rcyaml) -> dict[str, Any]:
         pytest.param("cpp", "none", id="cpp", marks=[pytest.mark.slow, needs_cpp]),
         pytest.param("cpp", "tls", id="cpp over TLS", marks=[pytest.mark.slow, needs_cpp]),
         pytest.param("java", "none", id="java", marks=[pytest.mark.slow, needs_java]),
-        pytest.param("java", "tls", id="java over TLS", marks=[pytest.mark.slow, needs_java]),
+        pytest.param("java", "tls", id="java over TLS", marks=[in_long, needs_java]),
     ],
 )
 def test_what_a_component_says(

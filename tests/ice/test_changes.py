@@ -47,7 +47,7 @@ class Change:
 
 
 CHANGES = [
-    Change("a proxy", {"requires": [HAND]}, is_built=True),
+    Change("a proxy", {"requires": [HAND]}),
     Change("an implemented interface", {"implements": ["Arm", "Hand"]}, is_built=True),
     Change("all of a module", {"implements": [], "imports": ["Types"]}),
     Change("a published topic", {"publishes": ["ArmEvents"]}),
@@ -56,7 +56,7 @@ CHANGES = [
            is_built=True),
     Change("another name of a method", files={"Arm.idsl.yaml": ARM.replace(BETRAY, "      deceive:")}),
     Change("a parameter", {"parameters": "robot.pdsl.yaml"}, {"robot.pdsl.yaml": PDSL}, is_built=True),
-    Change("a state machine", {"statemachine": MACHINE}, is_built=True),
+    Change("a state machine", {"statemachine": MACHINE}),
     Change("a window", {"gui": QT}),
     Change("a window and a state machine", {"gui": QT, "statemachine": MACHINE}),
     Change("a library", {"uses": {"libraries": [{"link": "m"}, {"pip": "click"}]}}, languages=("cpp",)),

@@ -133,7 +133,8 @@ def test_robocomps_generations(
 
 
 @needs_qt
-@pytest.mark.parametrize("name", ["Old", pytest.param("New", marks=in_all_builds)])
+@in_all_builds
+@pytest.mark.parametrize("name", ["Old", "New"])
 def test_robocomps_own_stop_and_check(
     qt_programs: Programs, start: Start, tmp_path: Path, free_port: Ports, icestorm: Storm, ice: Any, slices: None,
     name: str,

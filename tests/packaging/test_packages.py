@@ -17,7 +17,7 @@ import pytest
 from packaging.metadata import Metadata
 
 import robocomp_yaml
-from conftest import ROOT, read_tree, write_tree
+from conftest import ROOT, in_long, read_tree, write_tree
 
 pytestmark = pytest.mark.slow
 
@@ -138,7 +138,7 @@ def python_of(version: str) -> str | None:
     return None
 
 
-@pytest.mark.parametrize("version", ["3.11", "3.12", "3.13"])
+@pytest.mark.parametrize("version", ["3.11", pytest.param("3.12", marks=in_long), "3.13"])
 def test_it_works_with_each_python(version: str, built: Path, bin_: Path, tmp_path: Path) -> None:
     if version != f"{sys.version_info[0]}.{sys.version_info[1]}":
         python = python_of(version)
