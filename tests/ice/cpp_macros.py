@@ -101,7 +101,8 @@ def headers(folder: Path) -> list[str]:
     of_run_time = ("machine/", "qt/", "robocomp/", "runtime/")
     names = {name for name in names if not name.startswith(of_run_time) and not name.endswith(".ice.h")}
     ours = {"IceUtil/PushDisableWarnings.h", "IceUtil/PopDisableWarnings.h", "IceUtil/UndefSysMacros.h"}
-    return [*sorted(names - ours), "IceUtil/UndefSysMacros.h"]
+    alone = {"cxxabi.h"}  # of errors.cpp, which includes no interface
+    return [*sorted(names - ours - alone), "IceUtil/UndefSysMacros.h"]
 
 
 def _macros(headers: list[str], standard: int, *flags: str) -> set[str]:
