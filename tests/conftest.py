@@ -28,7 +28,7 @@ FUZZING = bool(os.environ.get("RCYAML_FUZZ"))
 
 # What takes longest begins first where whole files are handed out to several processes (`--dist loadfile`).
 LONGEST = (
-    "test_changes", "test_fuzz_strings", "test_icegrid_moves", "test_cpp_qt", "test_clock", "test_cpp_build", "test_merge", "test_cpp_config",
+    "test_changes", "test_cut_links", "test_fuzz_strings", "test_icegrid_moves", "test_cpp_qt", "test_clock", "test_cpp_build", "test_merge", "test_cpp_config",
     "test_icegrid", "test_parameters", "test_compile_migrated", "test_cpp_names", "test_cpp_topics", "test_cpp_calls",
     "test_cpp_stop", "test_verdicts_cpp", "test_engines", "test_packages", "test_icegrid_faults", "test_migrate_config",
     "test_cpp_corpus", "test_cpp_absent", "test_values_ice", "test_docs", "test_mistakes", "test_statemachine", "test_schemas", "test_codes",

@@ -15,6 +15,7 @@ from typing import Any
 import pytest
 
 from components import build
+from conftest import in_long
 from cpp_programs import FAST, cmake, locked, needs_cpp
 from java_programs import java_build, needs_java
 from processes import Ports, Start, until
@@ -23,7 +24,7 @@ from scenario import INTERFACES, cdsl
 LANGUAGES = [
     pytest.param("python", id="python"),
     pytest.param("cpp", id="cpp", marks=[pytest.mark.slow, needs_cpp]),
-    pytest.param("java", id="java", marks=[pytest.mark.slow, needs_java]),
+    pytest.param("java", id="java", marks=[in_long, needs_java]),
 ]
 WITHIN = 15.0
 PYTHON = """
