@@ -8,9 +8,9 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 
 
 def reason_of(error: OSError) -> str:
-    """The reason of an error of the operating system, for messages: it begins with a small letter."""
+    """The reason of an error of the operating system, for messages: it begins with a small letter, if not with PATH."""
     text = error.strerror or str(error)
-    return text[:1].lower() + text[1:]
+    return text if text[:2].isupper() else text[:1].lower() + text[1:]
 
 
 class Refused(Exception):

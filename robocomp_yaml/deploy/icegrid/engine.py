@@ -396,6 +396,5 @@ class IceGridEngine:
             where, name = self._network.span_of(about), about or self._network.name
             raise DeployFailed(deploying.CANNOT.at(where, name=name, what=what, reason=error)) from error
         except OSError as error:
-            path = error.filename or self._network.folder
-            reason = reason_of(error)
-            raise DeployFailed(deploying.FOLDER.at(Span(self._network.path), path=path, reason=reason)) from error
+            where, path = Span(self._network.path), error.filename or self._network.folder
+            raise DeployFailed(deploying.FOLDER.at(where, path=path, reason=reason_of(error))) from error

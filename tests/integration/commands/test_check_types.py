@@ -105,7 +105,7 @@ def test_right_code_has_no_findings_even_before_a_compile(workspace: Path, rcyam
         (".result(2.5)", ".reslut(2.5)", "reslut", "RC6325"),
         (".result(2.5)", ".result(fast=2.5)", "fast=2.5", "unknown-argument"),
         ("getProperties().getProperty", "getProperties().getPropert", None, "missing-attribute"),
-        ("joints[0].name", "joints.name", "joints.name", "missing-attribute"),
+        ("joints[0].name", "joints.name", "name", "RC6325"),
         ("speed = 4", "speed = speeed", "speeed", "RC6331"),
         ("moved(1.5)", "moved([1.5])", "[1.5]", "RC6328"),
         ("moved(1.5)", 'moved("1.5 2".split())', '"1.5 2".split()', "invalid-argument-type"),
