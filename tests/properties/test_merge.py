@@ -1,6 +1,6 @@
 """Random edits of a user against random changes of the interfaces, in each language: no line of the user is lost, what
-comes out is code and has all methods, and where that cannot be, nothing is written. 300 in each run of the tests;
-RCYAML_CASES=500 makes it 1,500."""
+comes out is code and has all methods, and where that cannot be, nothing is written. 200 in each run of the tests;
+RCYAML_CASES=500 makes it 1,000."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from verdicts import CASES
 
 pytestmark = pytest.mark.processes  # by git
 
-CHUNKS, PAIRS, EDITS = 20, 5, max(CASES // 100, 1)
+CHUNKS, PAIRS, EDITS = 20 if CASES > 200 else 10, 10, max(CASES // 100, 1)
 REFUSED = 0.25  # of all merges, at most: what two sides changed can be too much
 
 
