@@ -30,13 +30,13 @@ _LISTENERS = 64  # of one deployment
 
 
 class TopicFeed:
-    """The subscription to one topic. `arrived` are the times of the last messages; `storm` is what was said last of its
+    """The subscription to one topic. `arrived` are the times of the last messages; `storm` is the last change of its
     IceStorm, which went away or came back."""
 
     def __init__(self, topics: Topics, topic: KnownTopic) -> None:
         self.topic, self.arrived = topic, deque[float](maxlen=20_000)
         self.queues: list[deque[Message]] = []
-        self.storm = ""
+        self.storm: StormChange | None = None
         self._topics = topics
         self._context: contextlib.AbstractContextManager[None] | None = None
 
@@ -60,7 +60,7 @@ class TopicFeed:
 
     def _change(self, change: StormChange) -> None:
         """In a thread."""
-        self.storm = change.text
+        self.storm = change
 
     @property
     def rate(self) -> float:
@@ -118,7 +118,8 @@ class TopicFeeds:
 
     async def texts(self, feed: TopicFeed, queue: deque[Message], method: str) -> AsyncIterator[str]:
         """The events for one listener, until it leaves. `method` is the only message that is sent, '' for all."""
-        quiet, storm = 0.0, ""
+        quiet = 0.0
+        storm = feed.storm if feed.storm is not None and feed.storm.error is None else None  # that is over
         try:
             yield ": listening\n\n"
             while True:
@@ -128,9 +129,9 @@ class TopicFeeds:
                 quiet = 0.0 if wanted else quiet + _EVERY
                 if wanted:
                     yield await asyncio.to_thread(_as_text, wanted)
-                if feed.storm != storm:
+                if feed.storm is not None and feed.storm is not storm:
                     storm = feed.storm
-                    yield ServerEvent(STORM, {"text": storm}).text
+                    yield ServerEvent(STORM, {"text": storm.text}).text
                 elif quiet > _PULSE:
                     quiet = 0.0
                     yield ": still here\n\n"

@@ -37,14 +37,20 @@ def topic(manager: Any, name: str) -> Any:
     """The topic, created if needed: another program may create it at the same time."""
     while True:
         with suppress(IceStorm.NoSuchTopic):
-            return manager.retrieve(name)
+            return _as_patient(manager.retrieve(name), manager)
         with suppress(IceStorm.TopicExists):
-            return manager.create(name)
+            return _as_patient(manager.create(name), manager)
+
+
+def _as_patient(found: Any, manager: Any) -> Any:
+    """A proxy with the time limit of its topic manager: one that a call returns has none."""
+    return found.ice_invocationTimeout(manager.ice_getInvocationTimeout())
 
 
 def topics(manager: Any) -> dict[str, int]:
     """The number of subscribers of each topic."""
-    return {name: len(found.getSubscribers()) for name, found in sorted(manager.retrieveAll().items())}
+    every = sorted(manager.retrieveAll().items())
+    return {name: len(_as_patient(found, manager).getSubscribers()) for name, found in every}
 
 
 def listening_adapter(communicator: Any, manager: Any) -> Any:

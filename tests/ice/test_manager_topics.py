@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import shutil
 import time
 from pathlib import Path
 from typing import Any
 
-from processes import Start, until
+import pytest
+
+from conftest import write_tree
+from processes import Ports, Start, Storm, answers, until
+from scenario import INTERFACES, cdsl
 from test_manager import manager, read_events
 from test_topic_commands import Rcyaml, Talk, rows, talk  # noqa: F401 (the fixture)
 
@@ -33,6 +38,36 @@ def test_listeners_get_messages_and_rates_are_known_while_somebody_listens(
         assert rate > 0
         one.close()
         until(lambda: rows(rcyaml)[talk.name]["subscribed"] == 0, "the end of the subscription", 10)
+
+
+def test_an_icestorm_that_goes_away_is_said(
+    ice: object, free_port: Ports, start: Start, rcyaml: Rcyaml, tmp_path: Path
+) -> None:
+    if shutil.which("icebox") is None:
+        pytest.skip("icebox is not installed (Debian: zeroc-icebox, libzeroc-icestorm3.7)")
+    (tmp_path / "storm").mkdir()
+    storm = Storm.new(tmp_path / "storm", free_port(), free_port())
+    write_tree(tmp_path, {
+        **INTERFACES, "rcyaml.yaml": "interfaces: [.]\n",
+        "s/s.cdsl.yaml": cdsl("Subscriber", subscribes=["ArmEvents"]),
+        "s/etc/config": f"TopicManager.Proxy = {storm.manager}\n",
+        "robot.ddsl.yaml": "deployment: Robot\ncomponents: {s: {component: s, config: etc/config}}\n",
+    })  # fmt: skip
+    running = start(storm.command)
+    until(lambda: answers(ice, storm.manager), lambda: running.output)
+    with manager(tmp_path, "robot.ddsl.yaml") as one:
+        topic = "/api/deployments/Robot/topic?topic=ArmEvents"
+        first = read_events(one.open(topic), "storm")
+        running.process.kill()
+        assert "nothing listens there; waiting until it does" in next(first)["text"]
+        late = one.open(topic)  # a later listener is told, too
+        assert "nothing listens there" in next(read_events(late, "storm"))["text"]
+        running = start(storm.command)
+        assert "answers again" in next(first)["text"]
+        last = one.open(topic)  # what is over is no news
+        options = ("--storm", storm.manager)
+        assert rcyaml("topic", "pub", "ArmEvents.count", "n=1", *options).exit_code == 0
+        assert b"event: message" in b"".join(next(iter(last)) for _ in range(4))
 
 
 def test_topics_that_are_unknown_or_not_served(talk: Talk, tmp_path: Path) -> None:  # noqa: F811
