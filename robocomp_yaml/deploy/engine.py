@@ -18,7 +18,7 @@ from robocomp_yaml.network.network import Network
 
 __all__ = [
     "ENDED", "GIVEN_UP", "LOST", "OWN", "RUNNING", "STARTED", "STOPPED", "STOP_WITHIN", "WAITING", "DeployFailed",
-    "Engine", "EngineHangs", "Line", "Running",
+    "Engine", "EngineHangs", "Line", "Running", "of_last_run",
 ]  # fmt: skip
 
 OWN = "rcyaml: "
@@ -144,3 +144,9 @@ class Engine(Protocol):
     async def close(self, *, end: bool = False) -> None:
         """Disconnects; running processes go on. With `end`, what the engine itself runs ends, too: then no process may
         run. Also without a connection, `end` removes the network from the user's list."""
+
+
+def of_last_run(texts: Sequence[str]) -> Sequence[str] | None:
+    """The lines of a log from the last start on; None if that is not among them."""
+    starts = [number for number, text in enumerate(texts) if text.startswith(STARTED)]
+    return texts[starts[-1] :] if starts else None

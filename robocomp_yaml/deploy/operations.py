@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from robocomp_yaml.deploy import ice_ping, remains
 from robocomp_yaml.deploy.carry_out import GONE, ProcessEvent, Report, StartOutcome, carry_out, stop_all, undo
-from robocomp_yaml.deploy.engine import LOST, STOPPED, Engine, EngineHangs, Running
+from robocomp_yaml.deploy.engine import LOST, STOPPED, Engine, EngineHangs, Running, of_last_run
 from robocomp_yaml.deploy.introspection import OwnState
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, plan, with_dependents
 from robocomp_yaml.deploy.readiness import holds, own_state, unmet
@@ -163,8 +163,8 @@ async def last_lines(engine: Engine, name: str) -> list[str]:
     """The last lines of the last run of a process."""
     async with aclosing(await engine.lines([name], SHOWN_LINES, False)) as lines:
         found = [line.text async for line in lines]
-    starts = [number for number, line in enumerate(found) if line.startswith("rcyaml: started, pid ")]
-    return [f"{name} | {line}" for line in found[starts[-1] if starts else 0 :]]
+    last = of_last_run(found)
+    return [f"{name} | {line}" for line in (found if last is None else last)]
 
 
 async def status(engine: Engine, network: Network, names: Collection[str], reached: bool) -> list[Status]:

@@ -9,7 +9,7 @@ from contextlib import aclosing, suppress
 
 from robocomp_yaml.deploy import ice_ping, introspection
 from robocomp_yaml.deploy.differences import shown_path
-from robocomp_yaml.deploy.engine import OWN, STARTED, DeployFailed, Engine, Line, Running
+from robocomp_yaml.deploy.engine import OWN, DeployFailed, Engine, Line, Running, of_last_run
 from robocomp_yaml.deploy.introspection import OwnState
 from robocomp_yaml.deploy.patterns import PatternTooSlow, search
 from robocomp_yaml.deploy.spec import ProcessSpec
@@ -46,10 +46,10 @@ async def holds(engine: Engine, spec: ProcessSpec, running: Running) -> bool:
     if ready.log:
         async with aclosing(await engine.lines([spec.name], LOG_LINES, False)) as lines:
             texts = [line.text async for line in lines]
-        starts = [number for number, text in enumerate(texts) if text.startswith(STARTED)]
+        last = of_last_run(texts)
         # A process that has written so many lines since its start is ready.
         with suppress(PatternTooSlow):
-            return not starts or any(_matches(ready.log, text) for text in texts[starts[-1] :])
+            return last is None or any(_matches(ready.log, text) for text in last)
         return False
     return await _check(engine, spec, _ONE_TRY) and bool(running.uptime >= SETTLED or ready.pings or ready.port)
 

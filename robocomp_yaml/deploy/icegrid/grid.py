@@ -11,7 +11,7 @@ from typing import Any
 import Ice
 import IceGrid
 
-from robocomp_yaml.deploy.engine import Line
+from robocomp_yaml.deploy.engine import STARTED, Line
 from robocomp_yaml.deploy.icegrid import settings
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry
 from robocomp_yaml.deploy.local.log_reader import line_of
@@ -148,7 +148,7 @@ class GridSession:
     def printed(self, name: str, log: str) -> list[str]:
         """What the last run of a process has printed, by its log."""
         lines = self.read(name, log)
-        starts = [number for number, line in enumerate(lines) if " rcyaml: started, pid " in line]
+        starts = [number for number, line in enumerate(lines) if f" {STARTED}" in line]
         return lines[starts[-1] :] if starts else []
 
     def shut_down_node(self, host: str) -> None:
