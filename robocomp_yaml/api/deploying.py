@@ -12,14 +12,13 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from msgspec.structs import replace
 
 from robocomp_yaml.api.refusals import require
-from robocomp_yaml.building.job import RELEASE
 from robocomp_yaml.deploy import folder, history, limits, operations, registered, renamed
 from robocomp_yaml.deploy.attached import Attached, attached
 from robocomp_yaml.deploy.carry_out import Report
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import DeployFailed, Line
 from robocomp_yaml.deploy.engines import ENGINES, LOCAL, make_engine
-from robocomp_yaml.deploy.install import installing
+from robocomp_yaml.deploy.install import installed
 from robocomp_yaml.deploy.local.obstacles import elsewhere
 from robocomp_yaml.deploy.log_filter import LogFilter, selected
 from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, STOP_THEM, Choose, Result, Status
@@ -27,7 +26,6 @@ from robocomp_yaml.deploy.patterns import PatternTooSlow
 from robocomp_yaml.deploy.plan import RESTART, START, STOP, Plan, unstable, with_dependences
 from robocomp_yaml.deploy.plan import plan as make_plan
 from robocomp_yaml.deploy.preparing import prepared
-from robocomp_yaml.deploy.probe import ProbedProgram
 from robocomp_yaml.deploy.time_limit import TimeLimit
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import ERROR, WARNING, Diagnostic, has_errors
@@ -39,6 +37,7 @@ from robocomp_yaml.pipeline import Analysis
 if TYPE_CHECKING:
     from robocomp_yaml.api.building import Built
     from robocomp_yaml.building.job import BuildEvent
+    from robocomp_yaml.deploy.probe import ProbedProgram
     from robocomp_yaml.deploy.stale import StaleComponent
 
 T = TypeVar("T")
@@ -90,7 +89,7 @@ class Deployment:
     @property
     def installed(self) -> list[str]:
         """The hosts on which systemd starts the deployment at boot."""
-        return installing.hosts_of(self.network.folder)
+        return installed.hosts_of(self.network.folder)
 
     @property
     def enabled(self) -> set[str]:
@@ -124,11 +123,13 @@ class Deployment:
     def stale(self, *names: str) -> list[StaleComponent]:
         """The components whose programs are missing or stale, of those that are built and started on this machine; of
         NAMEs with all their dependences."""
+        if not (components := self._analysis.program.components):
+            return []
         from robocomp_yaml.api.building import units
         from robocomp_yaml.deploy.stale import stale
 
         chosen = with_dependences(self.network, self.chosen(names)) if names else self.enabled
-        return stale(self.network, units(self._analysis, self._analysis.program.components.values()), chosen)
+        return stale(self.network, units(self._analysis, components.values()), chosen)
 
     def build(
         self, *names: str, build_type: str | None = None, report: Callable[[BuildEvent], None] | None = None
@@ -136,6 +137,7 @@ class Deployment:
         """Builds the `stale` components, each with its last build type unless `build_type` is set. Returns one result
         for each build type."""
         from robocomp_yaml.api.building import build
+        from robocomp_yaml.building.job import RELEASE
 
         by_type: dict[str, list[str]] = {}
         for one in self.stale(*names):
@@ -145,9 +147,11 @@ class Deployment:
         ]
 
     def _report_stale(self, names: Iterable[str], severity: str = ERROR) -> bool:
+        if not (components := self.stale(*names)):
+            return False
         from robocomp_yaml.deploy import stale
 
-        found = [one.as_severity(severity) for one in stale.diagnostics(self.network, self.stale(*names))]
+        found = [one.as_severity(severity) for one in stale.diagnostics(self.network, components)]
         shown = self._analysis.for_users(self._analysis.without_suppressed(found).reported)
         self._diagnostics += shown
         return has_errors(shown)

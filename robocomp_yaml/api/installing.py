@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from robocomp_yaml.api.deploying import Deployment
 from robocomp_yaml.deploy.engines import LOCAL
-from robocomp_yaml.deploy.install import installing, units
+from robocomp_yaml.deploy.install import installed, installing, units
 from robocomp_yaml.deploy.install.units import HostUnit
 from robocomp_yaml.deploy.local.obstacles import elsewhere
 from robocomp_yaml.diag.diagnostic import has_errors
@@ -38,14 +38,14 @@ def uninstall(deployment: Deployment) -> list[str]:
     """Takes the deployment down, and removes all that `install` wrote. Returns the names of the hosts. Raises Refused
     if it is not installed."""
     network = deployment.network
-    record = installing.of_folder(network.folder)
+    record = installed.of_folder(network.folder)
     if record is None:
         raise Refused(f"{network.name} is not installed")
-    installing.forget(network.folder)  # it does not start again at the next boot
+    installed.forget(network.folder)  # it does not start again at the next boot
     try:
         deployment.down()
     except BaseException:
-        installing.keep(record)
+        installed.keep(record)
         raise
     deployment.add(installing.uninstall(network, record))
     return [unit.host.name for unit in record.units]

@@ -123,12 +123,12 @@ def _running(word: str, *, is_path: bool) -> str:
     deployment now, the own folder of the running one. Raises Refused if several run."""
     from robocomp_yaml.deploy import registered
     from robocomp_yaml.deploy.folder import deployment_in
-    from robocomp_yaml.deploy.install import installing
+    from robocomp_yaml.deploy.install import installed
     from robocomp_yaml.diag.errors import Refused
 
     if is_path:
         return word if registered.of_document(word) else ""
-    found = registered.named(word) or installing.named(word)
+    found = registered.named(word) or installed.named(word)
     if not found or any(_may_name(document, word) for document in _documents_here()):
         return ""
     if len(found) > 1:

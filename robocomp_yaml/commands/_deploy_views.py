@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import zlib
 from collections.abc import Collection, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from robocomp_yaml.commands._origins import is_worth_a_line, origin, settings_data
 from robocomp_yaml.deploy import json_data
@@ -14,9 +14,11 @@ from robocomp_yaml.deploy.engine import OWN, Line
 from robocomp_yaml.deploy.listing import ListedDeployment
 from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, Result, Status
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan
-from robocomp_yaml.deploy.probe import ProbedProgram
 from robocomp_yaml.diag.terminal import Shown, columns, cut, line, pad, paint, shown
 from robocomp_yaml.network.network import Network
+
+if TYPE_CHECKING:
+    from robocomp_yaml.deploy.probe import ProbedProgram
 
 _SIGNS = {START: "+", STOP: "-", RESTART: "~", CHANGE: "*", KEEP: "="}
 _TINTS = {START: "32", STOP: "31", RESTART: "33", CHANGE: "36", KEEP: "2"}

@@ -23,7 +23,6 @@ from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import Line
 from robocomp_yaml.deploy.listing import listed
 from robocomp_yaml.deploy.operations import Choose, Result
-from robocomp_yaml.deploy.probe import can_run
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
 from robocomp_yaml.diag.errors import Faulty
@@ -230,6 +229,8 @@ class DeploySession(msgspec.Struct):
 
     def probe(self, name: str = "") -> None:
         """Probes a host, or all hosts. The exit code is 1 if one of them cannot run its programs."""
+        from robocomp_yaml.deploy.probe import can_run
+
         answers = self.deployment.probe(name)
         code = 0 if all(can_run(self.network, host, found) for host, found in answers.items()) else 1
         if self.format_ == "json":

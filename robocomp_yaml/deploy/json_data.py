@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 
 from robocomp_yaml.deploy.engine import Line, Running
 from robocomp_yaml.deploy.operations import Result, Status
 from robocomp_yaml.deploy.plan import Plan, PlanStep
-from robocomp_yaml.deploy.push.planned import HostPush
 from robocomp_yaml.network.network import Network
+
+if TYPE_CHECKING:
+    from robocomp_yaml.deploy.push.planned import HostPush
 
 PRESENT = "another one is present"
 """The state of a shared IceStorm that is not started, because another one answers at its address."""

@@ -9,7 +9,7 @@ import msgspec
 
 from robocomp_yaml.deploy import folder, registered
 from robocomp_yaml.deploy.engines import LOCAL
-from robocomp_yaml.deploy.install import installing
+from robocomp_yaml.deploy.install import installed as records
 from robocomp_yaml.deploy.registered import RegisteredDeployment
 
 _WITHIN = 1.0  # seconds
@@ -33,9 +33,9 @@ class ListedDeployment(msgspec.Struct, frozen=True):
 def listed() -> list[ListedDeployment]:
     """The running deployments, and those that are installed."""
     every = registered.every()
-    installed = {one.folder: tuple(unit.host.name for unit in one.units) for one in installing.every()}
+    installed = {one.folder: tuple(unit.host.name for unit in one.units) for one in records.every()}
     found = [_listed(one, _state(one), installed.pop(one.folder, ())) for one in every]
-    for one in installing.every():
+    for one in records.every():
         if one.folder in installed:
             hosts = tuple(unit.host for unit in one.units)
             entry = RegisteredDeployment(one.name, one.document, one.folder, one.engine, hosts)

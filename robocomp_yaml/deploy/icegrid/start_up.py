@@ -18,7 +18,7 @@ from robocomp_yaml.deploy.here import is_here, is_near
 from robocomp_yaml.deploy.icegrid import daemons, ending, settings
 from robocomp_yaml.deploy.icegrid.daemons import NodeStart, outcome
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry, free_port, registry_address
-from robocomp_yaml.deploy.install import installing
+from robocomp_yaml.deploy.install import installed
 from robocomp_yaml.deploy.local.record import clear_up
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.deploy.time_limit import until
@@ -118,7 +118,7 @@ def ensure_nodes(
     missing = [host for host in hosts if not grid.has_node(host.name)]
     scripts = {host.name: daemons.write_script(files, host, network.hosts.values(), registry) for host in missing}
     begin = time.monotonic()
-    by_systemd = set(installing.hosts_of(files.folder))
+    by_systemd = set(installed.hosts_of(files.folder))
     waiting = {host.name: _BY_SYSTEMD for host in missing if host.name in by_systemd and not is_here(host)}
     tried = {**_started([host for host in missing if host.name not in waiting], scripts), **waiting}
     by_hand = [host for host in missing if tried[host.name].reason and not known.get(host.name, True)]

@@ -7,12 +7,21 @@ can be longer than the address of a socket (108 bytes), so that the address alwa
 from __future__ import annotations
 
 import os
+import signal
 import socket
 import struct
 from collections.abc import Iterator
 from contextlib import contextmanager
 
 SOCKET = "control"
+
+PROTOCOL = 2
+"""The version of the protocol. A client of another version reports the difference."""
+
+LONGEST = 1 << 28  # bytes of a request, which contains configurations
+
+RESTORE = signal.SIGUSR1
+"""The signal upon which a supervisor makes itself reachable again, because its folder was deleted."""
 
 
 @contextmanager

@@ -13,7 +13,7 @@ from typing import Any
 
 from robocomp_yaml.deploy import registered
 from robocomp_yaml.deploy.local import channel, procfs, record
-from robocomp_yaml.deploy.local.service import LONGEST, RESTORE
+from robocomp_yaml.deploy.local.channel import LONGEST, RESTORE
 
 _LINES = 10
 _SPACE = 4096  # bytes
@@ -122,7 +122,8 @@ async def start(folder: str, *, tied: bool = False) -> socket.socket:
     package = os.path.abspath(f"{__file__}/../../../..")
     environment = {**os.environ, procfs.MARK: f"{folder}:"}
     environment["PYTHONPATH"] = os.pathsep.join([package, *filter(None, [environment.get("PYTHONPATH")])])
-    command = [sys.executable, "-m", "robocomp_yaml.deploy.local.supervisor", folder]
+    # Without site-packages: it uses only the standard library.
+    command = [sys.executable, "-S", "-m", "robocomp_yaml.deploy.local.supervisor", folder]
     log = os.open(f"{folder}/state/supervisor.log", os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC, 0o600)
     try:
         os.write(log, bytes(_SPACE))  # on a full disk, this fails here, and not in the supervisor

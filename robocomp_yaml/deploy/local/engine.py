@@ -15,6 +15,7 @@ from robocomp_yaml.deploy import liveness, registered
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, EngineHangs, Line, Running
 from robocomp_yaml.deploy.local import client, procfs, record
+from robocomp_yaml.deploy.local.channel import PROTOCOL
 from robocomp_yaml.deploy.local.client import Client, RequestFailed, SupervisorGone
 from robocomp_yaml.deploy.local.kernel import die_with
 from robocomp_yaml.deploy.local.log_reader import LogReader, merged
@@ -25,7 +26,6 @@ from robocomp_yaml.deploy.local.obstacles import (
     obstacles,
     whole_environment_of,
 )
-from robocomp_yaml.deploy.local.service import PROTOCOL
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic

@@ -16,20 +16,14 @@ from typing import Any
 
 from robocomp_yaml.deploy.local import channel, procfs, record
 from robocomp_yaml.deploy.local.alive import AliveWatch, Question
+from robocomp_yaml.deploy.local.channel import LONGEST, PROTOCOL, RESTORE
 from robocomp_yaml.deploy.local.child import ChildProcess
 from robocomp_yaml.deploy.local.kernel import OpenFiles
 from robocomp_yaml.deploy.local.log_file import LIMIT, LogFile
 
 _FACTS = ("spec", "state", "pid", "restarts", "last_exit", "spread", "lost_lines", "not_alive")
 
-PROTOCOL = 2
-"""The version of the protocol. A client of another version reports the difference."""
-
-LONGEST = 1 << 28  # bytes of a request, which contains configurations
 END_WITHIN = 5.0
-
-RESTORE = signal.SIGUSR1
-"""The signal upon which a supervisor makes itself reachable again, because its folder was deleted."""
 
 Request = dict[str, Any]
 
