@@ -8,7 +8,8 @@ and the runs of the three alternate. Then processes are killed, and the time unt
 IceGrid alone they are `always` servers.
 
 The processes are `sleep`, and then, if g++ and Ice for C++ are installed, small Ice servers, which are components for
-rcyaml. They are ready when all their interfaces answer `ice_ping`; the program of IceGrid alone pings them, too.
+rcyaml. A client pings all their interfaces, whoever starts them: the time is that until all have answered. `up` itself
+ends later, when each of them has run for half a second.
 """
 
 from __future__ import annotations
@@ -23,13 +24,14 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from deploy import COUNT, back_after_kill, children, document, rcyaml, seconds
+from run import RCYAML
 
 CRASHES = 20
 PROXY = "IceGrid/Registry:tcp -h 127.0.0.1 -p {}"
@@ -162,9 +164,13 @@ def deploy_alone(port: int, activation: str) -> None:
                 future.result()
         while not all(str(admin.getServerState(one.id)) == "Active" for one in servers):
             time.sleep(0.005)
-        for proxy in map(communicator.stringToProxy, proxies):
-            while not _pings(proxy):
-                time.sleep(0.005)
+        _wait_for(communicator, proxies)
+
+
+def _wait_for(communicator: Any, proxies: Iterable[str]) -> None:
+    for proxy in map(communicator.stringToProxy, proxies):
+        while not _pings(proxy):
+            time.sleep(0.005)
 
 
 def _pings(proxy: Any) -> bool:
@@ -187,6 +193,22 @@ def _admin(communicator: Any, port: int) -> Any:
             return registry.createAdminSession("x", "").getAdmin()
         except Ice.ConnectionRefusedException:
             time.sleep(0.005)
+
+
+def up_until_all_answer(load: Load, words: Sequence[str]) -> tuple[float, float]:
+    """The seconds of an `up`, until everything answers and until its end."""
+    import Ice
+
+    began = time.perf_counter()
+    with Ice.initialize() as communicator, subprocess.Popen(
+        [*RCYAML, "deploy", "up", *words], stdout=subprocess.DEVNULL
+    ) as process:  # fmt: skip
+        _wait_for(communicator, load.proxies)
+        answered = time.perf_counter() - began if load.proxies else 0
+    if process.returncode:
+        sys.exit("`up` failed")
+    ended = time.perf_counter() - began
+    return answered or ended, ended
 
 
 def crashes_alone(alone: Alone) -> list[float]:
@@ -230,21 +252,26 @@ def tell(what: str, samples: dict[str, list[float]], goal: str) -> None:
 def main(runs: int) -> None:
     with tempfile.TemporaryDirectory() as name:
         root = Path(name).resolve()
-        ups, again, crashes = measured(sleepers(root / "sleepers"), runs)
+        ups, _, again, crashes = measured(sleepers(root / "sleepers"), runs)
         tell(f"up, {COUNT} times sleep from nothing", ups, "IceGrid alone + 0.5 s")
         print(f"up, nothing to do: icegrid {statistics.median(again):.2f} s; goal: 1 s")
         tell(f"a crash until the next run, {CRASHES} times", crashes, "0.6 s")
         if load := servers(root / "servers"):
-            ups, again, _ = measured(load, runs)
-            tell(f"up, {COUNT} servers of Ice until all answer", ups, "IceGrid alone + 0.5 s")
+            ups, ends, again, _ = measured(load, runs)
+            tell(f"up, {COUNT} servers of Ice until all answer", ups, "local ×0.9, icegrid ×1.25")
+            tell(f"up, {COUNT} servers of Ice until its end", ends, "-")
             print(f"up, nothing to do: icegrid {statistics.median(again):.2f} s; goal: 1 s")
         else:
             print("Ice servers cannot be built: g++ or Ice for C++ is missing (Debian: libzeroc-ice-dev)")
 
 
-def measured(load: Load, runs: int) -> tuple[dict[str, list[float]], list[float], dict[str, list[float]]]:
-    """The seconds of each `up`, of each `up` with nothing to do, and from each crash to the next run."""
+def measured(
+    load: Load, runs: int
+) -> tuple[dict[str, list[float]], dict[str, list[float]], list[float], dict[str, list[float]]]:
+    """The seconds of each `up` until everything answers and until its end, of each `up` with nothing to do, and from
+    each crash to the next run."""
     ups: dict[str, list[float]] = {"IceGrid alone": [], "icegrid": [], "local": []}
+    ends: dict[str, list[float]] = {"IceGrid alone": [], "icegrid": [], "local": []}
     crashes: dict[str, list[float]] = {}
     again: list[float] = []
     root = load.document.parent
@@ -253,11 +280,14 @@ def measured(load: Load, runs: int) -> tuple[dict[str, list[float]], list[float]
         is_last = run == runs - 1
         with _alone(root / "alone", load) as alone:
             ups["IceGrid alone"].append(seconds(alone.up))
+            ends["IceGrid alone"].append(ups["IceGrid alone"][-1])
         for engine in ("icegrid", "local"):
             shutil.rmtree(root / ".rcyaml", ignore_errors=True)
             words = ("--engine", engine, str(load.document))
             try:
-                ups[engine].append(seconds(lambda words=words: rcyaml("deploy", "up", *words)))  # type: ignore[misc]
+                answered, ended = up_until_all_answer(load, words)
+                ups[engine].append(answered)
+                ends[engine].append(ended)
                 if engine == "icegrid":
                     again.append(seconds(lambda words=words: rcyaml("deploy", "up", *words)))  # type: ignore[misc]
                 if is_last and engine == "icegrid":
@@ -269,7 +299,7 @@ def measured(load: Load, runs: int) -> tuple[dict[str, list[float]], list[float]
                 rcyaml("deploy", "down", *words)
     with _alone(root / "alone", load) as alone:
         alone.up("always")
-        return ups, again, {"IceGrid alone": crashes_alone(alone), **crashes}
+        return ups, ends, again, {"IceGrid alone": crashes_alone(alone), **crashes}
 
 
 @contextmanager

@@ -10,6 +10,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -83,6 +84,9 @@ def runner(tmp_path: Path) -> Iterator[Runner]:
     for process in runner.started:
         process.kill()
         process.wait()
+    for pid in procfs.marked(str(runner.folder)):  # what its process started, if the test failed
+        with suppress(ProcessLookupError):
+            os.kill(pid, signal.SIGKILL)
 
 
 def show(*words: str) -> list[str]:
