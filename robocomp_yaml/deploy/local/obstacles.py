@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import functools
 import os
 import time
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 
 from robocomp_yaml.deploy import interfaces, limits
 from robocomp_yaml.deploy.differences import shown_path
@@ -47,7 +48,8 @@ def obstacles(specs: Sequence[ProcessSpec], own: Collection[int]) -> list[Diagno
         for port, pids in procfs.listeners(ports).items()
         if not pids or not set(pids) <= set(own)
     }
-    found = [found for spec in specs for found in (*_of_program(spec), *_of_ports(spec, taken))]
+    reason = functools.cache(_reason)  # many processes have the same program
+    found = [found for spec in specs for found in (*_of_program(spec, reason), *_of_ports(spec, taken))]
     return [*found, *limits.denied(specs)]
 
 
@@ -122,26 +124,31 @@ def _owner(pid: int) -> tuple[str, str]:
     return who, f"take that deployment down (`{down}`)"
 
 
-def _of_program(spec: ProcessSpec) -> Iterator[Diagnostic]:
+def _of_program(spec: ProcessSpec, reason: Callable[[str, str, str], str]) -> Iterator[Diagnostic]:
     process = spec.process
     for variable in process.env:
         if variable.source and variable.source not in os.environ:
             yield deploying.UNSET_VARIABLE.at(
                 process.span, hint=f"export {variable.source}=…", name=spec.name, variable=variable.source
             )
-    if reason := _why_not(spec):
+    try:
+        environment = whole_environment_of(process) if process.env else os.environ
+        why_not = reason(spec.command[0], process.cwd or "/", environment.get("PATH", os.defpath))
+    except OSError as error:
+        why_not = reason_of(error)
+    if why_not:
         hint = "" if os.path.lexists(spec.command[0]) else process.build
-        yield deploying.CANNOT.at(process.span, hint=hint, name=spec.name, what="started", reason=reason)
+        yield deploying.CANNOT.at(process.span, hint=hint, name=spec.name, what="started", reason=why_not)
     if found := interfaces.obstacle(spec):
         yield found
 
 
-def _why_not(spec: ProcessSpec) -> str:
-    folder = spec.process.cwd or "/"
+def _reason(command: str, folder: str, path: str) -> str:
+    """Why a program cannot be run in a folder, '' if it can."""
     if not os.path.isdir(folder):
         return f"its folder '{folder}' does not exist"
     try:
-        program.find(spec.command[0], folder, whole_environment_of(spec.process))
+        program.find(command, folder, {"PATH": path})
     except OSError as error:
         return reason_of(error)
     return ""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import functools
 import os
 import shutil
 import stat
@@ -49,8 +50,13 @@ def _look_into(path: str) -> None:
 
 def _is_for_this_machine(head: bytes) -> bool:
     """Whether a program is for this machine, by comparison with the running Python."""
-    own = _head(os.path.realpath(sys.executable))
+    own = _own_head()
     return head[:4] == own[:4] and head[_KIND] == own[_KIND] and head[_MACHINE] == own[_MACHINE]
+
+
+@functools.cache
+def _own_head() -> bytes:
+    return _head(os.path.realpath(sys.executable))
 
 
 def _head(path: str) -> bytes:
