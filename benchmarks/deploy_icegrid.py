@@ -8,8 +8,8 @@ and the runs of the three alternate. Then processes are killed, and the time unt
 IceGrid alone they are `always` servers.
 
 The processes are `sleep`, and then, if g++ and Ice for C++ are installed, small Ice servers, which are components for
-rcyaml. A client pings all their interfaces, whoever starts them: the time is that until all have answered. `up` itself
-ends later, when each of them has run for half a second.
+rcyaml. A client pings them, whoever starts them: the time is that until all have answered. `up` itself ends later, when
+each of them has run for half a second.
 """
 
 from __future__ import annotations
@@ -78,7 +78,7 @@ def servers(folder: Path) -> Load | None:
         lines = [f"{name}.Endpoints=tcp -h 127.0.0.1 -p {port}\n" for name, port in at.items()]
         (folder / f"config{number}").write_text("".join(lines), encoding="utf-8")
         commands.append([str(folder / "server"), str(folder / f"config{number}")])
-        proxies += [f"{name.lower()}:tcp -h 127.0.0.1 -p {port}" for name, port in at.items()]
+        proxies.append(f"answer:tcp -h 127.0.0.1 -p {at['Answer']}")
     return Load(folder / "many.ddsl.yaml", commands, proxies)
 
 
