@@ -81,6 +81,11 @@ export class Model {
     return found;
   }
 
+  /** What a host is called: this machine has no name in a document without hosts. */
+  hostTitle(name: string): string {
+    return this.graph?.hosts.find((one) => one.name === name)?.title ?? name;
+  }
+
   /** Whether search and filter show a node in full. */
   shows(name: string): boolean {
     const node = this.nodes.get(name);
