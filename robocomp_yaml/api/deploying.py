@@ -308,8 +308,7 @@ class Deployment:
         return found
 
     def stopping(self, *names: str) -> list[str]:
-        """The names of the running processes that `down` would stop, with all that depend on them, in the order in which
-        they stop."""
+        """The names of the running processes that `down` would stop, with all that depend on them, as they stop."""
         chosen = self.chosen(names)
 
         async def work() -> list[str]:

@@ -235,6 +235,15 @@ def leaving(running: Mapping[str, Running], names: Collection[str]) -> list[str]
     return [name for name in reversed(in_order(after)) if name in stopped]
 
 
+def reasons_to_stop(network: Network, stopping: Collection[str], chosen: Collection[str]) -> dict[str, str]:
+    """Why those of the `stopping` processes stop that are not `chosen`."""
+    return {
+        name: f"it is after {needed}"
+        for name in stopping if chosen and name not in chosen and name in network.processes
+        for needed in network.processes[name].after if needed in stopping
+    }  # fmt: skip
+
+
 async def end_if_idle(engine: Engine, folder: str, *, is_down: bool = False) -> None:
     """Closes an engine, and ends it if no process runs. Then nothing of the network is left in its folder, but what a
     rollback needs, unless the user took it down."""

@@ -180,6 +180,7 @@ def _input(scope: LinkedModule, member: Member, depth: int = 0) -> dict[str, Any
     if found is None:
         return made
     inner, definition = found
+    example: Any = zero
     match definition:
         case Enum(enumerators=enumerators):
             return made | {"type": "enum", "choices": [one.name for one in enumerators]}
@@ -189,8 +190,6 @@ def _input(scope: LinkedModule, member: Member, depth: int = 0) -> dict[str, Any
             example = [_zero(inner, element, depth)]
         case Map(key=key, value=value):
             example = {str(_zero(inner, key, depth) or "…"): _zero(inner, value, depth)}
-        case _:
-            example = zero
     return made | {"type": "other", "words": f"{member.type.text}, such as {json.dumps(example, ensure_ascii=False)}"}
 
 

@@ -16,6 +16,7 @@ from robocomp_yaml.api.editing.editor import DocumentEditor, Revision
 from robocomp_yaml.api.pushing import push
 from robocomp_yaml.api.workspace import Workspace
 from robocomp_yaml.deploy import json_data
+from robocomp_yaml.deploy.operations import reasons_to_stop
 from robocomp_yaml.diag.diagnostic import has_errors
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.diag.render.json import as_data
@@ -90,7 +91,7 @@ class ManagedDeployment:
         """The files that are not as they were at the last such question, and whether it is a document that somebody
         else changed. What
         `with_workspace` read meanwhile does not matter: it reads for one page, and this tells all of them."""
-        now = {path: _state(path) for path in list(self._states)}
+        now: dict[str, object] = {path: _state(path) for path in list(self._states)}
         changed = [path for path, state in now.items() if self._seen.get(path, state) != state]
         self._seen, positions = now, layout.path_of(self.path)
         return {path: path != positions and self._left.get(path) != now[path] for path in changed}
@@ -151,11 +152,7 @@ class ManagedDeployment:
         deployment = self._deployment(lenient=action == "down")
         if action == "down":
             stopping, chosen = deployment.stopping(*names), deployment.chosen(names)
-            processes = deployment.network.processes
-            reasons = {
-                name: f"it is after {needed}" for name in stopping if chosen and name not in chosen and name in processes
-                for needed in processes[name].after if needed in stopping
-            }  # fmt: skip
+            reasons = reasons_to_stop(deployment.network, stopping, chosen)
             return {
                 "stop": stopping,
                 "reasons": reasons,

@@ -125,7 +125,7 @@ export class Changes {
       change: "add-host", ...Object.fromEntries(["name", "address", "user", "path", "identity", "known_hosts"].map((key) => [key, text(values, key)])),
       port: Number(text(values, "port")) || null,
     }), () => [
-      { name: "name", label: "Name", kind: "text" },
+      { name: "name", label: "Name", kind: "text", hint: this.facts.hosts.length ? "" : "the first host of the document: everything will run on it, and no longer on this machine" },
       { name: "address", label: "Address", kind: "text", hint: "a name or an IP address" },
       { name: "user", label: "User for ssh", kind: "text", optional: true, hint: "empty: your own" },
       { name: "path", label: "Folder there", kind: "text", optional: true, hint: "an absolute path; empty: the same as here" },

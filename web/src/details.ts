@@ -87,6 +87,8 @@ export class Details {
     for (const edge of this.model.graph!.edges) {
       const what = edge.label ? `${edge.label} of ` : "";
       if (edge.from === name && edge.kind === "uses" && !entry) rows.push(["Uses", what + edge.to]);
+      else if (edge.from === name && edge.kind === "publishes" && !entry) rows.push(["Publishes", this.model.title(edge.to)]);
+      else if (edge.from === name && edge.kind === "subscribes" && !entry) rows.push(["Receives", this.model.title(edge.to)]);
       else if (edge.from === name && edge.kind === "after") rows.push(["After", edge.to]);
       else if (edge.to === name && edge.kind === "uses") rows.push(["Used by", edge.from]);
       else if (edge.to === name && edge.kind === "publishes") rows.push(["Publisher", edge.from]);

@@ -108,7 +108,7 @@ export class Drawer {
   /** What of the components each host has, what is missing, and the push that brings it there. */
   private hosts(): void {
     const bar = element("p", "", { class: "buttons" }), names = this.hostNames();
-    for (const name of names) bar.append(button(name, () => void this.availability(name), `what ${name} has`));
+    for (const name of names) bar.append(button(this.model.hostTitle(name), () => void this.availability(name), `what ${this.model.hostTitle(name)} has`));
     if (this.addHost) bar.append(button("Add a host…", this.addHost));
     this.root.append(bar, this.shown);
     const added = names.find((name) => this.known.length && !this.known.includes(name));
@@ -139,13 +139,13 @@ export class Drawer {
   private async availability(host: string): Promise<void> {
     const { shown } = this;
     this.host = host;
-    shown.replaceChildren(element("p", `asking ${host}…`));
+    shown.replaceChildren(element("p", `asking ${this.model.hostTitle(host)}…`));
     try {
       const found = await ask<Available>(`${this.path()}/availability?host=${encodeURIComponent(host)}`);
       if (this.host !== host) return;
       const table = element("table"), head = element("tr");
       for (const title of ["Process", "Component", "To run there", "There", "Missing"]) head.append(element("th", title, { scope: "col" }));
-      table.append(element("caption", host), head);
+      table.append(element("caption", this.model.hostTitle(host)), head);
       for (const one of found.processes) {
         const row = element("tr"), assigned = element("td", one.assigned ? "yes" : "");
         if (!one.assigned && this.move) assigned.append(button("Move here…", () => this.move!(one.name, host), `Move here…: ${one.name} to ${host}`));

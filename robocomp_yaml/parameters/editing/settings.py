@@ -94,9 +94,9 @@ class OverriddenValue(msgspec.Struct, frozen=True):
 class ShownSetting(msgspec.Struct, frozen=True):
     """One value of a configuration, without secrets. `key` is the path of a parameter, or the name of a
     property. `source` is SET (in the document of `span`), DERIVED (from the deployment), or DEFAULT. `overrode` are the
-    replaced values, the latest first. `data` is the value of a parameter, None for others. `is_outside`: the proxy of a server that no process of the deployment is.
-    `is_notable`: it is derived and replaces what the user chose, or leads
-    outside."""
+    replaced values, the latest first. `is_outside`: the proxy of a server that no process of the deployment is.
+    `is_notable`: it is derived and replaces what the user chose, or leads outside. `data` is the value of a parameter,
+    None for others."""
 
     key: str
     value: str
