@@ -332,7 +332,11 @@ async function begin(): Promise<void> {
     events = listen();
     await drawer.begin();
   };
-  which.addEventListener("change", () => void open(which.value));
+  which.addEventListener("change", () => {
+    if (text?.keeps()) which.value = deployment;
+    else void open(which.value);
+  });
+  window.addEventListener("beforeunload", (event) => { if (text?.isChanged) event.preventDefault(); });
   await open(deployments[0].id);
 }
 
