@@ -237,6 +237,8 @@ def test_a_dialog_begins_with_what_is(head: Path, shown: Page) -> None:
     """What was opened and not changed can change nothing."""
     document = text(head).replace("component: speech, host", "component: speech, port: 10007, host")
     document = document.replace('args: ["600"]', 'args: ["600"], endpoints: {Log: tcp -p 10008}, role: server')
+    many = "".join(f"  p{number}: {{program: sleep, host: desk}}\n" for number in range(60))
+    document = document.replace("groups:", f"{many}groups:")
     (head / "head.ddsl.yaml").write_text(document)
     until(lambda: shown.evaluate("facts.entry('log').serves[0]?.number") == 10008, "the port is known")
     for name, number in (("speech", "10007"), ("log", "10008")):
@@ -247,6 +249,13 @@ def test_a_dialog_begins_with_what_is(head: Path, shown: Page) -> None:
         dialog.get_by_label("TCP port").fill("10009")
         expect(dialog.locator(".diff .added")).to_contain_text("10009")
         shown.keyboard.press("Escape")
+    choose(shown, "speech", "Start after…")
+    last = shown.get_by_role("dialog").get_by_label("p59", exact=True)
+    list_ = shown.locator("dialog fieldset")
+    assert list_.evaluate("(e) => e.scrollWidth <= e.clientWidth && e.scrollHeight > e.clientHeight")
+    last.check()  # it is scrolled to
+    expect(last).to_be_in_viewport()
+    shown.keyboard.press("Escape")
     choose(shown, "speech", "Topics…")
     expect(shown.get_by_role("dialog").get_by_label("The topic in this network")).to_have_value("")
     expect(shown.get_by_role("dialog").get_by_role("button", name="Write", exact=True)).to_be_disabled()
