@@ -224,6 +224,7 @@ def test_fields_of_parameters_know_their_types(head: Path, shown: Page) -> None:
     assert dialog.get_by_label("Value", exact=True).locator("option").all_text_contents() == ["low", "high"]
     dialog.get_by_label("Parameter").select_option("key")
     assert dialog.get_by_label("Value", exact=True).get_attribute("type") == "password"
+    expect(dialog.locator(".diff")).to_have_count(0)  # an empty field is no empty secret
     dialog.get_by_label("Parameter").select_option("delay")
     delay = dialog.get_by_label("Value (ms)")
     assert delay.get_attribute("step") == "1"

@@ -271,6 +271,7 @@ export class Changes {
     this.propose(`Set a parameter of ${name}`, (values) => {
       const chosen = of(values);
       const value = values.own === true ? null : valueOf(chosen, values[`value ${chosen.path}`]);
+      if (chosen.secret && value === "") return null; // its value is not shown: nothing was typed
       return { change: "set", entry: one.entry, parameter: chosen.path, value };
     }, (values) => {
       const chosen = of(values);
