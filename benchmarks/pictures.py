@@ -16,7 +16,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from playwright.sync_api import Page, sync_playwright
+from playwright.sync_api import Page, expect, sync_playwright
 
 from page import fleet
 
@@ -58,8 +58,8 @@ def robot(folder: Path) -> Path:
 
 
 @contextmanager
-def opened(folder: Path, scheme: str = "light") -> Iterator[Page]:
-    command = [sys.executable, "-m", "robocomp_yaml", "manager", "--no-browser"]
+def opened(folder: Path, *words: str, scheme: str = "light") -> Iterator[Page]:
+    command = [sys.executable, "-m", "robocomp_yaml", "manager", "--no-browser", *words]
     environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
     process = subprocess.Popen(command, cwd=folder, env=environment, stdout=subprocess.PIPE, text=True)
     assert process.stdout is not None
@@ -140,20 +140,23 @@ def main(target: Path) -> None:
         os.environ["XDG_STATE_HOME"] = f"{work}/own"
         thirty(Path(work) / "robot", target)
         talking(Path(work) / "talk", target)
-        folder = fleet(Path(work) / "fleet", 500).parent
+        folder, engine = (
+            fleet(Path(work) / "fleet", 500).parent,
+            ("--engine", "local"),
+        )  # all addresses are of this machine
         document = folder / "fleet.ddsl.yaml"
         document.write_text(
             document.read_text()
             .replace("10.0.0.", "127.0.0.")
             .replace("'600']", "'600'], ready: {command: ['true'], within: 120000}")
         )
-        rcyaml(folder, "deploy", "up", "--on-failure", "keep")
+        rcyaml(folder, "deploy", "up", *engine, "--on-failure", "keep")
         try:
-            with opened(folder) as page:
-                page.wait_for_timeout(3000)
+            with opened(folder, *engine) as page:
+                expect(page.locator("#summary")).to_have_text("● 500 ready", timeout=60_000)
                 page.screenshot(path=target / "manager-500.png")
         finally:
-            rcyaml(folder, "deploy", "down")
+            rcyaml(folder, "deploy", "down", *engine)
 
 
 if __name__ == "__main__":

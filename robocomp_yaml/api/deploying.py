@@ -312,15 +312,14 @@ class Deployment:
         return found
 
     def stopping(self, *names: str) -> list[str]:
-        """The names of the running processes that `down` would stop, with all that depend on them."""
+        """The names of the running processes that `down` would stop, with all that depend on them, as they stop."""
         chosen = self.chosen(names)
 
         async def work() -> list[str]:
             is_running = await self._engine.open(self.network, create=False)
             running = await self._engine.observe() if is_running else {}
             await self._engine.close()
-            leaving = operations.leaving(running, chosen)
-            return [one.name for one in running.values() if one.name in leaving and one.is_alive]
+            return [name for name in operations.leaving(running, chosen) if running[name].is_alive]
 
         return self._run(work())
 

@@ -44,6 +44,16 @@ def plan_lines(plan: Plan, network: Network, color: bool, *, everything: bool) -
     return [*lines, shown("nothing to do" if plan.is_empty else summary)]
 
 
+def stop_lines(stopping: list[str], reasons: dict[str, str], color: bool) -> list[Shown]:
+    """As `plan_lines`, for what stops, in that order."""
+    width = max(map(columns, stopping), default=0)
+    lines = []
+    for name in stopping:
+        head = line(f"{_SIGNS[STOP]} ", pad(name, width), f"  {STOP}")
+        lines.append(line(paint(head, _TINTS[STOP], color), f": {reasons[name]}" if name in reasons else ""))
+    return [*lines, shown(f"{len(stopping)} to stop" if stopping else "nothing to do")]
+
+
 def plan_data(plan: Plan, network: Network | None = None) -> list[dict[str, Any]]:
     """The steps; with a network, also the values of the configurations of what does not stop."""
     made = json_data.plan_steps(plan)

@@ -22,7 +22,7 @@ from robocomp_yaml.deploy import json_data, renamed
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import Line
 from robocomp_yaml.deploy.listing import listed
-from robocomp_yaml.deploy.operations import Choose, Result
+from robocomp_yaml.deploy.operations import Choose, Result, reasons_to_stop
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
 from robocomp_yaml.diag.errors import Faulty
@@ -89,8 +89,8 @@ class DeploySession(msgspec.Struct):
     def prints_progress(self) -> bool:
         return self.format_ == "text" and self.ctx.obj.verbosity >= 0
 
-    def plan(self, names: Names) -> None:
-        found = self.run(lambda: self.deployment.plan(*names))
+    def plan(self, names: Names, *, restart: bool = False) -> NoReturn:
+        found = self.run(lambda: self.deployment.plan(*names, restart=restart))
         if self.format_ == "json":
             self.end({"plan": views.plan_data(found, self.network)})
         terminal.say(*views.plan_lines(found, self.network, self._color, everything=self.ctx.obj.verbosity > 0))
@@ -209,7 +209,10 @@ class DeploySession(msgspec.Struct):
             on_interrupt="",
         )  # fmt: skip
 
-    def down(self, names: Names) -> None:
+    def down(self, names: Names, *, dry_run: bool) -> None:
+        if dry_run:
+            self._stopping(names)
+
         def stop_all() -> list[str]:
             with self._progress() as progress:
                 return self.deployment.down(*names, report=progress.report)
@@ -220,6 +223,15 @@ class DeploySession(msgspec.Struct):
             self.end({"stopped": stopped})
         if not stopped:
             terminal.say(f"{self.network.name}: nothing was running")
+        self.end()
+
+    def _stopping(self, names: Names) -> NoReturn:
+        """Ends the command with what `down` would stop."""
+        stopping = self.run(lambda: self.deployment.stopping(*names))
+        reasons = reasons_to_stop(self.network, stopping, self.deployment.chosen(names))
+        if self.format_ == "json":
+            self.end({"stop": stopping, "reasons": reasons})
+        terminal.say(*views.stop_lines(stopping, reasons, self._color))
         self.end()
 
     def _say_installed(self, when: str) -> None:

@@ -155,8 +155,13 @@ def logs(
 @_subcommand("Stop processes, and start them again.", _names, _engine)
 @_on_failure("What happens to the restarted processes if one fails.")
 @_timeout
-def restart(session: DeploySession, names: tuple[str, ...], on_failure: str, timeout: float | None) -> None:
+@click.option("--dry-run", is_flag=True, help="Print what would be restarted, and why.")
+def restart(
+    session: DeploySession, names: tuple[str, ...], on_failure: str, timeout: float | None, dry_run: bool
+) -> None:  # fmt: skip
     """Restart the processes NAME (by default, all), as the document describes them now."""
+    if dry_run:
+        session.plan(names, restart=True)
     session.up(names, on_failure, timeout, restart=True)
 
 
@@ -171,10 +176,11 @@ def rollback(session: DeploySession, on_failure: str, timeout: float | None) -> 
 
 
 @_subcommand("Stop the processes, in reverse order.", _names, _engine, lenient=True)
-def down(session: DeploySession, names: tuple[str, ...]) -> None:
+@click.option("--dry-run", is_flag=True, help="Print what would be stopped, and why.")
+def down(session: DeploySession, names: tuple[str, ...], dry_run: bool) -> None:
     """Stop all running processes of the network, or the processes NAME with all that depend on them. A process is
     stopped before those that it depends on."""
-    session.down(names)
+    session.down(names, dry_run=dry_run)
 
 
 @_subcommand("Bring the files of the network to its other hosts.", _names)

@@ -13,7 +13,7 @@ from robocomp_yaml.deploy import ice_ping, remains
 from robocomp_yaml.deploy.carry_out import GONE, ProcessEvent, Report, StartOutcome, carry_out, stop_all, undo
 from robocomp_yaml.deploy.engine import LOST, STOPPED, Engine, EngineHangs, Running, of_last_run
 from robocomp_yaml.deploy.introspection import OwnState
-from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, plan, with_dependents
+from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, in_order, plan, with_dependents
 from robocomp_yaml.deploy.readiness import holds, own_state, unmet
 from robocomp_yaml.deploy.states import RUNNING, fault, state_of
 from robocomp_yaml.deploy.time_limit import TimeLimit
@@ -197,9 +197,9 @@ async def down(engine: Engine, names: Collection[str], report: Report, folder: s
     process. Without `names`, nothing of the network is left in its folder. Raises DeployFailed."""
     running = await engine.observe()
     stopped = leaving(running, names)
-    alive = [one.name for one in running.values() if one.name in stopped and one.is_alive]
+    alive = [name for name in stopped if running[name].is_alive]
     await stop_all(engine, [running[name] for name in stopped], report)
-    await engine.forget(stopped)
+    await engine.forget(set(stopped))
     await engine.close(end=len(stopped) == len(running))
     if not names:
         remains.after_down(folder)
@@ -227,10 +227,21 @@ async def take_down(engine: Engine, network: Network, names: Collection[str], re
     return ended
 
 
-def leaving(running: Mapping[str, Running], names: Collection[str]) -> set[str]:
-    """The names of these processes and all that are after them; without names, of all."""
+def leaving(running: Mapping[str, Running], names: Collection[str]) -> list[str]:
+    """The names of these processes and all that are after them, without names of all, in the order in which they
+    stop."""
     after = {name: one.spec.process.after if one.spec else () for name, one in running.items()}
-    return with_dependents(after, names) & set(running) if names else set(running)
+    stopped = with_dependents(after, names) if names else set(running)
+    return [name for name in reversed(in_order(after)) if name in stopped]
+
+
+def reasons_to_stop(network: Network, stopping: Collection[str], chosen: Collection[str]) -> dict[str, str]:
+    """Why those of the `stopping` processes stop that are not `chosen`."""
+    return {
+        name: f"it is after {needed}"
+        for name in stopping if chosen and name not in chosen and name in network.processes
+        for needed in network.processes[name].after if needed in stopping
+    }  # fmt: skip
 
 
 async def end_if_idle(engine: Engine, folder: str, *, is_down: bool = False) -> None:

@@ -190,7 +190,8 @@ def revised(revision: Revision) -> dict[str, Any]:
 
 
 async def _call(served: Served, request: Request) -> Any:
-    wanted, managed = await body_of(request, CallRequest), served.watcher(request).managed
+    wanted, watcher = await body_of(request, CallRequest), served.watcher(request)
+    managed = watcher.managed
 
     def work() -> Any:
         from robocomp_yaml.api.calling import RemoteMethod
@@ -198,7 +199,9 @@ async def _call(served: Served, request: Request) -> Any:
         words = [json.dumps(wanted.arguments)] if wanted.arguments else []
         return RemoteMethod(managed.addresses(), wanted.method).call(words, timeout=wanted.timeout).data
 
-    return await asyncio.to_thread(work)
+    done = await asyncio.to_thread(work)
+    watcher.events.happened("", f"call {wanted.method}")
+    return done
 
 
 async def _parameters(served: Served, request: Request) -> Any:

@@ -16,6 +16,7 @@ from robocomp_yaml.api.editing.editor import DocumentEditor, Revision
 from robocomp_yaml.api.pushing import push
 from robocomp_yaml.api.workspace import Workspace
 from robocomp_yaml.deploy import json_data
+from robocomp_yaml.deploy.operations import reasons_to_stop
 from robocomp_yaml.diag.diagnostic import has_errors
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.diag.render.json import as_data
@@ -53,6 +54,8 @@ class ManagedDeployment:
         self._shown: tuple[tuple[object, ...], Revision] | None = None  # the last one, and what it was made of
         self._lock = threading.Lock()
         self._states: dict[str, object] = {}
+        self._seen: dict[str, object] = {}  # by `changes`
+        self._left: dict[str, object] = {}  # after the changes that were made here
         self._cells: dict[frozenset[str], dict[str, Cell]] = {}
 
     def with_workspace(self, work: Callable[[Workspace], T]) -> T:
@@ -84,9 +87,14 @@ class ManagedDeployment:
             known = self._names = (workspace, names_of(workspace.analysis))
         return known[1]
 
-    def has_changed(self) -> bool:
-        """Whether a document is not as `with_workspace` read it last."""
-        return any(_state(path) != was for path, was in list(self._states.items()))
+    def changes(self) -> dict[str, bool]:
+        """The files that are not as they were at the last such question, and whether it is a document that somebody
+        else changed. What
+        `with_workspace` read meanwhile does not matter: it reads for one page, and this tells all of them."""
+        now: dict[str, object] = {path: _state(path) for path in list(self._states)}
+        changed = [path for path, state in now.items() if self._seen.get(path, state) != state]
+        self._seen, positions = now, layout.path_of(self.path)
+        return {path: path != positions and self._left.get(path) != now[path] for path in changed}
 
     def network(self) -> tuple[Network, str]:
         """The network, and the name of its engine. Raises Faulty and Refused."""
@@ -104,6 +112,8 @@ class ManagedDeployment:
 
         def work(workspace: Workspace) -> dict[str, Any]:
             found = self.drawn(workspace, shut, of)
+            if found is None and not os.path.isfile(self.path):
+                raise Refused(f"{self.path} is not there any more; the last picture of it stays")
             if found is None:
                 raise Faulty(workspace.analysis.diagnostics, workspace.documents_read)
             return found
@@ -141,8 +151,13 @@ class ManagedDeployment:
         """What an operation would do. Raises Faulty and Refused."""
         deployment = self._deployment(lenient=action == "down")
         if action == "down":
-            stopping = deployment.stopping(*names)
-            return {"stop": stopping, "diagnostics": [as_data(one) for one in deployment.diagnostics]}
+            stopping, chosen = deployment.stopping(*names), deployment.chosen(names)
+            reasons = reasons_to_stop(deployment.network, stopping, chosen)
+            return {
+                "stop": stopping,
+                "reasons": reasons,
+                "diagnostics": [as_data(one) for one in deployment.diagnostics],
+            }
         plan = deployment.plan(*names, restart=action == "restart")
         return {"plan": json_data.plan_steps(plan), "diagnostics": [as_data(one) for one in deployment.diagnostics]}
 
@@ -231,11 +246,12 @@ class ManagedDeployment:
         self._own(workspace, revision.path)
         if write:
             self._editor.write(revision, force=force)
-            self._renamed(revision)
+            self._made(revision)
         return revision
 
-    def _renamed(self, revision: Revision) -> None:
+    def _made(self, revision: Revision) -> None:
         """What has another name stays where it is in the pictures."""
+        self._left[revision.path] = _state(revision.path)
         for path, old, new in revision.renamed:
             if os.path.realpath(path) == os.path.realpath(self.path):
                 self._cells = {shut: layout.renamed(cells, old, new) for shut, cells in self._cells.items()}
@@ -246,7 +262,7 @@ class ManagedDeployment:
         def work(workspace: Workspace) -> Revision:
             path = self._own(workspace, document or self.path)
             revision = self._editor.redo(path) if again else self._editor.undo(path)
-            self._renamed(revision)
+            self._made(revision)
             return revision
 
         return self.with_workspace(work)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import os
 from collections.abc import AsyncIterator, Mapping, Sequence
 from contextlib import aclosing
 from typing import Any
@@ -51,6 +52,7 @@ class Watcher:
     async def begin(self) -> None:
         """Reads the documents, and the first states."""
         await self._read()
+        self.managed.changes()
         await self._look()
 
     async def run(self) -> None:
@@ -102,7 +104,9 @@ class Watcher:
     async def _watch_documents(self) -> None:
         while True:
             await asyncio.sleep(DISK)
-            if self.managed.has_changed():
+            if changed := self.managed.changes():
+                for path in (path for path, is_elsewhere in changed.items() if is_elsewhere):
+                    self.events.happened("", f"{os.path.relpath(path)} was changed elsewhere")
                 await self._read()
                 self.events.send(DOCUMENTS, {"problem": self.problem})
 
@@ -193,6 +197,13 @@ class Watcher:
                 self.events.happened(one["name"], f"ended by itself: {one['last_exit']}; started again")
             if was is not None and was["words"] != one["words"]:
                 self.events.happened(one["name"], one["words"])
+            elif (
+                was is not None
+                and was["pid"]
+                and one["pid"] not in (0, was["pid"])
+                and one["restarts"] <= was["restarts"]
+            ):
+                self.events.happened(one["name"], f"restarted, {one['words']}")
         order = {one.name: at for at, one in enumerate(network.enabled())}
         self.states = dict(sorted(states.items(), key=lambda one: order.get(one[0], len(order))))
         if changed or gone:

@@ -53,10 +53,11 @@ class ProcessSettings:
     def _parameter(self, row: Value) -> ShownSetting:
         text = f"{row.text} {row.unit}" if row.unit else row.text
         if row.node is None:
-            return ShownSetting(row.path, text, DEFAULT, row.default.span if row.default is not None else None)
+            where = row.default.span if row.default is not None else None
+            return ShownSetting(row.path, text, DEFAULT, where, data=row.data)
         source, span = self._source(row.node.span)
         overrode = tuple(OverriddenValue(flow(row.hide(node.data)), node.span) for node in row.overrode)
-        return ShownSetting(row.path, text, source, span, overrode)
+        return ShownSetting(row.path, text, source, span, overrode, data=row.data)
 
     def _source(self, span: Span) -> tuple[str, Span | None]:
         return (DERIVED, None) if span == self._draft.span else (SET, span)

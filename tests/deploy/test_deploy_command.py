@@ -143,7 +143,17 @@ def test_all_output_as_json(robot: Path, rcyaml: Rcyaml) -> None:
     assert all(one["ready"] and one["pid"] > 1 and one["memory"] > 0 for one in processes)
     lines = deploy(rcyaml, "logs", "base", "--format", "json").stdout.splitlines()
     assert [json.loads(line)["text"] for line in lines][-1] == "hello"
-    assert set(data("down")["stopped"]) == {"base", "arm"}
+    assert data("down", "base", "--dry-run") | {"deployment": "", "engine": ""} == {
+        "deployment": "", "engine": "", "stop": ["arm", "base"], "reasons": {"arm": "it is after base"},
+        "diagnostics": [],
+    }  # fmt: skip
+    said = deploy(rcyaml, "down", "base", "--dry-run").stdout
+    assert said == "- arm   stop: it is after base\n- base  stop\n2 to stop\n"
+    restarting = deploy(rcyaml, "restart", "arm", "--dry-run").stdout
+    assert restarting.splitlines()[0] == "~ arm   restart: its restart was requested"
+    assert all(one["ready"] for one in data("status")["processes"])  # nothing was done
+    assert data("down")["stopped"] == ["arm", "base"]
+    assert deploy(rcyaml, "down", "--dry-run").stdout == "nothing to do\n"
 
 
 def test_a_plan_shows_each_changed_field(robot: Path, rcyaml: Rcyaml) -> None:

@@ -165,11 +165,12 @@ def test_a_network_is_planned_started_watched_and_stopped(robot: Path) -> None:
         if "started again" not in told["text"]:  # it was seen while it waited
             next(found for found in happened if found["name"] == "camera" and "started again" in found["text"])
 
-        assert one.robot("plan?action=down&name=base")[1]["stop"] == ["base", "arm"]
+        plan = one.robot("plan?action=down&name=base")[1]
+        assert (plan["stop"], plan["reasons"]) == (["arm", "base"], {"arm": "it is after base"})
         restarts = one.robot("plan?action=restart&name=camera")[1]["plan"]
         assert [step["name"] for step in restarts if step["action"] == "restart"] == ["camera"]
         assert one.robot("restart", {"names": ["camera"]})[1]["ok"]
-        assert one.robot("down", {"names": ["base"]})[1]["stopped"] == ["base", "arm"]
+        assert one.robot("down", {"names": ["base"]})[1]["stopped"] == ["arm", "base"]
         assert one.robot("down", {})[1]["stopped"] == ["camera"]
         assert "down: done" in [past["text"] for past in one.robot("history")[1]["happened"]]
 
@@ -217,7 +218,10 @@ def test_documents_are_changed_and_conflicts_keep_the_file(robot: Path) -> None:
         events = read_events(one.open("/api/deployments/Robot/events"), "documents")
         mine = document.read_text() + "# mine\n"
         document.write_text(mine)
+        assert one.robot("entries")[0] == 200  # what one page reads, the others are told all the same
         assert next(events) == {"problem": ""}
+        past = [each["text"] for each in one.robot("history")[1]["happened"]]
+        assert past == ["after camera arm", "robot.ddsl.yaml was changed elsewhere"]
         status, conflict = one.robot("edit", {"change": change, "based_on": version})
         assert (status, conflict["theirs"], document.read_text()) == (409, mine, mine)
         assert "after: [arm]" in conflict["ours"]
@@ -233,6 +237,9 @@ def test_documents_are_changed_and_conflicts_keep_the_file(robot: Path) -> None:
         assert one.robot("redo", {})[0] == 200
         assert "  eye: " in document.read_text()
         assert [node["name"] for node in one.robot("graph")[1]["nodes"]] == ["base", "eye", "arm"]
+        document.rename(robot / "other.ddsl.yaml")
+        status, refused = one.robot("graph")
+        assert (status, "robot.ddsl.yaml is not there any more" in refused["error"]) == (400, True)
 
 
 def test_nothing_outside_of_the_workspace_is_served(robot: Path) -> None:

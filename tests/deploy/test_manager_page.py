@@ -94,6 +94,57 @@ def test_the_picture_is_moved_and_clicked(robot: Path, page: Open) -> None:
         expect(shown.get_by_role("heading", name="arm")).to_be_visible()
 
 
+def test_the_view_goes_to_what_is_selected_and_back(robot: Path, page: Open) -> None:
+    with manager(robot) as one:
+        shown = page(one)
+        view = "[scene.zoom, Math.round(scene.x), Math.round(scene.y)]"
+        before = shown.evaluate(view)
+        far = max(["arm", "base", "camera"], key=lambda name: middle(shown, name)[0])
+        item(shown, far).click()
+        assert shown.evaluate(view) != before  # the details would be on it
+        edge = shown.locator("#details").bounding_box()
+        assert edge is not None
+        until(lambda: 0 < edge["x"] - middle(shown, far)[0] < 400, "it is beside the details")
+        shown.keyboard.press("Escape")
+        assert shown.evaluate(view) == before
+        item(shown, far).click()
+        shown.evaluate("scene.pan(-40, 0)")  # a person moved it
+        moved = shown.evaluate(view)
+        shown.keyboard.press("Escape")
+        assert shown.evaluate(view) == moved
+
+
+@pytest.mark.parametrize("size", [(1300, 800), (750, 450), (420, 700)])
+def test_everything_is_on_the_screen_however_narrow_it_is(
+    robot: Path, page: Open, size: tuple[int, int]
+) -> None:  # fmt: skip
+    """750 x 450 are 1500 x 900 at a zoom of 200 %."""
+    second = (robot / "robot.ddsl.yaml").read_text().replace("Robot", "AnotherRobotWithALongerName")
+    (robot / "second.ddsl.yaml").write_text(second)
+    with manager(robot, "robot.ddsl.yaml", "second.ddsl.yaml") as one:
+        shown = page(one)
+        shown.set_viewport_size({"width": size[0], "height": size[1]})
+        shown.wait_for_timeout(200)
+        assert shown.evaluate("document.documentElement.scrollWidth") <= size[0]
+        for one_ in shown.locator("header").get_by_role("button").all():
+            place = one_.bounding_box()
+            assert place is not None
+            assert place["x"] >= 0 and place["x"] + place["width"] <= size[0]
+        summary, picture = shown.locator("#summary").bounding_box(), shown.locator("canvas").bounding_box()
+        assert summary is not None
+        assert picture is not None
+        assert summary["height"] < 30
+        assert picture["height"] > size[1] / 3
+
+
+def test_a_page_of_an_earlier_manager_says_so(robot: Path, page: Open) -> None:
+    with manager(robot) as one:
+        shown = page(one)
+    expect(shown.get_by_role("status").first).to_contain_text("no connection to the manager")
+    with manager(robot, "--port", str(one.port)):
+        expect(shown.get_by_role("alert")).to_contain_text("open the address that it prints", timeout=15_000)
+
+
 def test_search_and_filter_leave_what_is_meant(robot: Path, page: Open) -> None:
     with manager(robot) as one:
         shown = page(one)

@@ -60,6 +60,7 @@ parameters:
   voice: {type: string, default: low, values: [low, high]}
   key: {type: string, optional: true, secret: true}
 """,
+    "speech/etc/config.yaml": "parameters: {delay: 25}\n",
     "mouth/mouth.cdsl.yaml": """\
 component: MouthComp
 language: python
@@ -223,12 +224,44 @@ def test_fields_of_parameters_know_their_types(head: Path, shown: Page) -> None:
     assert dialog.get_by_label("Value", exact=True).locator("option").all_text_contents() == ["low", "high"]
     dialog.get_by_label("Parameter").select_option("key")
     assert dialog.get_by_label("Value", exact=True).get_attribute("type") == "password"
+    expect(dialog.locator(".diff")).to_have_count(0)  # an empty field is no empty secret
     dialog.get_by_label("Parameter").select_option("delay")
     delay = dialog.get_by_label("Value (ms)")
     assert delay.get_attribute("step") == "1"
+    assert delay.input_value() == "25"  # of its own configuration, not the default
     delay.fill("35")
     write(shown)
     assert "set: {delay: 35}}   # talks" in text(head)
+
+
+def test_a_dialog_begins_with_what_is(head: Path, shown: Page) -> None:
+    """What was opened and not changed can change nothing."""
+    document = text(head).replace("component: speech, host", "component: speech, port: 10007, host")
+    document = document.replace('args: ["600"]', 'args: ["600"], endpoints: {Log: tcp -p 10008}, role: server')
+    many = "".join(f"  p{number}: {{program: sleep, host: desk}}\n" for number in range(60))
+    document = document.replace("groups:", f"{many}groups:")
+    (head / "head.ddsl.yaml").write_text(document)
+    until(lambda: shown.evaluate("facts.entry('log').serves[0]?.number") == 10008, "the port is known")
+    for name, number in (("speech", "10007"), ("log", "10008")):
+        choose(shown, name, "Port…")
+        dialog = shown.get_by_role("dialog")
+        expect(dialog.get_by_label("TCP port")).to_have_value(number)
+        expect(dialog.get_by_role("button", name="Write", exact=True)).to_be_disabled()
+        dialog.get_by_label("TCP port").fill("10009")
+        expect(dialog.locator(".diff .added")).to_contain_text("10009")
+        shown.keyboard.press("Escape")
+    choose(shown, "speech", "Start after…")
+    last = shown.get_by_role("dialog").get_by_label("p59", exact=True)
+    list_ = shown.locator("dialog fieldset")
+    assert list_.evaluate("(e) => e.scrollWidth <= e.clientWidth && e.scrollHeight > e.clientHeight")
+    last.check()  # it is scrolled to
+    expect(last).to_be_in_viewport()
+    shown.keyboard.press("Escape")
+    choose(shown, "speech", "Topics…")
+    expect(shown.get_by_role("dialog").get_by_label("The topic in this network")).to_have_value("")
+    expect(shown.get_by_role("dialog").get_by_role("button", name="Write", exact=True)).to_be_disabled()
+    shown.keyboard.press("Escape")
+    assert text(head) == document
 
 
 def test_entries_hosts_and_interfaces_are_added(head: Path, shown: Page) -> None:
@@ -242,9 +275,9 @@ def test_entries_hosts_and_interfaces_are_added(head: Path, shown: Page) -> None
     expect(shown.get_by_role("dialog")).to_contain_text("+  tongue: {component: mouth")
     write(shown)
     expect(item(shown, "tongue")).to_be_visible()
-    add("Add a program…", Program_and_arguments="sleep 99", Its_name_here="nap")
+    add("Add a program…", Program_and_arguments="sh -c 'sleep 99 && exit 3' \"\"", Its_name_here="nap")
     write(shown)
-    assert 'nap: {program: sleep, args: ["99"]' in text(head) or "nap: {program: sleep, args: ['99']" in text(head)
+    assert 'nap: {program: sh, args: ["-c", "sleep 99 && exit 3", ""]' in text(head)
     add("Add a host…", Name="cloud", Address="127.0.0.9")
     write(shown)
     assert "  cloud: 127.0.0.9\n" in text(head)

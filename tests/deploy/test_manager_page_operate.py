@@ -30,8 +30,13 @@ FILES = {
 module: RoboCompTalk
 types:
   Tone: {enum: [calm, glad]}
+  Words: {sequence: string}
+  Job: {struct: {at: long, tone: {type: Tone, default: glad}, words: Words}}
 interfaces:
-  Speech: {methods: {say: {in: {text: string, tone: Tone}, returns: string}}}
+  Speech:
+    methods:
+      say: {in: {text: string, tone: Tone}, returns: string}
+      plan: {in: {job: Job}, out: {tone: Tone, count: int}, returns: long}
 topics:
   Heard: {methods: {word: {in: {text: string}}}}
 """,
@@ -46,6 +51,7 @@ parameters: speech.pdsl.yaml
     "speech/speech.pdsl.yaml": """\
 parameters:
   volume: {type: float, default: 0.5, range: [0, 1], editable: true, doc: How loud it is.}
+  gains: {list: float, size: 2, default: [1, 2], editable: true}
 """,
 }
 RATE = re.compile(r"Heard, (10 Hz|[1-9]\.\d Hz)")  # of a busy machine
@@ -60,6 +66,9 @@ class SpecificWorker(GenericWorker):
     def Speech_say(self, text, tone):
         print(f"says {text}", flush=True)
         return f"{text}, {tone}, {self.parameters.volume}"
+
+    def Speech_plan(self, job):
+        return job.at, job.tone, len(job.words)
 """
 
 
@@ -100,7 +109,7 @@ def test_a_running_component_is_asked_called_and_changed(head: Path, page: Open)
         _logs(shown)
         shown.get_by_role("button", name="History").click()
         history = shown.get_by_role("log", name="what happened")
-        for text in ("up: done", "set volume", "ready"):
+        for text in ("up: done", "set volume", "call speech.Speech.plan", "ready"):
             expect(history).to_contain_text(text)
         one.ask("/api/deployments/Head/down", {})
         expect(history).to_contain_text("down: done")  # also what somebody else does
@@ -117,6 +126,18 @@ def _call(shown: Page) -> None:
     answer = dialog.get_by_role("status", name="answer")
     expect(answer).to_contain_text("<b>Hello</b>, glad, 0.5", timeout=20_000)
     assert answer.locator("b").count() == 0
+    # Each member of a struct has its field, with its default; long numbers, such as times, are not rounded.
+    dialog.get_by_label("Method", exact=True).select_option("Speech.plan")
+    expect(dialog.get_by_label("job.tone")).to_have_value("glad")
+    expect(dialog).to_contain_text('Words, such as [""]')
+    dialog.get_by_label("job.at").fill("1764292800123456789")
+    dialog.get_by_label("job.words").fill("[one")
+    dialog.get_by_role("button", name="Call").click()
+    expect(answer).to_contain_text("job.words: write it as JSON")
+    dialog.get_by_label("job.words").fill('["one", "two"]')
+    dialog.get_by_role("button", name="Call").click()
+    for said in ("1764292800123456789", '"tone": "glad"', '"count": 2'):
+        expect(answer).to_contain_text(said, timeout=20_000)
     dialog.get_by_role("button", name="Close").click()
 
 
@@ -133,6 +154,10 @@ def _values(shown: Page) -> None:
     dialog.get_by_role("button", name="Set it until the process ends").click()
     expect(dialog).to_have_count(0)
     expect(details).to_contain_text("0.75")
+    details.get_by_role("button", name="change gains[1]").click()
+    dialog.get_by_label("gains[1]").fill("42")
+    dialog.get_by_role("button", name="Set it until the process ends").click()
+    expect(details).to_contain_text("42")
 
 
 def _topic(shown: Page) -> None:

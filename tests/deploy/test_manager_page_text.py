@@ -9,12 +9,13 @@ from pathlib import Path
 import pytest
 
 from processes import until
+from test_manager import manager
 
 pytest.importorskip("playwright", reason="pip install playwright")
 
 from playwright.sync_api import Page, expect
 
-from manager_pages import browser, choose, drag, has_facts, item, middle, page, under
+from manager_pages import Open, browser, choose, drag, has_facts, item, middle, page, under
 from test_manager_page_edit import DOCUMENT, has_action, head, served, shown, text, write
 
 __all__ = ["browser", "head", "page", "served", "shown"]
@@ -123,6 +124,36 @@ def test_what_others_write_is_not_overwritten(head: Path, shown: Page) -> None:
     expect(shown.locator(".cm-line", has_text="# theirs")).to_be_visible()
     assert shown.locator(".cm-line", has_text="# mine").count() == 0
     assert text(head) == theirs
+
+
+def test_what_is_typed_is_not_lost_by_leaving_it(head: Path, page: Open) -> None:
+    other = head / "other.ddsl.yaml"
+    other.write_text("deployment: Other\ncomponents: {nap: {program: sleep}}\n")
+    lines = "".join(f"# line {number}\n" for number in range(60))  # both versions are longer than what is seen
+    (head / "head.ddsl.yaml").write_text(lines + DOCUMENT)
+    with manager(head, "head.ddsl.yaml", "other.ddsl.yaml") as one:
+        shown = page(one)
+        has_facts(shown)
+        shown.get_by_role("button", name="YAML").click()
+        shown.locator(".cm-content").click()
+        shown.keyboard.press("Control+End")
+        shown.keyboard.type("# mine")
+        which = shown.locator("#which")
+        which.select_option("Other")
+        expect(shown.get_by_role("alert")).to_contain_text("head.ddsl.yaml is not saved")
+        expect(which).to_have_value("Head")
+        asked: list[str] = []
+        shown.on("dialog", lambda dialog: (asked.append(dialog.type), dialog.dismiss()))
+        shown.close(run_before_unload=True)
+        until(lambda: asked == ["beforeunload"] or bool(shown.title() and None), "the browser asks")
+        (head / "head.ddsl.yaml").write_text(lines + DOCUMENT + "# theirs\n")
+        shown.keyboard.press("Control+s")
+        theirs = shown.get_by_role("dialog").get_by_label("In the file now").get_by_text("# theirs")
+        expect(theirs).to_be_in_viewport()
+        shown.get_by_role("dialog").get_by_role("button", name="Take theirs").click()
+        which.select_option("Other")
+        expect(item(shown, "nap")).to_be_visible()
+    other.unlink()
 
 
 def test_what_others_write_while_both_versions_are_shown_is_not_overwritten(head: Path, shown: Page) -> None:

@@ -283,6 +283,23 @@ def test_a_picture_has_the_shape_of_a_screen_however_long_its_names_and_many_its
     assert 0.9 < made.width / made.height < 2, (made.width, made.height)
 
 
+def test_a_picture_of_five_hundred_has_the_shape_of_a_screen() -> None:
+    """Twenty groups on five hosts, at the size of their blocks from afar."""
+    pick, made = Random(9), Picture("Fleet", [Box(f"h{host}", f"h{host} (127.0.0.{host})") for host in range(5)])
+    for number in range(500):
+        name, group = f"component{number}", number // 25
+        made.nodes[name] = PictureNode(
+            name, name, "program", f"h{number // 100}", ("sleep",), ((f"Interface{number % 20}", 20000 + number),),
+            (f"g{group}",),
+        )  # fmt: skip
+        near = [other for other in range(group * 25, number) if pick.random() < 0.07]
+        far = [pick.randrange(number)] if number and pick.random() < 0.3 else []
+        made.lines += [PictureLine(name, f"component{one}", kind="after") for one in dict.fromkeys((*near[:3], *far))]
+    geometry = screen_geometry(made)
+    assert min(1300 / geometry.width, 850 / geometry.height) > 0.22, (geometry.width, geometry.height)
+    assert 0.9 < geometry.width / geometry.height < 2
+
+
 def test_titles_have_room_for_what_is_beside_them() -> None:
     made = screen_geometry(Picture("Robot", [], {
         "a": PictureNode("a", "a_process_with_a_name", "component"), "b": PictureNode("b", "a_topic_with_a_name", "topic"),

@@ -45,7 +45,9 @@ export class Changes {
     ];
   }
 
+  /** The members of an include are those of its document. */
   ofGroup(name: string): Action[] {
+    if (!this.facts.groups.find((one) => one.name === name)?.written) return [];
     return [
       { label: "Add to it…", act: () => this.group([], name) },
       { label: "Remove from it…", act: () => this.ungroup(name) },
@@ -57,7 +59,7 @@ export class Changes {
   ofHost(name: string): Action[] {
     return [
       ...this.ofNetwork(name),
-      { label: "Remove the host…", act: () => this.propose(`Remove the host ${name}`, () => ({ change: "remove-host", name })) },
+      ...(this.facts.hosts.some((one) => one.name === name) ? [{ label: "Remove the host…", act: () => this.propose(`Remove the host ${name}`, () => ({ change: "remove-host", name })) }] : []),
     ];
   }
 
@@ -98,11 +100,15 @@ export class Changes {
 
   topic(name: string): void {
     const one = this.facts.entry(name)!;
-    this.propose(`Topics of ${name}`, (values) => ({ change: "topic", entry: one.entry, port: text(values, "port"), to: text(values, "to") }), (values) => {
+    const known = (port: string) => one.topics.find((each) => each.port === port)?.topic ?? "";
+    this.propose(`Topics of ${name}`, (values) => {
+      const port = text(values, "port"), to = text(values, "to");
+      return (to || port) === known(port) ? null : { change: "topic", entry: one.entry, port, to };
+    }, (values) => {
       const chosen = one.topics.find((each) => each.port === text(values, "port")) ?? one.topics[0];
       return [
         { name: "port", label: "Publishes or subscribes to", kind: "choice", choices: one.topics.map((each) => each.port) },
-        { name: "to", label: "The topic in this network", kind: "text", value: chosen.topic, optional: true, hint: "empty: the interface's own name" },
+        { name: "to", label: "The topic in this network", kind: "text", of: chosen.port, value: chosen.topic === chosen.port ? "" : chosen.topic, optional: true, hint: `empty: its own name, ${chosen.port}` },
       ];
     });
   }
@@ -119,7 +125,7 @@ export class Changes {
       change: "add-host", ...Object.fromEntries(["name", "address", "user", "path", "identity", "known_hosts"].map((key) => [key, text(values, key)])),
       port: Number(text(values, "port")) || null,
     }), () => [
-      { name: "name", label: "Name", kind: "text" },
+      { name: "name", label: "Name", kind: "text", hint: this.facts.hosts.length ? "" : "the first host of the document: everything will run on it, and no longer on this machine" },
       { name: "address", label: "Address", kind: "text", hint: "a name or an IP address" },
       { name: "user", label: "User for ssh", kind: "text", optional: true, hint: "empty: your own" },
       { name: "path", label: "Folder there", kind: "text", optional: true, hint: "an absolute path; empty: the same as here" },
@@ -130,13 +136,14 @@ export class Changes {
   }
 
   group(members: string[], group = ""): void {
-    const all = [...new Set(this.facts.entries.map((one) => one.entry))];
+    const has = new Set(this.facts.groups.find((one) => one.name === group)?.members);
+    const all = [...new Set(this.facts.entries.filter((one) => !has.has(one.process)).map((one) => one.entry))];
     const entries = members.map((name) => this.facts.entry(name)?.entry ?? name);
     this.propose(group ? `Add to ${group}` : "Group", (values) => {
       const chosen = list(values, "members");
       return chosen.length ? { change: "group", group: text(values, "group"), members: chosen } : null;
     }, () => [
-      { name: "group", label: "Group", kind: "text", choices: this.facts.groups.map((one) => one.name), value: group },
+      { name: "group", label: "Group", kind: "text", choices: this.facts.groups.filter((one) => one.written).map((one) => one.name), value: group },
       { name: "members", label: "Members to add", kind: "many", choices: all, value: entries },
     ]);
   }
@@ -186,10 +193,10 @@ export class Changes {
 
   program(host = ""): void {
     this.propose("Add a program", (values) => {
-      const words = text(values, "program").split(/\s+/), entry = text(values, "entry");
+      const words = wordsOf(text(values, "program")), entry = text(values, "entry");
       return entry && words[0] ? { change: "add", entry, program: words[0], args: words.slice(1), host: text(values, "host") } : null;
     }, () => [
-      { name: "program", label: "Program and arguments", kind: "text" },
+      { name: "program", label: "Program and arguments", kind: "text", hint: "quotes keep an argument together: sh -c 'sleep 1; exit 3'" },
       { name: "entry", label: "Its name here", kind: "text" },
       ...this.hosts(host),
     ]);
@@ -215,12 +222,16 @@ export class Changes {
   port(name: string): void {
     const one = this.facts.entry(name)!;
     this.propose(`Port of ${name}`, (values) => {
-      const number = text(values, "number");
-      return { change: "port", entry: one.entry, number: number ? Number(number) : null, interface: text(values, "interface") };
-    }, () => [
-      { name: "interface", label: "Interface", kind: "choice", choices: one.serves.map((each) => each.port) },
-      { name: "number", label: "TCP port", kind: "number", low: 1, high: 65535, whole: true, optional: true, hint: "empty: rcyaml chooses it" },
-    ]);
+      const number = text(values, "number"), now = one.serves.find((each) => each.port === text(values, "interface"))?.number;
+      return number === String(now ?? "") ? null : { change: "port", entry: one.entry, number: number ? Number(number) : null, interface: text(values, "interface") };
+    }, (values) => {
+      const chosen = one.serves.find((each) => each.port === text(values, "interface")) ?? one.serves[0];
+      return [
+        { name: "interface", label: "Interface", kind: "choice", choices: one.serves.map((each) => each.port) },
+        { name: "number", label: "TCP port", kind: "number", low: 1, high: 65535, whole: true, optional: true, of: chosen.port,
+          value: String(chosen.number ?? ""), hint: one.component ? "empty: rcyaml chooses it" : "" },
+      ];
+    });
   }
 
   instances(name: string): void {
@@ -260,12 +271,13 @@ export class Changes {
     this.propose(`Set a parameter of ${name}`, (values) => {
       const chosen = of(values);
       const value = values.own === true ? null : valueOf(chosen, values[`value ${chosen.path}`]);
+      if (chosen.secret && value === "") return null; // its value is not shown: nothing was typed
       return { change: "set", entry: one.entry, parameter: chosen.path, value };
     }, (values) => {
       const chosen = of(values);
       return [
         { name: "parameter", label: "Parameter", kind: "choice", choices: parameters.map((each) => each.path), value: chosen.path },
-        fieldOf(chosen, `value ${chosen.path}`, "Value", chosen.default),
+        fieldOf(chosen, `value ${chosen.path}`, "Value", chosen.present ?? chosen.default),
         { name: "own", label: "The value of the component's own configuration instead", kind: "check" },
       ];
     });
@@ -289,6 +301,23 @@ export class Changes {
       ];
     }, component);
   }
+}
+
+/** The words of a command line, with quotes as a shell has them. */
+function wordsOf(line: string): string[] {
+  const words: string[] = [];
+  let word: string | null = null, quote = "";
+  for (let at = 0; at < line.length; at += 1) {
+    const one = line[at];
+    if (one === "\\" && quote !== "'" && at + 1 < line.length) word = (word ?? "") + line[at += 1];
+    else if (quote ? one === quote : one === "'" || one === '"') [quote, word] = [quote ? "" : one, word ?? ""];
+    else if (!quote && /\s/.test(one)) {
+      if (word !== null) words.push(word);
+      word = null;
+    } else word = (word ?? "") + one;
+  }
+  if (quote) throw new Error(`a ${quote} is not closed`);
+  return word === null ? words : [...words, word];
 }
 
 /** A name that no entry has. */

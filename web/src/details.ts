@@ -53,7 +53,7 @@ export class Details {
       this.ask(name, place.left, place.bottom);
     }, `more for ${name}`);
     more.setAttribute("aria-haspopup", "menu");
-    row.push(more);
+    if (isProcess || node.kind !== TOPIC || this.model.positions[name]) row.push(more);
     this.root.append(buttons(...row));
     if (node.kind === TOPIC && this.rights.canEcho && this.model.graph!.of === "network") {
       this.stream = new Echo(this.path(), node.title);
@@ -68,7 +68,7 @@ export class Details {
 
   private update(node: Node): void {
     const { name } = node, state = this.model.states.get(name), entry = this.known.entry(name);
-    const rows: [string, string][] = [["What", node.texts.slice(1, 2).join(" ")], ["Host", node.host]];
+    const rows: [string, string][] = [["What", node.texts.slice(1, 2).join(" ")], ["Host", this.model.hostTitle(node.host)]];
     if (node.groups.length) rows.push(["Groups", node.groups.join(", ")]);
     const rate = this.model.rate(node);
     if (rate) rows.push(["Rate", rate]);
@@ -87,6 +87,8 @@ export class Details {
     for (const edge of this.model.graph!.edges) {
       const what = edge.label ? `${edge.label} of ` : "";
       if (edge.from === name && edge.kind === "uses" && !entry) rows.push(["Uses", what + edge.to]);
+      else if (edge.from === name && edge.kind === "publishes" && !entry) rows.push(["Publishes", this.model.title(edge.to)]);
+      else if (edge.from === name && edge.kind === "subscribes" && !entry) rows.push(["Receives", this.model.title(edge.to)]);
       else if (edge.from === name && edge.kind === "after") rows.push(["After", edge.to]);
       else if (edge.to === name && edge.kind === "uses") rows.push(["Used by", edge.from]);
       else if (edge.to === name && edge.kind === "publishes") rows.push(["Publisher", edge.from]);

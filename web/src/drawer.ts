@@ -108,7 +108,7 @@ export class Drawer {
   /** What of the components each host has, what is missing, and the push that brings it there. */
   private hosts(): void {
     const bar = element("p", "", { class: "buttons" }), names = this.hostNames();
-    for (const name of names) bar.append(button(name, () => void this.availability(name), `what ${name} has`));
+    for (const name of names) bar.append(button(this.called(name), () => void this.availability(name), `what ${this.called(name)} has`));
     if (this.addHost) bar.append(button("Add a host…", this.addHost));
     this.root.append(bar, this.shown);
     const added = names.find((name) => this.known.length && !this.known.includes(name));
@@ -122,6 +122,11 @@ export class Drawer {
   private host = ""; // whose components are shown
   private meant = ""; // what was to run where then
   private known: string[] = [];
+
+  /** This machine has no name in a document without hosts. */
+  private called(host: string): string {
+    return this.facts.hosts.length ? host : this.model.hostTitle(host);
+  }
 
   private hostNames(): string[] {
     return this.facts.hosts.length ? this.facts.hosts.map((one) => one.name) : this.model.graph!.hosts.map((one) => one.name);
@@ -139,13 +144,13 @@ export class Drawer {
   private async availability(host: string): Promise<void> {
     const { shown } = this;
     this.host = host;
-    shown.replaceChildren(element("p", `asking ${host}…`));
+    shown.replaceChildren(element("p", `asking ${this.called(host)}…`));
     try {
       const found = await ask<Available>(`${this.path()}/availability?host=${encodeURIComponent(host)}`);
       if (this.host !== host) return;
       const table = element("table"), head = element("tr");
       for (const title of ["Process", "Component", "To run there", "There", "Missing"]) head.append(element("th", title, { scope: "col" }));
-      table.append(element("caption", host), head);
+      table.append(element("caption", this.called(host)), head);
       for (const one of found.processes) {
         const row = element("tr"), assigned = element("td", one.assigned ? "yes" : "");
         if (!one.assigned && this.move) assigned.append(button("Move here…", () => this.move!(one.name, host), `Move here…: ${one.name} to ${host}`));

@@ -175,6 +175,8 @@ export function versions(theirs: string, ours: string): HTMLElement {
   for (const [title, text, other, kind] of [["In the file now", theirs, ours, "removed"], ["What you meant", ours, theirs, "added"]]) {
     const others = new Set(other.split("\n")), pre = element("pre", "", { tabindex: "0", "aria-label": title });
     for (const line of text.split("\n")) pre.append(element("span", `${line}\n`, others.has(line) ? {} : { class: kind }));
+    const first = pre.querySelector<HTMLElement>("[class]");
+    if (first) requestAnimationFrame(() => { pre.scrollTop = first.offsetTop - pre.offsetTop - pre.clientHeight / 3; });
     const side = element("section");
     side.append(element("h3", title), pre);
     both.append(side);

@@ -4,19 +4,22 @@ import { ask } from "./server";
 
 export interface Required { port: string; interface: string; to: string }
 export interface Offered { port: string; interface: string }
+/** `number` is the TCP port that the document sets. */
+export interface Port extends Offered { number: number | null }
 export interface TopicPort { port: string; interface: string; out: boolean; topic: string }
 /** `scope` is the include that the entry is in, with a dot. */
 export interface Entry {
   process: string; entry: string; scope: string; document: string; line: number; kind: string; host: string; component: string; requires: Required[];
-  serves: Offered[]; topics: TopicPort[]; instances: number | null; after: string[];
+  serves: Port[]; topics: TopicPort[]; instances: number | null; after: string[];
 }
 export interface Known { name: string; path: string; implements: string[]; requires: string[]; publishes: string[]; subscribes: string[] }
-export interface GroupFacts { name: string; members: string[]; closed: boolean; serves: Offered[] }
+/** `written`: the document of the deployment lists its members. */
+export interface GroupFacts { name: string; members: string[]; closed: boolean; serves: Offered[]; written: boolean }
 export interface Parameter {
   path: string; type: string; words: string; doc: string; unit: string; secret: boolean; editable: boolean;
-  choices?: unknown[]; low?: number; high?: number; default?: unknown;
+  choices?: unknown[]; low?: number; high?: number; default?: unknown; present?: unknown;
 }
-export interface Input { name: string; type: string; words: string; doc: string; unit: string; zero: unknown; choices?: string[] }
+export interface Input { name: string; type: string; words: string; doc: string; unit: string; zero: unknown; choices?: string[]; members?: Input[] }
 export interface Method { name: string; doc: string; inputs: Input[] }
 
 const NOTHING = { entries: [], hosts: [], groups: [], services: [], components: [], interfaces: [] };

@@ -2,10 +2,12 @@
 
 import { element } from "./dom";
 import { Input, Parameter } from "./facts";
+import { exact, whole } from "./server";
 
 export interface Field {
   name: string; label: string; kind: "text" | "number" | "choice" | "many" | "check" | "secret" | "long";
   choices?: string[]; value?: string | string[] | boolean; hint?: string; low?: number; high?: number; whole?: boolean; optional?: boolean;
+  of?: string; // what the value is of: that of something else does not stay
 }
 export type Values = Record<string, string | string[] | boolean>;
 
@@ -14,6 +16,7 @@ let made = 0;
 export class Form {
   readonly root = element("form");
   private readers = new Map<string, () => string | string[] | boolean>();
+  private of = new Map<string, string | undefined>();
 
   /** `describe` returns the fields for the values that there are; `changed` is told about every change. */
   constructor(private readonly describe: (values: Values) => Field[], private readonly changed: () => void) {
@@ -39,7 +42,11 @@ export class Form {
     this.readers = new Map();
     const fields = this.describe(before);
     this.root.replaceChildren();
-    for (const field of fields) this.add(field.name in before && isPossible(field, before[field.name]) ? { ...field, value: before[field.name] } : field);
+    for (const field of fields) {
+      const stays = field.name in before && this.of.get(field.name) === field.of && isPossible(field, before[field.name]);
+      this.of.set(field.name, field.of);
+      this.add(stays ? { ...field, value: before[field.name] } : field);
+    }
     if (focused) this.root.querySelector<HTMLElement>(`[data-field="${CSS.escape(focused)}"]`)?.focus();
   }
 
@@ -132,9 +139,28 @@ export function fieldOf(one: Parameter | Input, name: string, label: string, val
   if (one.type === "bool") return { ...about, kind: "check", value: value === true };
   if (one.type === "string") return { ...about, kind: "text", value: String(value ?? "") };
   if (WHOLE.has(one.type) || one.type === "float" || one.type === "double") {
-    return { ...about, kind: "number", value: value === undefined ? "" : String(value), low: limits.low, high: limits.high, whole: WHOLE.has(one.type), optional: false };
+    return { ...about, kind: "number", value: value === undefined ? "" : JSON.stringify(value), low: limits.low, high: limits.high, whole: WHOLE.has(one.type), optional: false };
   }
   return { ...about, kind: "long", value: JSON.stringify(value ?? (one as Input).zero ?? null) };
+}
+
+/** The arguments of a method with the paths of their fields: each member of a struct has a field of its own. */
+export function leaves(inputs: Input[], above: string[] = []): { path: string[]; input: Input }[] {
+  return inputs.flatMap((one) => {
+    const path = [...above, one.name];
+    return one.members?.length ? leaves(one.members, path) : [{ path, input: one }];
+  });
+}
+
+/** The arguments that the values of these fields make. */
+export function nested(values: { path: string[]; value: unknown }[]): Record<string, unknown> {
+  const made: Record<string, unknown> = {};
+  for (const { path, value } of values) {
+    let inner = made;
+    for (const step of path.slice(0, -1)) inner = (inner[step] ??= {}) as Record<string, unknown>;
+    inner[path[path.length - 1]] = value;
+  }
+  return made;
 }
 
 const WHOLE = new Set(["byte", "short", "int", "long"]);
@@ -147,11 +173,11 @@ export function valueOf(one: Parameter | Input, read: Values[string]): unknown {
   if (one.type === "string") return text;
   if (WHOLE.has(one.type) || one.type === "float" || one.type === "double") {
     if (!text.trim() || !Number.isFinite(Number(text))) throw new Error(`this must be ${one.words}`);
-    return Number(text);
+    return WHOLE.has(one.type) ? whole(text.trim()) : Number(text);
   }
   try {
-    return JSON.parse(text);
+    return exact(text);
   } catch {
-    throw new Error(`${one.words}: write it as JSON, such as [1, 2] or {"x": 0.5}`);
+    throw new Error(`write it as JSON: ${one.words}`);
   }
 }

@@ -38,11 +38,12 @@ export function lines(view: View, edges: Edge[], line: number): void {
     if (isFar) continue;
     context.beginPath();
     for (const edge of one.edges) {
-      const [x, y] = edge.points[edge.points.length - 1];
-      if (x < left || x - 6 > right || y < top - 4 || y > bottom + 4) continue;
+      // Messages flow from a topic to its subscriber, at which the line begins.
+      const isBack = edge.kind === "subscribes", [x, y] = edge.points[isBack ? 0 : edge.points.length - 1], end = isBack ? x + 6 : x - 6;
+      if (Math.max(x, end) < left || Math.min(x, end) > right || y < top - 4 || y > bottom + 4) continue;
       context.moveTo(x, y);
-      context.lineTo(x - 6, y - 3.5);
-      context.lineTo(x - 6, y + 3.5);
+      context.lineTo(end, y - 3.5);
+      context.lineTo(end, y + 3.5);
     }
     context.fill();
   }

@@ -37,6 +37,7 @@ function select(name: string, isFound = false, isInText = false): void {
   model.selected = name;
   show();
   if (name) scene.show(name, isFound);
+  else scene.back();
   if (name && !isInText) void known.then(() => { if (model.selected === name) text?.mark(name); });
 }
 
@@ -51,7 +52,7 @@ function show(): void {
   const wrong = [...model.nodes.values()].filter((one) => one.faults.some((fault) => fault.severity === "error")).length;
   if (wrong) parts.push(`${SIGNS.down} ${wrong} with errors in the documents`);
   const said = [parts.join("  "), progress].filter(Boolean).join(" · ");
-  if (find("summary").textContent !== said) find("summary").textContent = said;
+  if (find("summary").textContent !== said) find("summary").textContent = find("summary").title = said;
 }
 
 function complain(said: string): void {
@@ -134,7 +135,14 @@ function listen(): Events {
     progress = `${data.name ?? data.host ?? ""} ${data.kind ?? ""}`.trim();
     show();
   });
-  events.on("error", () => { progress = "no connection to the manager"; show(); });
+  events.on("error", (event) => {
+    progress = "no connection to the manager";
+    show();
+    if ((event.target as EventSource).readyState !== EventSource.CLOSED) return; // the browser connects again
+    ask("deployments").catch((error) => {
+      if (error instanceof Refusal && error.status === 403) complain("The manager was started again, and has another token: open the address that it prints.");
+    });
+  });
   events.on("open", () => {
     progress = "";
     show();
@@ -144,8 +152,8 @@ function listen(): Events {
   return events;
 }
 
-function operate(action: string, chosen: string[]): void {
-  void plan(path(), action, chosen, model.graph?.name ?? "", (problem) => {
+function operate(action: string, chosen: string[], called = chosen.join(", ") || (model.graph?.name ?? "")): void {
+  void plan(path(), action, chosen, called, (problem) => {
     complain(problem);
     progress = "";
     show();
@@ -171,7 +179,7 @@ async function askMenu(kind: Kind, name: string, x: number, y: number): Promise<
     [...model.nodes.values()].filter((one) => model.states.has(one.name) && (kind === "host" ? one.host === name : one.groups.includes(name))).map((one) => one.name);
   if (mayOperate() && (members.length || kind === "network")) {
     for (const [label, action] of [["Start…", "up"], ["Restart…", "restart"], ["Stop…", "down"]]) {
-      actions.push({ label, act: () => operate(action, kind === "group" ? [name] : members) });
+      actions.push({ label, act: () => operate(action, kind === "group" ? [name] : members, kind === "host" ? model.hostTitle(name) : undefined) });
     }
     if (kind === "network") actions.push({ label: "Roll back…", act: () => operate("rollback", []) });
   }
@@ -297,6 +305,7 @@ async function begin(): Promise<void> {
     mayEdit() ? (name, host) => changes.move(name, host) : null);
   for (const one of deployments) which.append(element("option", one.id, { value: one.id }));
   which.hidden = deployments.length < 2;
+  find("name").classList.toggle("away", !which.hidden); // which one it is, the choice says
   find("fit").addEventListener("click", () => scene.fit());
   find<HTMLInputElement>("search").addEventListener("input", (event) => { model.search = (event.target as HTMLInputElement).value; show(); });
   filter.addEventListener("change", () => { model.filter = filter.value; show(); });
@@ -323,7 +332,11 @@ async function begin(): Promise<void> {
     events = listen();
     await drawer.begin();
   };
-  which.addEventListener("change", () => void open(which.value));
+  which.addEventListener("change", () => {
+    if (text?.keeps()) which.value = deployment;
+    else void open(which.value);
+  });
+  window.addEventListener("beforeunload", (event) => { if (text?.isChanged) event.preventDefault(); });
   await open(deployments[0].id);
 }
 

@@ -81,6 +81,15 @@ export class Model {
     return found;
   }
 
+  title(name: string): string {
+    return this.nodes.get(name)?.title ?? name;
+  }
+
+  /** What a host is called: this machine has no name in a document without hosts. */
+  hostTitle(name: string): string {
+    return this.graph?.hosts.find((one) => one.name === name)?.title ?? name;
+  }
+
   /** Whether search and filter show a node in full. */
   shows(name: string): boolean {
     const node = this.nodes.get(name);

@@ -2,16 +2,16 @@
 
 import { button, buttons, dialog, element, Message, messages } from "./dom";
 import { Method, Parameter, process } from "./facts";
-import { fieldOf, Form, valueOf } from "./form";
+import { fieldOf, Form, leaves, nested, valueOf } from "./form";
 import { ask, names } from "./server";
 
 interface Step { name: string; action: string; reason: string; changes: { field: string; old: unknown; new: unknown }[] }
 interface Reply { returns?: unknown; out?: unknown; throws?: unknown }
 interface Running { path: string; data: unknown; unit: string; editable: boolean }
 
-/** Shows what an operation would do, and does it when that is confirmed. */
-export async function plan(path: string, action: string, chosen: string[], all: string, done: (text: string) => void): Promise<void> {
-  const title = { up: "Start", restart: "Restart", down: "Stop", rollback: "Roll back" }[action]! + " " + (chosen.join(", ") || all);
+/** Shows what an operation would do, and does it when that is confirmed. `called` is what all that is `chosen` is called. */
+export async function plan(path: string, action: string, chosen: string[], called: string, done: (text: string) => void): Promise<void> {
+  const title = `${{ up: "Start", restart: "Restart", down: "Stop", rollback: "Roll back" }[action]!} ${called}`;
   const list = element("ul");
   let isPossible = true;
   try {
@@ -26,8 +26,8 @@ export async function plan(path: string, action: string, chosen: string[], all: 
   const root = dialog(title, list, buttons(...row));
 }
 
-function steps(list: HTMLElement, found: { plan?: Step[]; stop?: string[]; diagnostics: Message[] }): boolean {
-  const planned = found.plan?.filter((step) => step.action !== "keep") ?? found.stop!.map((name) => ({ name, action: "stop", reason: "" }));
+function steps(list: HTMLElement, found: { plan?: Step[]; stop?: string[]; reasons?: Record<string, string>; diagnostics: Message[] }): boolean {
+  const planned = found.plan?.filter((step) => step.action !== "keep") ?? found.stop!.map((name) => ({ name, action: "stop", reason: found.reasons?.[name] ?? "" }));
   for (const step of planned) list.append(element("li", `${step.action} ${step.name}${step.reason ? `: ${step.reason}` : ""}`));
   list.append(...messages(found.diagnostics).children);
   if (!planned.length) list.append(element("li", "Nothing to do."));
@@ -57,15 +57,21 @@ export async function call(path: string, name: string): Promise<void> {
     const method = of(values.method);
     return [
       { name: "method", label: "Method", kind: "choice", choices: methods.map((one) => one.name.slice(name.length + 1)), hint: method.doc },
-      ...method.inputs.map((one) => fieldOf(one, `${method.name} ${one.name}`, one.name, one.zero)),
+      ...leaves(method.inputs).map(({ path: steps, input }) => fieldOf(input, `${method.name} ${steps.join(".")}`, steps.join("."), input.zero)),
     ];
   }, () => undefined);
   const send = async () => {
     const method = of(form.values.method);
     result.textContent = "…";
     try {
-      const values = method.inputs.map((one): [string, unknown] => [one.name, valueOf(one, form.values[`${method.name} ${one.name}`])]);
-      const reply = await ask<Reply>(`${path}/call`, { method: method.name, arguments: Object.fromEntries(values) });
+      const values = leaves(method.inputs).map(({ path: steps, input }) => {
+        try {
+          return { path: steps, value: valueOf(input, form.values[`${method.name} ${steps.join(".")}`]) };
+        } catch (error) {
+          throw new Error(`${steps.join(".")}: ${(error as Error).message}`);
+        }
+      });
+      const reply = await ask<Reply>(`${path}/call`, { method: method.name, arguments: nested(values) });
       result.textContent = Object.keys(reply).length ? JSON.stringify(reply, null, 2) : "done";
       result.classList.toggle("fault", "throws" in reply);
     } catch (error) {
@@ -77,6 +83,12 @@ export async function call(path: string, name: string): Promise<void> {
   now.className = "main";
   const root = dialog(`Call a method of ${name}`, form.root, result, buttons(now, button("Close", () => root.close())));
   form.root.addEventListener("submit", () => void send());
+}
+
+/** The type of an element of a list: what the component does not accept, it says. */
+function elementOf({ path, data }: Running, types: Map<string, Parameter>): Parameter | undefined {
+  const list = types.get(path.replace(/\[\d+\]$/, "")), type = { number: "double", boolean: "bool", string: "string" }[typeof data as "number"];
+  return list && type && list.type === "other" ? { ...list, path, type } : undefined;
 }
 
 /** The values that a running component has now; those that are editable can be changed until it ends. */
@@ -95,7 +107,7 @@ export class RunningValues {
     try {
       const found = await ask<{ parameters: Running[] }>(`${this.path}/parameters?process=${encodeURIComponent(this.name)}`);
       const types = new Map((await this.types?.() ?? []).map((one) => [one.path, one]));
-      this.list.replaceChildren(...found.parameters.flatMap((one) => this.row(one, types.get(one.path))));
+      this.list.replaceChildren(...found.parameters.flatMap((one) => this.row(one, types.get(one.path) ?? elementOf(one, types))));
     } catch (error) {
       this.list.replaceChildren();
       this.problem.textContent = (error as Error).message;

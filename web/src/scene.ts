@@ -1,5 +1,6 @@
 // The picture on the canvas: it is drawn from the model whenever something changed, at most once in a frame.
 
+import { dragged, framed, Lifted, Rubber } from "./dragged";
 import { around, FAINT, lines } from "./lines";
 import { CLOSED, Edge, isInside, Look, Model, Node, Placed, SIGNS, touch } from "./model";
 
@@ -18,11 +19,12 @@ export class Scene {
   drawn = 0;
   covered: () => number = () => 0; // pixels on the right, by the details
   hovered = ""; // the node under the pointer
-  rubber: { from: [number, number]; to: [number, number]; targets: Set<string> } | null = null;
-  lifted: { node: Node; dx: number; dy: number } | null = null; // while it is dragged
+  rubber: Rubber | null = null;
+  lifted: Lifted | null = null;
   hasHandle: (name: string) => boolean = () => false;
   private dirty = false;
   private isFitted = true;
+  private before: { zoom: number; x: number; y: number; isFitted: boolean } | null = null; // the view before it went to a node by itself
   private context: CanvasRenderingContext2D;
   private size = { width: 0, height: 0 }; // of what is painted
   private readonly still = document.createElement("canvas"); // the picture while the view moves
@@ -76,6 +78,7 @@ export class Scene {
     this.x = (width - graph.width * this.zoom) / 2;
     this.y = (height - graph.height * this.zoom) / 2;
     this.isFitted = true;
+    this.before = null;
     this.change();
   }
 
@@ -87,6 +90,7 @@ export class Scene {
 
   private moved(): void {
     this.isFitted = false;
+    this.before = null;
     this.movedAt = performance.now();
     this.again();
     clearTimeout(this.settling);
@@ -105,12 +109,22 @@ export class Scene {
   show(name: string, isRead = false): void {
     const node = this.model.nodes.get(name);
     if (!node) return;
+    const { x, y, zoom, isFitted } = this, before = this.before ?? { x, y, zoom, isFitted };
     if (isRead && this.isFar) this.zoomAt(READ / this.zoom, this.x + node.x * this.zoom, this.y + node.y * this.zoom);
-    const [left, top] = [this.x + node.x * this.zoom, this.y + node.y * this.zoom];
+    // No further than necessary, so that what is around it stays in view.
+    const hidden = (from: number, size: number, room: number) => Math.min(0, room - MARGIN - from - size) || Math.max(0, MARGIN - from);
     const width = this.canvas.clientWidth - this.covered(), height = this.canvas.clientHeight;
-    if (left < 0 || top < 0 || left + node.width * this.zoom > width || top + node.height * this.zoom > height) {
-      this.pan(width / 2 - left - node.width * this.zoom / 2, height / 2 - top - node.height * this.zoom / 2);
-    }
+    this.x += hidden(this.x + node.x * this.zoom, node.width * this.zoom, width);
+    this.y += hidden(this.y + node.y * this.zoom, node.height * this.zoom, height);
+    if (this.x !== x || this.y !== y || this.zoom !== zoom) this.before = before;
+    this.change();
+  }
+
+  /** To the view before it went to a node by itself, unless a person moved it since. */
+  back(): void {
+    if (!this.before) return;
+    Object.assign(this, this.before);
+    this.before = null;
     this.change();
   }
 
@@ -209,7 +223,7 @@ export class Scene {
     const line = Math.max(1, 1 / zoom);
     context.textBaseline = "alphabetic";
     const frame = (box: Placed, fill: string, title: string, size: number) => {
-      this.box(box, fill, colors.frame, line);
+      framed(context, box, fill, colors.frame, line);
       if (size * zoom < SMALLEST) return;
       context.font = `${this.size12(title, box.width - 12)}px ${this.font}`;
       context.fillStyle = colors.soft;
@@ -225,7 +239,7 @@ export class Scene {
     this.nodes(graph.nodes.filter(isSeen), line);
     context.globalAlpha = 1;
     if (this.isFar) this.far([...graph.hosts.map((host) => [host, host.title]), ...graph.groups.map((group) => [group, group.name])] as [Placed, string][]);
-    this.drag(line);
+    dragged({ context, model, colors, font: this.font }, this.lifted, this.rubber, line);
   }
 
   /** The names of hosts and groups from afar, where the texts of their boxes are too small: as long as there is room.
@@ -283,20 +297,21 @@ export class Scene {
     const { context, model, zoom, colors, font } = this;
     const look = model.look(node.name), isChosen = this.isChosen(node);
     context.globalAlpha = model.isClear(node.name) || isChosen ? 1 : FAINT * 1.6;
-    this.box(node, look === "down" ? colors.alarm : colors.node,
+    framed(context, node, look === "down" ? colors.alarm : colors.node,
       isChosen ? colors.chosen : look === "down" ? colors.down : colors.frame, isChosen ? 2.5 * line : line);
     context.fillStyle = colors[look];
     if (look !== "other") context.fillRect(node.x, node.y + 6, 4, node.height - 12);
     context.textAlign = "right";
     context.font = `11px ${font}`;
-    context.fillText(SIGNS[look] || model.rate(node), node.x + node.width - 6, node.y + 16);
+    const sign = SIGNS[look] || model.rate(node), room = node.width - 24 - (sign ? this.wide(sign) : 0);
+    context.fillText(sign, node.x + node.width - 6, node.y + 16);
     context.textAlign = "left";
     this.texts(node).forEach((text, at) => {
       const size = at ? 12 : 13;
       if (size * zoom < SMALLEST) return;
       context.font = at ? `${this.size12(text, node.width - 18)}px ${font}` : `600 ${size}px ${font}`;
       context.fillStyle = at ? colors.soft : colors.text;
-      context.fillText(text, node.x + 12, node.y + 16 + 16 * at);
+      context.fillText(text, node.x + 12, node.y + 16 + 16 * at, at ? undefined : room);
     });
     this.use(node);
     if (!this.showsHandle(node)) return;
@@ -351,46 +366,6 @@ export class Scene {
     if (node.kind !== CLOSED) return node.texts;
     const counts = [...this.model.counts(node.members!.map((one) => one.name))].filter(([look]) => look !== "other");
     return [...node.texts.slice(0, 2), counts.map(([look, count]) => `${SIGNS[look]} ${count}`).join("  ")];
-  }
-
-  /** What is dragged: a line to who could serve a port, or a node. */
-  private drag(line: number): void {
-    const { context, colors, rubber, lifted } = this;
-    if (lifted) {
-      context.globalAlpha = 0.75;
-      const { node, dx, dy } = lifted;
-      this.box({ x: node.x + dx, y: node.y + dy, width: node.width, height: node.height }, colors.node, colors.chosen, 2 * line);
-      context.fillStyle = colors.text;
-      context.font = `600 13px ${this.font}`;
-      context.fillText(node.title, node.x + dx + 12, node.y + dy + 16);
-      context.globalAlpha = 1;
-    }
-    if (!rubber) return;
-    for (const name of rubber.targets) {
-      const node = this.model.nodes.get(name)!;
-      context.strokeStyle = colors.chosen;
-      context.lineWidth = 2.5 * line;
-      context.strokeRect(node.x - 3, node.y - 3, node.width + 6, node.height + 6);
-    }
-    context.strokeStyle = colors.chosen;
-    context.lineWidth = 2 * line;
-    context.setLineDash([6, 4]);
-    context.beginPath();
-    context.moveTo(...rubber.from);
-    context.lineTo(...rubber.to);
-    context.stroke();
-    context.setLineDash([]);
-  }
-
-  private box(box: Placed, fill: string, stroke: string, line: number): void {
-    const { context } = this;
-    context.beginPath();
-    context.roundRect(box.x, box.y, box.width, box.height, 5);
-    context.fillStyle = fill;
-    context.fill();
-    context.strokeStyle = stroke;
-    context.lineWidth = line;
-    context.stroke();
   }
 }
 

@@ -4,11 +4,26 @@ export class Refusal extends Error {
   constructor(message: string, readonly status: number, readonly data: Record<string, unknown>) { super(message); }
 }
 
+type Reviver = (key: string, value: unknown, context?: { source?: string }) => unknown;
+const { parse, rawJSON } = JSON as unknown as { parse: (text: string, revive?: Reviver) => unknown; rawJSON?: (text: string) => unknown };
+const ROUNDED = /\d{16}/; // a whole number that may have more digits than JavaScript's numbers
+
+/** A whole number as it is spelled: JSON.stringify writes it without rounding it, where browsers can. */
+export function whole(spelled: string): unknown {
+  return Number.isSafeInteger(Number(spelled)) || !rawJSON || !/^-?\d+$/.test(spelled) ? Number(spelled) : rawJSON(spelled);
+}
+
+/** The data of JSON, in which long whole numbers, such as times in nanoseconds, are as `whole` has them. */
+export function exact(text: string): unknown {
+  if (!ROUNDED.test(text)) return parse(text);
+  return parse(text, (_, value, context) => typeof value === "number" && context?.source ? Number.isInteger(value) ? whole(context.source) : value : value);
+}
+
 export async function ask<T>(path: string, body?: unknown): Promise<T> {
   const sent = body === undefined ? {} : { method: "POST", body: JSON.stringify(body) };
   const answer = await fetch(`api/${path}`, sent);
-  const isData = answer.headers.get("content-type")?.includes("json");
-  const data = isData ? await answer.json() : { error: await answer.text() };
+  const isData = answer.headers.get("content-type")?.includes("json"), text = await answer.text();
+  const data = isData ? exact(text) as Record<string, unknown> : { error: text };
   if (!answer.ok) throw new Refusal(String(data.error), answer.status, data);
   return data as T;
 }

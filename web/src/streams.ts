@@ -1,7 +1,7 @@
 // Lines that the server sends as they come: of logs, and the messages of topics.
 
 import { button, buttons, element } from "./dom";
-import { Events, names } from "./server";
+import { Events, exact, names } from "./server";
 
 const LONGEST = 2000; // lines that are kept
 
@@ -16,7 +16,7 @@ class Lines {
     this.list = element("pre", "", { tabindex: "0", role: "log", "aria-label": label, class: "lines" });
     this.root.append(this.list);
     this.events = new Events(address);
-    this.events.on(kind, (event) => this.add(this.text(JSON.parse(event.data) as never)));
+    this.events.on(kind, (event) => this.add(this.text(exact(event.data) as never)));
     // A browser that connects again gets the last lines once more.
     this.events.on("open", () => this.list.replaceChildren());
   }

@@ -97,15 +97,20 @@ export class TextPane {
     return this.can.may("edit") && this.can.has("write", "post");
   }
 
-  private get isChanged(): boolean {
+  get isChanged(): boolean {
     return this.view !== null && this.view.state.doc.toString() !== this.shown.text;
+  }
+
+  /** Whether something must wait, because the text is not saved: that is said. */
+  keeps(): boolean {
+    if (this.isChanged) this.complain(`${this.shown.document} is not saved`);
+    return this.isChanged;
   }
 
   async open(document: string): Promise<void> {
     const isOther = document !== this.shown.document;
-    if (isOther && this.isChanged) {
+    if (isOther && this.keeps()) {
       this.which.value = this.shown.document;
-      this.complain(`${this.shown.document} is not saved`);
       return;
     }
     this.root.hidden = false;
@@ -128,10 +133,7 @@ export class TextPane {
   }
 
   close(): void {
-    if (this.isChanged) {
-      this.complain(`${this.shown.document} is not saved`);
-      return;
-    }
+    if (this.keeps()) return;
     this.root.hidden = true;
     this.opened(false);
     this.view?.destroy();

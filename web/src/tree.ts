@@ -90,7 +90,7 @@ export class Tree {
       const look = this.model.look(name), rate = this.model.rate(node);
       set(item, "aria-selected", String(name === this.model.selected));
       const isWrong = !state?.down && node.faults.some((fault) => fault.severity === "error");
-      set(item, "aria-label", [node.title, state?.words, isWrong ? "has errors" : "", rate].filter(Boolean).join(", "));
+      set(item, "aria-label", [node.title, state?.words ?? (node.enabled ? "" : "not started"), isWrong ? "has errors" : "", rate].filter(Boolean).join(", "));
       const isHidden = !this.model.shows(name);
       if (item.hidden !== isHidden) item.hidden = isHidden;
       const sign = item.firstElementChild as HTMLElement;

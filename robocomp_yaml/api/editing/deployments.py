@@ -163,8 +163,12 @@ def _(change: changes.SetParameter, entries: Entries) -> None:
 
 @make.register
 def _(change: changes.SetPort, entries: Entries) -> None:
-    """`port:` and `ports:` exclude each other."""
+    """`port:` and `ports:` exclude each other. The port of an endpoint is in its text."""
     steps, edited, component = entries.steps(change.entry), entries.edited, entries.component(change.entry)
+    endpoints = edited.data(*steps, "endpoints")
+    if isinstance(endpoints, dict) and (change.interface in endpoints or component is None):
+        _set_port_of_endpoint(entries, change, [*steps, "endpoints"], endpoints)
+        return
     served = [port.name for port in component.implements] if component is not None else []
     first = next(iter(served), "CommonBehavior")
     number = edited.data(*steps, "port")
@@ -178,6 +182,20 @@ def _(change: changes.SetPort, entries: Entries) -> None:
             edited.remove([*steps, "port"])
             edited.set([*steps, "ports"], {first: number})
         _set_or_remove(entries, [*steps, "ports", change.interface], change.number)
+
+
+def _set_port_of_endpoint(
+    entries: Entries, change: changes.SetPort, steps: list[Step], endpoints: dict[str, object]
+) -> None:
+    known = list(endpoints)
+    interface = change.interface or next(iter(known), "")
+    if interface not in known:
+        raise Refused(f"{change.entry} serves no '{interface}'{meant(interface, known)}")
+    text = str(endpoints[interface])
+    changed, count = re.subn(r"(?<!\S)-p(\s+)\d+", rf"-p\g<1>{change.number}", text, count=1)
+    if change.number is None or not count:
+        raise Refused(f"the endpoint of {interface} is '{text}': change its text, `endpoints:` of {change.entry}")
+    entries.edited.set([*steps, interface], changed)
 
 
 @make.register

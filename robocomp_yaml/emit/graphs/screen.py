@@ -32,7 +32,7 @@ SCREEN = 1.5
 """How much wider the room for a picture is than it is high, on a screen."""
 _FITS = 0.85, 1.15
 _LARGEST = 1 / 540  # of which nothing is gained: the room on a small screen, at the largest zoom of a whole picture
-_TRIES = (100, 4, 1.0), (700, 1, 0.75), (sys.maxsize, 0, 0.0)
+_TRIES = (100, 4, 1.0), (700, 2, 0.75), (sys.maxsize, 0, 0.0)
 """By the number of nodes at most: how often another shape is tried, which takes as long as the first picture, and how
 much of the difference is made up, because lines of another shape need other room, too."""
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import msgspec
 
@@ -94,8 +95,8 @@ class ShownSetting(msgspec.Struct, frozen=True):
     """One value of a configuration, without secrets. `key` is the path of a parameter, or the name of a
     property. `source` is SET (in the document of `span`), DERIVED (from the deployment), or DEFAULT. `overrode` are the
     replaced values, the latest first. `is_outside`: the proxy of a server that no process of the deployment is.
-    `is_notable`: it is derived and replaces what the user chose, or leads
-    outside."""
+    `is_notable`: it is derived and replaces what the user chose, or leads outside. `data` is the value of a parameter,
+    None for others."""
 
     key: str
     value: str
@@ -104,6 +105,7 @@ class ShownSetting(msgspec.Struct, frozen=True):
     overrode: tuple[OverriddenValue, ...] = ()
     is_outside: bool = False
     is_notable: bool = False
+    data: Any = None
 
 
 def run_time_defaults() -> list[ShownSetting]:

@@ -320,6 +320,18 @@ def test_ports_with_names_of_their_own_are_removed_by_them() -> None:
     assert b"requires:\n  - Mouth # the first\n  # the second\n" in revision.after
 
 
+def test_the_port_of_a_program_is_in_its_endpoint() -> None:
+    laser = "components:\n  laser: {program: sleep, endpoints: {Laser: tcp -h any  -p 10003 -t 5}} # eyes\n"
+    assert after(laser, SetPort("laser", 12)) == laser.replace("10003", "12")
+    assert after(laser, SetPort("laser", 12, "Laser")) == laser.replace("10003", "12")
+    for change, message in (
+        (SetPort("laser", None), "the endpoint of Laser is 'tcp -h any  -p 10003 -t 5'"),
+        (SetPort("laser", 12, "Lasre"), "did you mean 'Laser'"),
+    ):
+        with pytest.raises(api.Refused, match=message):
+            after(laser, change)
+
+
 def test_changes_are_read_from_json() -> None:
     data = {"change": "connect", "entry": "speech", "port": "Mouth", "to": "mouth"}
     assert changes.from_json(data) == Connect("speech", "Mouth", "mouth")

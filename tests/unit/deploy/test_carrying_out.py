@@ -299,7 +299,7 @@ def test_down_includes_dependent_processes(names: tuple[str, ...], stopped: str)
 
 def test_down_returns_what_ran() -> None:
     engine = InMemory(running(MOTORS), running(BASE, WAITING), running(ARM, GIVEN_UP), running(CAMERA, LOST))
-    assert engine.down() == ["motors", "base"]
+    assert engine.down() == ["base", "motors"], "in the order in which they stop"
     assert {one for one in engine.done if one.startswith("stop ")} == {"stop motors", "stop base", "stop arm"}
     assert set(happened(engine)) == {(name, kind) for name in ("motors", "base") for kind in (STOPPING, GONE)}
 
@@ -311,7 +311,7 @@ def test_down_with_names_of_processes_that_do_not_run() -> None:
 
 def test_down_includes_a_process_of_another_version() -> None:
     engine = InMemory(Running("motors", None, "", RUNNING), running(BASE))
-    assert engine.down("motors") == ["motors", "base"]
+    assert engine.down("motors") == ["base", "motors"]
 
 
 @pytest.mark.parametrize(
