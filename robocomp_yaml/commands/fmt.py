@@ -21,7 +21,7 @@ STDIN = "-"
 @click.argument("paths", nargs=-1, metavar="[PATH]...", type=click.Path(exists=True, allow_dash=True))
 @click.option("--check", is_flag=True, help="Write nothing; exit with 1 if a document would change.")
 @click.option("--diff", is_flag=True, help="Show what would change, and write nothing.")
-@click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text", help="The output format.")
+@_options.text_or_json
 @click.pass_context
 def command(ctx: click.Context, paths: tuple[str, ...], check: bool, diff: bool, format_: str) -> None:
     """Lay out the documents at PATHs (by default, below this folder): indentation, blanks, quotes, blank lines.

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 )
 @click.option("--check", is_flag=True, help="Check the script, and serve nothing.")
 @_options.include
-@click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text", help="The output format.")
+@_options.text_or_json
 @click.pass_context
 def command(
     ctx: click.Context, interfaces: tuple[str, ...], script: str | None, endpoints: tuple[str, ...], storm: str,

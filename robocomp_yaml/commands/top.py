@@ -36,8 +36,7 @@ def _processes(addresses: Addresses, incomplete: str) -> list[str]:
 @click.option("--count", type=click.IntRange(1), metavar="N", help="End after N samples.")
 @click.option("--once", is_flag=True, help="Print one table, and end.")
 @_options.include
-@click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text",
-              help="json: a line for each sample.")  # fmt: skip
+@_options.format_of(["text", "json"], "json: a line for each sample.")
 @click.pass_context
 def command(
     ctx: click.Context, ddsl: str, names: tuple[str, ...], deployment: str | None, sort: str, reverse: bool,

@@ -37,10 +37,7 @@ type_option = click.option(
     "--type", "type_", default="", metavar="NAME",
     help="The topic of the documents that it carries, if its name does not say it.",
 )  # fmt: skip
-_text_or_json = click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text",
-                             help="The output format.")  # fmt: skip
-_for = click.option("--for", "duration", type=Duration(), metavar="TIME", help="End after this time.")
-_count = click.option("--count", type=click.IntRange(1), metavar="N", help="End after N messages.")
+count_option = click.option("--count", type=click.IntRange(1), metavar="N", help="End after N messages.")
 
 
 def with_topics(function: Callable[..., None]) -> Callable[..., None]:
@@ -56,7 +53,14 @@ def with_topics(function: Callable[..., None]) -> Callable[..., None]:
 
         function(Topics(Addresses(deployment or "", include), storm, ice_config or "", timeout), **own)
 
-    for option in (_text_or_json, _options.include, _talking.ice_config, _talking.timeout, _storm, _talking.deployment):
+    for option in (
+        _options.text_or_json,
+        _options.include,
+        _talking.ice_config,
+        _talking.timeout,
+        _storm,
+        _talking.deployment,
+    ):
         run = option(run)
     return run
 
@@ -86,10 +90,7 @@ def list_(ctx: click.Context, topics: Topics, format_: str) -> None:
             (one.name, one.type or "-", ", ".join(one.publishers) or "-", ", ".join(one.subscribers) or "-", _now(one))
             for one in known
         ]
-        widths = [max(terminal.columns(row[at]) for row in rows) for at in range(4)]
-        for row in rows:
-            cells = [terminal.pad(cell, width) for cell, width in zip(row, widths, strict=False)]
-            terminal.say(terminal.line(*(f"{cell}  " for cell in cells), row[4]))
+        terminal.say(*terminal.table(rows))
     elif not failures:
         terminal.say("no topics")
     for failure in failures:
@@ -113,8 +114,8 @@ def _as_data(topic: KnownTopic) -> dict[str, Any]:
 @command.command(short_help="Print messages as they come.")
 @click.argument("names", nargs=-1, required=True, metavar="TOPIC...",
                 shell_complete=_talking.completing(topic_names))  # fmt: skip
-@_count
-@_for
+@count_option
+@_talking.ending
 @type_option
 @with_topics
 def echo(
@@ -136,8 +137,8 @@ def echo(
 @command.command(short_help="Measure the rate and the jitter of messages.")
 @click.argument("name", metavar="TOPIC", shell_complete=_talking.completing(topic_names))
 @click.option("--every", type=Duration(), default="1s", show_default=True, metavar="TIME", help="Time between lines.")
-@_count
-@_for
+@count_option
+@_talking.ending
 @type_option
 @with_topics
 def hz(
