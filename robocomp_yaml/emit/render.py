@@ -1,15 +1,17 @@
 """Renders templates from views.
 
-A view is a struct of strings and of lists of views. The template's variables are its fields. Compiled templates are
-cached in the user's cache folder, because compiling them takes longer than the rest of a run.
+A view is a mapping or a struct of strings and of lists of views. The template's variables are its entries. Compiled
+templates are cached in the user's cache folder, because compiling them takes longer than the rest of a run.
 """
 
 from __future__ import annotations
 
 import os
 import stat
+from collections.abc import Mapping
 from contextlib import suppress
 from functools import cache
+from types import MappingProxyType
 
 import msgspec
 from jinja2 import BytecodeCache, Environment, FileSystemBytecodeCache, StrictUndefined
@@ -20,9 +22,10 @@ from msgspec.structs import asdict
 from robocomp_yaml import languages, resources
 
 
-def render(name: str, view: msgspec.Struct) -> str:
-    """Renders the template `templates/NAME`, or `LANGUAGE/NAME` of a language, with the fields of `view`."""
-    return _environment().get_template(name).render(asdict(view))
+def render(name: str, view: msgspec.Struct | Mapping[str, object] = MappingProxyType({}), /, **more: object) -> str:
+    """Renders the template `templates/NAME`, or `LANGUAGE/NAME` of a language, with the entries of `view`, and more."""
+    variables = asdict(view) if isinstance(view, msgspec.Struct) else view
+    return _environment().get_template(name).render(variables, **more)
 
 
 class _Cache(FileSystemBytecodeCache):

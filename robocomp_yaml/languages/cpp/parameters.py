@@ -9,7 +9,6 @@ import msgspec
 from robocomp_yaml.emit.lowering.kinds import Builders, pattern_count
 from robocomp_yaml.emit.lowering.parameters import (
     Accessors,
-    ConstraintView,
     Types,
     TypeSpelling,
     about_enum,
@@ -72,20 +71,6 @@ class GetterView(msgspec.Struct, frozen=True):
     setter_definitions: list[str]
 
 
-class ParametersView(msgspec.Struct, frozen=True):
-    source: str
-    name: str
-    comment: str
-    enums: list[EnumView]
-    records: list[RecordView]
-    converted: list[str]
-    getters: list[GetterView]
-    headers: list[str]
-    root: str
-    spellings: list[str]
-    constraints: list[ConstraintView]
-
-
 def plan(linked: LinkedComponent) -> list[FilePlan]:
     """`generated/parameters.h` and `.cpp`."""
     return [FilePlan(f"generated/{name}", made) for name, made in texts(*declared(linked)).items()]
@@ -100,25 +85,25 @@ def texts(parameters: Parameters, component: str, source: str) -> dict[str, str]
         *(["pattern.h"] if pattern_count(parameters.root) else []),
     ]  # fmt: skip
     enums = [types.enum(enum) for enum in types.enums]
-    view = ParametersView(
-        source=one_line(source.rpartition("/")[2]),
-        name=component,
-        comment=comment(titled(f"The parameters of {component} while it runs.", parameters.doc)),
-        enums=enums,
-        records=views,
-        converted=[*(enum.name for enum in enums), *(view.name for view in views)],
-        getters=list(types.getters()),
-        headers=headers,
-        root=types.functions["."],
-        spellings=[
+    view = {
+        "source": one_line(source.rpartition("/")[2]),
+        "name": component,
+        "comment": comment(titled(f"The parameters of {component} while it runs.", parameters.doc)),
+        "enums": enums,
+        "records": views,
+        "converted": [*(enum.name for enum in enums), *(view.name for view in views)],
+        "getters": list(types.getters()),
+        "headers": headers,
+        "root": types.functions["."],
+        "spellings": [
             folded(f"{{{literal(each.path)}, runtime::Spelling{{{_BUILDERS.spelling(each)}}}}},", 3 * IN)
             for each in parameters.spellings
         ],
-        constraints=[
+        "constraints": [
             msgspec.structs.replace(each, value=folded(f"{each.value},", 4 * IN))
             for each in constraint_views(parameters, LANGUAGE, literal)
         ],
-    )
+    }
     return {f"parameters.{suffix}": render(f"cpp/parameters.{suffix}.j2", view) for suffix in ("h", "cpp")}
 
 

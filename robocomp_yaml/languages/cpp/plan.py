@@ -7,26 +7,19 @@ skeleton and the files for CMake differ.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING
-
-import msgspec
 
 from robocomp_yaml.emit import runtime, windows
 from robocomp_yaml.emit.layout import Layout, stated
-from robocomp_yaml.emit.lowering.component import BEHAVIOR, COMMON, InterfaceHash, lower
+from robocomp_yaml.emit.lowering.component import BEHAVIOR, COMMON, lower
 from robocomp_yaml.emit.lowering.kinds import pattern_count
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.emit.slice import file_name
 from robocomp_yaml.languages._shared.views import ignored_program
 from robocomp_yaml.languages.cpp import LANGUAGE, parameters, qt
-from robocomp_yaml.languages.cpp.ports import Ports, port_views
-from robocomp_yaml.languages.cpp.qt import QtView, RobocompView
+from robocomp_yaml.languages.cpp.ports import port_views
 from robocomp_yaml.languages.cpp.text import comment, one_line
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule
 from robocomp_yaml.transactions.plan import ONCE, FilePlan
-
-if TYPE_CHECKING:
-    from robocomp_yaml.emit.machines.views import MachineView
 
 # Targets that CMake defines itself.
 _CMAKE_TARGETS = frozenset(
@@ -36,34 +29,6 @@ _CMAKE_TARGETS = frozenset(
 _QT_VERSION = "${QT_VERSION_MAJOR}"
 
 
-class View(msgspec.Struct, frozen=True):
-    """What the templates show. All files of a component use the same view."""
-
-    source: str
-    name: str
-    comment: str
-    period: int
-    headers: list[str]
-    ports: Ports
-    connect_parameters: str
-    has_topics: bool
-    target: str
-    standard: int
-    runtime: str
-    version: str
-    slice: str
-    made_for: str
-    interfaces: tuple[InterfaceHash, ...]
-    slices: list[str]
-    parts: str
-    sources: list[str]
-    is_main_apart: bool
-    qt: QtView | None
-    robocomp: RobocompView | None
-    machine: MachineView | None
-    base: str
-
-
 def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
     """The files of a component, except `slice/`, `etc/` and the run time."""
     parts = [
@@ -71,7 +36,7 @@ def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
         *windows.form_of(component),
     ]
     view = _view(component, layout)
-    if view.robocomp:
+    if view["robocomp"]:
         return _robocomp(component, view, parts)
     return [
         *parameters.plan(component),
@@ -83,7 +48,7 @@ def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
         FilePlan("src/specificworker.h", render("cpp/specificworker.h.j2", view), ONCE),
         FilePlan("src/specificworker.cpp", render("cpp/specificworker.cpp.j2", view), ONCE),
         FilePlan("CMakeLists.txt", render("cpp/CMakeLists.txt.j2", view), ONCE),
-        ignored_program(view.name),
+        ignored_program(component.component.name),
     ]
 
 
@@ -95,7 +60,7 @@ def needs(component: LinkedComponent) -> Callable[[str], bool]:
     return lambda path: path.partition("/")[0] in folders and path not in skipped
 
 
-def _robocomp(component: LinkedComponent, view: View, parts: list[FilePlan]) -> list[FilePlan]:
+def _robocomp(component: LinkedComponent, view: dict[str, object], parts: list[FilePlan]) -> list[FilePlan]:
     """As `plan`, for code that was written for RoboComp's own tool."""
     names = {
         "generated/interfaces.h": "interfaces.h",
@@ -118,11 +83,12 @@ def _robocomp(component: LinkedComponent, view: View, parts: list[FilePlan]) -> 
         *parts,
         *(FilePlan(path, render(f"cpp/{name}.j2", view)) for path, name in names.items()),
         *(FilePlan(path, render(f"cpp/{name}.j2", view), ONCE, accepted=accepted) for path, name in own.items()),
-        ignored_program(view.name),
+        ignored_program(component.component.name),
     ]
 
 
-def _view(linked: LinkedComponent, layout: Layout) -> View:
+def _view(linked: LinkedComponent, layout: Layout) -> dict[str, object]:
+    """What the templates show. All files of a component use the same view."""
     component = linked.component
     ports = port_views(linked)
     has_topics = bool(ports.publishes or ports.subscribes)
@@ -134,35 +100,35 @@ def _view(linked: LinkedComponent, layout: Layout) -> View:
     # The code of windows and of RoboComp's components clashes with main.cpp in one translation unit.
     is_main_apart = component.gui is not None or bool(component.compatibility)
     is_taken = component.name.lower() in _CMAKE_TARGETS
-    return View(
-        source=one_line(lowered.source),
-        name=lowered.name,
-        comment=comment(lowered.doc),
-        period=lowered.period,
-        headers=[f"{file}.h" for file in files],
-        ports=ports,
-        connect_parameters=f"const runtime::Connections& {connections}, runtime::Services& {services}",
-        has_topics=has_topics,
-        target=f"{component.name}_component" if is_taken else component.name,
-        standard=component.language.standard or LANGUAGE.standards[0],
-        runtime=layout.runtime,
-        version=runtime.version("cpp"),
-        slice=layout.slice,
-        made_for=stated(layout.made_for) if layout.made_for else "",
-        interfaces=lowered.interfaces,
-        slices=_slices(linked),
-        parts=" ".join(f"rcyaml::{part}" for part in _parts(linked, has_topics=has_topics)),
-        sources=[
+    return {
+        "source": one_line(lowered.source),
+        "name": lowered.name,
+        "comment": comment(lowered.doc),
+        "period": lowered.period,
+        "headers": [f"{file}.h" for file in files],
+        "ports": ports,
+        "connect_parameters": f"const runtime::Connections& {connections}, runtime::Services& {services}",
+        "has_topics": has_topics,
+        "target": f"{component.name}_component" if is_taken else component.name,
+        "standard": component.language.standard or LANGUAGE.standards[0],
+        "runtime": layout.runtime,
+        "version": runtime.version("cpp"),
+        "slice": layout.slice,
+        "made_for": stated(layout.made_for) if layout.made_for else "",
+        "interfaces": lowered.interfaces,
+        "slices": _slices(linked),
+        "parts": " ".join(f"rcyaml::{part}" for part in _parts(linked, has_topics=has_topics)),
+        "sources": [
             *("genericworker.cpp", "parameters.cpp"),
             *(["statemachine.cpp"] if linked.machine else []),
             *([] if is_main_apart else ["main.cpp"]),
         ],
-        is_main_apart=is_main_apart,
-        machine=LANGUAGE.part("statemachine").view(linked.machine) if linked.machine else None,
-        base=_base(linked),
-        qt=qt.qt_view(linked),
-        robocomp=qt.robocomp_view(linked, ports),
-    )
+        "is_main_apart": is_main_apart,
+        "machine": LANGUAGE.part("statemachine").view(linked.machine) if linked.machine else None,
+        "base": _base(linked),
+        "qt": qt.qt_view(linked),
+        "robocomp": qt.robocomp_view(linked, ports),
+    }
 
 
 def _slices(linked: LinkedComponent) -> list[str]:

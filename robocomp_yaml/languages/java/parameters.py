@@ -10,7 +10,6 @@ from robocomp_yaml.emit.lowering.kinds import Builders
 from robocomp_yaml.emit.lowering.names import NameAllocator
 from robocomp_yaml.emit.lowering.parameters import (
     Accessors,
-    ConstraintView,
     Types,
     TypeSpelling,
     about_enum,
@@ -80,17 +79,6 @@ class GetterView(msgspec.Struct, frozen=True):
     setters: list[str]
 
 
-class ParametersView(msgspec.Struct, frozen=True):
-    source: str
-    comment: str
-    enums: list[EnumView]
-    records: list[RecordView]
-    getters: list[GetterView]
-    root: str
-    spellings: list[str]
-    constraints: list[ConstraintView]
-
-
 def plan(linked: LinkedComponent) -> FilePlan:
     """`generated/Parameters.java`."""
     return FilePlan("generated/Parameters.java", text(*declared(linked)))
@@ -99,7 +87,8 @@ def plan(linked: LinkedComponent) -> FilePlan:
 def text(parameters: Parameters, component: str, source: str) -> str:
     """The class with the parameters of a component; `source` is the path of their document."""
     types = _Types(parameters.root)
-    view = ParametersView(
+    return render(
+        "java/Parameters.java.j2",
         source=one_line(source.rpartition("/")[2]),
         comment=comment(titled(f"The parameters of {component} while it runs.", parameters.doc)),
         enums=[types.enum(enum) for enum in types.enums],
@@ -112,7 +101,6 @@ def text(parameters: Parameters, component: str, source: str) -> str:
         ],
         constraints=constraint_views(parameters, LANGUAGE, literal),
     )
-    return render("java/Parameters.java.j2", view)
 
 
 _SPELLING = TypeSpelling(
