@@ -10,6 +10,7 @@ import click
 
 from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._command import LibraryCommand
+from robocomp_yaml.diag import terminal
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.formatting import Formatting
@@ -43,7 +44,6 @@ def command(ctx: click.Context, paths: tuple[str, ...], check: bool, diff: bool,
 
 def _filter(ctx: click.Context, *, check: bool, diff: bool) -> None:
     from robocomp_yaml.api.formatting import layout
-    from robocomp_yaml.diag import terminal
     from robocomp_yaml.source.formatting import Unformattable
     from robocomp_yaml.transactions.changes import unified
 
@@ -64,7 +64,6 @@ def _filter(ctx: click.Context, *, check: bool, diff: bool) -> None:
 
 
 def _report(ctx: click.Context, formatting: Formatting, format_: str, *, check: bool, diff: bool) -> None:
-    from robocomp_yaml.diag import terminal
     from robocomp_yaml.diag.render import tell
     from robocomp_yaml.diag.render.json import dumps, run_as_data
 

@@ -13,6 +13,7 @@ import click
 
 from robocomp_yaml.commands import _options, _signals
 from robocomp_yaml.commands._command import LibraryCommand
+from robocomp_yaml.diag import terminal
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.mocking import Mock
@@ -55,7 +56,6 @@ def command(
 
 
 def _serve(ctx: click.Context, mock: Mock, endpoints: Mapping[str, str], storm: str, format_: str) -> None:
-    from robocomp_yaml.diag import terminal
     from robocomp_yaml.diag.render.json import dumps
 
     lock = threading.Lock()

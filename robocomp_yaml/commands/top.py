@@ -12,6 +12,7 @@ from robocomp_yaml.commands import _options, _signals, _talking
 from robocomp_yaml.commands._command import LibraryCommand
 from robocomp_yaml.commands._ddsl import DocumentAnd, default_document, running_document
 from robocomp_yaml.commands._duration import Duration
+from robocomp_yaml.diag import terminal
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.addresses import Addresses
@@ -77,7 +78,6 @@ async def _printed(
 ) -> None:
     """Prints samples one after the other. The first one has no rates, and is not shown."""
     from robocomp_yaml.commands._top_view import as_data
-    from robocomp_yaml.diag import terminal
 
     number = 0
     async for sample in samples:

@@ -12,6 +12,7 @@ from robocomp_yaml.commands import _options, _talking
 from robocomp_yaml.commands._arriving import arriving_messages
 from robocomp_yaml.commands._command import CommandGroup
 from robocomp_yaml.commands._duration import Duration
+from robocomp_yaml.diag import terminal
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.addresses import Addresses
@@ -79,7 +80,6 @@ def command() -> None:
 def list_(ctx: click.Context, topics: Topics, format_: str) -> None:
     """Print every topic with those that publish and subscribe to it by the documents, and how many subscribe to it now.
     Exit code 1: an IceStorm does not answer."""
-    from robocomp_yaml.diag import terminal
 
     known, failures = topics.known()
     if format_ == "json":
@@ -122,7 +122,6 @@ def echo(
     topics: Topics, names: tuple[str, ...], count: int | None, duration: float | None, type_: str, format_: str
 ) -> None:
     """Print the messages of TOPICs as they come, until Ctrl-C. TOPIC.MESSAGE means only this one."""
-    from robocomp_yaml.diag import terminal
 
     def show(messages: Sequence[Message]) -> None:
         if format_ == "json":
@@ -147,7 +146,6 @@ def hz(
     """Print how many messages of a TOPIC come in a second, the times between them, and how much these vary (their
     standard deviation), until Ctrl-C. TOPIC.MESSAGE means only this one."""
     from robocomp_yaml.api.topics import Rate
-    from robocomp_yaml.diag import terminal
 
     rate = Rate()
     with arriving_messages(topics, [topics.find(name, type_)], duration) as arriving:
@@ -189,7 +187,6 @@ def pub(
     type_: str, format_: str,
 ) -> None:  # fmt: skip
     """Publish a message. Arguments are those of `rcyaml call`: width=2.5, '{width: 2.5}', or - for standard input."""
-    from robocomp_yaml.diag import terminal
 
     topic, method = topics.find(name, type_)
     _talking.reject_options(ctx, arguments, topic.inputs(method))

@@ -17,14 +17,6 @@ from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.interface import Enum, Method
 
 
-class QtView(msgspec.Struct, frozen=True):
-    """Qt in a component: `modules` for find_package, `libraries` to link, `base` the class of the window."""
-
-    modules: str
-    libraries: str
-    base: str
-
-
 class Enumerators(msgspec.Struct, frozen=True):
     """The enumerators of a module as constants beside their enum, as in Ice's older mapping."""
 
@@ -47,37 +39,20 @@ class OlderName(msgspec.Struct, frozen=True):
     now: str
 
 
-class RobocompView(msgspec.Struct, frozen=True):
-    """What code for RoboComp's own tool needs. `tie`, `tuple_types` and `map` list the accessors; `methods` are
-    declared for classes that override them, protected, so that nobody else calls them; `legacy_sources` are the names
-    of RoboComp's own files in `src/`; `headers` are those of listed classes, which its generic part included."""
-
-    base: str
-    tuple_types: str
-    tie: str
-    map: str
-    casts: list[str]
-    methods: list[str]
-    namespaces: list[str]
-    enumerators: list[Enumerators]
-    legacy_sources: str
-    services: list[ServiceView]
-    older: list[OlderName]
-    handles: list[Handles]
-    handle_names: list[str]
-    headers: list[str]
-
-
-def qt_view(linked: LinkedComponent) -> QtView | None:
+def qt_view(linked: LinkedComponent) -> dict[str, str] | None:
+    """Qt in a component: `modules` for find_package, `libraries` to link, `base` the class of the window."""
     gui = linked.component.gui
     if not (gui or linked.component.compatibility):
         return None
     modules = ["Core", "Widgets"] if gui else ["Core"]
     libraries = " ".join(f"Qt${{QT_VERSION_MAJOR}}::{module}" for module in modules)
-    return QtView(" ".join(modules), libraries, gui.base if gui else "")
+    return {"modules": " ".join(modules), "libraries": libraries, "base": gui.base if gui else ""}
 
 
-def robocomp_view(linked: LinkedComponent, ports: Ports) -> RobocompView | None:
+def robocomp_view(linked: LinkedComponent, ports: Ports) -> dict[str, object] | None:
+    """What code for RoboComp's own tool needs. `tie`, `tuple_types` and `map` list the accessors; `methods` are
+    declared for classes that override them, protected, so that nobody else calls them; `legacy_sources` are the names
+    of RoboComp's own files in `src/`; `headers` are those of listed classes, which its generic part included."""
     component = linked.component
     if not component.compatibility:
         return None
@@ -88,22 +63,22 @@ def robocomp_view(linked: LinkedComponent, ports: Ports) -> RobocompView | None:
         for scope in linked.modules() if scope.module.all_interfaces
     ]  # fmt: skip
     served = sorted({port.interface.name.lower() for port in (*linked.implements, *linked.subscribes)})
-    return RobocompView(
-        base=f"{component.gui.base}, public Ui_guiDlg" if component.gui else "QObject",
-        tuple_types=", ".join(f"std::shared_ptr<{accessor.proxy}>" for accessor in accessors),
-        tie=", ".join(accessor.name for accessor in accessors),
-        map=", ".join(f'{{"{accessor.name}", {accessor.name}}}' for accessor in accessors),
-        casts=_casts(accessors),
-        methods=list(_methods(linked)),
-        namespaces=[ice_name(scope.module.name) for scope in linked.modules()],
-        enumerators=[_enumerators(scope) for scope in linked.modules()],
-        legacy_sources="|".join(["commonbehaviorI", *(f"{name}I" for name in served)]),
-        services=[_behind_pointer(service) for service in ports.services],
-        older=[OlderName(classes[now], name, now) for name, now in older_names(classes)],
-        handles=handles,
-        handle_names=sorted({name for one in handles for name in one.names}),
-        headers=[os.path.basename(one.path) for one in component.sources if one.path.endswith((".h", ".hpp"))],
-    )
+    return {
+        "base": f"{component.gui.base}, public Ui_guiDlg" if component.gui else "QObject",
+        "tuple_types": ", ".join(f"std::shared_ptr<{accessor.proxy}>" for accessor in accessors),
+        "tie": ", ".join(accessor.name for accessor in accessors),
+        "map": ", ".join(f'{{"{accessor.name}", {accessor.name}}}' for accessor in accessors),
+        "casts": _casts(accessors),
+        "methods": list(_methods(linked)),
+        "namespaces": [ice_name(scope.module.name) for scope in linked.modules()],
+        "enumerators": [_enumerators(scope) for scope in linked.modules()],
+        "legacy_sources": "|".join(["commonbehaviorI", *(f"{name}I" for name in served)]),
+        "services": [_behind_pointer(service) for service in ports.services],
+        "older": [OlderName(classes[now], name, now) for name, now in older_names(classes)],
+        "handles": handles,
+        "handle_names": sorted({name for one in handles for name in one.names}),
+        "headers": [os.path.basename(one.path) for one in component.sources if one.path.endswith((".h", ".hpp"))],
+    }
 
 
 def _casts(accessors: list[AccessorView]) -> list[str]:

@@ -6,7 +6,6 @@ import json
 from dataclasses import fields, is_dataclass
 
 from robocomp_yaml.emit.machines import lower, views
-from robocomp_yaml.emit.machines.views import MachineView
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.languages._shared.text import IN
 from robocomp_yaml.languages.cpp.names import parameter
@@ -19,7 +18,7 @@ WIDTH = 110
 _KINDS = {"Value": "ValueKind", "Condition": "ConditionKind", "Action": "ActionKind", "State": "StateKind"}
 
 
-def view(machine: StateMachine) -> MachineView:
+def view(machine: StateMachine) -> dict[str, object]:
     return views.view(machine, parameter, lambda text: comment(text, "    "), "events.")
 
 
