@@ -1,17 +1,16 @@
 """Renders templates from views.
 
-A view is a mapping or a struct of strings and of lists of views. The template's variables are its entries. Compiled
-templates are cached in the user's cache folder, because compiling them takes longer than the rest of a run.
+A view has strings and lists of views. The template's variables are its fields. Compiled templates are cached in the
+user's cache folder, because compiling them takes longer than the rest of a run.
 """
 
 from __future__ import annotations
 
 import os
 import stat
-from collections.abc import Mapping
 from contextlib import suppress
 from functools import cache
-from types import MappingProxyType
+from types import SimpleNamespace
 
 import msgspec
 from jinja2 import BytecodeCache, Environment, FileSystemBytecodeCache, StrictUndefined
@@ -22,9 +21,13 @@ from msgspec.structs import asdict
 from robocomp_yaml import languages, resources
 
 
-def render(name: str, view: msgspec.Struct | Mapping[str, object] = MappingProxyType({}), /, **more: object) -> str:
-    """Renders the template `templates/NAME`, or `LANGUAGE/NAME` of a language, with the entries of `view`, and more."""
-    variables = asdict(view) if isinstance(view, msgspec.Struct) else view
+class View(SimpleNamespace):
+    """What only templates read: strings, lists, and views."""
+
+
+def render(name: str, view: msgspec.Struct | View = View(), /, **more: object) -> str:
+    """Renders the template `templates/NAME`, or `LANGUAGE/NAME` of a language, with the fields of `view`, and more."""
+    variables = asdict(view) if isinstance(view, msgspec.Struct) else vars(view)
     return _environment().get_template(name).render(variables, **more)
 
 

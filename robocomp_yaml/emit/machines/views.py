@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import msgspec
 
+from robocomp_yaml.emit.render import View
 from robocomp_yaml.model import machine_names as names
 from robocomp_yaml.model.statemachine import StateMachine
 
@@ -27,27 +28,23 @@ class OlderSignal(msgspec.Struct, frozen=True):
     signal: str
 
 
-def view(
-    machine: StateMachine, in_code: Callable[[str], str], comment: Callable[[str], str], events_of: str
-) -> dict[str, object]:
+def view(machine: StateMachine, in_code: Callable[[str], str], comment: Callable[[str], str], events_of: str) -> View:
     """The view of a machine. `in_code` makes names in the language; `events_of` is the prefix of an event's name.
 
     It has the states, and the names of guards and actions. `called` are all actions, with those of every worker.
     `fires` is an example of code that fires an event. `member` and the signals are for code for RoboComp's own tool."""
     called = [action.name for action in names.actions(machine)]
     states = names.states_with_handlers(machine)
-    return {
-        "states": [
-            StateView(one.id, comment(f"The state '{one.id}' has been entered.\n\n{one.doc}")) for one in states
-        ],
-        "guards": [guard.name for guard in names.guards(machine)],
-        "actions": [name for name in called if name not in names.CALLABLE],
-        "called": called,
-        "fires": next((f"{events_of}{event.method}()" for event in events(machine, in_code)), "there are none"),
-        "member": in_code(names.robocomp_machine(machine)),
-        "signals": names.robocomp_signals(machine),
-        "older_signals": [OlderSignal(older, signal) for older, signal in names.older_signals(machine).items()],
-    }
+    return View(
+        states=[StateView(one.id, comment(f"The state '{one.id}' has been entered.\n\n{one.doc}")) for one in states],
+        guards=[guard.name for guard in names.guards(machine)],
+        actions=[name for name in called if name not in names.CALLABLE],
+        called=called,
+        fires=next((f"{events_of}{event.method}()" for event in events(machine, in_code)), "there are none"),
+        member=in_code(names.robocomp_machine(machine)),
+        signals=names.robocomp_signals(machine),
+        older_signals=[OlderSignal(older, signal) for older, signal in names.older_signals(machine).items()],
+    )
 
 
 def events(machine: StateMachine, in_code: Callable[[str], str]) -> list[EventView]:

@@ -12,7 +12,7 @@ from robocomp_yaml.emit import runtime, windows
 from robocomp_yaml.emit.layout import Layout, stated
 from robocomp_yaml.emit.lowering.component import BEHAVIOR, COMMON, lower
 from robocomp_yaml.emit.lowering.kinds import pattern_count
-from robocomp_yaml.emit.render import render
+from robocomp_yaml.emit.render import View, render
 from robocomp_yaml.emit.slice import file_name
 from robocomp_yaml.languages._shared.views import ignored_program
 from robocomp_yaml.languages.cpp import LANGUAGE, parameters, qt
@@ -36,7 +36,7 @@ def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
         *windows.form_of(component),
     ]
     view = _view(component, layout)
-    if view["robocomp"]:
+    if view.robocomp:
         return _robocomp(component, view, parts)
     return [
         *parameters.plan(component),
@@ -60,7 +60,7 @@ def needs(component: LinkedComponent) -> Callable[[str], bool]:
     return lambda path: path.partition("/")[0] in folders and path not in skipped
 
 
-def _robocomp(component: LinkedComponent, view: dict[str, object], parts: list[FilePlan]) -> list[FilePlan]:
+def _robocomp(component: LinkedComponent, view: View, parts: list[FilePlan]) -> list[FilePlan]:
     """As `plan`, for code that was written for RoboComp's own tool."""
     names = {
         "generated/interfaces.h": "interfaces.h",
@@ -87,7 +87,7 @@ def _robocomp(component: LinkedComponent, view: dict[str, object], parts: list[F
     ]
 
 
-def _view(linked: LinkedComponent, layout: Layout) -> dict[str, object]:
+def _view(linked: LinkedComponent, layout: Layout) -> View:
     """What the templates show. All files of a component use the same view."""
     component = linked.component
     ports = port_views(linked)
@@ -100,35 +100,35 @@ def _view(linked: LinkedComponent, layout: Layout) -> dict[str, object]:
     # The code of windows and of RoboComp's components clashes with main.cpp in one translation unit.
     is_main_apart = component.gui is not None or bool(component.compatibility)
     is_taken = component.name.lower() in _CMAKE_TARGETS
-    return {
-        "source": one_line(lowered.source),
-        "name": lowered.name,
-        "comment": comment(lowered.doc),
-        "period": lowered.period,
-        "headers": [f"{file}.h" for file in files],
-        "ports": ports,
-        "connect_parameters": f"const runtime::Connections& {connections}, runtime::Services& {services}",
-        "has_topics": has_topics,
-        "target": f"{component.name}_component" if is_taken else component.name,
-        "standard": component.language.standard or LANGUAGE.standards[0],
-        "runtime": layout.runtime,
-        "version": runtime.version("cpp"),
-        "slice": layout.slice,
-        "made_for": stated(layout.made_for) if layout.made_for else "",
-        "interfaces": lowered.interfaces,
-        "slices": _slices(linked),
-        "parts": " ".join(f"rcyaml::{part}" for part in _parts(linked, has_topics=has_topics)),
-        "sources": [
+    return View(
+        source=one_line(lowered.source),
+        name=lowered.name,
+        comment=comment(lowered.doc),
+        period=lowered.period,
+        headers=[f"{file}.h" for file in files],
+        ports=ports,
+        connect_parameters=f"const runtime::Connections& {connections}, runtime::Services& {services}",
+        has_topics=has_topics,
+        target=f"{component.name}_component" if is_taken else component.name,
+        standard=component.language.standard or LANGUAGE.standards[0],
+        runtime=layout.runtime,
+        version=runtime.version("cpp"),
+        slice=layout.slice,
+        made_for=stated(layout.made_for) if layout.made_for else "",
+        interfaces=lowered.interfaces,
+        slices=_slices(linked),
+        parts=" ".join(f"rcyaml::{part}" for part in _parts(linked, has_topics=has_topics)),
+        sources=[
             *("genericworker.cpp", "parameters.cpp"),
             *(["statemachine.cpp"] if linked.machine else []),
             *([] if is_main_apart else ["main.cpp"]),
         ],
-        "is_main_apart": is_main_apart,
-        "machine": LANGUAGE.part("statemachine").view(linked.machine) if linked.machine else None,
-        "base": _base(linked),
-        "qt": qt.qt_view(linked),
-        "robocomp": qt.robocomp_view(linked, ports),
-    }
+        is_main_apart=is_main_apart,
+        machine=LANGUAGE.part("statemachine").view(linked.machine) if linked.machine else None,
+        base=_base(linked),
+        qt=qt.qt_view(linked),
+        robocomp=qt.robocomp_view(linked, ports),
+    )
 
 
 def _slices(linked: LinkedComponent) -> list[str]:

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 import msgspec
 from msgspec.structs import replace
 
+from robocomp_yaml.emit.render import View
 from robocomp_yaml.languages._shared.text import IN, declaration
 from robocomp_yaml.languages.cpp.names import ice_name, older_names, parameter, qualified
 from robocomp_yaml.languages.cpp.ports import AccessorView, OperationView, Ports, ServiceView
@@ -39,17 +40,17 @@ class OlderName(msgspec.Struct, frozen=True):
     now: str
 
 
-def qt_view(linked: LinkedComponent) -> dict[str, str] | None:
+def qt_view(linked: LinkedComponent) -> View | None:
     """Qt in a component: `modules` for find_package, `libraries` to link, `base` the class of the window."""
     gui = linked.component.gui
     if not (gui or linked.component.compatibility):
         return None
     modules = ["Core", "Widgets"] if gui else ["Core"]
     libraries = " ".join(f"Qt${{QT_VERSION_MAJOR}}::{module}" for module in modules)
-    return {"modules": " ".join(modules), "libraries": libraries, "base": gui.base if gui else ""}
+    return View(modules=" ".join(modules), libraries=libraries, base=gui.base if gui else "")
 
 
-def robocomp_view(linked: LinkedComponent, ports: Ports) -> dict[str, object] | None:
+def robocomp_view(linked: LinkedComponent, ports: Ports) -> View | None:
     """What code for RoboComp's own tool needs. `tie`, `tuple_types` and `map` list the accessors; `methods` are
     declared for classes that override them, protected, so that nobody else calls them; `legacy_sources` are the names
     of RoboComp's own files in `src/`; `headers` are those of listed classes, which its generic part included."""
@@ -63,22 +64,22 @@ def robocomp_view(linked: LinkedComponent, ports: Ports) -> dict[str, object] | 
         for scope in linked.modules() if scope.module.all_interfaces
     ]  # fmt: skip
     served = sorted({port.interface.name.lower() for port in (*linked.implements, *linked.subscribes)})
-    return {
-        "base": f"{component.gui.base}, public Ui_guiDlg" if component.gui else "QObject",
-        "tuple_types": ", ".join(f"std::shared_ptr<{accessor.proxy}>" for accessor in accessors),
-        "tie": ", ".join(accessor.name for accessor in accessors),
-        "map": ", ".join(f'{{"{accessor.name}", {accessor.name}}}' for accessor in accessors),
-        "casts": _casts(accessors),
-        "methods": list(_methods(linked)),
-        "namespaces": [ice_name(scope.module.name) for scope in linked.modules()],
-        "enumerators": [_enumerators(scope) for scope in linked.modules()],
-        "legacy_sources": "|".join(["commonbehaviorI", *(f"{name}I" for name in served)]),
-        "services": [_behind_pointer(service) for service in ports.services],
-        "older": [OlderName(classes[now], name, now) for name, now in older_names(classes)],
-        "handles": handles,
-        "handle_names": sorted({name for one in handles for name in one.names}),
-        "headers": [os.path.basename(one.path) for one in component.sources if one.path.endswith((".h", ".hpp"))],
-    }
+    return View(
+        base=f"{component.gui.base}, public Ui_guiDlg" if component.gui else "QObject",
+        tuple_types=", ".join(f"std::shared_ptr<{accessor.proxy}>" for accessor in accessors),
+        tie=", ".join(accessor.name for accessor in accessors),
+        map=", ".join(f'{{"{accessor.name}", {accessor.name}}}' for accessor in accessors),
+        casts=_casts(accessors),
+        methods=list(_methods(linked)),
+        namespaces=[ice_name(scope.module.name) for scope in linked.modules()],
+        enumerators=[_enumerators(scope) for scope in linked.modules()],
+        legacy_sources="|".join(["commonbehaviorI", *(f"{name}I" for name in served)]),
+        services=[_behind_pointer(service) for service in ports.services],
+        older=[OlderName(classes[now], name, now) for name, now in older_names(classes)],
+        handles=handles,
+        handle_names=sorted({name for one in handles for name in one.names}),
+        headers=[os.path.basename(one.path) for one in component.sources if one.path.endswith((".h", ".hpp"))],
+    )
 
 
 def _casts(accessors: list[AccessorView]) -> list[str]:

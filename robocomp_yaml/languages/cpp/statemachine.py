@@ -6,7 +6,7 @@ import json
 from dataclasses import fields, is_dataclass
 
 from robocomp_yaml.emit.machines import lower, views
-from robocomp_yaml.emit.render import render
+from robocomp_yaml.emit.render import View, render
 from robocomp_yaml.languages._shared.text import IN
 from robocomp_yaml.languages.cpp.names import parameter
 from robocomp_yaml.languages.cpp.text import comment, literal, one_line
@@ -18,17 +18,17 @@ WIDTH = 110
 _KINDS = {"Value": "ValueKind", "Condition": "ConditionKind", "Action": "ActionKind", "State": "StateKind"}
 
 
-def view(machine: StateMachine) -> dict[str, object]:
+def view(machine: StateMachine) -> View:
     return views.view(machine, parameter, lambda text: comment(text, "    "), "events.")
 
 
 def files(machine: StateMachine) -> list[FilePlan]:
     """The files with the tables of the component's machine."""
-    shown = {
-        "source": one_line(machine.path.rpartition("/")[2]),
-        "events": views.events(machine, parameter),
-        "functions": functions(lower.lower(machine), "makeTables"),
-    }
+    shown = View(
+        source=one_line(machine.path.rpartition("/")[2]),
+        events=views.events(machine, parameter),
+        functions=functions(lower.lower(machine), "makeTables"),
+    )
     return [
         FilePlan("generated/statemachine.h", render("cpp/statemachine.h.j2", shown)),
         FilePlan("generated/statemachine.cpp", render("cpp/statemachine.cpp.j2", shown)),

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from robocomp_yaml.emit import runtime
 from robocomp_yaml.emit.layout import Layout, stated
 from robocomp_yaml.emit.lowering.component import COMMON, lower
-from robocomp_yaml.emit.render import render
+from robocomp_yaml.emit.render import View, render
 from robocomp_yaml.languages._shared.views import ignored_program
 from robocomp_yaml.languages.java import parameters
 from robocomp_yaml.languages.java.ports import port_views
@@ -42,24 +42,24 @@ def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
     ]
 
 
-def _view(linked: LinkedComponent, layout: Layout) -> dict[str, object]:
+def _view(linked: LinkedComponent, layout: Layout) -> View:
     """What the templates show."""
     lowered, ports = lower(linked), port_views(linked)
     every = (*linked.implements, *linked.requires, *linked.publishes, *linked.subscribes)
-    return {
-        "source": one_line(lowered.source),
-        "runtime": layout.runtime,
-        "version": runtime.version("java"),
-        "slice": layout.slice,
+    return View(
+        source=one_line(lowered.source),
+        runtime=layout.runtime,
+        version=runtime.version("java"),
+        slice=layout.slice,
         # the files in `slice`, as words of the shell
-        "slices": " ".join(shlex.quote(file) for file in lowered.files if file != COMMON),
-        "made_for": stated(layout.made_for) if layout.made_for else "",
-        "name": lowered.name,
-        "comment": comment(lowered.doc),
-        "period": lowered.period,
-        "ports": ports,
+        slices=" ".join(shlex.quote(file) for file in lowered.files if file != COMMON),
+        made_for=stated(layout.made_for) if layout.made_for else "",
+        name=lowered.name,
+        comment=comment(lowered.doc),
+        period=lowered.period,
+        ports=ports,
         # the names of all ports, as literals
-        "names": ", ".join(literal(name) for name in dict.fromkeys(port.name for port in every)),
-        "interfaces": lowered.interfaces,
-        "needs_storm": bool(ports.publishes or ports.subscribes),
-    }
+        names=", ".join(literal(name) for name in dict.fromkeys(port.name for port in every)),
+        interfaces=lowered.interfaces,
+        needs_storm=bool(ports.publishes or ports.subscribes),
+    )

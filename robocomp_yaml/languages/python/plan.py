@@ -10,14 +10,13 @@ import json
 import os
 import re
 from collections.abc import Callable, Iterable, Iterator
-from typing import Any
 
 import msgspec
 
 from robocomp_yaml.emit import runtime, windows
 from robocomp_yaml.emit.layout import Layout, stated
 from robocomp_yaml.emit.lowering.component import BEHAVIOR, lower
-from robocomp_yaml.emit.render import render
+from robocomp_yaml.emit.render import View, render
 from robocomp_yaml.languages.python import LANGUAGE, parameters
 from robocomp_yaml.languages.python.names import ice_name, module_variable, python_name
 from robocomp_yaml.languages.python.ports import Ports, port_views
@@ -44,7 +43,7 @@ def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
     methods = [method for port in ports.services for method in port.new_methods]
     proxies = [port.proxy for port in ports.accessors]
     signatures = [method.signature for method in methods]
-    table = [f"{view['behavior']}.", *proxies, *(port.interface for port in ports.services)]
+    table = [f"{view.behavior}.", *proxies, *(port.interface for port in ports.services)]
     table += [method.throws for port in ports.implements for method in port.methods]
     stubs = [*signatures, *(method.value for method in methods)]
     return [
@@ -74,10 +73,10 @@ def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
 _SCRIPTING = "machine/scripting.py"  # it evaluates expressions of documents
 
 
-def _robocomp(view: dict[str, Any]) -> list[FilePlan]:
+def _robocomp(view: View) -> list[FilePlan]:
     """The modules that code for RoboComp's own tool imports, and a skeleton as that tool writes it."""
-    every = tuple(module.variable for module in view["modules"])
-    view = {**view, "imports": ", ".join(every), "spread": every}
+    every = tuple(module.variable for module in view.modules)
+    view = View(**vars(view), imports=", ".join(every), spread=every)
     return [
         FilePlan("generated/robocomp/genericworker.py", render("python/robocomp_genericworker.py.j2", view)),
         FilePlan("generated/robocomp/interfaces.py", render("python/robocomp_interfaces.py.j2", view)),
@@ -90,10 +89,10 @@ def _robocomp(view: dict[str, Any]) -> list[FilePlan]:
     ]
 
 
-def _rendered(template: str, view: dict[str, Any], code: Iterable[str] = ()) -> str:
+def _rendered(template: str, view: View, code: Iterable[str] = ()) -> str:
     """The rendered template, which imports the modules that the pieces of code use."""
     named = {name for piece in code for name in re.findall(r"(\w+)\.", piece)}
-    imports = ", ".join(sorted(module.variable for module in view["modules"] if module.variable in named))
+    imports = ", ".join(sorted(module.variable for module in view.modules if module.variable in named))
     return render(f"python/{template}.j2", view, imports=imports)
 
 
@@ -104,37 +103,37 @@ def needs(component: LinkedComponent) -> Callable[[str], bool]:
     return lambda path: path.partition("/")[0] in folders and path not in left_out
 
 
-def _view(linked: LinkedComponent, ports: Ports, layout: Layout) -> dict[str, Any]:
+def _view(linked: LinkedComponent, ports: Ports, layout: Layout) -> View:
     """What the templates show. All files of a component use the same view, with the `imports` that they need."""
     component = linked.component
     lowered = lower(linked)
-    return {
-        "source": one_line(lowered.source),
-        "runtime": "" if layout.has_own_runtime else os.path.normpath(f"../{layout.runtime}/.."),
-        "version": runtime.version("python"),
-        "slice": os.path.normpath(f"../{layout.slice}"),
-        "made_for": stated(layout.made_for) if layout.made_for else "",
-        "name": lowered.name,
-        "title": docstring(lowered.doc, ""),
-        "docstring": docstring(lowered.doc, "    "),
-        "period": lowered.period,
+    return View(
+        source=one_line(lowered.source),
+        runtime="" if layout.has_own_runtime else os.path.normpath(f"../{layout.runtime}/.."),
+        version=runtime.version("python"),
+        slice=os.path.normpath(f"../{layout.slice}"),
+        made_for=stated(layout.made_for) if layout.made_for else "",
+        name=lowered.name,
+        title=docstring(lowered.doc, ""),
+        docstring=docstring(lowered.doc, "    "),
+        period=lowered.period,
         # literals of Python
-        "files": [json.dumps(file, ensure_ascii=False) for file in lowered.imported],
-        "modules": [SliceModule(ice_name(name), module_variable(name)) for name in lowered.modules],
-        "escape": any(name in NOT_ESCAPED for name in _identifiers(linked)),
-        "behavior": module_variable(BEHAVIOR),
-        "has_behavior": lowered.is_common,  # its Slice is ours, not the user's
-        "interfaces": lowered.interfaces,
-        "stubs": [stub(scope) for scope in linked.modules()],
-        "ports": ports,
+        files=[json.dumps(file, ensure_ascii=False) for file in lowered.imported],
+        modules=[SliceModule(ice_name(name), module_variable(name)) for name in lowered.modules],
+        escape=any(name in NOT_ESCAPED for name in _identifiers(linked)),
+        behavior=module_variable(BEHAVIOR),
+        has_behavior=lowered.is_common,  # its Slice is ours, not the user's
+        interfaces=lowered.interfaces,
+        stubs=[stub(scope) for scope in linked.modules()],
+        ports=ports,
         # of components in Qt's event loop
-        "stage": _stage(linked),
-        "window": component.gui.base if component.gui else "",
-        "qt_base": f"QtWidgets.{component.gui.base}" if component.gui else "QtCore.QObject",
-        "sequences": list(_sequences(linked)),
-        "machine": LANGUAGE.part("statemachine").view(linked.machine) if linked.machine else None,
-        "base": _base(linked),
-    }
+        stage=_stage(linked),
+        window=component.gui.base if component.gui else "",
+        qt_base=f"QtWidgets.{component.gui.base}" if component.gui else "QtCore.QObject",
+        sequences=list(_sequences(linked)),
+        machine=LANGUAGE.part("statemachine").view(linked.machine) if linked.machine else None,
+        base=_base(linked),
+    )
 
 
 def _base(linked: LinkedComponent) -> str:

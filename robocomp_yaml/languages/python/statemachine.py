@@ -7,7 +7,7 @@ import re
 from dataclasses import MISSING, fields, is_dataclass
 
 from robocomp_yaml.emit.machines import lower, views
-from robocomp_yaml.emit.render import render
+from robocomp_yaml.emit.render import View, render
 from robocomp_yaml.languages.python.names import python_name
 from robocomp_yaml.languages.python.text import docstring, folded, one_line
 from robocomp_yaml.model.machine_index import MachineIndex
@@ -29,7 +29,7 @@ def text(table: object, indent: str = "") -> str:
     return folded(f"{type(table).__name__}(", parts, ")", indent)
 
 
-def view(machine: StateMachine) -> dict[str, object]:
+def view(machine: StateMachine) -> View:
     return views.view(machine, python_name, lambda text: docstring(text, " " * 8), "self.events.")
 
 
