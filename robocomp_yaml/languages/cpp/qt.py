@@ -18,26 +18,11 @@ from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.interface import Enum, Method
 
 
-class Enumerators(msgspec.Struct, frozen=True):
-    """The enumerators of a module as constants beside their enum, as in Ice's older mapping."""
-
-    module: str
-    constants: list[str]
-
-
 class Handles(msgspec.Struct, frozen=True):
     """The proxies' classes of a module, for which there is a handle, as in Ice's older mapping."""
 
     module: str
     names: list[str]
-
-
-class OlderName(msgspec.Struct, frozen=True):
-    """Another name of a proxy, which older versions of the tool gave it."""
-
-    proxy: str
-    name: str
-    now: str
 
 
 def qt_view(linked: LinkedComponent) -> View | None:
@@ -75,7 +60,7 @@ def robocomp_view(linked: LinkedComponent, ports: Ports) -> View | None:
         enumerators=[_enumerators(scope) for scope in linked.modules()],
         legacy_sources="|".join(["commonbehaviorI", *(f"{name}I" for name in served)]),
         services=[_behind_pointer(service) for service in ports.services],
-        older=[OlderName(classes[now], name, now) for name, now in older_names(classes)],
+        older=[View(proxy=classes[now], name=name, now=now) for name, now in older_names(classes)],
         handles=handles,
         handle_names=sorted({name for one in handles for name in one.names}),
         headers=[os.path.basename(one.path) for one in component.sources if one.path.endswith((".h", ".hpp"))],
@@ -129,8 +114,9 @@ def _variants(name: str, method: Method, port: Port) -> Iterator[str]:
         yield declaration(head, unnamed, f' {{ throw std::logic_error("{name}() is missing"); }}', IN)
 
 
-def _enumerators(scope: LinkedModule) -> Enumerators:
-    """The enumerators that no other definition of the module hides."""
+def _enumerators(scope: LinkedModule) -> View:
+    """The enumerators that no other definition of the module hides, as constants beside their enum, as in Ice's older
+    mapping."""
     enums = [definition for definition in scope.module.definitions if isinstance(definition, Enum)]
     taken = Counter(definition.name for definition in scope.module.definitions)
     taken.update(enumerator.name for enum in enums for enumerator in enum.enumerators)
@@ -139,4 +125,4 @@ def _enumerators(scope: LinkedModule) -> Enumerators:
         for enum in enums for name in (ice_name(enumerator.name) for enumerator in enum.enumerators)
         if taken[name] == 1
     ]  # fmt: skip
-    return Enumerators(ice_name(scope.module.name), constants)
+    return View(module=ice_name(scope.module.name), constants=constants)
