@@ -20,7 +20,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from living import workspace
+from living import LINES, long_interfaces, workspace
 from run import RCYAML
 
 ROOT = Path(__file__).parent.parent
@@ -31,7 +31,6 @@ from editor.yaml_language_server import LanguageServer  # noqa: E402
 PAGE = ROOT / "docs/performance.md"
 SMALL, LARGE = 300, 10_000
 MISTAKE = "nonsense: 1\n"
-LINES = (100, 3_000, 15_000)
 GOALS = {100: 60, 3_000: 150, 15_000: 400}
 KINDS = {
     "an interface": "interfaces/Work3.idsl.yaml",
@@ -175,9 +174,8 @@ def documents(folder: Path) -> tuple[Path, Path]:
     for place, count in ((small, SMALL), (large, LARGE)):
         workspace(place, count)
     for lines in LINES:
-        methods = "\n".join(f"      call{n}: {{in: {{a: int, b: string}}, returns: bool}}" for n in range(8))
-        interfaces = "\n".join(f"  I{n}:\n    methods:\n{methods}" for n in range(lines // 10))
-        (long / f"Long{lines}.idsl.yaml").write_text(f"module: RoboCompLong{lines}\ninterfaces:\n{interfaces}\n")
+        text = f"module: RoboCompLong{lines}\ninterfaces:\n{long_interfaces(lines)}\n"
+        (long / f"Long{lines}.idsl.yaml").write_text(text)
     named = [*(long / f"Long{lines}.idsl.yaml" for lines in LINES)]
     named += [place / name for place in (small, large) for name in KINDS.values()]
     for path in named:

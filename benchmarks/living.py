@@ -127,13 +127,10 @@ def of_workspace(documents: int, runs: int) -> None:
 def of_lines(runs: int) -> None:
     """Edits in one long document of each kind."""
     for lines in LINES:
-        methods = (f"      call{n}: {{in: {{a: int, b: string}}, returns: bool}}" for n in range(8))
-        block = "\n".join(methods)
-        interfaces = "\n".join(f"  I{n}:\n    methods:\n{block}" for n in range(lines // 10))
         entries = "\n".join(f"  c{n}: {{program: sh, args: [-c, 'sleep {n}']}}" for n in range(lines))
         parameters = "\n".join(f"  p{n}: {{type: float, range: [0, 2], default: 1}}" for n in range(lines))
         for path, text in {
-            "Long.idsl.yaml": f"# long\nmodule: RoboCompLong\ninterfaces:\n{interfaces}\n",
+            "Long.idsl.yaml": f"# long\nmodule: RoboCompLong\ninterfaces:\n{long_interfaces(lines)}\n",
             "long.pdsl.yaml": f"# long\nparameters:\n{parameters}\n",
             "long.ddsl.yaml": f"# long\ndeployment: Long\ncomponents:\n{entries}\n",
         }.items():
@@ -144,6 +141,12 @@ def of_lines(runs: int) -> None:
             took = edits(living, path, max(runs // 3, 3), lambda path=path, living=living: living.look(path))
             print(f"{lines:>6} lines  {path:<15} {statistics.median(took):6.1f} ms")
             Path(path).unlink()
+
+
+def long_interfaces(lines: int) -> str:
+    """The interfaces of a document of so many lines."""
+    methods = "\n".join(f"      call{n}: {{in: {{a: int, b: string}}, returns: bool}}" for n in range(8))
+    return "\n".join(f"  I{n}:\n    methods:\n{methods}" for n in range(lines // 10))
 
 
 def at_rest() -> None:

@@ -14,7 +14,7 @@ _Kept = TypeVar("_Kept")
 
 
 class Memory:
-    """`kept` is how many results are kept. `on_make` is called before each result is made, and may raise an exception
+    """`on_make` is called before each result is made, and may raise an exception
     to end the analysis. With `once`, it is for one analysis, after which nothing is edited."""
 
     def __init__(self, *, once: bool = False) -> None:
@@ -25,10 +25,6 @@ class Memory:
         self._making: list[set[Hashable]] = []
         self._used: set[Hashable] = set()
         self._used_before: set[Hashable] = set()
-
-    @property
-    def kept(self) -> int:
-        return len(self._results)
 
     def result(
         self, part: Hashable, causes: tuple[Any, ...], make: Callable[[], _Kept],

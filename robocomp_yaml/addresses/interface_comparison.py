@@ -27,6 +27,7 @@ from robocomp_yaml.model.interface import (
     Struct,
     TypeRef,
 )
+from robocomp_yaml.model.located import Spanned
 
 
 class InterfaceDifference(msgspec.Struct, frozen=True):
@@ -107,69 +108,59 @@ class _ModulePair(msgspec.Struct):
     def interfaces(self, first: Interface, second: Interface) -> Iterator[InterfaceDifference]:
         names = self.first.module.name, self.second.module.name
         if names[0] != names[1]:
-            yield InterfaceDifference(
-                f"its module is {names[0]} in one, and {names[1]} in the other", first.span, second.span
-            )
+            yield _difference(f"its module is {names[0]} in one, and {names[1]} in the other", first, second)
         others = {method.name: method for method in second.methods}
         for method in first.methods:
             if method.name in others:
                 yield from self.methods(method, others[method.name])
             else:
-                yield InterfaceDifference(f"'{method.name}' is in one only", method.span, second.span)
+                yield _difference(f"'{method.name}' is in one only", method, second)
         names_of_first = {method.name for method in first.methods}
         for method in second.methods:
             if method.name not in names_of_first:
-                yield InterfaceDifference(f"'{method.name}' is in one only", first.span, method.span)
+                yield _difference(f"'{method.name}' is in one only", first, method)
 
     def methods(self, first: Method, second: Method) -> Iterator[InterfaceDifference]:
         what = f"'{first.name}'"
         if first.idempotent != second.idempotent:
-            yield InterfaceDifference(f"{what} is idempotent in one only", first.span, second.span)
-        yield from self.members(what, first.inputs, second.inputs, first.span, second.span)
-        yield from self.members(f"`out` of {what}", first.outputs, second.outputs, first.span, second.span)
+            yield _difference(f"{what} is idempotent in one only", first, second)
+        yield from self.members(what, first.inputs, second.inputs, first, second)
+        yield from self.members(f"`out` of {what}", first.outputs, second.outputs, first, second)
         if first.returns is None or second.returns is None:
             if first.returns is not second.returns:
-                yield InterfaceDifference(f"{what} returns something in one only", first.span, second.span)
+                yield _difference(f"{what} returns something in one only", first, second)
         else:
             yield from self.types(f"what {what} returns", first.returns, second.returns)
-        yield from _units(f"what {what} returns", first.returns_unit, second.returns_unit, first.span, second.span)
+        yield from _units(f"what {what} returns", first.returns_unit, second.returns_unit, first, second)
         thrown = {ref.name: ref for ref in first.throws}, {ref.name: ref for ref in second.throws}
         for name in sorted(thrown[0].keys() ^ thrown[1].keys()):
-            yield InterfaceDifference(f"{what} throws {name} in one only", first.span, second.span)
+            yield _difference(f"{what} throws {name} in one only", first, second)
         for name in sorted(thrown[0].keys() & thrown[1].keys()):
             yield from self.types(f"what {what} throws", thrown[0][name], thrown[1][name])
 
     def members(
-        self, what: str, first: Items[Member], second: Items[Member], here: Span, there: Span
+        self, what: str, first: Items[Member], second: Items[Member], here: Spanned, there: Spanned
     ) -> Iterator[InterfaceDifference]:
         for one, other in zip(first, second, strict=False):
             if one.name != other.name:
-                yield InterfaceDifference(
-                    f"{what} has '{one.name}' where the other has '{other.name}'", one.span, other.span
-                )
+                yield _difference(f"{what} has '{one.name}' where the other has '{other.name}'", one, other)
             yield from self.types(f"'{one.name}' of {what}", one.type, other.type)
-            yield from _units(f"'{one.name}' of {what}", one.unit, other.unit, one.span, other.span)
+            yield from _units(f"'{one.name}' of {what}", one.unit, other.unit, one, other)
         if len(first) != len(second):
             longer = max(first, second, key=len)
-            yield InterfaceDifference(
-                f"'{longer[min(len(first), len(second))].name}' of {what} is in one only", here, there
-            )
+            yield _difference(f"'{longer[min(len(first), len(second))].name}' of {what} is in one only", here, there)
 
     def types(self, what: str, first: TypeRef, second: TypeRef) -> Iterator[InterfaceDifference]:
         if first.is_basic or second.is_basic:
             if first.text != second.text:
-                yield InterfaceDifference(
-                    f"{what} is {first.text} in one, and {second.text} in the other", first.span, second.span
-                )
+                yield _difference(f"{what} is {first.text} in one, and {second.text} in the other", first, second)
             return
         found, other = self.first.find(first), self.second.find(second)
         if found is None or other is None:  # an unknown type, which has been reported
             return
         names = _qualified(*found), _qualified(*other)
         if names[0] != names[1]:
-            yield InterfaceDifference(
-                f"{what} is {names[0]} in one, and {names[1]} in the other", first.span, second.span
-            )
+            yield _difference(f"{what} is {names[0]} in one, and {names[1]} in the other", first, second)
         elif found[1] is not other[1] and names not in self.seen:
             self.seen.add(names)
             yield from _ModulePair(found[0], other[0], self.seen).definitions(names[0], found[1], other[1])
@@ -177,12 +168,12 @@ class _ModulePair(msgspec.Struct):
     def definitions(self, name: str, first: Definition, second: Definition) -> Iterator[InterfaceDifference]:
         match first, second:
             case Struct(), Struct():
-                yield from self.members(name, first.members, second.members, first.span, second.span)
+                yield from self.members(name, first.members, second.members, first, second)
             case ExceptionType(), ExceptionType():
-                yield from self.members(name, first.members, second.members, first.span, second.span)
+                yield from self.members(name, first.members, second.members, first, second)
             case Enum(), Enum():
                 if list(first.numbered()) != list(second.numbered()):
-                    yield InterfaceDifference(f"the enumerators of {name} differ", first.span, second.span)
+                    yield _difference(f"the enumerators of {name} differ", first, second)
             case Sequence(), Sequence():
                 yield from self.types(f"an element of {name}", first.element, second.element)
             case Map(), Map():
@@ -190,13 +181,17 @@ class _ModulePair(msgspec.Struct):
                 yield from self.types(f"a value of {name}", first.value, second.value)
             case _:
                 if type(first) is not type(second):
-                    yield InterfaceDifference(f"{name} has two kinds of definition", first.span, second.span)
+                    yield _difference(f"{name} has two kinds of definition", first, second)
 
 
 def _qualified(scope: LinkedModule, definition: Definition) -> str:
     return f"{scope.module.name}.{definition.name}"
 
 
-def _units(what: str, first: str, second: str, here: Span, there: Span) -> Iterator[InterfaceDifference]:
+def _units(what: str, first: str, second: str, here: Spanned, there: Spanned) -> Iterator[InterfaceDifference]:
     if first and second and first != second:
-        yield InterfaceDifference(f"{what} is in {first} in one, and in {second} in the other", here, there)
+        yield _difference(f"{what} is in {first} in one, and in {second} in the other", here, there)
+
+
+def _difference(message: str, first: Spanned, second: Spanned) -> InterfaceDifference:
+    return InterfaceDifference(message, first.span, second.span)

@@ -12,7 +12,6 @@ from robocomp_yaml.link.flat_configs import FlatConfig
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues
 from robocomp_yaml.semantics import connections
 from robocomp_yaml.semantics.texts import unquoted
-from robocomp_yaml.source.tree import Mapping, Scalar
 
 MANAGER = "IceStorm/TopicManager:default -p 9999"
 """The proxy of the topic manager in a first `etc/config`."""
@@ -37,20 +36,18 @@ class OwnAddresses(msgspec.Struct, frozen=True):
 
 def of_values(values: LinkedValues) -> OwnAddresses:
     """The addresses of a values document and its layers."""
-    from robocomp_yaml.parameters.writing.properties import merged_entries  # most components have no values document
+    from robocomp_yaml.parameters.layers import settings  # most components have no values document
 
     found = OwnAddresses()
-    for name, node in merged_entries(values, "endpoints"):
-        if isinstance(node, Scalar):
-            found.endpoints[name] = OwnText(unquoted(node.lexeme), node.span)
-            found.endpoints.setdefault(name.removesuffix(connections.OLDEST), found.endpoints[name])
-    for name, node in merged_entries(values, "proxies"):
-        text = node.get("proxy") if isinstance(node, Mapping) else node
-        if isinstance(text, Scalar):
-            found.proxies[name] = OwnText(unquoted(text.lexeme), text.span)
-    for name, node in merged_entries(values, "topics"):
-        if name == "manager" and isinstance(node, Scalar):
-            found = OwnAddresses(found.endpoints, found.proxies, OwnText(unquoted(node.lexeme), node.span))
+    for one in settings.settings(values):
+        text = OwnText(unquoted(one.node.lexeme), one.node.span)
+        if one.section == "endpoints":
+            found.endpoints[one.name] = text
+            found.endpoints.setdefault(one.name.removesuffix(connections.OLDEST), text)
+        elif one.section == "proxies":
+            found.proxies[one.name] = text
+        elif one.path == settings.MANAGER:
+            found = OwnAddresses(found.endpoints, found.proxies, text)
     return found
 
 

@@ -19,6 +19,7 @@ from robocomp_yaml.diag.errors import Faulty
 from robocomp_yaml.source.discover import kind_of, of_kind
 
 if TYPE_CHECKING:
+    from robocomp_yaml.deploy.stale import StaleComponent
     from robocomp_yaml.link.program import LinkedComponent
     from robocomp_yaml.pipeline import Analysis
 
@@ -82,6 +83,17 @@ def build(
     job.add([*_unread(analysis, documents), *outdated_components(components)])
     results = builder.build(job, units(analysis, components))
     return Built(build_type, tuple(results), tuple(analysis.redacted(job.diagnostics)), round(_cpu() - before, 2))
+
+
+def build_stale(
+    analysis: Analysis, stale: Iterable[StaleComponent], build_type: str | None = None,
+    report: Callable[[BuildEvent], None] | None = None,
+) -> list[Built]:  # fmt: skip
+    """Builds stale components, each with its last build type unless one is set. Returns one result for each type."""
+    by_type: dict[str, list[str]] = {}
+    for one in stale:
+        by_type.setdefault(build_type or one.look.type or RELEASE, []).append(one.unit.document)
+    return [build(analysis, paths, build_type=type_, report=report) for type_, paths in by_type.items()]
 
 
 def to_build(analysis: Analysis) -> list[str]:

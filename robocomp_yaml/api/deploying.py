@@ -136,15 +136,9 @@ class Deployment:
     ) -> list[Built]:
         """Builds the `stale` components, each with its last build type unless `build_type` is set. Returns one result
         for each build type."""
-        from robocomp_yaml.api.building import build
-        from robocomp_yaml.building.job import RELEASE
+        from robocomp_yaml.api.building import build_stale
 
-        by_type: dict[str, list[str]] = {}
-        for one in self.stale(*names):
-            by_type.setdefault(build_type or one.look.type or RELEASE, []).append(one.unit.document)
-        return [
-            build(self._analysis, documents, build_type=type_, report=report) for type_, documents in by_type.items()
-        ]
+        return build_stale(self._analysis, self.stale(*names), build_type, report)
 
     def _report_stale(self, names: Iterable[str], severity: str = ERROR) -> bool:
         if not (components := self.stale(*names)):

@@ -9,9 +9,11 @@ from collections.abc import Iterable, Iterator, Sequence
 import msgspec
 
 from robocomp_yaml.diag.errors import reason_of
+from robocomp_yaml.diag.hidden import Hidden
 from robocomp_yaml.source.inside import stays_inside
 from robocomp_yaml.source.regular import whole
 from robocomp_yaml.transactions import whole_file
+from robocomp_yaml.transactions.changes import unified
 
 
 class EditedDocument(msgspec.Struct, frozen=True):
@@ -22,6 +24,11 @@ class EditedDocument(msgspec.Struct, frozen=True):
     before: bytes
     after: bytes
     reason: str = ""
+
+    def diff(self, hidden: Hidden) -> str:
+        """A unified diff, without secrets."""
+        before, after = (content.decode("utf-8", "surrogateescape") for content in (self.before, self.after))
+        return hidden.without(unified(before, after, f"a/{self.path}", f"b/{self.path}"))
 
 
 def write(

@@ -13,16 +13,9 @@ from robocomp_yaml.addresses.own_configuration import own_configuration
 from robocomp_yaml.addresses.workspaces import Addresses
 from robocomp_yaml.link.flat_configs import flat_at
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Program
-from robocomp_yaml.parameters.editing.settings import (
-    DEFAULT,
-    SET,
-    OverriddenValue,
-    Setting,
-    ShownSetting,
-    run_time_defaults,
-    settings,
-)
+from robocomp_yaml.parameters.editing.settings import DEFAULT, SET, OverriddenValue, ShownSetting, run_time_defaults
 from robocomp_yaml.parameters.editing.show import Value
+from robocomp_yaml.parameters.layers.settings import Setting, settings
 from robocomp_yaml.source.tree import Node, Scalar
 from robocomp_yaml.source.yaml_text import flow
 

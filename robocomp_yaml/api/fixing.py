@@ -12,7 +12,6 @@ from robocomp_yaml.fixing import MISSHAPEN, UNDERSTOOD, UNREADABLE, AttemptedFix
 from robocomp_yaml.pipeline import Analysis
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 from robocomp_yaml.source.inside import stays_inside
-from robocomp_yaml.transactions.changes import unified
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.workspace import Workspace
@@ -72,9 +71,7 @@ class Fixing:
     def diffs(self) -> Iterator[str]:
         """A unified diff of each document that changes, without secrets."""
         hidden = self._before.analysis.hidden()
-        for one in self.written:
-            if not one.reason:
-                yield hidden.without(unified(_text(one.before), _text(one.after), f"a/{one.path}", f"b/{one.path}"))
+        return (one.diff(hidden) for one in self.written if not one.reason)
 
     def apply(self) -> None:
         """Writes the documents, each completely or not at all. A document that has changed since it was read, or cannot
@@ -122,7 +119,3 @@ def _requested(analysis: Analysis) -> set[str]:
         and (path := os.path.normpath(os.path.join(each.root, WORKSPACE_FILE))) in analysis.disk.contents
     }  # fmt: skip
     return {read[real].path for real in program.requested if real in read} | machines | settings
-
-
-def _text(content: bytes) -> str:
-    return content.decode("utf-8", "surrogateescape")

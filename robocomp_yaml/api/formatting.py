@@ -7,11 +7,11 @@ from collections.abc import Iterator, Sequence
 
 from robocomp_yaml.api.edited import EditedDocument, write
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
+from robocomp_yaml.diag.hidden import Hidden
 from robocomp_yaml.source import text
 from robocomp_yaml.source.discover import WORKSPACE_FILE, discover
 from robocomp_yaml.source.formatting import Unformattable, formatted, same_content
 from robocomp_yaml.source.tree import parse
-from robocomp_yaml.transactions.changes import unified
 
 
 class Formatting:
@@ -42,11 +42,8 @@ class Formatting:
         """A unified diff of each document that changes, with secrets hidden."""
         from robocomp_yaml.pipeline import analyse  # which parameters are secret, other documents say
 
-        hidden = analyse(self._paths).hidden() if self.written else None
-        for one in self.written:
-            if not one.reason and hidden is not None:
-                before, after = (content.decode("utf-8", "surrogateescape") for content in (one.before, one.after))
-                yield hidden.without(unified(before, after, f"a/{one.path}", f"b/{one.path}"))
+        hidden = analyse(self._paths).hidden() if self.written else Hidden()
+        return (one.diff(hidden) for one in self.written if not one.reason)
 
     def apply(self) -> None:
         """Writes the documents, each whole or not at all; one that was changed meanwhile, or cannot be written, stays

@@ -13,7 +13,6 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.naming.analysis import names_of
 from robocomp_yaml.naming.names import DefinedName, Names
 from robocomp_yaml.naming.renaming import NameEdit, renamed
-from robocomp_yaml.transactions.changes import unified
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.workspace import Workspace
@@ -40,17 +39,10 @@ class Renaming:
         self.left: tuple[Span, ...] = made.left
         self.written: tuple[EditedDocument, ...] = self._write(look_only=True)
 
-    @property
-    def texts(self) -> dict[str, bytes]:
-        """The new contents of the files that change, by path."""
-        return dict(self._made.after)
-
     def diffs(self) -> Iterator[str]:
         """A unified diff of each file that changes, without secrets."""
         hidden = self._hidden()
-        for one in self.written:
-            before, after = (text.decode("utf-8", "surrogateescape") for text in (one.before, one.after))
-            yield hidden.without(unified(before, after, f"a/{one.path}", f"b/{one.path}"))
+        return (one.diff(hidden) for one in self.written)
 
     def apply(self) -> None:
         """Writes the files. Raises NotRenamed if one of them cannot be written, or has changed meanwhile: then none

@@ -14,7 +14,6 @@ from msgspec.structs import replace
 from robocomp_yaml import secrets
 from robocomp_yaml.addresses.port_numbers import COMMON_BEHAVIOR
 from robocomp_yaml.api.which_process import Overrides, choose
-from robocomp_yaml.building.job import RELEASE
 from robocomp_yaml.deploy import exported, folder, ice_ping
 from robocomp_yaml.deploy.carry_out import Report
 from robocomp_yaml.deploy.differences import shown_path
@@ -114,12 +113,9 @@ class Run:
 
     def build(self, report: Callable[[BuildEvent], None] | None = None) -> list[Built]:
         """Builds the `stale` components, each with its last build type. Returns one result for each build type."""
-        from robocomp_yaml.api.building import build
+        from robocomp_yaml.api.building import build_stale
 
-        by_type: dict[str, list[str]] = {}
-        for one in self.stale():
-            by_type.setdefault(one.look.type or RELEASE, []).append(one.unit.document)
-        return [build(self._analysis, paths, build_type=type_, report=report) for type_, paths in by_type.items()]
+        return build_stale(self._analysis, self.stale(), report=report)
 
     def start(
         self, report: Report = lambda event: None, on_start: Callable[[int], None] = lambda pid: None

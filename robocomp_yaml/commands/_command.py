@@ -20,13 +20,20 @@ class _WithExamples(click.Command):
     """A command whose `--help` ends with examples."""
 
     def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        from robocomp_yaml.commands._examples import examples_of  # unused but for `--help`
-
-        if lines := examples_of(ctx.command_path):
+        if lines := examples().get(ctx.command_path):
             with formatter.section("Examples"):
                 for line in lines:
                     formatter.write(f"{'':>{formatter.current_indent}}{line}\n")
         super().format_epilog(ctx, formatter)
+
+
+def examples() -> dict[str, list[str]]:
+    """The examples of `--help`, as lines for a shell, by commands such as `rcyaml deploy up`. All are about the robot
+    of the tutorial."""
+    from robocomp_yaml import resources  # unused but for `--help`
+
+    paragraphs = (one.splitlines() for one in resources.text("templates/help/examples.txt").split("\n\n"))
+    return {command: [line.strip() for line in lines] for command, *lines in paragraphs}
 
 
 class LibraryCommand(_WithExamples):

@@ -14,7 +14,7 @@ from robocomp_yaml.deploy.engine import OWN, Line
 from robocomp_yaml.deploy.listing import ListedDeployment
 from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, Result, Status
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan
-from robocomp_yaml.diag.terminal import Shown, columns, cut, line, pad, paint, shown
+from robocomp_yaml.diag.terminal import Shown, columns, cut, line, pad, paint, shown, table
 from robocomp_yaml.network.network import Network
 
 if TYPE_CHECKING:
@@ -131,8 +131,7 @@ def deployment_lines(found: Sequence[ListedDeployment]) -> list[Shown]:
         document = shown_path(one.document) + ("" if one.has_document else " (gone)")
         state = f"{one.state}, installed" if one.installed else one.state
         rows.append((one.name, state, one.engine, ", ".join(one.hosts), document))
-    widths = [max(columns(row[column]) for row in rows) for column in range(len(rows[0]))]
-    return [Shown("  ".join(pad(*cell) for cell in zip(row, widths, strict=True)).rstrip()) for row in rows]
+    return table(rows)
 
 
 def lost_lines(found: Sequence[Status]) -> list[Shown]:

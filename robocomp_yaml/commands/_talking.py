@@ -52,6 +52,7 @@ deployment = click.option(
 timeout = click.option("--timeout", type=Duration(), default="10s", metavar="TIME", show_default=True,
                        help="The longest time that a call may take.")  # fmt: skip
 every = click.option("--every", type=Duration(), metavar="TIME", help="Call again after this time, until Ctrl-C.")
+ending = click.option("--for", "duration", type=Duration(), metavar="TIME", help="End after this time.")
 ice_config = click.option(
     "--ice-config", metavar="FILE", type=click.Path(exists=True, dir_okay=False),
     help="Properties of Ice, such as those of TLS.",

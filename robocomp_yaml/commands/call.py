@@ -8,6 +8,7 @@ import click
 
 from robocomp_yaml.commands import _options, _talking
 from robocomp_yaml.commands._command import LibraryCommand
+from robocomp_yaml.diag import terminal
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.calling import RemoteMethod
@@ -57,7 +58,6 @@ def _call(
     method: RemoteMethod, made: tuple[object, ...], ice_config: str, timeout: float, count: int | None,
     every: float | None, format_: str,
 ) -> int:  # fmt: skip
-    from robocomp_yaml.diag import terminal
 
     is_one, code = count == 1, 0
     with method.connected(ice_config, timeout) as calls:

@@ -40,115 +40,40 @@ def command() -> None:
     """
 
 
-def _writing(function: Callable[..., None]) -> Callable[..., None]:
-    for option in (_options.text_or_json, _options.include, _force, _diff):
-        function = option(function)
-    return function
+def _change(
+    name: str, short_help: str, meaning: str, *arguments: Callable[..., Any], of: Callable[..., Any] = _deployment,
+    make: Callable[..., dict[str, Any]] = dict, settings: dict[str, Any] | None = None,
+) -> None:  # fmt: skip
+    """A command that makes one change of a deployment or a component. `make` returns the change as JSON data; by
+    default, these are the arguments of the command, with the command's name as that of the change."""
+
+    @click.pass_context
+    def run(ctx: click.Context, /, include: tuple[str, ...], only_diff: bool, force: bool, format_: str,
+            deployment: str | None = None, component: str | None = None, **words: Any) -> None:  # fmt: skip
+        from robocomp_yaml.api import which
+        from robocomp_yaml.api.editing.changes import from_json
+
+        document = _document(deployment, include) if component is None else which.component(component)
+        editor = _editor(document, include)
+        if name == "set":
+            change: DocumentChange = editor.parameter(document, **words)
+        else:
+            change = from_json({"change": name, **make(**words)})
+        revision = editor.revise(document, change)
+        if not only_diff:
+            editor.write(revision, force=force)
+        elif format_ == "text":
+            terminal.diff([revision.diff], _options.colored(ctx))
+        _report(ctx, revision, format_, is_written=not only_diff)
+
+    decorated: Callable[..., Any] = run
+    for one in (*reversed(arguments), of, _options.text_or_json, _options.include, _force, _diff):
+        decorated = one(decorated)
+    command.command(name, short_help=short_help, help=meaning, context_settings=settings)(decorated)
 
 
-def _changing(name: str, short_help: str, *arguments: Callable[..., Any], opaque: bool = False) -> Callable[..., None]:
-    """A command that makes one change of a deployment. The function makes the change of the command's arguments."""
-
-    def decorate(make: Callable[..., DocumentChange]) -> None:
-        @click.pass_context
-        def run(ctx: click.Context, /, deployment: str | None, include: tuple[str, ...], only_diff: bool, force: bool,
-                format_: str, **words: Any) -> None:  # fmt: skip
-            document = _document(deployment, include)
-            editor = _editor(document, include)
-            if "value" in words:
-                change: DocumentChange = editor.parameter(document, words["entry"], words["parameter"], words["value"])
-            else:
-                change = make(**words)
-            _show(ctx, editor, editor.revise(document, change), only_diff=only_diff, force=force, format_=format_)
-
-        decorated: Callable[..., Any] = run
-        for argument in reversed(arguments):
-            decorated = argument(decorated)
-        decorated = _writing(_deployment(decorated))
-        settings = {"ignore_unknown_options": True} if opaque else None
-        command.command(name, short_help=short_help, help=make.__doc__, context_settings=settings)(decorated)
-
-    return decorate
-
-
-_entry = click.argument("entry")
-_many = click.argument("names", metavar="NAME...", nargs=-1, required=True)
-
-
-@_changing("connect", "Set the server of a required interface.", _entry, click.argument("port"), click.argument("to"))
-def _(entry: str, port: str, to: str) -> DocumentChange:
-    """Connect the required interface PORT of ENTRY to TO: an entry, one of its interfaces (mouth.Mouth), a group, or
-    the proxy of an external server."""
-    from robocomp_yaml.api.editing.changes import Connect
-
-    return Connect(entry, port, to)
-
-
-@_changing("disconnect", "Remove the server of a required interface.", _entry, click.argument("port"))
-def _(entry: str, port: str) -> DocumentChange:
-    """Remove what the deployment says about the server of PORT of ENTRY."""
-    from robocomp_yaml.api.editing.changes import Disconnect
-
-    return Disconnect(entry, port)
-
-
-@_changing("topic", "Give a topic another name in the network.",
-           _entry, click.argument("port"), click.argument("to", metavar="[NAME]", default=""))  # fmt: skip
-def _(entry: str, port: str, to: str) -> DocumentChange:
-    """Give the topic PORT of ENTRY the name NAME in this network; without NAME, its own name again. Publishers and
-    subscribers of one name are connected."""
-    from robocomp_yaml.api.editing.changes import NameTopic
-
-    return NameTopic(entry, port, to)
-
-
-@_changing("move", "Move an entry to another host.", _entry, click.argument("host"))
-def _(entry: str, host: str) -> DocumentChange:
-    """Let ENTRY run on HOST."""
-    from robocomp_yaml.api.editing.changes import MoveEntry
-
-    return MoveEntry(entry, host)
-
-
-@_changing("add-host", "Add a host.", click.argument("name"), click.argument("address"),
-           click.option("--user", default="", metavar="NAME", help="The user for ssh."),
-           click.option("--path", default="", metavar="FOLDER", help="The folder of the deployment there."),
-           click.option("--ssh-port", "port", type=click.IntRange(1, 65535), metavar="PORT", help="The port of ssh."),
-           click.option("--identity", default="", metavar="FILE", help="The private key for ssh."),
-           click.option("--known-hosts", default="", metavar="FILE", help="A file of keys of hosts for ssh."),
-           click.option("--jump", default="", metavar="HOST", help="The host that ssh goes through."))  # fmt: skip
-def _(
-    name: str, address: str, user: str, path: str, port: int | None, identity: str, known_hosts: str, jump: str
-) -> DocumentChange:  # fmt: skip
-    """Add the host NAME with its ADDRESS. If it is the second one, all entries without a host get the first one."""
-    from robocomp_yaml.api.editing.changes import AddHost
-
-    return AddHost(name, address, user, path, port, identity, known_hosts, jump)
-
-
-@_changing("remove-host", "Remove a host on which nothing runs.", click.argument("name"))
-def _(name: str) -> DocumentChange:
-    """Remove the host NAME."""
-    from robocomp_yaml.api.editing.changes import RemoveHost
-
-    return RemoveHost(name)
-
-
-@_changing("group", "Make entries members of a group.", click.argument("group"), _many)
-def _(group: str, names: tuple[str, ...]) -> DocumentChange:
-    """Make entries or groups members of GROUP, which is added if it is missing."""
-    from robocomp_yaml.api.editing.changes import GroupEntries
-
-    return GroupEntries(group, names)
-
-
-@_changing("ungroup", "Remove members from a group, or a group.",
-           click.argument("group"), click.argument("names", metavar="[NAME]...", nargs=-1))  # fmt: skip
-def _(group: str, names: tuple[str, ...]) -> DocumentChange:
-    """Remove members from GROUP; without a NAME, remove the group. The entries stay."""
-    from robocomp_yaml.api.editing.changes import UngroupEntries
-
-    return UngroupEntries(group, names)
+def _members(metavar: str = "NAME...", name: str = "members", *, required: bool = True) -> Callable[..., Any]:
+    return click.argument(name, metavar=metavar, nargs=-1, required=required)
 
 
 def _used(key: str) -> Callable[..., Any]:
@@ -156,22 +81,10 @@ def _used(key: str) -> Callable[..., Any]:
     return click.option(f"--{key}", multiple=True, metavar=_CARRIED.get(key, "INTERFACE"), help=meaning)
 
 
-@_changing("add", "Add a component or a program.",
-           _entry, click.argument("what", metavar="COMPONENT|PROGRAM"), click.argument("args", nargs=-1),
-           click.option("--program", "is_program", is_flag=True, help="It is a program with arguments."),
-           click.option("--new", "is_new", is_flag=True, help="Write a new component with this name, and add it."),
-           click.option("--language", type=PluginChoice(languages_with), default=languages.DEFAULT, show_default=True,
-                        help="With --new: the language of its code."),
-           *map(_used, _LISTS.values()),
-           click.option("--host", default="", metavar="NAME", help="The host that it runs on."))  # fmt: skip
-def _(
+def _added(
     entry: str, what: str, args: tuple[str, ...], is_program: bool, is_new: bool, language: str, host: str,
     **uses: tuple[str, ...],
-) -> DocumentChange:  # fmt: skip
-    """Add ENTRY: the component with this document or folder, with --new a new component, as `rcyaml new component`
-    writes it, or with --program any program. Arguments of a program that begin with - follow after --."""
-    from robocomp_yaml.api.editing.changes import AddEntry, AddNew
-
+) -> dict[str, Any]:  # fmt: skip
     if args and not is_program:
         raise click.UsageError("only a program has arguments here: add --program")
     if is_program and is_new:
@@ -180,102 +93,88 @@ def _(
     if not is_new and (chosen or any(uses.values())):
         raise click.UsageError("only a new component gets these options: add --new")
     if is_new:
-        return AddNew(entry, what, language, host=host, **uses)
-    if is_program:
-        return AddEntry(entry, program=what, args=args, host=host)
-    return AddEntry(entry, component=what, host=host)
+        return {"change": "add-new", "entry": entry, "component": what, "language": language, "host": host, **uses}
+    return {"entry": entry, "program" if is_program else "component": what, "args": args, "host": host}
 
 
-@_changing("remove", "Remove an entry, and what is connected to it.", _entry)
-def _(entry: str) -> DocumentChange:
-    """Remove ENTRY, and all connections, groups and orders of this document that name it."""
-    from robocomp_yaml.api.editing.changes import RemoveEntry
-
-    return RemoveEntry(entry)
-
-
-@_changing("rename", "Rename an entry or a group wherever it is named.", _entry, click.argument("name"))
-def _(entry: str, name: str) -> DocumentChange:
-    """Rename ENTRY, which may be a group, to NAME."""
-    from robocomp_yaml.api.editing.changes import RenameEntry
-
-    return RenameEntry(entry, name)
-
-
-@_changing("set", "Set a parameter in this network.",
-           _entry, click.argument("parameter"), click.argument("value"), opaque=True)  # fmt: skip
-def _() -> DocumentChange:
-    """Set PARAMETER of ENTRY to VALUE, if its type and limits accept it. Text needs no quotes."""
-    raise AssertionError
-
-
-@_changing("unset", "Use a component's own value of a parameter.", _entry, click.argument("parameter"))
-def _(entry: str, parameter: str) -> DocumentChange:
-    """Remove PARAMETER of ENTRY, so that the value of the component's own configuration counts."""
-    from robocomp_yaml.api.editing.changes import SetParameter
-
-    return SetParameter(entry, parameter, None)
-
-
-@_changing("port", "Set a TCP port.", _entry, click.argument("number", metavar="NUMBER|none"),
-           click.option("--interface", default="", metavar="NAME",
-                        help="The interface; by default, the first one."))  # fmt: skip
-def _(entry: str, number: str, interface: str) -> DocumentChange:
-    """Set the TCP port of ENTRY; none: a derived one."""
-    from robocomp_yaml.api.editing.changes import SetPort
-
+def _port(entry: str, number: str, interface: str) -> dict[str, Any]:
     if number != "none" and not number.isdecimal():
         raise click.UsageError(f"'{number}' is neither a number nor none")
-    return SetPort(entry, None if number == "none" else int(number), interface)
+    return {"entry": entry, "number": None if number == "none" else int(number), "interface": interface}
 
 
-@_changing("instances", "Set the number of processes.", _entry, click.argument("count", type=click.IntRange(1)))
-def _(entry: str, count: int) -> DocumentChange:
-    """Set the number of processes of ENTRY, whose name gets {i} if it has none."""
-    from robocomp_yaml.api.editing.changes import SetInstances
+_entry, _topic_or_interface = click.argument("entry"), click.argument("port")
 
-    return SetInstances(entry, count)
-
-
-@_changing("after", "Start an entry after others.", _entry, _many)
-def _(entry: str, names: tuple[str, ...]) -> DocumentChange:
-    """Let ENTRY start when these entries, services or groups are ready."""
-    from robocomp_yaml.api.editing.changes import StartAfter
-
-    return StartAfter(entry, names)
-
-
-@_changing("not-after", "Do not start an entry after others.", _entry, _many)
-def _(entry: str, names: tuple[str, ...]) -> DocumentChange:
-    """Remove these names from the `after:` of ENTRY."""
-    from robocomp_yaml.api.editing.changes import StartIndependently
-
-    return StartIndependently(entry, names)
+_change("connect", "Set the server of a required interface.",
+        "Connect the required interface PORT of ENTRY to TO: an entry, one of its interfaces (mouth.Mouth), a group, "
+        "or the proxy of an external server.", _entry, _topic_or_interface, click.argument("to"))  # fmt: skip
+_change("disconnect", "Remove the server of a required interface.",
+        "Remove what the deployment says about the server of PORT of ENTRY.", _entry, _topic_or_interface)  # fmt: skip
+_change("topic", "Give a topic another name in the network.",
+        "Give the topic PORT of ENTRY the name NAME in this network; without NAME, its own name again. Publishers and "
+        "subscribers of one name are connected.",
+        _entry, _topic_or_interface, click.argument("to", metavar="[NAME]", default=""))  # fmt: skip
+_change("move", "Move an entry to another host.", "Let ENTRY run on HOST.", _entry, click.argument("host"))
+_change("add-host", "Add a host.",
+        "Add the host NAME with its ADDRESS. If it is the second one, all entries without a host get the first one.",
+        click.argument("name"), click.argument("address"),
+        click.option("--user", default="", metavar="NAME", help="The user for ssh."),
+        click.option("--path", default="", metavar="FOLDER", help="The folder of the deployment there."),
+        click.option("--ssh-port", "port", type=click.IntRange(1, 65535), metavar="PORT", help="The port of ssh."),
+        click.option("--identity", default="", metavar="FILE", help="The private key for ssh."),
+        click.option("--known-hosts", default="", metavar="FILE", help="A file of keys of hosts for ssh."),
+        click.option("--jump", default="", metavar="HOST", help="The host that ssh goes through."))  # fmt: skip
+_change("remove-host", "Remove a host on which nothing runs.", "Remove the host NAME.", click.argument("name"))
+_change("group", "Make entries members of a group.",
+        "Make entries or groups members of GROUP, which is added if it is missing.",
+        click.argument("group"), _members())  # fmt: skip
+_change("ungroup", "Remove members from a group, or a group.",
+        "Remove members from GROUP; without a NAME, remove the group. The entries stay.",
+        click.argument("group"), _members("[NAME]...", required=False))  # fmt: skip
+_change("add", "Add a component or a program.",
+        "Add ENTRY: the component with this document or folder, with --new a new component, as `rcyaml new component` "
+        "writes it, or with --program any program. Arguments of a program that begin with - follow after --.",
+        _entry, click.argument("what", metavar="COMPONENT|PROGRAM"), click.argument("args", nargs=-1),
+        click.option("--program", "is_program", is_flag=True, help="It is a program with arguments."),
+        click.option("--new", "is_new", is_flag=True, help="Write a new component with this name, and add it."),
+        click.option("--language", type=PluginChoice(languages_with), default=languages.DEFAULT, show_default=True,
+                     help="With --new: the language of its code."),
+        *map(_used, _LISTS.values()),
+        click.option("--host", default="", metavar="NAME", help="The host that it runs on."),
+        make=_added)  # fmt: skip
+_change("remove", "Remove an entry, and what is connected to it.",
+        "Remove ENTRY, and all connections, groups and orders of this document that name it.", _entry)  # fmt: skip
+_change("rename", "Rename an entry or a group wherever it is named.", "Rename ENTRY, which may be a group, to NAME.",
+        _entry, click.argument("name"))  # fmt: skip
+_change("set", "Set a parameter in this network.",
+        "Set PARAMETER of ENTRY to VALUE, if its type and limits accept it. Text needs no quotes.",
+        _entry, click.argument("parameter"), click.argument("text", metavar="VALUE"),
+        settings={"ignore_unknown_options": True})  # fmt: skip
+_change("unset", "Use a component's own value of a parameter.",
+        "Remove PARAMETER of ENTRY, so that the value of the component's own configuration counts.",
+        _entry, click.argument("parameter"),
+        make=lambda **words: {"change": "set", "value": None, **words})  # fmt: skip
+_change("port", "Set a TCP port.", "Set the TCP port of ENTRY; none: a derived one.",
+        _entry, click.argument("number", metavar="NUMBER|none"),
+        click.option("--interface", default="", metavar="NAME", help="The interface; by default, the first one."),
+        make=_port)  # fmt: skip
+_change("instances", "Set the number of processes.",
+        "Set the number of processes of ENTRY, whose name gets {i} if it has none.",
+        _entry, click.argument("count", type=click.IntRange(1)))  # fmt: skip
+_change("after", "Start an entry after others.",
+        "Let ENTRY start when these entries, services or groups are ready.",
+        _entry, _members(name="needed"))  # fmt: skip
+_change("not-after", "Do not start an entry after others.",
+        "Remove these names from the `after:` of ENTRY.", _entry, _members(name="needed"))  # fmt: skip
 
 
 def _ports(name: str, key: str, *, adds: bool) -> None:
-    what = _CARRIED.get(key, "INTERFACE")
+    what, does = _CARRIED.get(key, "INTERFACE"), _SAID.get(key, key)
     verb = f"Add {what.lower()}s to" if adds else f"Remove {what.lower()}s from"
-
-    @command.command(name, short_help=f"{verb} what a component {_SAID.get(key, key)}.")
-    @click.argument("component")
-    @click.argument("interfaces", metavar=f"{what}...", nargs=-1, required=True)
-    @_writing
-    @click.pass_context
-    def run(ctx: click.Context, component: str, interfaces: tuple[str, ...], include: tuple[str, ...],
-            only_diff: bool, force: bool, format_: str) -> None:  # fmt: skip
-        from robocomp_yaml.api import which
-        from robocomp_yaml.api.editing.changes import from_json
-
-        document = which.component(component)
-        editor = _editor(document, include)
-        revision = editor.revise(document, from_json({"change": name, "interface": interfaces}))
-        _show(ctx, editor, revision, only_diff=only_diff, force=force, format_=format_)
-
-    run.help = (
-        f"{verb} what COMPONENT {_SAID.get(key, key)}{', with the imports that they need' if adds else ''}. COMPONENT "
-        "is the document, folder or name of a component."
-    )
+    needed = ", with the imports that they need" if adds else ""
+    meaning = f"{verb} what COMPONENT {does}{needed}. COMPONENT is the document, folder or name of a component."
+    interfaces = _members(f"{what}...", "interface")
+    _change(name, f"{verb} what a component {does}.", meaning, interfaces, of=click.argument("component"))
 
 
 for _name, _key in _LISTS.items():
@@ -317,26 +216,24 @@ def place(
         terminal.say(f"wrote {path}: place {name}")
 
 
-@command.command(short_help="Undo the last change of a document.")
-@click.argument("document", metavar="[DOCUMENT]", default="")
-@_options.include
-@_options.text_or_json
-@click.pass_context
-def undo(ctx: click.Context, document: str, include: tuple[str, ...], format_: str) -> None:
-    """Undo the last change of DOCUMENT, by default the only deployment, if it was not changed by anything else."""
-    path = document or _document(None, include)
-    _report(ctx, _editor(path, include).undo(path), format_, is_written=True)
+def _historical(name: str, short_help: str, meaning: str) -> None:
+    @command.command(name, short_help=short_help, help=meaning)
+    @click.argument("document", metavar="[DOCUMENT]", default="")
+    @_options.include
+    @_options.text_or_json
+    @click.pass_context
+    def run(ctx: click.Context, document: str, include: tuple[str, ...], format_: str) -> None:
+        path = document or _document(None, include)
+        editor = _editor(path, include)
+        _report(ctx, editor.undo(path) if name == "undo" else editor.redo(path), format_, is_written=True)
 
 
-@command.command(short_help="Make a change again that was undone.")
-@click.argument("document", metavar="[DOCUMENT]", default="")
-@_options.include
-@_options.text_or_json
-@click.pass_context
-def redo(ctx: click.Context, document: str, include: tuple[str, ...], format_: str) -> None:
-    """Make the change of DOCUMENT again that was undone last."""
-    path = document or _document(None, include)
-    _report(ctx, _editor(path, include).redo(path), format_, is_written=True)
+_historical(
+    "undo",
+    "Undo the last change of a document.",
+    "Undo the last change of DOCUMENT, by default the only deployment, if it was not changed by anything else.",
+)
+_historical("redo", "Make a change again that was undone.", "Make the change of DOCUMENT again that was undone last.")
 
 
 def _document(deployment: str | None, include: tuple[str, ...]) -> str:
@@ -353,16 +250,6 @@ def _editor(document: str, include: tuple[str, ...]) -> DocumentEditor:
 
     folder = os.path.dirname(document) or "."
     return DocumentEditor(api.follow(root_above(folder) or folder, include=include))
-
-
-def _show(
-    ctx: click.Context, editor: DocumentEditor, revision: Revision, *, only_diff: bool, force: bool, format_: str
-) -> None:
-    if not only_diff:
-        editor.write(revision, force=force)
-    elif format_ == "text":
-        terminal.diff([revision.diff], _options.colored(ctx))
-    _report(ctx, revision, format_, is_written=not only_diff)
 
 
 def _report(ctx: click.Context, revision: Revision, format_: str, *, is_written: bool) -> None:

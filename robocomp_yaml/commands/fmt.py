@@ -10,6 +10,7 @@ import click
 
 from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._command import LibraryCommand
+from robocomp_yaml.diag import terminal
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.formatting import Formatting
@@ -21,7 +22,7 @@ STDIN = "-"
 @click.argument("paths", nargs=-1, metavar="[PATH]...", type=click.Path(exists=True, allow_dash=True))
 @click.option("--check", is_flag=True, help="Write nothing; exit with 1 if a document would change.")
 @click.option("--diff", is_flag=True, help="Show what would change, and write nothing.")
-@click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text", help="The output format.")
+@_options.text_or_json
 @click.pass_context
 def command(ctx: click.Context, paths: tuple[str, ...], check: bool, diff: bool, format_: str) -> None:
     """Lay out the documents at PATHs (by default, below this folder): indentation, blanks, quotes, blank lines.
@@ -43,7 +44,6 @@ def command(ctx: click.Context, paths: tuple[str, ...], check: bool, diff: bool,
 
 def _filter(ctx: click.Context, *, check: bool, diff: bool) -> None:
     from robocomp_yaml.api.formatting import layout
-    from robocomp_yaml.diag import terminal
     from robocomp_yaml.source.formatting import Unformattable
     from robocomp_yaml.transactions.changes import unified
 
@@ -64,7 +64,6 @@ def _filter(ctx: click.Context, *, check: bool, diff: bool) -> None:
 
 
 def _report(ctx: click.Context, formatting: Formatting, format_: str, *, check: bool, diff: bool) -> None:
-    from robocomp_yaml.diag import terminal
     from robocomp_yaml.diag.render import tell
     from robocomp_yaml.diag.render.json import dumps, run_as_data
 

@@ -126,7 +126,7 @@ def _print(ctx: click.Context, run: MigrationRun, format_: str, dry_run: bool, *
         say("nothing was written (--dry-run)")
 
 
-def _table(run: MigrationRun) -> list[str]:
+def _table(run: MigrationRun) -> list[terminal.Shown]:
     """The table of how many files of each format have which status."""
     from robocomp_yaml.legacy.ledger import STATUSES
 
@@ -136,9 +136,4 @@ def _table(run: MigrationRun) -> list[str]:
         entries = [entry for entry in run.entries if name in ("all", entry.format)]
         counts = [sum(entry.status == status for entry in entries) for status in STATUSES]
         rows.append([name, *map(str, counts), str(sum(entry.lines()["lost"] for entry in entries))])
-    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
-    lines = []
-    for row in rows:
-        cells = [row[0].ljust(widths[0]), *(cell.rjust(width) for cell, width in zip(row[1:], widths[1:], strict=True))]
-        lines.append("  ".join(cells).rstrip())
-    return lines
+    return terminal.table(rows, right=range(1, len(rows[0])))

@@ -13,6 +13,7 @@ import click
 
 from robocomp_yaml.commands import _options, _signals
 from robocomp_yaml.commands._command import LibraryCommand
+from robocomp_yaml.diag import terminal
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.mocking import Mock
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
 )
 @click.option("--check", is_flag=True, help="Check the script, and serve nothing.")
 @_options.include
-@click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text", help="The output format.")
+@_options.text_or_json
 @click.pass_context
 def command(
     ctx: click.Context, interfaces: tuple[str, ...], script: str | None, endpoints: tuple[str, ...], storm: str,
@@ -55,7 +56,6 @@ def command(
 
 
 def _serve(ctx: click.Context, mock: Mock, endpoints: Mapping[str, str], storm: str, format_: str) -> None:
-    from robocomp_yaml.diag import terminal
     from robocomp_yaml.diag.render.json import dumps
 
     lock = threading.Lock()

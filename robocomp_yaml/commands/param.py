@@ -162,7 +162,7 @@ def set_(
 @_name
 @click.argument("paths", nargs=-1, metavar="[PATH]...", shell_complete=_complete_path)
 @click.option("--every", type=Duration(), default="1s", show_default=True, metavar="TIME", help="How often to ask.")
-@click.option("--for", "duration", type=Duration(), metavar="TIME", help="End after this time.")
+@_talking.ending
 @_running
 def watch(
     parameters: RunningParameters, session: Session, paths: tuple[str, ...], every: float, duration: float | None,

@@ -11,8 +11,7 @@ import click
 from robocomp_yaml.commands import _options, _talking
 from robocomp_yaml.commands._arriving import arriving_messages
 from robocomp_yaml.commands._command import CommandGroup, LibraryCommand
-from robocomp_yaml.commands._duration import Duration
-from robocomp_yaml.commands.topic import topic_names, type_option, with_topics
+from robocomp_yaml.commands.topic import count_option, topic_names, type_option, with_topics
 from robocomp_yaml.diag import terminal
 
 if TYPE_CHECKING:
@@ -69,8 +68,8 @@ def command() -> None:
 @click.option("-o", "--output", default="", metavar="FILE", help="The new file; by default, named after the deployment "
               "and the time.")  # fmt: skip
 @click.option("--max-size", type=_Size(), metavar="SIZE", help="End before the file is larger: 500MB, 2GB.")
-@click.option("--count", type=click.IntRange(1), metavar="N", help="End after N messages.")
-@click.option("--for", "duration", type=Duration(), metavar="TIME", help="End after this time.")
+@count_option
+@_talking.ending
 @type_option
 @with_topics
 @click.pass_context
@@ -147,7 +146,6 @@ def _info_lines(found: RecordingInfo) -> list[str]:
         rate = f"{(one.messages - 1) / seconds:.1f}" if one.messages > 1 and seconds else "-"
         name = f"{one.topic}.{one.method}" if one.topic else one.channel
         rows.append((name, one.type, str(one.messages), rate))
-    widths = [max(terminal.columns(row[at]) for row in rows) for at in range(4)]
     lines = [
         f"{found.path}: {found.messages} messages in {seconds:.1f} s, {_bytes(found.size)}",
         f"from {at}" + (f", deployment {found.deployment}" if found.deployment else ""),
@@ -156,11 +154,7 @@ def _info_lines(found: RecordingInfo) -> list[str]:
         lines.append("the recorder still runs, or was killed: the last seconds are missing")
     elif found.dropped:
         lines.append("dropped: " + ", ".join(f"{number} of {name}" for name, number in found.dropped.items()))
-    for row in rows:
-        left = [terminal.pad(cell, width) for cell, width in zip(row[:2], widths, strict=False)]
-        right = [terminal.pad(cell, width, right=True) for cell, width in zip(row[2:], widths[2:], strict=True)]
-        lines.append(terminal.line("  ".join((*left, *right))))
-    return lines
+    return [*lines, *terminal.table(rows, right=(2, 3))]
 
 
 def _complete_recorded(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:

@@ -13,6 +13,7 @@ import click
 
 from robocomp_yaml.commands import _options, _talking
 from robocomp_yaml.commands._command import LibraryCommand
+from robocomp_yaml.diag import terminal
 from robocomp_yaml.source.discover import kind_of
 
 if TYPE_CHECKING:
@@ -65,7 +66,6 @@ def command(
     its output.
     """
     from robocomp_yaml.api.running import Run
-    from robocomp_yaml.diag import terminal
     from robocomp_yaml.diag.errors import Faulty
     from robocomp_yaml.diag.render.json import dumps
 
@@ -126,7 +126,6 @@ def _shown(program: str) -> str:
 
 def _describe(ctx: click.Context, run: Run, format_: str) -> None:
     """Prints what a run would start."""
-    from robocomp_yaml.diag import terminal
     from robocomp_yaml.diag.render.json import dumps
 
     one = run.description()
@@ -178,7 +177,6 @@ def _code(run: Run, result: SingleResult | None) -> int:
 
 
 def _show(ctx: click.Context, diagnostics: Sequence[Diagnostic]) -> None:
-    from robocomp_yaml.diag import terminal
     from robocomp_yaml.diag.render import text
 
     for block in text.each(diagnostics, _options.colored(ctx, sys.stderr)):
@@ -186,6 +184,5 @@ def _show(ctx: click.Context, diagnostics: Sequence[Diagnostic]) -> None:
 
 
 def _say(line: str) -> None:
-    from robocomp_yaml.diag import terminal
 
     terminal.say(line, err=True)

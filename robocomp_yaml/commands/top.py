@@ -12,6 +12,7 @@ from robocomp_yaml.commands import _options, _signals, _talking
 from robocomp_yaml.commands._command import LibraryCommand
 from robocomp_yaml.commands._ddsl import DocumentAnd, default_document, running_document
 from robocomp_yaml.commands._duration import Duration
+from robocomp_yaml.diag import terminal
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.addresses import Addresses
@@ -36,8 +37,7 @@ def _processes(addresses: Addresses, incomplete: str) -> list[str]:
 @click.option("--count", type=click.IntRange(1), metavar="N", help="End after N samples.")
 @click.option("--once", is_flag=True, help="Print one table, and end.")
 @_options.include
-@click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text",
-              help="json: a line for each sample.")  # fmt: skip
+@_options.format_of(["text", "json"], "json: a line for each sample.")
 @click.pass_context
 def command(
     ctx: click.Context, ddsl: str, names: tuple[str, ...], deployment: str | None, sort: str, reverse: bool,
@@ -78,7 +78,6 @@ async def _printed(
 ) -> None:
     """Prints samples one after the other. The first one has no rates, and is not shown."""
     from robocomp_yaml.commands._top_view import as_data
-    from robocomp_yaml.diag import terminal
 
     number = 0
     async for sample in samples:

@@ -12,6 +12,7 @@ from robocomp_yaml.commands import _options, _talking
 from robocomp_yaml.commands._arriving import arriving_messages
 from robocomp_yaml.commands._command import CommandGroup
 from robocomp_yaml.commands._duration import Duration
+from robocomp_yaml.diag import terminal
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.addresses import Addresses
@@ -37,10 +38,7 @@ type_option = click.option(
     "--type", "type_", default="", metavar="NAME",
     help="The topic of the documents that it carries, if its name does not say it.",
 )  # fmt: skip
-_text_or_json = click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text",
-                             help="The output format.")  # fmt: skip
-_for = click.option("--for", "duration", type=Duration(), metavar="TIME", help="End after this time.")
-_count = click.option("--count", type=click.IntRange(1), metavar="N", help="End after N messages.")
+count_option = click.option("--count", type=click.IntRange(1), metavar="N", help="End after N messages.")
 
 
 def with_topics(function: Callable[..., None]) -> Callable[..., None]:
@@ -56,7 +54,14 @@ def with_topics(function: Callable[..., None]) -> Callable[..., None]:
 
         function(Topics(Addresses(deployment or "", include), storm, ice_config or "", timeout), **own)
 
-    for option in (_text_or_json, _options.include, _talking.ice_config, _talking.timeout, _storm, _talking.deployment):
+    for option in (
+        _options.text_or_json,
+        _options.include,
+        _talking.ice_config,
+        _talking.timeout,
+        _storm,
+        _talking.deployment,
+    ):
         run = option(run)
     return run
 
@@ -75,7 +80,6 @@ def command() -> None:
 def list_(ctx: click.Context, topics: Topics, format_: str) -> None:
     """Print every topic with those that publish and subscribe to it by the documents, and how many subscribe to it now.
     Exit code 1: an IceStorm does not answer."""
-    from robocomp_yaml.diag import terminal
 
     known, failures = topics.known()
     if format_ == "json":
@@ -86,10 +90,7 @@ def list_(ctx: click.Context, topics: Topics, format_: str) -> None:
             (one.name, one.type or "-", ", ".join(one.publishers) or "-", ", ".join(one.subscribers) or "-", _now(one))
             for one in known
         ]
-        widths = [max(terminal.columns(row[at]) for row in rows) for at in range(4)]
-        for row in rows:
-            cells = [terminal.pad(cell, width) for cell, width in zip(row, widths, strict=False)]
-            terminal.say(terminal.line(*(f"{cell}  " for cell in cells), row[4]))
+        terminal.say(*terminal.table(rows))
     elif not failures:
         terminal.say("no topics")
     for failure in failures:
@@ -113,15 +114,14 @@ def _as_data(topic: KnownTopic) -> dict[str, Any]:
 @command.command(short_help="Print messages as they come.")
 @click.argument("names", nargs=-1, required=True, metavar="TOPIC...",
                 shell_complete=_talking.completing(topic_names))  # fmt: skip
-@_count
-@_for
+@count_option
+@_talking.ending
 @type_option
 @with_topics
 def echo(
     topics: Topics, names: tuple[str, ...], count: int | None, duration: float | None, type_: str, format_: str
 ) -> None:
     """Print the messages of TOPICs as they come, until Ctrl-C. TOPIC.MESSAGE means only this one."""
-    from robocomp_yaml.diag import terminal
 
     def show(messages: Sequence[Message]) -> None:
         if format_ == "json":
@@ -136,8 +136,8 @@ def echo(
 @command.command(short_help="Measure the rate and the jitter of messages.")
 @click.argument("name", metavar="TOPIC", shell_complete=_talking.completing(topic_names))
 @click.option("--every", type=Duration(), default="1s", show_default=True, metavar="TIME", help="Time between lines.")
-@_count
-@_for
+@count_option
+@_talking.ending
 @type_option
 @with_topics
 def hz(
@@ -146,7 +146,6 @@ def hz(
     """Print how many messages of a TOPIC come in a second, the times between them, and how much these vary (their
     standard deviation), until Ctrl-C. TOPIC.MESSAGE means only this one."""
     from robocomp_yaml.api.topics import Rate
-    from robocomp_yaml.diag import terminal
 
     rate = Rate()
     with arriving_messages(topics, [topics.find(name, type_)], duration) as arriving:
@@ -188,7 +187,6 @@ def pub(
     type_: str, format_: str,
 ) -> None:  # fmt: skip
     """Publish a message. Arguments are those of `rcyaml call`: width=2.5, '{width: 2.5}', or - for standard input."""
-    from robocomp_yaml.diag import terminal
 
     topic, method = topics.find(name, type_)
     _talking.reject_options(ctx, arguments, topic.inputs(method))

@@ -14,7 +14,7 @@ from __future__ import annotations
 import re
 import sys
 import unicodedata
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Sequence
 from functools import cache
 from typing import TextIO
 
@@ -86,6 +86,16 @@ def cut(text: str, width: int) -> Shown:
     while text and columns(text) >= width:
         text = Shown(text[:-1])
     return Shown(text + "…")
+
+
+def table(rows: Sequence[Sequence[str]], right: Collection[int] = ()) -> list[Shown]:
+    """The lines of a table, each column as wide as its widest cell; the columns with the numbers `right` are aligned
+    right."""
+    widths = [max(map(columns, cells)) for cells in zip(*rows, strict=True)]
+    numbered = [list(enumerate(zip(row, widths, strict=True))) for row in rows]
+    return [
+        Shown("  ".join(pad(*cell, right=number in right) for number, cell in cells).rstrip()) for cells in numbered
+    ]
 
 
 def typed(*words: str) -> str:

@@ -1,7 +1,7 @@
 """Renders templates from views.
 
-A view is a struct of strings and of lists of views. The template's variables are its fields. Compiled templates are
-cached in the user's cache folder, because compiling them takes longer than the rest of a run.
+A view has strings and lists of views. The template's variables are its fields. Compiled templates are cached in the
+user's cache folder, because compiling them takes longer than the rest of a run.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ import os
 import stat
 from contextlib import suppress
 from functools import cache
+from types import SimpleNamespace
 
 import msgspec
 from jinja2 import BytecodeCache, Environment, FileSystemBytecodeCache, StrictUndefined
@@ -20,9 +21,14 @@ from msgspec.structs import asdict
 from robocomp_yaml import languages, resources
 
 
-def render(name: str, view: msgspec.Struct) -> str:
-    """Renders the template `templates/NAME`, or `LANGUAGE/NAME` of a language, with the fields of `view`."""
-    return _environment().get_template(name).render(asdict(view))
+class View(SimpleNamespace):
+    """What only templates read: strings, lists, and views."""
+
+
+def render(name: str, view: msgspec.Struct | View = View(), /, **more: object) -> str:
+    """Renders the template `templates/NAME`, or `LANGUAGE/NAME` of a language, with the fields of `view`, and more."""
+    variables = asdict(view) if isinstance(view, msgspec.Struct) else vars(view)
+    return _environment().get_template(name).render(variables, **more)
 
 
 class _Cache(FileSystemBytecodeCache):

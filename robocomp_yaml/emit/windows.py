@@ -3,8 +3,6 @@ and the form of the window."""
 
 from __future__ import annotations
 
-import msgspec
-
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.transactions.plan import ONCE, FilePlan
@@ -12,17 +10,9 @@ from robocomp_yaml.transactions.plan import ONCE, FilePlan
 PATH = "src/mainUI.ui"
 
 
-class WindowView(msgspec.Struct, frozen=True):
-    """`base` is a class of Qt; `is_main`: its widgets are in a central widget."""
-
-    base: str
-    title: str
-    is_main: bool
-
-
 def text(base: str, title: str) -> str:
-    """The text of a form."""
-    return render("qt/mainUI.ui.j2", WindowView(base, title, base == "QMainWindow"))
+    """The text of a form with a class of Qt as its base. The widgets of a main window are in a central widget."""
+    return render("qt/mainUI.ui.j2", base=base, title=title, is_main=base == "QMainWindow")
 
 
 def folders(linked: LinkedComponent) -> set[str]:

@@ -43,8 +43,6 @@ class RenamedTexts(msgspec.Struct, frozen=True):
     """A renaming that was checked: its edits, and the files before and after, by path. `left` are words in the user's
     code that are spelled like the old name, and stay."""
 
-    defined: DefinedName
-    name: str
     edits: tuple[NameEdit, ...]
     before: Mapping[str, bytes]
     after: Mapping[str, bytes]
@@ -63,7 +61,7 @@ def renamed(
     if not name or name != name.strip() or "\n" in name:
         raise NotRenamed("a name has at least one character, and no blanks around it")
     if name == defined.name:
-        return RenamedTexts(defined, name, (), {}, {})
+        return RenamedTexts((), {}, {})
     if (INDEX in name) != (INDEX in defined.name):
         raise NotRenamed(f"the name of an entry with instances contains {INDEX}, that of any other does not")
     edits = _in_documents(analysis, names, defined, name)
@@ -87,7 +85,7 @@ def renamed(
         for path in {one.span.file for one in made}:
             before[code.shown(path)] = code.texts[path].encode()
             after[code.shown(path)] = texts[path].encode()
-    return RenamedTexts(defined, name, (*edits, *in_code), before, after, tuple(left))
+    return RenamedTexts((*edits, *in_code), before, after, tuple(left))
 
 
 def replaced(span: Span, code: CodeOfComponent) -> Span:

@@ -12,7 +12,8 @@ from robocomp_yaml.addresses.own_configuration import chosen, own_configuration
 from robocomp_yaml.link.deployments import LinkedInstance
 from robocomp_yaml.link.flat_configs import FlatConfig, flat_at
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Program
-from robocomp_yaml.parameters.writing.properties import CLASSIC, FLAT_TOML, dialect, merged_entries
+from robocomp_yaml.parameters.layers.settings import merged_entries
+from robocomp_yaml.parameters.writing.properties import CLASSIC, FLAT_TOML, dialect
 from robocomp_yaml.semantics import connections
 from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source import tree
@@ -47,11 +48,8 @@ class ConfigurationBase(msgspec.Struct):
         if self.values is None:
             manager = self.first(*connections.MANAGER)
             return "" if self.is_own and manager == DEFAULT_MANAGER else manager
-        for layer in reversed(self.values.layers()):
-            topics = layer.document.section("topics")
-            if topics is not None and "manager" in topics.entries:
-                return str(topics.entries["manager"][1].data or "")
-        return ""
+        node = merged_entries(self.values, "topics").get("manager")
+        return str(node.data) if node is not None else ""
 
     def topic(self, port: str, interface: str, *, is_out: bool) -> str:
         """The name of a topic as generated components compose it, from a prefix and a name."""
@@ -59,8 +57,8 @@ class ConfigurationBase(msgspec.Struct):
         if self.values is None:
             prefix, name = self.first(connections.prefix(prefixes)), self.first(port)
         else:
-            prefix = _text(dict(merged_entries(self.values, "topics", "prefix")).get(prefixes))
-            name = _text(dict(merged_entries(self.values, "topics", "name")).get(port))
+            prefix = _text(merged_entries(self.values, "topics", "prefix").get(prefixes))
+            name = _text(merged_entries(self.values, "topics", "name").get(port))
         return connections.topic(prefix, name, interface)
 
     def first(self, *keys: str) -> str:
@@ -68,7 +66,7 @@ class ConfigurationBase(msgspec.Struct):
 
     def proxy_key(self, name: str) -> Scalar | None:
         """The property that replaces the usual property of a proxy."""
-        node = dict(merged_entries(self.values, "proxies")).get(name) if self.values is not None else None
+        node = merged_entries(self.values, "proxies").get(name) if self.values is not None else None
         key = node.get("key") if isinstance(node, tree.Mapping) else None
         return key if isinstance(key, Scalar) else None
 

@@ -63,11 +63,6 @@ class NetworkHost(Located, frozen=True):
     listen: tuple[str, ...] = ()
     span: Span = Span("")
 
-    @property
-    def user(self) -> str:
-        """The user for ssh, '' for the operator's own name."""
-        return self.ssh.user
-
     def there(self, path: str) -> str:
         """The path on the host of what has this absolute path on the operator's machine."""
         for here, there in sorted(self.folders, key=lambda pair: len(pair[0]), reverse=True):

@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
-from typing import TYPE_CHECKING
 
 from robocomp_yaml import secrets
 from robocomp_yaml.addresses.workspaces import Addresses
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.network.draft import Draft
 from robocomp_yaml.parameters.documents import LayeredValues
-from robocomp_yaml.parameters.editing.settings import DEFAULT, DERIVED, SET, OverriddenValue, ShownSetting, settings
+from robocomp_yaml.parameters.editing.settings import DEFAULT, DERIVED, SET, OverriddenValue, ShownSetting
 from robocomp_yaml.parameters.editing.show import Value, shown
 from robocomp_yaml.parameters.layers.effective import Effective
+from robocomp_yaml.parameters.layers.settings import Setting, settings
 from robocomp_yaml.source.tree import Node, Scalar
 from robocomp_yaml.source.yaml_text import flow
-
-if TYPE_CHECKING:
-    from robocomp_yaml.parameters.editing.settings import Setting
 
 
 class ProcessSettings:
@@ -46,7 +43,7 @@ class ProcessSettings:
         is_outside = one.section == "proxies" and source == SET and one.name in self._external
         is_chosen = source == DERIVED and bool(overrode) and self._is_chosen(one, found)
         return ShownSetting(
-            one.key, secrets.value(one.key, one.text), source, span, overrode, is_outside,
+            one.key, secrets.value(one.key, one.node.lexeme), source, span, overrode, is_outside,
             is_chosen or (is_outside and self._is_own(one.node.span)),
         )  # fmt: skip
 

@@ -89,10 +89,6 @@ class Operation:
         in_order = tuple(values[name] for name in self.results)
         return None if not in_order else in_order[0] if len(in_order) == 1 else in_order
 
-    def zeros(self) -> dict[str, Any]:
-        """Results without any choice, by name."""
-        return {name: type_.zero() for name, type_ in self.results.items()}
-
     def examples(self) -> dict[str, Any]:
         """Results to try a program with, by name."""
         return {name: type_.example(self.name if name == RETURNS else name) for name, type_ in self.results.items()}

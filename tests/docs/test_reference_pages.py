@@ -15,7 +15,7 @@ import pytest
 
 from conftest import ROOT
 from robocomp_yaml.cli import COMMANDS, EPILOG, group
-from robocomp_yaml.commands._examples import examples_of
+from robocomp_yaml.commands._command import examples
 from robocomp_yaml.source.schema import schema as schema_of
 
 REFERENCE = ROOT / "docs" / "reference"
@@ -62,8 +62,8 @@ def command(one: click.Command | None, name: str, parent: click.Context, marks: 
     usage = " ".join([context.command_path, *one.collect_usage_pieces(context)])
     text = "\n\n".join(" ".join(part.split()) for part in (one.help or "").replace("\b", "").split("\n\n"))
     page = f"\n{marks} {context.command_path}\n\n```text\n{usage}\n```\n\n{escaped(text)}\n\n{options(one, context)}"
-    if examples := examples_of(context.command_path):
-        page += "\n```text\n{}\n```\n".format("\n".join(examples))
+    if lines := examples().get(context.command_path):
+        page += "\n```text\n{}\n```\n".format("\n".join(lines))
     if isinstance(one, click.Group):
         for inner in one.list_commands(context):
             page += command(one.get_command(context, inner), inner, context, "###")

@@ -163,7 +163,7 @@ def test_a_generated_client_gets_its_results(ice: Any, interface: Any, folder: P
             )
         if operation.name == "echo":
             return operation.as_result({"returns": "r", "same": arguments[0], "counted": 4})
-        return operation.as_result(operation.zeros())
+        return operation.as_result({name: type_.zero() for name, type_ in operation.results.items()})
 
     adapter = ice.createObjectAdapterWithEndpoints("", "tcp -h 127.0.0.1 -p 0")
     proxy = adapter.addWithUUID(interface.servant(answer))

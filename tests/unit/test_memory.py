@@ -47,7 +47,7 @@ def test_only_the_last_result_of_a_part_is_kept() -> None:
     first = memory.result("part", ("a",), object)
     memory.result("part", ("b",), object)
     assert memory.result("part", ("a",), object) is not first
-    assert memory.kept == 1
+    assert len(memory._results) == 1
 
 
 def test_what_two_rounds_do_not_use_is_forgotten() -> None:
@@ -55,7 +55,7 @@ def test_what_two_rounds_do_not_use_is_forgotten() -> None:
     memory.result("old", (), object)
     for kept in (2, 2, 2, 1):
         memory.result("new", (), object)
-        assert memory.kept == kept
+        assert len(memory._results) == kept
         memory.forget_unused()
 
 

@@ -6,8 +6,6 @@ import os
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-import msgspec
-
 from robocomp_yaml.addresses.interface_comparison import Implementers
 from robocomp_yaml.api.new.documents import NewDocument, free, require_name
 from robocomp_yaml.api.which import VALUES
@@ -25,14 +23,6 @@ from robocomp_yaml.source.yaml_text import flow
 _SUFFIX = "comp"
 
 
-class NewDeploymentView(msgspec.Struct, frozen=True):
-    modeline: str
-    name: str
-    rows: list[str]
-    has_topics: bool
-    has_components: bool
-
-
 def deployment_document(root: str, name: str) -> NewDocument:
     """The document, in the workspace's folder of deployments. Raises Refused if the name is not possible, or the
     document exists."""
@@ -45,8 +35,11 @@ def deployment_document(root: str, name: str) -> NewDocument:
         implementers.add(linked)
     rows = [row for linked in components for row in _entry(linked, path, names, implementers)]
     has_topics = any(linked.component.publishes or linked.component.subscribes for linked in components)
-    view = NewDeploymentView(modeline("ddsl", path, root), name, rows, has_topics, bool(components))
-    return NewDocument(path, render("new/deployment.ddsl.yaml.j2", view))
+    text = render(
+        "new/deployment.ddsl.yaml.j2", modeline=modeline("ddsl", path, root), name=name, rows=rows,
+        has_topics=has_topics, has_components=bool(components),
+    )  # fmt: skip
+    return NewDocument(path, text)
 
 
 def _components(root: str) -> list[LinkedComponent]:

@@ -31,23 +31,6 @@ _LISTS = {
 }
 
 
-class NewInterfaceView(msgspec.Struct, frozen=True):
-    modeline: str
-    module: str
-    name: str
-
-
-class NewComponentView(msgspec.Struct, frozen=True):
-    modeline: str
-    name: str
-    rows: list[str]
-
-
-class NewParametersView(msgspec.Struct, frozen=True):
-    modeline: str
-    component: str
-
-
 class NewDocument(msgspec.Struct, frozen=True):
     path: str
     text: str
@@ -56,8 +39,9 @@ class NewDocument(msgspec.Struct, frozen=True):
 def interface_document(root: str, name: str) -> NewDocument:
     require_name(name)
     path = free(os.path.join(interface_folder(root), f"{name}.idsl.yaml"))
-    view = NewInterfaceView(modeline("idsl", path, root), f"RoboComp{name[0].upper()}{name[1:]}", name)
-    document = NewDocument(path, render("new/interface.idsl.yaml.j2", view))
+    module = f"RoboComp{name[0].upper()}{name[1:]}"
+    head = modeline("idsl", path, root)
+    document = NewDocument(path, render("new/interface.idsl.yaml.j2", modeline=head, module=module, name=name))
     _refuse_faulty(document, name)
     return document
 
@@ -71,8 +55,9 @@ def component_document(
         for twice in {n for n in names if list(names).count(n) > 1}:
             raise Refused(f"--{key} {twice} is repeated")
     imports = imports_for(root, path, [name for names in uses.values() for name in names], include)
-    view = NewComponentView(modeline("cdsl", path, root), name, list(_rows(language, imports, uses)))
-    return NewDocument(path, render("new/component.cdsl.yaml.j2", view))
+    rows = list(_rows(language, imports, uses))
+    head = modeline("cdsl", path, root)
+    return NewDocument(path, render("new/component.cdsl.yaml.j2", modeline=head, name=name, rows=rows))
 
 
 def parameters_document(root: str, name: str) -> NewDocument:
@@ -82,8 +67,8 @@ def parameters_document(root: str, name: str) -> NewDocument:
     component = _component(root, name) or os.path.join(root, "components", name.lower(), f"{name.lower()}.cdsl.yaml")
     path = free(component.removesuffix("cdsl.yaml") + "pdsl.yaml")
     shown = os.path.basename(component) if os.path.isfile(component) else name
-    view = NewParametersView(modeline("pdsl", path, root), shown)
-    return NewDocument(path, render("new/parameters.pdsl.yaml.j2", view))
+    head = modeline("pdsl", path, root)
+    return NewDocument(path, render("new/parameters.pdsl.yaml.j2", modeline=head, component=shown))
 
 
 def require_name(name: str) -> None:

@@ -5,8 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator, Sequence
 
-import msgspec
-
 from robocomp_yaml import languages, resources
 from robocomp_yaml.api.new.documents import NewDocument, component_document, interface_document
 from robocomp_yaml.emit.render import render
@@ -19,10 +17,6 @@ EXAMPLE = "Hello"
 WROTE, KEPT, NOTE = "wrote", "kept", "note"
 Report = Callable[[str, str], None]
 """Called with each file when it is done: WROTE or KEPT with its path, or NOTE with a text."""
-
-
-class NewWorkspaceView(msgspec.Struct, frozen=True):
-    modeline: str
 
 
 def init(folder: str, report: Report, *, bare: bool = False) -> None:
@@ -82,6 +76,5 @@ def _write(document: NewDocument, report: Report) -> None:
 
 def _files(folder: str) -> Iterator[tuple[str, str]]:
     path = os.path.normpath(os.path.join(folder, WORKSPACE_FILE))
-    view = NewWorkspaceView(workspace_files.modeline("workspace", path, folder))
-    yield path, render("new/workspace.yaml.j2", view)
+    yield path, render("new/workspace.yaml.j2", modeline=workspace_files.modeline("workspace", path, folder))
     yield os.path.normpath(os.path.join(folder, ".gitignore")), resources.text("templates/new/gitignore")

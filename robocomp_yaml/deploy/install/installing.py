@@ -129,16 +129,6 @@ def uninstall(network: Network, record: Installed) -> list[Diagnostic]:
     return diagnostics
 
 
-def states(record: Installed) -> dict[str, str]:
-    """The state of the unit of each host that answers, by the host's name: `active`, `activating`, `inactive`."""
-    found = {}
-    for unit in record.units:
-        with contextlib.suppress(ProbeFailed):
-            answer = _ask(unit.host.host, unit.is_here, "show", unit.manager, unit.name, "", record.document, [])
-            found[unit.host.name] = answer.get("state", "")
-    return found
-
-
 def user() -> str:
     return getpass.getuser()
 

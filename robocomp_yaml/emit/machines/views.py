@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import msgspec
 
+from robocomp_yaml.emit.render import View
 from robocomp_yaml.model import machine_names as names
 from robocomp_yaml.model.statemachine import StateMachine
 
@@ -15,47 +16,25 @@ class EventView(msgspec.Struct, frozen=True):
     method: str
 
 
-class StateView(msgspec.Struct, frozen=True):
-    name: str
-    comment: str
+def view(machine: StateMachine, in_code: Callable[[str], str], comment: Callable[[str], str], events_of: str) -> View:
+    """The view of a machine. `in_code` makes names in the language; `events_of` is the prefix of an event's name.
 
-
-class OlderSignal(msgspec.Struct, frozen=True):
-    """The name that an older version of RoboComp's tool gave a signal."""
-
-    name: str
-    signal: str
-
-
-class MachineView(msgspec.Struct, frozen=True):
-    """The states, and the names of guards and actions. `called` are all actions, with those of every worker. `fires` is
-    an example of code that fires an event. `member` and the signals are for code for RoboComp's own tool."""
-
-    states: list[StateView]
-    guards: list[str]
-    actions: list[str]
-    called: list[str]
-    fires: str
-    member: str
-    signals: list[str]
-    older_signals: list[OlderSignal]
-
-
-def view(
-    machine: StateMachine, in_code: Callable[[str], str], comment: Callable[[str], str], events_of: str
-) -> MachineView:
-    """The view of a machine. `in_code` makes names in the language; `events_of` is the prefix of an event's name."""
+    It has the states, and the names of guards and actions. `called` are all actions, with those of every worker.
+    `fires` is an example of code that fires an event. `member` and the signals are for code for RoboComp's own tool;
+    older versions of it had the `older_signals`."""
     called = [action.name for action in names.actions(machine)]
     states = names.states_with_handlers(machine)
-    return MachineView(
-        [StateView(one.id, comment(f"The state '{one.id}' has been entered.\n\n{one.doc}")) for one in states],
-        [guard.name for guard in names.guards(machine)],
-        [name for name in called if name not in names.CALLABLE],
-        called,
-        next((f"{events_of}{event.method}()" for event in events(machine, in_code)), "there are none"),
-        in_code(names.robocomp_machine(machine)),
-        names.robocomp_signals(machine),
-        [OlderSignal(older, signal) for older, signal in names.older_signals(machine).items()],
+    return View(
+        states=[
+            View(name=one.id, comment=comment(f"The state '{one.id}' has been entered.\n\n{one.doc}")) for one in states
+        ],
+        guards=[guard.name for guard in names.guards(machine)],
+        actions=[name for name in called if name not in names.CALLABLE],
+        called=called,
+        fires=next((f"{events_of}{event.method}()" for event in events(machine, in_code)), "there are none"),
+        member=in_code(names.robocomp_machine(machine)),
+        signals=names.robocomp_signals(machine),
+        older_signals=[View(name=older, signal=signal) for older, signal in names.older_signals(machine).items()],
     )
 
 

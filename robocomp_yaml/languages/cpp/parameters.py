@@ -9,7 +9,6 @@ import msgspec
 from robocomp_yaml.emit.lowering.kinds import Builders, pattern_count
 from robocomp_yaml.emit.lowering.parameters import (
     Accessors,
-    ConstraintView,
     Types,
     TypeSpelling,
     about_enum,
@@ -20,7 +19,7 @@ from robocomp_yaml.emit.lowering.parameters import (
     path_of,
     titled,
 )
-from robocomp_yaml.emit.render import render
+from robocomp_yaml.emit.render import View, render
 from robocomp_yaml.languages._shared.text import IN
 from robocomp_yaml.languages._shared.views import constraint_views
 from robocomp_yaml.languages.cpp import LANGUAGE
@@ -40,52 +39,6 @@ _TYPES_TAKEN = ("Values", "table", "fromValue", "toValue", "of")
 _METHODS_TAKEN = ("Parameters", "change", "listen", "live_", "now", "set")
 
 
-class EnumView(msgspec.Struct, frozen=True):
-    name: str
-    names: str
-    comment: str
-    enumerators: list[str]
-    literals: list[str]
-
-
-class MemberView(msgspec.Struct, frozen=True):
-    comment: str
-    field: str
-    kind: str
-    read: str
-    write: str
-
-
-class RecordView(msgspec.Struct, frozen=True):
-    name: str
-    comment: str
-    function: str
-    made: str
-    members: list[MemberView]
-
-
-class GetterView(msgspec.Struct, frozen=True):
-    comment: str
-    declaration: str
-    definition: str
-    setters: list[str]
-    setter_definitions: list[str]
-
-
-class ParametersView(msgspec.Struct, frozen=True):
-    source: str
-    name: str
-    comment: str
-    enums: list[EnumView]
-    records: list[RecordView]
-    converted: list[str]
-    getters: list[GetterView]
-    headers: list[str]
-    root: str
-    spellings: list[str]
-    constraints: list[ConstraintView]
-
-
 def plan(linked: LinkedComponent) -> list[FilePlan]:
     """`generated/parameters.h` and `.cpp`."""
     return [FilePlan(f"generated/{name}", made) for name, made in texts(*declared(linked)).items()]
@@ -100,7 +53,7 @@ def texts(parameters: Parameters, component: str, source: str) -> dict[str, str]
         *(["pattern.h"] if pattern_count(parameters.root) else []),
     ]  # fmt: skip
     enums = [types.enum(enum) for enum in types.enums]
-    view = ParametersView(
+    view = View(
         source=one_line(source.rpartition("/")[2]),
         name=component,
         comment=comment(titled(f"The parameters of {component} while it runs.", parameters.doc)),
@@ -150,32 +103,32 @@ class _Types(Types):
         self.enumerators = {enum.name: _enumerators(enum) for enum in self.enums}
         self.tables = {enum.name: taken.allocate(f"namesOf{self.of[enum.name]}") for enum in self.enums}
 
-    def enum(self, enum: EnumType) -> EnumView:
-        return EnumView(
-            self.of[enum.name],
-            self.tables[enum.name],
-            comment("\n".join(about_enum(enum))),
-            [f"{name}," for name in self.enumerators[enum.name].values()],
-            [f"{literal(name)}," for name in enum.names],
+    def enum(self, enum: EnumType) -> View:
+        return View(
+            name=self.of[enum.name],
+            names=self.tables[enum.name],
+            comment=comment("\n".join(about_enum(enum))),
+            enumerators=[f"{name}," for name in self.enumerators[enum.name].values()],
+            literals=[f"{literal(name)}," for name in enum.names],
         )
 
-    def record(self, path: str, record: RecordType) -> RecordView:
+    def record(self, path: str, record: RecordType) -> View:
         group = group_of(path, record)
-        return RecordView(
-            self.of[path],
-            comment(self.about_record(path, record)),
-            self.functions[path],
-            "runtime::group(" if record.is_group else f"runtime::record({literal(record.name)}, ",
-            [self.member(member, group) for member in record.members],
+        return View(
+            name=self.of[path],
+            comment=comment(self.about_record(path, record)),
+            function=self.functions[path],
+            made="runtime::group(" if record.is_group else f"runtime::record({literal(record.name)}, ",
+            members=[self.member(member, group) for member in record.members],
         )
 
-    def member(self, member: ResolvedMember, group: str | None) -> MemberView:
+    def member(self, member: ResolvedMember, group: str | None) -> View:
         """`group` is the path of the member's group, None in a struct."""
         inner = path_of(member, group)
         name, key = LANGUAGE.in_code(member.code_name), string(member.name)
         made = _BUILDERS.member(f"runtime::Member({key}", member, self.functions, inner)
         initial = self.initial(member)
-        return MemberView(
+        return View(
             comment=comment(about_member(member, "\n"), IN),
             field=f"{self.member_type(member, inner)} {name}{f' = {initial}' if initial else '{}'};",
             kind=folded(f"{made},", 2 * IN),
@@ -203,7 +156,7 @@ class _Types(Types):
                 return f"{float(data)!r}{'f' if name == 'float' else ''}"
         return ""
 
-    def getters(self) -> Iterator[GetterView]:
+    def getters(self) -> Iterator[View]:
         for name, member, setting in accessors(self.root, self):
             group = inside(".", member.code_name)
             made = self.member_type(member, group)
@@ -213,12 +166,12 @@ class _Types(Types):
             else:
                 made, body = f"runtime::Held<{made}>", f"return live_.held(&parameters::Values::{field});"
             setters = [(setter, self.argument(inner), path) for setter, inner, path in setting]
-            yield GetterView(
-                comment(about_member(member, "\n"), IN),
-                f"{made} {name}() const;",
-                f"{made} Parameters::{name}() const\n{{\n{IN}{body}\n}}",
-                [f"void {setter}({type_} value);" for setter, type_, _ in setters],
-                [_setter(*setter) for setter in setters],
+            yield View(
+                comment=comment(about_member(member, "\n"), IN),
+                declaration=f"{made} {name}() const;",
+                definition=f"{made} Parameters::{name}() const\n{{\n{IN}{body}\n}}",
+                setters=[f"void {setter}({type_} value);" for setter, type_, _ in setters],
+                setter_definitions=[_setter(*setter) for setter in setters],
             )
 
     def argument(self, member: ResolvedMember) -> str:

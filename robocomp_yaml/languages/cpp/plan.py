@@ -7,26 +7,19 @@ skeleton and the files for CMake differ.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING
-
-import msgspec
 
 from robocomp_yaml.emit import runtime, windows
 from robocomp_yaml.emit.layout import Layout, stated
-from robocomp_yaml.emit.lowering.component import BEHAVIOR, COMMON, InterfaceHash, lower
+from robocomp_yaml.emit.lowering.component import BEHAVIOR, COMMON, lower
 from robocomp_yaml.emit.lowering.kinds import pattern_count
-from robocomp_yaml.emit.render import render
+from robocomp_yaml.emit.render import View, render
 from robocomp_yaml.emit.slice import file_name
 from robocomp_yaml.languages._shared.views import ignored_program
 from robocomp_yaml.languages.cpp import LANGUAGE, parameters, qt
-from robocomp_yaml.languages.cpp.ports import Ports, port_views
-from robocomp_yaml.languages.cpp.qt import QtView, RobocompView
+from robocomp_yaml.languages.cpp.ports import port_views
 from robocomp_yaml.languages.cpp.text import comment, one_line
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule
 from robocomp_yaml.transactions.plan import ONCE, FilePlan
-
-if TYPE_CHECKING:
-    from robocomp_yaml.emit.machines.views import MachineView
 
 # Targets that CMake defines itself.
 _CMAKE_TARGETS = frozenset(
@@ -34,34 +27,6 @@ _CMAKE_TARGETS = frozenset(
 )
 
 _QT_VERSION = "${QT_VERSION_MAJOR}"
-
-
-class View(msgspec.Struct, frozen=True):
-    """What the templates show. All files of a component use the same view."""
-
-    source: str
-    name: str
-    comment: str
-    period: int
-    headers: list[str]
-    ports: Ports
-    connect_parameters: str
-    has_topics: bool
-    target: str
-    standard: int
-    runtime: str
-    version: str
-    slice: str
-    made_for: str
-    interfaces: tuple[InterfaceHash, ...]
-    slices: list[str]
-    parts: str
-    sources: list[str]
-    is_main_apart: bool
-    qt: QtView | None
-    robocomp: RobocompView | None
-    machine: MachineView | None
-    base: str
 
 
 def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
@@ -83,7 +48,7 @@ def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
         FilePlan("src/specificworker.h", render("cpp/specificworker.h.j2", view), ONCE),
         FilePlan("src/specificworker.cpp", render("cpp/specificworker.cpp.j2", view), ONCE),
         FilePlan("CMakeLists.txt", render("cpp/CMakeLists.txt.j2", view), ONCE),
-        ignored_program(view.name),
+        ignored_program(component.component.name),
     ]
 
 
@@ -118,11 +83,12 @@ def _robocomp(component: LinkedComponent, view: View, parts: list[FilePlan]) -> 
         *parts,
         *(FilePlan(path, render(f"cpp/{name}.j2", view)) for path, name in names.items()),
         *(FilePlan(path, render(f"cpp/{name}.j2", view), ONCE, accepted=accepted) for path, name in own.items()),
-        ignored_program(view.name),
+        ignored_program(component.component.name),
     ]
 
 
 def _view(linked: LinkedComponent, layout: Layout) -> View:
+    """What the templates show. All files of a component use the same view."""
     component = linked.component
     ports = port_views(linked)
     has_topics = bool(ports.publishes or ports.subscribes)

@@ -9,27 +9,13 @@ from collections.abc import Iterator
 import msgspec
 from msgspec.structs import replace
 
+from robocomp_yaml.emit.render import View
 from robocomp_yaml.languages._shared.text import IN, declaration
 from robocomp_yaml.languages.cpp.names import ice_name, older_names, parameter, qualified
 from robocomp_yaml.languages.cpp.ports import AccessorView, OperationView, Ports, ServiceView
 from robocomp_yaml.languages.cpp.types import input_type, type_name
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.interface import Enum, Method
-
-
-class QtView(msgspec.Struct, frozen=True):
-    """Qt in a component: `modules` for find_package, `libraries` to link, `base` the class of the window."""
-
-    modules: str
-    libraries: str
-    base: str
-
-
-class Enumerators(msgspec.Struct, frozen=True):
-    """The enumerators of a module as constants beside their enum, as in Ice's older mapping."""
-
-    module: str
-    constants: list[str]
 
 
 class Handles(msgspec.Struct, frozen=True):
@@ -39,45 +25,20 @@ class Handles(msgspec.Struct, frozen=True):
     names: list[str]
 
 
-class OlderName(msgspec.Struct, frozen=True):
-    """Another name of a proxy, which older versions of the tool gave it."""
-
-    proxy: str
-    name: str
-    now: str
-
-
-class RobocompView(msgspec.Struct, frozen=True):
-    """What code for RoboComp's own tool needs. `tie`, `tuple_types` and `map` list the accessors; `methods` are
-    declared for classes that override them, protected, so that nobody else calls them; `legacy_sources` are the names
-    of RoboComp's own files in `src/`; `headers` are those of listed classes, which its generic part included."""
-
-    base: str
-    tuple_types: str
-    tie: str
-    map: str
-    casts: list[str]
-    methods: list[str]
-    namespaces: list[str]
-    enumerators: list[Enumerators]
-    legacy_sources: str
-    services: list[ServiceView]
-    older: list[OlderName]
-    handles: list[Handles]
-    handle_names: list[str]
-    headers: list[str]
-
-
-def qt_view(linked: LinkedComponent) -> QtView | None:
+def qt_view(linked: LinkedComponent) -> View | None:
+    """Qt in a component: `modules` for find_package, `libraries` to link, `base` the class of the window."""
     gui = linked.component.gui
     if not (gui or linked.component.compatibility):
         return None
     modules = ["Core", "Widgets"] if gui else ["Core"]
     libraries = " ".join(f"Qt${{QT_VERSION_MAJOR}}::{module}" for module in modules)
-    return QtView(" ".join(modules), libraries, gui.base if gui else "")
+    return View(modules=" ".join(modules), libraries=libraries, base=gui.base if gui else "")
 
 
-def robocomp_view(linked: LinkedComponent, ports: Ports) -> RobocompView | None:
+def robocomp_view(linked: LinkedComponent, ports: Ports) -> View | None:
+    """What code for RoboComp's own tool needs. `tie`, `tuple_types` and `map` list the accessors; `methods` are
+    declared for classes that override them, protected, so that nobody else calls them; `legacy_sources` are the names
+    of RoboComp's own files in `src/`; `headers` are those of listed classes, which its generic part included."""
     component = linked.component
     if not component.compatibility:
         return None
@@ -88,7 +49,7 @@ def robocomp_view(linked: LinkedComponent, ports: Ports) -> RobocompView | None:
         for scope in linked.modules() if scope.module.all_interfaces
     ]  # fmt: skip
     served = sorted({port.interface.name.lower() for port in (*linked.implements, *linked.subscribes)})
-    return RobocompView(
+    return View(
         base=f"{component.gui.base}, public Ui_guiDlg" if component.gui else "QObject",
         tuple_types=", ".join(f"std::shared_ptr<{accessor.proxy}>" for accessor in accessors),
         tie=", ".join(accessor.name for accessor in accessors),
@@ -99,7 +60,7 @@ def robocomp_view(linked: LinkedComponent, ports: Ports) -> RobocompView | None:
         enumerators=[_enumerators(scope) for scope in linked.modules()],
         legacy_sources="|".join(["commonbehaviorI", *(f"{name}I" for name in served)]),
         services=[_behind_pointer(service) for service in ports.services],
-        older=[OlderName(classes[now], name, now) for name, now in older_names(classes)],
+        older=[View(proxy=classes[now], name=name, now=now) for name, now in older_names(classes)],
         handles=handles,
         handle_names=sorted({name for one in handles for name in one.names}),
         headers=[os.path.basename(one.path) for one in component.sources if one.path.endswith((".h", ".hpp"))],
@@ -153,8 +114,9 @@ def _variants(name: str, method: Method, port: Port) -> Iterator[str]:
         yield declaration(head, unnamed, f' {{ throw std::logic_error("{name}() is missing"); }}', IN)
 
 
-def _enumerators(scope: LinkedModule) -> Enumerators:
-    """The enumerators that no other definition of the module hides."""
+def _enumerators(scope: LinkedModule) -> View:
+    """The enumerators that no other definition of the module hides, as constants beside their enum, as in Ice's older
+    mapping."""
     enums = [definition for definition in scope.module.definitions if isinstance(definition, Enum)]
     taken = Counter(definition.name for definition in scope.module.definitions)
     taken.update(enumerator.name for enum in enums for enumerator in enum.enumerators)
@@ -163,4 +125,4 @@ def _enumerators(scope: LinkedModule) -> Enumerators:
         for enum in enums for name in (ice_name(enumerator.name) for enumerator in enum.enumerators)
         if taken[name] == 1
     ]  # fmt: skip
-    return Enumerators(ice_name(scope.module.name), constants)
+    return View(module=ice_name(scope.module.name), constants=constants)

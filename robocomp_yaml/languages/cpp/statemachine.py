@@ -5,11 +5,8 @@ from __future__ import annotations
 import json
 from dataclasses import fields, is_dataclass
 
-import msgspec
-
 from robocomp_yaml.emit.machines import lower, views
-from robocomp_yaml.emit.machines.views import EventView, MachineView
-from robocomp_yaml.emit.render import render
+from robocomp_yaml.emit.render import View, render
 from robocomp_yaml.languages._shared.text import IN
 from robocomp_yaml.languages.cpp.names import parameter
 from robocomp_yaml.languages.cpp.text import comment, literal, one_line
@@ -21,19 +18,13 @@ WIDTH = 110
 _KINDS = {"Value": "ValueKind", "Condition": "ConditionKind", "Action": "ActionKind", "State": "StateKind"}
 
 
-class TablesView(msgspec.Struct, frozen=True):
-    source: str
-    events: list[EventView]
-    functions: str
-
-
-def view(machine: StateMachine) -> MachineView:
+def view(machine: StateMachine) -> View:
     return views.view(machine, parameter, lambda text: comment(text, "    "), "events.")
 
 
 def files(machine: StateMachine) -> list[FilePlan]:
     """The files with the tables of the component's machine."""
-    shown = TablesView(
+    shown = View(
         source=one_line(machine.path.rpartition("/")[2]),
         events=views.events(machine, parameter),
         functions=functions(lower.lower(machine), "makeTables"),

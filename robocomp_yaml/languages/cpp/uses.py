@@ -5,8 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 
-import msgspec
-
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.emit.uses import constraints
 from robocomp_yaml.model.component import CMAKE, LINK, PKG_CONFIG, Component, Library, Source
@@ -17,23 +15,16 @@ _MACROS = {CMAKE: "package", PKG_CONFIG: "module", LINK: "library"}
 _COMPARED = frozenset((">=", "<=", ">", "<", "==", "="))  # the operators of versions that CMake has
 
 
-class UsesView(msgspec.Struct, frozen=True):
-    """`folders` are the folders to search, relative to the component's; `uses` are calls of CMake macros."""
-
-    source: str
-    name: str
-    folders: list[str]
-    uses: list[str]
-
-
 def plan(
     component: Component, sources: Sequence[Source], native: Sequence[Library], folders: Sequence[str]
 ) -> list[FilePlan]:
     """`generated/uses.cmake`."""
     files = [source.path for source in sources if not source.is_class]
-    view = UsesView(
+    made = render(
+        "cpp/uses.cmake.j2",
         source=os.path.basename(component.path),
         name=component.name,
+        # to search, relative to the folder of the component
         folders=[f"/{folder}" if folder != "." else "" for folder in folders],
         uses=[
             *(f'rcyaml_use_file("{path}" {"ON" if path.endswith(COMPILED) else "OFF"})' for path in files),
@@ -41,7 +32,7 @@ def plan(
             *map(_used, native),
         ],
     )
-    return [FilePlan("generated/uses.cmake", render("cpp/uses.cmake.j2", view))]
+    return [FilePlan("generated/uses.cmake", made)]
 
 
 def _used(library: Library) -> str:

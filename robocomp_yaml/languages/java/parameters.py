@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import msgspec
-
 from robocomp_yaml.emit.lowering.kinds import Builders
 from robocomp_yaml.emit.lowering.names import NameAllocator
 from robocomp_yaml.emit.lowering.parameters import (
     Accessors,
-    ConstraintView,
     Types,
     TypeSpelling,
     about_enum,
@@ -21,7 +18,7 @@ from robocomp_yaml.emit.lowering.parameters import (
     path_of,
     titled,
 )
-from robocomp_yaml.emit.render import render
+from robocomp_yaml.emit.render import View, render
 from robocomp_yaml.languages._shared.text import IN
 from robocomp_yaml.languages._shared.views import constraint_views
 from robocomp_yaml.languages.java import LANGUAGE
@@ -42,55 +39,6 @@ from robocomp_yaml.parameters.types import (
 from robocomp_yaml.transactions.plan import FilePlan
 
 
-class ConstantView(msgspec.Struct, frozen=True):
-    """A constant of an enum; `text` is a literal of its name in documents."""
-
-    name: str
-    text: str
-
-
-class EnumView(msgspec.Struct, frozen=True):
-    name: str
-    comment: str
-    constants: list[ConstantView]
-
-
-class MemberView(msgspec.Struct, frozen=True):
-    comment: str
-    field: str
-    read: str
-    kind: str
-
-
-class RecordView(msgspec.Struct, frozen=True):
-    """`function` creates the record's type in the table; `secret` are the names of secret members, as arguments."""
-
-    name: str
-    comment: str
-    function: str
-    made: str
-    secret: str
-    members: list[MemberView]
-
-
-class GetterView(msgspec.Struct, frozen=True):
-    comment: str
-    declaration: str
-    field: str
-    setters: list[str]
-
-
-class ParametersView(msgspec.Struct, frozen=True):
-    source: str
-    comment: str
-    enums: list[EnumView]
-    records: list[RecordView]
-    getters: list[GetterView]
-    root: str
-    spellings: list[str]
-    constraints: list[ConstraintView]
-
-
 def plan(linked: LinkedComponent) -> FilePlan:
     """`generated/Parameters.java`."""
     return FilePlan("generated/Parameters.java", text(*declared(linked)))
@@ -99,7 +47,8 @@ def plan(linked: LinkedComponent) -> FilePlan:
 def text(parameters: Parameters, component: str, source: str) -> str:
     """The class with the parameters of a component; `source` is the path of their document."""
     types = _Types(parameters.root)
-    view = ParametersView(
+    return render(
+        "java/Parameters.java.j2",
         source=one_line(source.rpartition("/")[2]),
         comment=comment(titled(f"The parameters of {component} while it runs.", parameters.doc)),
         enums=[types.enum(enum) for enum in types.enums],
@@ -112,7 +61,6 @@ def text(parameters: Parameters, component: str, source: str) -> str:
         ],
         constraints=constraint_views(parameters, LANGUAGE, literal),
     )
-    return render("java/Parameters.java.j2", view)
 
 
 _SPELLING = TypeSpelling(
@@ -139,24 +87,27 @@ class _Types(Types):
         functions = NameAllocator(METHODS)
         self.functions = {path: functions.allocate(f"kindOf{self.of[path]}") for path, _ in self.records}
 
-    def enum(self, enum: EnumType) -> EnumView:
+    def enum(self, enum: EnumType) -> View:
         names = NameAllocator(TYPES)  # a constant hides a type of the same name in the enum
-        constants = [ConstantView(names.allocate(LANGUAGE.in_code(name)), literal(name)) for name in enum.names]
-        return EnumView(self.of[enum.name], comment("\n".join(about_enum(enum)), IN), constants)
+        constants = [View(name=names.allocate(LANGUAGE.in_code(name)), text=literal(name)) for name in enum.names]
+        about = comment("\n".join(about_enum(enum)), IN)
+        return View(name=self.of[enum.name], comment=about, constants=constants)
 
-    def record(self, path: str, record: RecordType) -> RecordView:
+    def record(self, path: str, record: RecordType) -> View:
+        """`function` creates the record's type in the table; `secret` are the names of secret members, as arguments."""
         group = group_of(path, record)
         secret = [literal(member.name) for member in record.members if is_secret(member.type)]
-        return RecordView(
-            self.of[path],
-            comment(self.about_record(path, record), IN),
-            self.functions[path],
-            "Kind.group(" if record.is_group else f"Kind.record({literal(record.name)}{',' if record.members else ''}",
-            "".join(f", {name}" for name in secret),
-            [self.member(member, group) for member in record.members],
+        named = f"Kind.record({literal(record.name)}{',' if record.members else ''}"
+        return View(
+            name=self.of[path],
+            comment=comment(self.about_record(path, record), IN),
+            function=self.functions[path],
+            made="Kind.group(" if record.is_group else named,
+            secret="".join(f", {name}" for name in secret),
+            members=[self.member(member, group) for member in record.members],
         )
 
-    def member(self, member: ResolvedMember, group: str | None) -> MemberView:
+    def member(self, member: ResolvedMember, group: str | None) -> View:
         """`group` is the path of the member's group, None in a struct."""
         inner = path_of(member, group)
         name, key = LANGUAGE.in_code(member.code_name), literal(member.name)
@@ -165,7 +116,7 @@ class _Types(Types):
             got = f"optional({got}, {self.function(member.type, inner)})"
         else:
             got = self.read(member.type, got, inner)
-        return MemberView(
+        return View(
             comment=comment(about_member(member, "\n"), IN * 2),
             field=f"public final {self.member_type(member, inner)} {name};",
             read=f"this.{name} = {got};",
@@ -194,14 +145,14 @@ class _Types(Types):
     def function(self, type_: Type, group: str | None, depth: int = 0) -> str:
         return f"v{depth} -> {self.read(type_, f'v{depth}', group, depth + 1)}"
 
-    def getters(self) -> Iterator[GetterView]:
+    def getters(self) -> Iterator[View]:
         for getter, member, setters in accessors(self.root, self):
             group = inside(".", member.code_name)
-            yield GetterView(
-                comment(about_member(member, "\n"), IN),
-                f"public {self.member_type(member, group)} {getter}()",
-                LANGUAGE.in_code(member.code_name),
-                [
+            yield View(
+                comment=comment(about_member(member, "\n"), IN),
+                declaration=f"public {self.member_type(member, group)} {getter}()",
+                field=LANGUAGE.in_code(member.code_name),
+                setters=[
                     f"public void {name}({self.member_type(inner, None)} value) "
                     f"{{\n{IN * 2}set({literal(path)}, value);\n{IN}}}"
                     for name, inner, path in setters

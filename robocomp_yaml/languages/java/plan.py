@@ -9,37 +9,16 @@ from __future__ import annotations
 import shlex
 from collections.abc import Callable
 
-import msgspec
-
 from robocomp_yaml.emit import runtime
 from robocomp_yaml.emit.layout import Layout, stated
-from robocomp_yaml.emit.lowering.component import COMMON, InterfaceHash, lower
-from robocomp_yaml.emit.render import render
+from robocomp_yaml.emit.lowering.component import COMMON, lower
+from robocomp_yaml.emit.render import View, render
 from robocomp_yaml.languages._shared.views import ignored_program
 from robocomp_yaml.languages.java import parameters
-from robocomp_yaml.languages.java.ports import Ports, port_views
+from robocomp_yaml.languages.java.ports import port_views
 from robocomp_yaml.languages.java.text import comment, literal, one_line
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.transactions.plan import ONCE, FilePlan
-
-
-class View(msgspec.Struct, frozen=True):
-    """What the templates show. `names` are the names of all ports, as literals with commas; `needs_storm` says that
-    there are topics; `runtime` and `slice` are folders, and `slices` the files in `slice`, as words of the shell."""
-
-    source: str
-    runtime: str
-    version: str
-    slice: str
-    slices: str
-    made_for: str
-    name: str
-    comment: str
-    period: int
-    ports: Ports
-    names: str
-    interfaces: tuple[InterfaceHash, ...]
-    needs_storm: bool
 
 
 def needs(component: LinkedComponent) -> Callable[[str], bool]:
@@ -59,11 +38,12 @@ def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
         FilePlan("generated/build", render("java/build.j2", view), executable=True),
         FilePlan("generated/start", render("java/start.j2", view), executable=True),
         FilePlan("src/SpecificWorker.java", render("java/SpecificWorker.java.j2", view), ONCE),
-        ignored_program(view.name),
+        ignored_program(component.component.name),
     ]
 
 
 def _view(linked: LinkedComponent, layout: Layout) -> View:
+    """What the templates show."""
     lowered, ports = lower(linked), port_views(linked)
     every = (*linked.implements, *linked.requires, *linked.publishes, *linked.subscribes)
     return View(
@@ -71,12 +51,14 @@ def _view(linked: LinkedComponent, layout: Layout) -> View:
         runtime=layout.runtime,
         version=runtime.version("java"),
         slice=layout.slice,
+        # the files in `slice`, as words of the shell
         slices=" ".join(shlex.quote(file) for file in lowered.files if file != COMMON),
         made_for=stated(layout.made_for) if layout.made_for else "",
         name=lowered.name,
         comment=comment(lowered.doc),
         period=lowered.period,
         ports=ports,
+        # the names of all ports, as literals
         names=", ".join(literal(name) for name in dict.fromkeys(port.name for port in every)),
         interfaces=lowered.interfaces,
         needs_storm=bool(ports.publishes or ports.subscribes),

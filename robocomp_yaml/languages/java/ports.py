@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import msgspec
-
 from robocomp_yaml.emit.lowering import ports as lowering
 from robocomp_yaml.emit.lowering.names import NameAllocator
 from robocomp_yaml.emit.lowering.types import resolve, results
+from robocomp_yaml.emit.render import View
 from robocomp_yaml.languages._shared.text import IN, declaration
 from robocomp_yaml.languages._shared.views import PortViews
 from robocomp_yaml.languages.java.names import PORTS, ice_name, parameter, proxy, qualified
@@ -14,48 +13,7 @@ from robocomp_yaml.languages.java.text import comment, literal, one_line
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.interface import Enum, Map, Member, Method, Sequence, TypeRef
 
-
-class MethodView(msgspec.Struct, frozen=True):
-    """A method of the worker: abstract in GenericWorker, and as a stub in the user's class."""
-
-    comment: str
-    declaration: str
-    definition: str
-    stub: list[str]
-
-
-class OperationView(msgspec.Struct, frozen=True):
-    """An operation of a servant: `call` calls the worker's method, `name` is the method's name."""
-
-    declaration: str
-    call: str
-    name: str
-    is_published: bool
-
-
-class ServiceView(msgspec.Struct, frozen=True):
-    """An implemented or subscribed port; `arguments` are those of the run time's `Service`. `new_methods` are the
-    methods that no earlier port has."""
-
-    title: str
-    servant: str
-    base: str
-    arguments: str
-    operations: list[OperationView]
-    new_methods: list[MethodView]
-
-
-class AccessorView(msgspec.Struct, frozen=True):
-    """A proxy of the worker; `made` creates it."""
-
-    name: str
-    proxy: str
-    comment: str
-    summary: str
-    made: str
-
-
-Ports = PortViews[AccessorView, ServiceView]
+Ports = PortViews[View, View]
 
 
 def port_views(component: LinkedComponent) -> Ports:
@@ -68,31 +26,33 @@ def port_views(component: LinkedComponent) -> Ports:
     )
 
 
-def _required(accessor: lowering.Accessor) -> AccessorView:
+def _required(accessor: lowering.Accessor) -> View:
     milliseconds = -1 if accessor.milliseconds is None else min(accessor.milliseconds, 2**31 - 1)
     words = [literal(accessor.port.name), literal(accessor.port.use.absent), str(milliseconds)]
     return _accessor(accessor, f"connections.required({', '.join(words)})", accessor.summary)
 
 
-def _published(accessor: lowering.Accessor) -> AccessorView:
+def _published(accessor: lowering.Accessor) -> View:
     words = [literal(accessor.port.name), literal(accessor.port.interface.name)]
     return _accessor(accessor, f"connections.published({', '.join(words)})", f"{accessor.summary}: {accessor.events}")
 
 
-def _accessor(accessor: lowering.Accessor, made: str, summary: str) -> AccessorView:
-    return AccessorView(
-        accessor.name,
-        proxy(accessor.port.scope, accessor.port.interface.name),
-        comment(f"{accessor.about}\n{accessor.doc}", IN),
-        one_line(summary),
-        made,
+def _accessor(accessor: lowering.Accessor, made: str, summary: str) -> View:
+    """A proxy of the worker; `made` creates it."""
+    return View(
+        name=accessor.name,
+        proxy=proxy(accessor.port.scope, accessor.port.interface.name),
+        comment=comment(f"{accessor.about}\n{accessor.doc}", IN),
+        summary=one_line(summary),
+        made=made,
     )
 
 
-def _service(service: lowering.Service, servants: NameAllocator, suffix: str, identity: str) -> ServiceView:
+def _service(service: lowering.Service, servants: NameAllocator, suffix: str, identity: str) -> View:
+    """A port; `arguments` are those of the run time's `Service`. `new_methods` are those that no earlier port has."""
     port, calls = service.port, {called.method.name: called.name for called in service.methods}
     words = (port.name, identity, port.interface.name)
-    return ServiceView(
+    return View(
         title=one_line(service.title),
         servant=servants.allocate(f"{port.name}{suffix}"),
         base=qualified(port.scope, port.interface.name),
@@ -102,13 +62,13 @@ def _service(service: lowering.Service, servants: NameAllocator, suffix: str, id
     )
 
 
-def _operation(method: Method, port: Port, calls: str) -> OperationView:
+def _operation(method: Method, port: Port, calls: str) -> View:
     """The operation that calls the worker's method `calls`; '' for an operation that cannot be published."""
     names = [f"in{number}" for number in range(len(method.inputs))]
     typed = [f"{type_name(m.type, port.scope)} {name}" for m, name in zip(method.inputs, names, strict=True)]
     typed.append("com.zeroc.Ice.Current current")
     returns = result_type(method, port)
-    return OperationView(
+    return View(
         declaration=declaration(f"public {returns} {ice_name(method.name)}", typed, _throws(method, port), IN * 2),
         call=f"{'' if returns == 'void' else 'return '}worker().{calls}({', '.join(names)});",
         name=literal(calls),
@@ -116,12 +76,13 @@ def _operation(method: Method, port: Port, calls: str) -> OperationView:
     )
 
 
-def _method(called: lowering.CalledMethod) -> MethodView:
+def _method(called: lowering.CalledMethod) -> View:
+    """A method of the worker: abstract in GenericWorker, and as a stub in the user's class."""
     method, port = called.method, called.port
     returns = result_type(method, port)
     typed = [f"{type_name(member.type, port.scope)} {parameter(member.name)}" for member in method.inputs]
     throws = _throws(method, port)
-    return MethodView(
+    return View(
         comment=comment(_described(method, port), IN),
         declaration=declaration(f"public abstract {returns} {called.name}", typed, f"{throws};", IN),
         definition=declaration(f"public {returns} {called.name}", typed, f"{throws} {{", IN),

@@ -9,7 +9,6 @@ import msgspec
 
 from robocomp_yaml.emit.lowering.names import NameAllocator
 from robocomp_yaml.emit.lowering.parameters import (
-    ConstraintView,
     Types,
     TypeSpelling,
     about_enum,
@@ -67,16 +66,6 @@ class RecordView(msgspec.Struct, frozen=True):
     members: list[MemberView]
 
 
-class ParametersView(msgspec.Struct, frozen=True):
-    source: str
-    title: str
-    imports: list[str]
-    enums: list[EnumView]
-    records: list[RecordView]
-    spellings: list[str]
-    constraints: list[ConstraintView]
-
-
 def plan(linked: LinkedComponent) -> FilePlan:
     """`generated/parameters.py`."""
     return FilePlan("generated/parameters.py", text(*declared(linked)))
@@ -87,7 +76,8 @@ def text(parameters: Parameters, component: str, source: str) -> str:
     types = _Types(parameters.root)
     views = [types.record(path, record) for path, record in types.records]
     constraints = constraint_views(parameters, LANGUAGE, literal)
-    view = ParametersView(
+    return render(
+        "python/parameters.py.j2",
         source=one_line(source.rpartition("/")[2]),
         title=docstring(titled(f"The parameters of {component}.", parameters.doc), ""),
         imports=list(_imports(views, bool(types.enums), bool(parameters.spellings), bool(constraints))),
@@ -96,7 +86,6 @@ def text(parameters: Parameters, component: str, source: str) -> str:
         spellings=[f"{literal(spelling.path)}: {_spelling(spelling)}" for spelling in parameters.spellings],
         constraints=constraints,
     )
-    return render("python/parameters.py.j2", view)
 
 
 def _imports(views: list[RecordView], enums: bool, spellings: bool, constraints: bool) -> Iterator[str]:

@@ -10,28 +10,23 @@ import json
 import os
 import re
 from collections.abc import Callable, Iterable, Iterator
-from typing import TYPE_CHECKING
 
 import msgspec
-from msgspec.structs import replace
 
 from robocomp_yaml.emit import runtime, windows
 from robocomp_yaml.emit.layout import Layout, stated
-from robocomp_yaml.emit.lowering.component import BEHAVIOR, InterfaceHash, lower
-from robocomp_yaml.emit.render import render
+from robocomp_yaml.emit.lowering.component import BEHAVIOR, lower
+from robocomp_yaml.emit.render import View, render
 from robocomp_yaml.languages.python import LANGUAGE, parameters
 from robocomp_yaml.languages.python.names import ice_name, module_variable, python_name
 from robocomp_yaml.languages.python.ports import Ports, port_views
-from robocomp_yaml.languages.python.stubs import ModuleStub, stub
+from robocomp_yaml.languages.python.stubs import stub
 from robocomp_yaml.languages.python.text import docstring, one_line
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.link.references import groups
 from robocomp_yaml.model.interface import Sequence
 from robocomp_yaml.semantics.slice_names import NOT_ESCAPED
 from robocomp_yaml.transactions.plan import ONCE, FilePlan
-
-if TYPE_CHECKING:
-    from robocomp_yaml.emit.machines.views import MachineView
 
 
 class SliceModule(msgspec.Struct, frozen=True):
@@ -41,49 +36,15 @@ class SliceModule(msgspec.Struct, frozen=True):
     variable: str
 
 
-class View(msgspec.Struct, frozen=True):
-    """What the templates show. All files of a component use the same view.
-
-    `files` are literals of Python; `has_behavior` says that CommonBehavior's Slice is ours, not the user's; `stage`,
-    `window`, `qt_base`, `sequences` and `spread` are for components in Qt's event loop; `imports` are the modules that
-    the rendered file uses.
-    """
-
-    source: str
-    runtime: str
-    version: str
-    slice: str
-    made_for: str
-    name: str
-    title: str
-    docstring: str
-    period: int
-    files: list[str]
-    modules: list[SliceModule]
-    escape: bool
-    behavior: str
-    has_behavior: bool
-    interfaces: tuple[InterfaceHash, ...]
-    stubs: list[ModuleStub]
-    ports: Ports
-    stage: str
-    window: str
-    qt_base: str
-    sequences: list[str]
-    machine: MachineView | None
-    base: str
-    imports: str = ""
-    spread: tuple[str, ...] = ()
-
-
 def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
     """The files of a component, except `slice/`, `etc/` and the run time."""
-    view = _view(component, layout)
-    methods = [method for port in view.ports.services for method in port.new_methods]
-    proxies = [port.proxy for port in view.ports.accessors]
+    ports = port_views(component)
+    view = _view(component, ports, layout)
+    methods = [method for port in ports.services for method in port.new_methods]
+    proxies = [port.proxy for port in ports.accessors]
     signatures = [method.signature for method in methods]
-    table = [view.behavior + ".", *proxies, *(port.interface for port in view.ports.services)]
-    table += [method.throws for port in view.ports.implements for method in port.methods]
+    table = [f"{view.behavior}.", *proxies, *(port.interface for port in ports.services)]
+    table += [method.throws for port in ports.implements for method in port.methods]
     stubs = [*signatures, *(method.value for method in methods)]
     return [
         FilePlan("generated/__init__.py", _rendered("__init__.py", view)),
@@ -105,7 +66,7 @@ def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
                 FilePlan("src/specificworker.py", _rendered("specificworker.py", view, stubs), ONCE),
             ]
         ),
-        FilePlan(f"bin/{view.name}", _rendered("launcher", view), ONCE, executable=True),
+        FilePlan(f"bin/{component.component.name}", _rendered("launcher", view), ONCE, executable=True),
     ]
 
 
@@ -115,7 +76,7 @@ _SCRIPTING = "machine/scripting.py"  # it evaluates expressions of documents
 def _robocomp(view: View) -> list[FilePlan]:
     """The modules that code for RoboComp's own tool imports, and a skeleton as that tool writes it."""
     every = tuple(module.variable for module in view.modules)
-    view = replace(view, imports=", ".join(every), spread=every)
+    view = View(**vars(view), imports=", ".join(every), spread=every)
     return [
         FilePlan("generated/robocomp/genericworker.py", render("python/robocomp_genericworker.py.j2", view)),
         FilePlan("generated/robocomp/interfaces.py", render("python/robocomp_interfaces.py.j2", view)),
@@ -132,7 +93,7 @@ def _rendered(template: str, view: View, code: Iterable[str] = ()) -> str:
     """The rendered template, which imports the modules that the pieces of code use."""
     named = {name for piece in code for name in re.findall(r"(\w+)\.", piece)}
     imports = ", ".join(sorted(module.variable for module in view.modules if module.variable in named))
-    return render(f"python/{template}.j2", replace(view, imports=imports))
+    return render(f"python/{template}.j2", view, imports=imports)
 
 
 def needs(component: LinkedComponent) -> Callable[[str], bool]:
@@ -142,9 +103,9 @@ def needs(component: LinkedComponent) -> Callable[[str], bool]:
     return lambda path: path.partition("/")[0] in folders and path not in left_out
 
 
-def _view(linked: LinkedComponent, layout: Layout) -> View:
+def _view(linked: LinkedComponent, ports: Ports, layout: Layout) -> View:
+    """What the templates show. All files of a component use the same view, with the `imports` that they need."""
     component = linked.component
-    ports = port_views(linked)
     lowered = lower(linked)
     return View(
         source=one_line(lowered.source),
@@ -156,14 +117,16 @@ def _view(linked: LinkedComponent, layout: Layout) -> View:
         title=docstring(lowered.doc, ""),
         docstring=docstring(lowered.doc, "    "),
         period=lowered.period,
+        # literals of Python
         files=[json.dumps(file, ensure_ascii=False) for file in lowered.imported],
         modules=[SliceModule(ice_name(name), module_variable(name)) for name in lowered.modules],
         escape=any(name in NOT_ESCAPED for name in _identifiers(linked)),
         behavior=module_variable(BEHAVIOR),
-        has_behavior=lowered.is_common,
+        has_behavior=lowered.is_common,  # its Slice is ours, not the user's
         interfaces=lowered.interfaces,
         stubs=[stub(scope) for scope in linked.modules()],
         ports=ports,
+        # of components in Qt's event loop
         stage=_stage(linked),
         window=component.gui.base if component.gui else "",
         qt_base=f"QtWidgets.{component.gui.base}" if component.gui else "QtCore.QObject",

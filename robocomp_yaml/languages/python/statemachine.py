@@ -6,11 +6,8 @@ import json
 import re
 from dataclasses import MISSING, fields, is_dataclass
 
-import msgspec
-
 from robocomp_yaml.emit.machines import lower, views
-from robocomp_yaml.emit.machines.views import EventView, MachineView
-from robocomp_yaml.emit.render import render
+from robocomp_yaml.emit.render import View, render
 from robocomp_yaml.languages.python.names import python_name
 from robocomp_yaml.languages.python.text import docstring, folded, one_line
 from robocomp_yaml.model.machine_index import MachineIndex
@@ -32,16 +29,7 @@ def text(table: object, indent: str = "") -> str:
     return folded(f"{type(table).__name__}(", parts, ")", indent)
 
 
-class TablesView(msgspec.Struct, frozen=True):
-    source: str
-    name: str
-    scripting: bool
-    tables: str
-    events: list[EventView]
-    machine: str
-
-
-def view(machine: StateMachine) -> MachineView:
+def view(machine: StateMachine) -> View:
     return views.view(machine, python_name, lambda text: docstring(text, " " * 8), "self.events.")
 
 
@@ -55,14 +43,12 @@ def tables(machine: StateMachine, component: str) -> str:
     literal = text(lower.lower(machine))
     return render(
         "python/statemachine.py.j2",
-        TablesView(
-            source=one_line(machine.path.rpartition("/")[2]),
-            name=component,
-            scripting=scripts(machine),
-            tables=", ".join(sorted(set(re.findall(r"\b([A-Z][a-z]+)\(", _without_texts(literal))))),
-            events=views.events(machine, python_name),
-            machine=literal,
-        ),
+        source=one_line(machine.path.rpartition("/")[2]),
+        name=component,
+        scripting=scripts(machine),
+        tables=", ".join(sorted(set(re.findall(r"\b([A-Z][a-z]+)\(", _without_texts(literal))))),
+        events=views.events(machine, python_name),
+        machine=literal,
     )
 
 

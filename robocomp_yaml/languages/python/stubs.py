@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import msgspec
 
+from robocomp_yaml.emit.render import View
 from robocomp_yaml.languages._shared.text import IN
 from robocomp_yaml.languages.python.names import module_variable, parameters, proxy_method, python_name
 from robocomp_yaml.languages.python.text import about, docstring, signature
@@ -30,19 +31,10 @@ class ClassStub(msgspec.Struct, frozen=True):
     methods: list[MethodStub]
 
 
-class ModuleStub(msgspec.Struct, frozen=True):
-    """A Slice module. It is shown as a class, which is a name space too."""
-
-    variable: str
-    docstring: str
-    constants: list[str]
-    classes: list[ClassStub]
-
-
-def stub(linked: LinkedModule) -> ModuleStub:
-    """The stub of a module."""
+def stub(linked: LinkedModule) -> View:
+    """The stub of a Slice module. It is shown as a class, which is a name space too."""
     module = linked.module
-    return ModuleStub(
+    return View(
         variable=module_variable(module.name),
         docstring=docstring(module.doc or module.name, IN),
         constants=[f"{python_name(c.name)}: {hint(c.type, linked)}" for c in module.constants],

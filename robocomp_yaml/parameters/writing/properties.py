@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
 
 import msgspec
 from msgspec.structs import replace
@@ -13,16 +12,19 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.model.build_interface import text
 from robocomp_yaml.parameters.documents import LayeredValues
 from robocomp_yaml.parameters.layers.effective import Effective
+from robocomp_yaml.parameters.layers.settings import PREFIX, merged_entries, settings
 from robocomp_yaml.parameters.types import Parameters
 from robocomp_yaml.parameters.writing.write import Property, Writer
-from robocomp_yaml.semantics import connections
 from robocomp_yaml.semantics.spellings import quotes_texts
 from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source.properties import VALUES_HEAD, entry_line, unwritable
-from robocomp_yaml.source.tree import Mapping, Node, Scalar
+from robocomp_yaml.source.tree import Scalar
 
 CLASSIC, FLAT_TOML, TOML = "classic", "flat-toml", "toml"
-_OF_PORTS = ("endpoints", "proxies", "topics")
+_TITLES = {
+    "endpoints": "Where this component serves its interfaces", "proxies": "Where the components are that it requires",
+    "topics": "Topics", "ice": "Ice", "properties": "Others",
+}  # fmt: skip
 
 
 class Section(msgspec.Struct, frozen=True):
@@ -53,19 +55,20 @@ def properties(
     form = dialect(values)
     head = values.head
     quote = quoted or form == FLAT_TOML
-    sections = [
-        Section("Where this component serves its interfaces", list(_endpoints(values, form, quote))),
-        Section("Where the components are that it requires", list(_proxies(values, form, quote))),
-        Section("Topics", list(_topics(values, form, quote))),
-        Section("Ice", [_property(f"Ice.{key}", node, quote) for key, node in merged_entries(values, "ice")]),
-        Section("Others", [_property(key, node, False) for key, node in merged_entries(values, "properties")]),
-    ]
+    by_title: dict[str, list[Property]] = {}
+    for one in settings(values, in_toml=form != CLASSIC):
+        made = _property(one.key, one.node, quote and one.section != "properties")
+        if made.value or one.path != PREFIX:  # an empty prefix is no prefix
+            by_title.setdefault(_TITLES[one.section], []).append(made)
+    sections = [Section(title, by_title.get(title, [])) for title in _TITLES.values()]
     unquotes = _seems_toml(effective.parameters, sections)
     folder = os.path.dirname(values.document.path) if beside else None
     writer = Writer(effective.parameters, head, bool(legacy_file(values)), quote, unquotes, folder)
     sections.insert(3, Section("Parameters", writer.write(effective.data, effective.merged)))
     faults = list(writer.faults)
-    exact = {key: node.lexeme for key, node in merged_entries(values, "legacy", "exact") if isinstance(node, Scalar)}
+    exact = {
+        key: node.lexeme for key, node in merged_entries(values, "legacy", "exact").items() if isinstance(node, Scalar)
+    }
     seen: dict[str, Property] = {}
     written = []
     for section in sections:
@@ -120,59 +123,9 @@ def _exact(made: Property, original: str | None) -> Property:
     return replace(made, value=original) if same else made
 
 
-def merged_entries(values: LayeredValues, *keys: str) -> Iterator[tuple[str, Node]]:
-    """The entries of a section over all layers: later layers replace entries, and null removes them. In sections of
-    ports, names that begin with `x-` are extensions of the user, and are skipped."""
-    merged: dict[str, Node] = {}
-    for layer in values.layers():
-        section = layer.document.section(*keys)
-        for name, node in section.items() if section is not None else ():
-            if keys[0] in _OF_PORTS and name.lexeme.startswith("x-"):
-                continue
-            if node.data is None:
-                merged.pop(name.lexeme, None)
-            else:
-                merged[name.lexeme] = node
-    yield from merged.items()
-
-
-def _property(key: str, node: Node, quote: bool) -> Property:
+def _property(key: str, node: Scalar, quote: bool) -> Property:
     """`quote`: as in flat TOML, where text is in quotes and numbers are not."""
-    assert isinstance(node, Scalar)
     value = node.lexeme
     if quote and isinstance(node.data, str) and '"' not in value:
         return Property(key, f'"{value}"', node.span, unquoted)
     return Property(key, value, node.span)
-
-
-def _endpoints(values: LayeredValues, form: str, quote: bool) -> Iterator[Property]:
-    for name, node in merged_entries(values, "endpoints"):
-        yield _property(connections.endpoints(name)[form != CLASSIC], node, quote)
-
-
-def _proxies(values: LayeredValues, form: str, quote: bool) -> Iterator[Property]:
-    for name, node in merged_entries(values, "proxies"):
-        key = connections.proxy(name)[form != CLASSIC]
-        if isinstance(node, Mapping):
-            key = text(node, "key", key)
-            proxy = node.get("proxy")
-            assert proxy is not None
-            node = proxy
-        yield _property(key, node, quote)
-
-
-def _topics(values: LayeredValues, form: str, quote: bool) -> Iterator[Property]:
-    manager: Node | None = None
-    for layer in values.layers():
-        topics = layer.document.root.get("topics")
-        entry = topics.entries.get("manager") if isinstance(topics, Mapping) else None
-        if entry is not None:
-            manager = None if entry[1].data is None else entry[1]
-    if manager is not None:
-        yield _property(connections.MANAGER[form != CLASSIC], manager, quote)
-    for name, node in merged_entries(values, "topics", "prefix"):
-        made = _property(connections.prefix(name), node, quote)
-        if made.value:  # an empty prefix is no prefix
-            yield made
-    for name, node in merged_entries(values, "topics", "name"):
-        yield _property(name, node, quote)

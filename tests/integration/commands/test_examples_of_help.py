@@ -14,9 +14,11 @@ from click.testing import CliRunner, Result
 
 from conftest import ROOT, write_tree
 from robocomp_yaml.cli import group
-from robocomp_yaml.commands._examples import EXAMPLES, examples_of
+from robocomp_yaml.commands._command import examples
 
 Rcyaml = Callable[..., Result]
+
+EXAMPLES = {command.removeprefix("rcyaml "): lines for command, lines in examples().items()}
 
 ROBOT = {
     "components/patrolcomp/patrolcomp.pdsl.yaml": """\
@@ -93,7 +95,7 @@ def test_each_command_has_examples() -> None:
 def test_help_shows_them_in_eighty_columns(path: str, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", "80")
     lines = rcyaml(*path.split(), "--help").output.splitlines()
-    shown = examples_of(f"rcyaml {path}")
+    shown = EXAMPLES[path]
     assert lines[-len(shown) - 1 :] == ["Examples:", *(f"  {line}" for line in shown)]
     assert max(map(len, lines)) <= 80
     assert all(line.startswith(f"rcyaml {path}") for line in shown)
@@ -103,7 +105,7 @@ def test_help_shows_them_in_eighty_columns(path: str, rcyaml: Rcyaml, monkeypatc
 def test_they_work(
     path: str, robot: Path, rcyaml: Rcyaml, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:  # fmt: skip
-    for number, line in enumerate(examples_of(f"rcyaml {path}")):
+    for number, line in enumerate(EXAMPLES[path]):
         folder = tmp_path / str(number)
         shutil.copytree(robot, folder)
         monkeypatch.chdir(folder / FOLDERS.get(path, ""))
@@ -120,7 +122,7 @@ def test_they_work(
 def test_they_are_parsed(path: str, robot: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(robot)
     (robot / "drive.mcap").touch()
-    for line in examples_of(f"rcyaml {path}"):
+    for line in EXAMPLES[path]:
         words = shlex.split(line, comments=True)[1:]
         command, parent = group, click.Context(group, info_name="rcyaml")
         while isinstance(command, click.Group):

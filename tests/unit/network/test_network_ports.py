@@ -93,7 +93,7 @@ def test_each_host_has_its_own_ports() -> None:
         "tcp -h 10.0.0.2 -p 10001",
     )
     assert found.processes["a"].ready.pings[0] == "mouth:tcp -h 10.0.0.3 -p 10001"
-    assert found.hosts["head"].user == "robocomp" and found.is_distributed
+    assert found.hosts["head"].ssh.user == "robocomp" and found.is_distributed
 
 
 @pytest.mark.parametrize(
