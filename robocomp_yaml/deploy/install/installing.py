@@ -3,7 +3,6 @@ installed deployment."""
 
 from __future__ import annotations
 
-import contextlib
 import getpass
 import os
 from collections.abc import Iterable
