@@ -135,12 +135,39 @@ def test_robocomp_libraries_that_are_not_installed(
     assert ("robocomp_libs/libinnermodel.so" in (tmp_path / "b/build.ninja").read_text()) == is_used
 
 
-def test_paths_of_another_machine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """RoboComp was in another folder there: its sources are found, and a header by such a path is named."""
-    lists = "SET(SOURCES specificworker.cpp /home/nobody/robocomp/classes/plain/plain.cpp)\n"
-    assert str(tmp_path / "robocomp/classes/plain/plain.cpp") in commands(tmp_path, monkeypatch, "", lists)
-    said = commands(tmp_path, monkeypatch, "#include </home/nobody/robocomp/classes/plain/plain.h>", "")
-    assert "write <plain/plain.h>, or make /home/nobody/robocomp a link to RoboComp: sudo ln -s" in said
+ELSEWHERE = """\
+#include </home/nobody/robocomp/classes/lake/lake.h>
+#  include "/home/nobody/work/shop/etc/names.h"
+#include "/nowhere/at/all.h"
+"""
+
+
+def test_sources_of_another_machine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """RoboComp, and the repository, were in another folder there."""
+    write_tree(tmp_path, {"rcyaml.yaml": "", "shop/shared/more.cpp": "int more;\n"})
+    listed = "/home/nobody/robocomp/classes/plain/plain.cpp /home/nobody/work/shop/shared/more.cpp"
+    made = commands(tmp_path, monkeypatch, "", f"SET(SOURCES specificworker.cpp {listed})\n")
+    assert f"-c {tmp_path}/robocomp/classes/plain/plain.cpp" in made
+    found = json.loads((tmp_path / "b/compile_commands.json").read_text())
+    assert str(tmp_path / "shop/shared/more.cpp") in [one["file"] for one in found]
+
+
+def test_headers_of_another_machine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The compiler reads those that are here, and what they include, and misses those that are nowhere."""
+    write_tree(tmp_path, {
+        "rcyaml.yaml": "", "robocomp/classes/lake/deep.h": "int deep;\n",
+        "robocomp/classes/lake/lake.h": '#pragma once\n#include "deep.h"\n', "shop/etc/names.h": "int name;\n",
+    })  # fmt: skip
+    commands(tmp_path, monkeypatch, ELSEWHERE, "")
+    found = json.loads((tmp_path / "b/compile_commands.json").read_text())
+    (one,) = [one for one in found if one["file"].endswith("src/specificworker.cpp")]
+    written = (tmp_path / "bot/src/specificworker.h").read_text()
+    (tmp_path / "x.cpp").write_text(written.replace("#include <genericworker.h>", ""))
+    words = [word for word in one["command"].split() if word != "-include" and not word.endswith("/rcyaml.h")]
+    words = [*words[: words.index("-o")], "-E", str(tmp_path / "x.cpp")]
+    done = subprocess.run(words, cwd=one["directory"], capture_output=True, text=True, timeout=120, check=False)
+    assert "int deep;" in done.stdout and "int name;" in done.stdout
+    assert "/nowhere/at/all.h" in done.stderr and "/home/nobody" not in done.stderr
 
 
 def test_files_that_slice2cpp_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -162,25 +162,11 @@ foreach(row IN ITEMS
   endforeach()
 endforeach()
 
-# A header by its path on another machine, where RoboComp was in another folder: no option of a compiler helps there.
-foreach(line IN LISTS component_lines)
-  if(line MATCHES "include[ \t]*[<\"](/[^>\"]*/robocomp)/([^>\"]+)")
-    set(component_folder "${CMAKE_MATCH_1}")
-    set(header "${CMAKE_MATCH_2}")
-    if(NOT EXISTS "${component_folder}/${header}" AND EXISTS "${component_robocomp}/${header}")
-      string(REGEX REPLACE "^(classes|libs)/" "" short "${header}")
-      message(FATAL_ERROR
-        "${component_name} includes ${component_folder}/${header}, which does not exist here: write <${short}>, or make "
-        "${component_folder} a link to RoboComp: sudo ln -s ${component_robocomp} ${component_folder}")
-    endif()
-  endif()
-endforeach()
-
 # The sources: those that are listed, else all of them; without the files that RoboComp's own tool generated.
 set(component_listed)
 foreach(file IN LISTS SOURCES SPECIFIC_SOURCES)
-  if(NOT EXISTS "${file}" AND file MATCHES "^/.*/robocomp/(.+)$")
-    set(file "${component_robocomp}/${CMAKE_MATCH_1}") # RoboComp was in another folder on another machine
+  if(IS_ABSOLUTE "${file}")
+    component_place(file "${file}")
   endif()
   get_filename_component(file "${file}" ABSOLUTE BASE_DIR "${component_root}/src")
   foreach(suffix IN ITEMS "" .c .cc .cpp .cxx) # CMake of that time accepted a source without its suffix
@@ -347,6 +333,7 @@ function(component_as_robocomp target)
   endif()
   target_compile_definitions(${target} PRIVATE ${component_guards})
   target_include_directories(${target} PRIVATE "${component_headers}")
+  component_map_headers(${target})
   foreach(folder IN ITEMS classes libs include libs/innermodel/include libs/qmat/include libs/osgviewer/include .)
     if(component_robocomp AND IS_DIRECTORY "${component_robocomp}/${folder}")
       target_include_directories(${target} SYSTEM PRIVATE "${component_robocomp}/${folder}")
