@@ -219,6 +219,60 @@ def test_folders_and_sources_of_the_lists(tmp_path: Path, monkeypatch: pytest.Mo
     assert f"-c {tmp_path}/bot/src/inner/step.cpp" in made
 
 
+def test_what_the_lists_call(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """RoboComp's macros were there before the lists. Folders and files that they look for are relative to their own."""
+    inner = {
+        "kit/CMakeLists.txt": "add_library(kit STATIC kit.cpp)\nadd_subdirectory(deep)\n", "kit/kit.cpp": "int kit;\n",
+        "kit/deep/CMakeLists.txt": "target_sources(kit PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/more.cpp)\n",
+        "kit/deep/more.cpp": "int more;\n", "parts/part.cpp": "int part;\n", "parts/part.txt": "",
+    }  # fmt: skip
+    write_tree(tmp_path, {f"bot/src/{name}": text for name, text in inner.items()})
+    lists = (
+        "QT_WRAP_UI( UI_HEADERS otherUI.ui )\nROBOCOMP_WRAP_ICE( CommonBehavior Arm )\n"
+        "FILE( GLOB PARTS parts/*.cpp ${CMAKE_CURRENT_LIST_DIR}/kit/deep/*.txt)\n"
+        "ADD_SUBDIRECTORY( kit )\nSET(SOURCES specificworker.cpp ${PARTS})\nSET(LIBS ${LIBS} kit)\n"
+    )
+    made = commands(tmp_path, monkeypatch, "", lists)
+    assert "CMake Error" not in made, made
+    found = json.loads((tmp_path / "b/compile_commands.json").read_text())
+    files = {one["file"].removeprefix(f"{tmp_path}/bot/src/") for one in found}
+    assert {"kit/kit.cpp", "kit/deep/more.cpp", "parts/part.cpp", "specificworker.cpp"} <= files, files
+    assert "libkit.a" in (tmp_path / "b/build.ninja").read_text()
+
+
+@pytest.mark.parametrize("name", ["SOURCES", "HEADERS", "SPECIFIC_HEADERS"])
+def test_listed_headers_are_for_moc(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    write_tree(tmp_path, {"robocomp/classes/led/led.h": "#pragma once\n"})
+    commands(
+        tmp_path, monkeypatch, "", f"SET({name} specificworker.h genericworker.h $ENV{{ROBOCOMP}}/classes/led/led.h)"
+    )
+    (told,) = (tmp_path / "b/CMakeFiles").glob("*Bot_autogen.dir/AutogenInfo.json")
+    headers = [one[0] for one in json.loads(told.read_text())["HEADERS"]]
+    assert f"{tmp_path}/robocomp/classes/led/led.h" in headers
+    assert not [one for one in headers if one.endswith("src/genericworker.h")]
+
+
+@pytest.mark.parametrize(("more", "standard"), [
+    ({}, 17), ({"lists": "# set(CMAKE_CXX_STANDARD 20)"}, 17), ({"lists": "add_definitions(-std=c++0x -std=gnu++2a)"}, 20),
+    ({"src/CMakeLists.txt": "ADD_EXECUTABLE(Bot ${SOURCES})\nSET_TARGET_PROPERTIES(Bot\n PROPERTIES\n CXX_STANDARD 20\n )"}, 20),
+    ({"CMakeLists.txt": "set(CMAKE_CXX_STANDARD 20)\ninclude(generated/component.cmake)\n"}, 20),
+    ({"lists": "if(0)\nset(CMAKE_CXX_STANDARD 20)\nelse()\nset(CMAKE_CXX_STANDARD 89)\nendif()"}, 20),
+    ({"headers": "class ConfigLoader;"}, 23),
+])  # fmt: skip
+def test_the_standard_of_robocomp(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, more: dict[str, str], standard: int
+) -> None:
+    """The highest that the compiler has, of those that RoboComp's own build names, too."""
+    head = "cmake_minimum_required(VERSION 3.20)\nproject(Bot LANGUAGES CXX)\n"
+    files = {f"bot/{name}": text for name, text in more.items() if "/" in name}
+    if "CMakeLists.txt" in more:
+        files["bot/CMakeLists.txt"] = head + more["CMakeLists.txt"]
+    write_tree(tmp_path, files)
+    made = commands(tmp_path, monkeypatch, more.get("headers", ""), more.get("lists", ""))
+    (own,) = [line for line in made.split("/usr/bin/c++") if line.rstrip().endswith("specificworker.cpp")]
+    assert re.findall(r"-std=c\+\+(\w+)", own)[-1] in (str(standard), {20: "2a", 23: "2b"}.get(standard)), own
+
+
 @pytest.mark.parametrize("name", ["SOURCES", "SPECIFIC_SOURCES"])
 def test_sources_in_c(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
     write_tree(tmp_path, {"bot/src/old.c": "int old(void) { return 1; }\n", "bot/src/older.cpp": "#error older\n"})
