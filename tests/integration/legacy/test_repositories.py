@@ -398,3 +398,18 @@ def test_two_components_in_the_folder_of_one(rcyaml: Run, tmp_path: Path) -> Non
     result = rcyaml("compile")
     assert result.exit_code == 1 and "OldArm is not compiled: its folder is that of Arm" in result.output
     assert (tmp_path / "arm/generated/component.py").exists()
+
+
+def test_a_second_run_keeps_the_folders_of_interfaces(rcyaml: Run, tmp_path: Path) -> None:
+    """What the first one converted from the search path is not converted again, and is found."""
+    write_tree(tmp_path, {
+        "lib/Arm.idsl": "module RoboCompArm { interface Arm { void go(); }; };\n",
+        "bot/arm/arm.cdsl": 'import "Arm.idsl";\nComponent arm { Communications { requires Arm; }; language python; };\n',
+    })  # fmt: skip
+    texts = []
+    for folders in (["-I", str(tmp_path / "lib")], ["-I", str(tmp_path / "lib")], []):
+        result = rcyaml("migrate", str(tmp_path / "bot"), *folders)
+        assert result.exit_code == 0 and "RC5009" not in result.output, result.output
+        texts.append((tmp_path / "bot/rcyaml.yaml").read_text(encoding="utf-8"))
+    assert "interfaces: [interfaces]" in texts[0] and texts == texts[:1] * 3
+    assert rcyaml("check", str(tmp_path / "bot")).exit_code == 0
