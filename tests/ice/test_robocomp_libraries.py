@@ -225,19 +225,22 @@ def test_what_the_lists_call(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
         "kit/CMakeLists.txt": "add_library(kit STATIC kit.cpp)\nadd_subdirectory(deep)\n", "kit/kit.cpp": "int kit;\n",
         "kit/deep/CMakeLists.txt": "target_sources(kit PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/more.cpp)\n",
         "kit/deep/more.cpp": "int more;\n", "parts/part.cpp": "int part;\n", "parts/part.txt": "",
+        "icons.qrc": '<RCC><qresource prefix="/"><file>specificworker.h</file></qresource></RCC>\n',
     }  # fmt: skip
     write_tree(tmp_path, {f"bot/src/{name}": text for name, text in inner.items()})
     lists = (
         "QT_WRAP_UI( UI_HEADERS otherUI.ui )\nROBOCOMP_WRAP_ICE( CommonBehavior Arm )\n"
         "FILE( GLOB PARTS parts/*.cpp ${CMAKE_CURRENT_LIST_DIR}/kit/deep/*.txt)\n"
         "ADD_SUBDIRECTORY( kit )\nSET(SOURCES specificworker.cpp ${PARTS})\nSET(LIBS ${LIBS} kit)\n"
+        "QT6_ADD_RESOURCES( RC_SOURCES icons.qrc )\n"
     )
     made = commands(tmp_path, monkeypatch, "", lists)
     assert "CMake Error" not in made, made
     found = json.loads((tmp_path / "b/compile_commands.json").read_text())
     files = {one["file"].removeprefix(f"{tmp_path}/bot/src/") for one in found}
     assert {"kit/kit.cpp", "kit/deep/more.cpp", "parts/part.cpp", "specificworker.cpp"} <= files, files
-    assert "libkit.a" in (tmp_path / "b/build.ninja").read_text()
+    rules = (tmp_path / "b/build.ninja").read_text()
+    assert "libkit.a" in rules and re.search(r"build qrc_icons.cpp.*: CUSTOM_COMMAND .*src/icons.qrc", rules)
 
 
 @pytest.mark.parametrize("name", ["SOURCES", "HEADERS", "SPECIFIC_HEADERS"])

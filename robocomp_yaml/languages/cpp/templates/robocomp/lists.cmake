@@ -73,12 +73,16 @@ function(component_glob how result)
   set(${result} ${found} PARENT_SCOPE)
 endfunction()
 
-# Reads a list.
+# Reads a list: as it is, or a copy of it that names files as they are found from here.
 macro(component_read list)
   file(READ "${list}" component_text)
-  set(component_copy "${list}")
-  if(component_text MATCHES "[Ff][Ii][Ll][Ee][ \t]*[(][ \t\r\n]*GLOB")
-    string(REGEX REPLACE "[Ff][Ii][Ll][Ee][ \t]*[(]([ \t\r\n]*GLOB)" "component_glob(\\1" component_text "${component_text}")
+  set(component_was "${component_text}")
+  string(REGEX REPLACE "[Ff][Ii][Ll][Ee][ \t]*[(]([ \t\r\n]*GLOB)" "component_glob(\\1" component_text "${component_text}")
+  string(REGEX REPLACE "([ \t\r\n(])([A-Za-z0-9_][-A-Za-z0-9_./]*[.](qrc|ts))" "\\1\"${component_root}/src/\\2\""
+    component_text "${component_text}")
+  if(component_text STREQUAL component_was)
+    set(component_copy "${list}")
+  else()
     get_filename_component(component_copy "${list}" NAME)
     set(component_copy "${CMAKE_CURRENT_BINARY_DIR}/${component_name}_lists/${component_copy}")
     file(WRITE "${component_copy}" "set(CMAKE_CURRENT_LIST_DIR \"${component_root}/src\")\n${component_text}")
