@@ -413,3 +413,19 @@ def test_a_second_run_keeps_the_folders_of_interfaces(rcyaml: Run, tmp_path: Pat
         texts.append((tmp_path / "bot/rcyaml.yaml").read_text(encoding="utf-8"))
     assert "interfaces: [interfaces]" in texts[0] and texts == texts[:1] * 3
     assert rcyaml("check", str(tmp_path / "bot")).exit_code == 0
+
+
+def test_a_run_after_a_compile_has_all_configurations(rcyaml: Run, tmp_path: Path) -> None:
+    """Those that the compiler knows as the user's are sources still: parameters that only they have stay."""
+    line = "ArmProxy = arm:tcp -h localhost -p 10003\n"
+    write_tree(tmp_path, {
+        "Arm.idsl": "module RoboCompArm { interface Arm { void go(); }; };\n",
+        "bot/bot.cdsl": 'import "Arm.idsl";\nComponent bot { Communications { requires Arm; }; language python; };\n',
+        "bot/etc/config": line, "bot/etc/config_lab": f"{line}tile = 200\n", "bot/etc/sim.conf": f"{line}roof = 3\n",
+    })  # fmt: skip
+    assert rcyaml("migrate", ".").exit_code == 0
+    parameters = (tmp_path / "bot/bot.pdsl.yaml").read_text(encoding="utf-8")
+    assert "tile" in parameters and "roof" in parameters
+    assert rcyaml("compile").exit_code == 0
+    assert rcyaml("migrate", ".").exit_code == 0
+    assert (tmp_path / "bot/bot.pdsl.yaml").read_text(encoding="utf-8") == parameters
