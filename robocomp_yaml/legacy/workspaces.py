@@ -40,8 +40,8 @@ class Workspaces(msgspec.Struct, frozen=True):
 
 
 def _renewed(root: str) -> WorkspaceSettings:
-    """Return a workspace of a run, which has the folders of interfaces of an earlier one: this one need not convert again
-    what is in them."""
+    """Return a workspace of a run, which has the folders of interfaces of an earlier one: this one need not convert
+    again what is in them."""
     earlier = link_workspace.read(root)[0].interfaces if os.path.isfile(os.path.join(root, WORKSPACE_FILE)) else ()
     return WorkspaceSettings(root, interfaces=tuple(filter(os.path.isdir, earlier)), declared=True)
 
