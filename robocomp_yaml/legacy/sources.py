@@ -147,7 +147,12 @@ def _below(
 
 def _is_source(path: str, known: Formats, disk: Disk) -> bool:
     """Whether a file that `compile` generated is a config that was migrated: it remains the source of its document."""
-    return by_name(os.path.basename(path), known) is None and is_migrated(f"{path}.yaml", disk)
+    rules = by_name(os.path.basename(path), known)
+    if rules is not None and rules.kind != "config":
+        return False
+    stems = dict.fromkeys((path, os.path.splitext(path)[0]))
+    documents = (f"{path}.yaml", *(f"{stem}.config.yaml" for stem in stems))
+    return any(is_migrated(document, disk) for document in documents)
 
 
 def _compiled(folder: str) -> set[str]:

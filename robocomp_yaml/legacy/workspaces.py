@@ -31,12 +31,19 @@ class Workspaces(msgspec.Struct, frozen=True):
             inside = [new for new in self.new if stays_inside(new, os.path.realpath(folder))]
             above = root_above(folder)
             if inside and (above is None or not stays_inside(max(inside, key=len), os.path.realpath(above))):
-                self._known[folder] = WorkspaceSettings(max(inside, key=len), declared=True)
+                self._known[folder] = _renewed(max(inside, key=len))
             elif above is not None:
                 self._known[folder] = link_workspace.read(above)[0]
             else:
                 self._known[folder] = WorkspaceSettings(folder)
         return self._known[folder]
+
+
+def _renewed(root: str) -> WorkspaceSettings:
+    """Return a workspace of a run, which has the folders of interfaces of an earlier one: this one need not convert
+    again what is in them."""
+    earlier = link_workspace.read(root)[0].interfaces if os.path.isfile(os.path.join(root, WORKSPACE_FILE)) else ()
+    return WorkspaceSettings(root, interfaces=tuple(filter(os.path.isdir, earlier)), declared=True)
 
 
 def needs_file(root: OutputRoot) -> bool:
@@ -58,8 +65,12 @@ def file_text(root: str, documents: Iterable[tuple[str, str, Map]], others: Iter
         components.update(_component(content) if kind == "cdsl" else ())
         folder = os.path.relpath(os.path.dirname(path) or ".", root)
         folders.setdefault(kind, set()).add(folder)
+    found = [*sorted(folders["idsl"]), *others]
+    known = {os.path.realpath(os.path.join(root, folder)) for folder in found}
+    earlier = [path for path in _renewed(root).interfaces if os.path.realpath(path) not in known]
+    found[len(folders["idsl"]) : len(folders["idsl"])] = [os.path.relpath(path, root) for path in earlier]
     # A name that is not UTF-8 is not valid text.
-    if listed := [folder for folder in (*sorted(folders["idsl"]), *others) if folder.isprintable()]:
+    if listed := [folder for folder in found if folder.isprintable()]:
         document.put("interfaces", List.of(listed))
     for row in (idsl.UNRESOLVED_IMPORT, cdsl.UNRESOLVED_IMPORT, machines.UNREADABLE):
         lint.put(row.id, "warning")

@@ -132,14 +132,10 @@ def _put_in_order(
     """Adds to each process what it is `after`. Returns the waves, and diagnostics about circles."""
     waves, after, diagnostics = ordered((process.name for process in made.values() if process.enabled), needs)
     can_be_absent, later = optional(needs), awaited(needs, after)
-    named = {(need.source, need.target) for need in needs if need.port == AFTER}
     for name, targets in after.items():
         if targets or name in later:
             without = tuple(target for target in targets if target in can_be_absent[name])
-            explicit = tuple(target for target in targets if (name, target) in named)
-            made[name] = replace(
-                made[name], after=targets, optional=without, explicit=explicit, awaits=later.get(name, ())
-            )
+            made[name] = replace(made[name], after=targets, optional=without, awaits=later.get(name, ()))
     return waves, diagnostics
 
 

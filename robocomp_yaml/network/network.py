@@ -186,13 +186,13 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
 
     `command` is the program and its arguments, without a shell. The program is an absolute path, or a bare name that is
     resolved in PATH. CONFIG in an argument is replaced by the absolute path of `config`. `after` are the processes that
-    must be ready before this one starts; if one of them fails that is also in `optional`, this one starts anyway. The
-    document names those in `explicit`; connections imply the others. Those in `awaits` are after it, and it waits for
-    them while it runs: it starts first in a circle. `aliases` are further names of the process. When one of the
-    `watched` files changes (executable, code), the process is restarted. `is_ice` is False for a program that does not
-    use Ice. `folders` must exist before it starts. `role` is SERVER or TASK, '' if the document does not set it; it
-    talks over TLS if it `is_secured`. `settled` are the least seconds that a process without a condition must run
-    before it is ready. It does not start if the proxies of `unless` answer before: then another one is present.
+    must be ready before this one starts; if one of them fails that is also in `optional`, this one starts anyway. Those
+    in `awaits` are after it, and it waits for them while it runs: it starts first in a circle. `aliases` are further
+    names of the process. When one of the `watched` files changes (executable, code), the process is restarted. `is_ice`
+    is False for a program that does not use Ice. `folders` must exist before it starts. `role` is SERVER or TASK, '' if
+    the document does not set it; it talks over TLS if it `is_secured`. `settled` are the least seconds that a process
+    without a condition must run before it is ready. It does not start if the proxies of `unless` answer before: then
+    another one is present.
     """
 
     name: str
@@ -206,7 +206,6 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
     after: tuple[str, ...] = ()
     optional: tuple[str, ...] = ()
     awaits: tuple[str, ...] = ()
-    explicit: tuple[str, ...] = ()
     ready: Readiness = Readiness()
     restart: RestartRule = RestartRule()
     alive: Liveness | None = None
@@ -230,7 +229,8 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
     introspection: str = ""
     """The proxy of the object with which a generated component describes itself, '' for other programs."""
     extra: tuple[tuple[str, object], ...] = ()
-    """What only exports need: the entries of `x-rcmanager`; those of its aliases are below `aliases`."""
+    """What only exports need: the entries of `x-rcmanager`, with those of its aliases below `aliases`; and `cwd:` and
+    `after:` as the entry spells them."""
     span: Span = Span("")
 
     @property

@@ -41,7 +41,6 @@ def of_draft(draft: Draft, text: str | None, disk: Disk, secrets: tuple[str, ...
     command = tuple(_command(draft, program))
     reads_config = any(CONFIG in part for part in command[1:])
     ready = ready_when.of_draft(draft)
-    of_aliases = {alias.name: dict(alias.entry.extra) for alias in draft.aliases if alias.entry.extra}
     return Process(
         draft.name,
         draft.host.name,
@@ -67,9 +66,21 @@ def of_draft(draft: Draft, text: str | None, disk: Disk, secrets: tuple[str, ...
         component=component.component.name if component is not None else "",
         build=_build(draft),
         introspection=liveness.introspection(draft),
-        extra=(*entry.extra, ("aliases", of_aliases)) if of_aliases else entry.extra,
+        extra=_extra(draft),
         span=entry.span,
     )
+
+
+def _extra(draft: Draft) -> tuple[tuple[str, object], ...]:
+    """What only exports need of an entry, of its aliases, and of what they spell."""
+    entry = draft.instance.entry
+    extra = entry.extra
+    of_aliases = {alias.name: dict(alias.entry.extra) for alias in draft.aliases if alias.entry.extra}
+    if of_aliases:
+        extra = (*extra, ("aliases", of_aliases))
+    if extra and entry.cwd is not None:
+        extra = (*extra, ("cwd", entry.cwd.text))
+    return (*extra, ("after", [text.text for text in entry.after])) if extra else ()
 
 
 def _environment(draft: Draft) -> Iterator[EnvironmentVariable]:

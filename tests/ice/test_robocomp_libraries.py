@@ -135,12 +135,39 @@ def test_robocomp_libraries_that_are_not_installed(
     assert ("robocomp_libs/libinnermodel.so" in (tmp_path / "b/build.ninja").read_text()) == is_used
 
 
-def test_paths_of_another_machine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """RoboComp was in another folder there: its sources are found, and a header by such a path is named."""
-    lists = "SET(SOURCES specificworker.cpp /home/nobody/robocomp/classes/plain/plain.cpp)\n"
-    assert str(tmp_path / "robocomp/classes/plain/plain.cpp") in commands(tmp_path, monkeypatch, "", lists)
-    said = commands(tmp_path, monkeypatch, "#include </home/nobody/robocomp/classes/plain/plain.h>", "")
-    assert "write <plain/plain.h>, or make /home/nobody/robocomp a link to RoboComp: sudo ln -s" in said
+ELSEWHERE = """\
+#include </home/nobody/robocomp/classes/lake/lake.h>
+#  include "/home/nobody/work/shop/etc/names.h"
+#include "/nowhere/at/all.h"
+"""
+
+
+def test_sources_of_another_machine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """RoboComp, and the repository, were in another folder there."""
+    write_tree(tmp_path, {"rcyaml.yaml": "", "shop/shared/more.cpp": "int more;\n"})
+    listed = "/home/nobody/robocomp/classes/plain/plain.cpp /home/nobody/work/shop/shared/more.cpp"
+    made = commands(tmp_path, monkeypatch, "", f"SET(SOURCES specificworker.cpp {listed})\n")
+    assert f"-c {tmp_path}/robocomp/classes/plain/plain.cpp" in made
+    found = json.loads((tmp_path / "b/compile_commands.json").read_text())
+    assert str(tmp_path / "shop/shared/more.cpp") in [one["file"] for one in found]
+
+
+def test_headers_of_another_machine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The compiler reads those that are here, and what they include, and misses those that are nowhere."""
+    write_tree(tmp_path, {
+        "rcyaml.yaml": "", "robocomp/classes/lake/deep.h": "int deep;\n",
+        "robocomp/classes/lake/lake.h": '#pragma once\n#include "deep.h"\n', "shop/etc/names.h": "int name;\n",
+    })  # fmt: skip
+    commands(tmp_path, monkeypatch, ELSEWHERE, "")
+    found = json.loads((tmp_path / "b/compile_commands.json").read_text())
+    (one,) = [one for one in found if one["file"].endswith("src/specificworker.cpp")]
+    written = (tmp_path / "bot/src/specificworker.h").read_text()
+    (tmp_path / "x.cpp").write_text(written.replace("#include <genericworker.h>", ""))
+    words = [word for word in one["command"].split() if word != "-include" and not word.endswith("/rcyaml.h")]
+    words = [*words[: words.index("-o")], "-E", str(tmp_path / "x.cpp")]
+    done = subprocess.run(words, cwd=one["directory"], capture_output=True, text=True, timeout=120, check=False)
+    assert "int deep;" in done.stdout and "int name;" in done.stdout
+    assert "/nowhere/at/all.h" in done.stderr and "/home/nobody" not in done.stderr
 
 
 def test_files_that_slice2cpp_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -190,6 +217,63 @@ def test_folders_and_sources_of_the_lists(tmp_path: Path, monkeypatch: pytest.Mo
     made = commands(tmp_path, monkeypatch, "", lists)
     assert f"-I{tmp_path}/bot/src/inner -I{tmp_path}/bot/src/inner/deep -I/usr/share" in made
     assert f"-c {tmp_path}/bot/src/inner/step.cpp" in made
+
+
+def test_what_the_lists_call(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """RoboComp's macros were there before the lists. Folders and files that they look for are relative to their own."""
+    inner = {
+        "kit/CMakeLists.txt": "add_library(kit STATIC kit.cpp)\nadd_subdirectory(deep)\n", "kit/kit.cpp": "int kit;\n",
+        "kit/deep/CMakeLists.txt": "target_sources(kit PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/more.cpp)\n",
+        "kit/deep/more.cpp": "int more;\n", "parts/part.cpp": "int part;\n", "parts/part.txt": "",
+        "icons.qrc": '<RCC><qresource prefix="/"><file>specificworker.h</file></qresource></RCC>\n',
+    }  # fmt: skip
+    write_tree(tmp_path, {f"bot/src/{name}": text for name, text in inner.items()})
+    lists = (
+        "QT_WRAP_UI( UI_HEADERS otherUI.ui )\nROBOCOMP_WRAP_ICE( CommonBehavior Arm )\n"
+        "FILE( GLOB PARTS parts/*.cpp ${CMAKE_CURRENT_LIST_DIR}/kit/deep/*.txt)\n"
+        "ADD_SUBDIRECTORY( kit )\nSET(SOURCES specificworker.cpp ${PARTS})\nSET(LIBS ${LIBS} kit)\n"
+        "QT6_ADD_RESOURCES( RC_SOURCES icons.qrc )\n"
+    )
+    made = commands(tmp_path, monkeypatch, "", lists)
+    assert "CMake Error" not in made, made
+    found = json.loads((tmp_path / "b/compile_commands.json").read_text())
+    files = {one["file"].removeprefix(f"{tmp_path}/bot/src/") for one in found}
+    assert {"kit/kit.cpp", "kit/deep/more.cpp", "parts/part.cpp", "specificworker.cpp"} <= files, files
+    rules = (tmp_path / "b/build.ninja").read_text()
+    assert "libkit.a" in rules and re.search(r"build qrc_icons.cpp.*: CUSTOM_COMMAND .*src/icons.qrc", rules)
+
+
+@pytest.mark.parametrize("name", ["SOURCES", "HEADERS", "SPECIFIC_HEADERS"])
+def test_listed_headers_are_for_moc(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    write_tree(tmp_path, {"robocomp/classes/led/led.h": "#pragma once\n"})
+    commands(
+        tmp_path, monkeypatch, "", f"SET({name} specificworker.h genericworker.h $ENV{{ROBOCOMP}}/classes/led/led.h)"
+    )
+    (told,) = (tmp_path / "b/CMakeFiles").glob("*Bot_autogen.dir/AutogenInfo.json")
+    headers = [one[0] for one in json.loads(told.read_text())["HEADERS"]]
+    assert f"{tmp_path}/robocomp/classes/led/led.h" in headers
+    assert not [one for one in headers if one.endswith("src/genericworker.h")]
+
+
+@pytest.mark.parametrize(("more", "standard"), [
+    ({}, 17), ({"lists": "# set(CMAKE_CXX_STANDARD 20)"}, 17), ({"lists": "add_definitions(-std=c++0x -std=gnu++2a)"}, 20),
+    ({"src/CMakeLists.txt": "ADD_EXECUTABLE(Bot ${SOURCES})\nSET_TARGET_PROPERTIES(Bot\n PROPERTIES\n CXX_STANDARD 20\n )"}, 20),
+    ({"CMakeLists.txt": "set(CMAKE_CXX_STANDARD 20)\ninclude(generated/component.cmake)\n"}, 20),
+    ({"lists": "if(0)\nset(CMAKE_CXX_STANDARD 20)\nelse()\nset(CMAKE_CXX_STANDARD 89)\nendif()"}, 20),
+    ({"headers": "class ConfigLoader;"}, 23),
+])  # fmt: skip
+def test_the_standard_of_robocomp(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, more: dict[str, str], standard: int
+) -> None:
+    """The highest that the compiler has, of those that RoboComp's own build names, too."""
+    head = "cmake_minimum_required(VERSION 3.20)\nproject(Bot LANGUAGES CXX)\n"
+    files = {f"bot/{name}": text for name, text in more.items() if "/" in name}
+    if "CMakeLists.txt" in more:
+        files["bot/CMakeLists.txt"] = head + more["CMakeLists.txt"]
+    write_tree(tmp_path, files)
+    made = commands(tmp_path, monkeypatch, more.get("headers", ""), more.get("lists", ""))
+    (own,) = [line for line in made.split("/usr/bin/c++") if line.rstrip().endswith("specificworker.cpp")]
+    assert re.findall(r"-std=c\+\+(\w+)", own)[-1] in (str(standard), {20: "2a", 23: "2b"}.get(standard)), own
 
 
 @pytest.mark.parametrize("name", ["SOURCES", "SPECIFIC_SOURCES"])

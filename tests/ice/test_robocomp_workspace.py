@@ -107,6 +107,15 @@ def test_python_2_is_named(tmp_path: Path, line: str) -> None:
         assert "RC6207" in checked.output and "specificworker.py:2:1" in checked.output
 
 
+def test_python_2_is_all_that_is_said(tmp_path: Path) -> None:
+    """In code of Python 2, tabs and blanks mean blocks that no grammar of today sees: it seems to have no methods."""
+    body = "  \tseen = []\n\tdef Arm_go(self):\n                print 1\n"
+    code = f"from genericworker import *\nclass SpecificWorker(GenericWorker):\n{body}"
+    run(tmp_path, code, "imports: [Arm]\nimplements: [Arm]\n")
+    said = CliRunner().invoke(group, ["check", str(tmp_path)]).output
+    assert "RC6207" in said and "RC6201" not in said and "RC6202" not in said, said
+
+
 def test_a_constructor_that_does_not_call_the_base(tmp_path: Path) -> None:
     code = (
         "from genericworker import *\nclass SpecificWorker(GenericWorker):\n"

@@ -28,7 +28,7 @@ def managers(draw: st.DrawFn) -> str:
     lines = ["<rcmanager>"]
     if draw(st.booleans()):
         lines.append(f' <generalInformation><editor path={quoteattr(draw(TEXTS))} dock="false"/></generalInformation>')
-    aliases = draw(ALIASES)
+    aliases = draw(ALIASES | st.just(list("abcdef")))
     for number, alias in enumerate(aliases):
         host, port = draw(HOSTS), 10000 + number
         endpoint = draw(st.sampled_from([
@@ -41,14 +41,20 @@ def managers(draw: st.DrawFn) -> str:
                 lines.append(f"  <dependence alias={quoteattr(other)}/>")
         program = draw(st.sampled_from(["rcis", "./bin/x", "/opt/y", "python src/x.py"]))
         command = " ".join([program, *draw(WORDS)])
-        remote = f"rcremote {host} tab /opt"
+        remote = f"rcremote {host} {draw(st.sampled_from(['tab', number]))} /opt"
         command = draw(st.sampled_from(
             ["", command, f" {command}  ", f"{remote}/a {command}", f"{remote}/b/ {command} | tee log"]
         ))  # fmt: skip
         lines.append(f"  <workingDir path={quoteattr(draw(st.sampled_from(['/opt/a', '/opt/a/', '/home'])))}/>")
         lines.append(f"  <upCommand command={quoteattr(command)}/>")
-        lines.append(f"  <downCommand command={quoteattr(draw(TEXTS))}/>")
-        lines.append(f"  <configFile path={quoteattr(draw(TEXTS))}/>")
+        kill = draw(
+            st.sampled_from(["killall -9 rcis", "killall -9 x", "pkill -9 -f x.py", f"ssh ann@{host} killall -9 y"])
+        )
+        lines.append(f"  <downCommand command={quoteattr(draw(TEXTS | st.just(kill)))}/>")
+        config = draw(
+            st.sampled_from(["", "etc/config", "/etc/x.conf", "kate /etc/x.conf", "rcremote h t /opt/a kate w"])
+        )
+        lines += [f"  <configFile path={quoteattr(config)}/>"] if draw(st.integers(0, 9)) else []
         lines += [f'  <{name} value="{draw(NUMBERS)}"/>' for name in ("xpos", "ypos", "radius")]
         lines += [f"  <color value={quoteattr(draw(TEXTS))}/>"] if draw(st.booleans()) else []
         lines.append(" </node>")

@@ -15,8 +15,9 @@ from robocomp_yaml.emit.exports._commands import file_name, limited
 from robocomp_yaml.emit.xml_text import HEAD, element
 from robocomp_yaml.model.deployment import CONFIG, ResourceLimits
 from robocomp_yaml.network.network import ICESTORM, LOOPBACK, Network, Process
-from robocomp_yaml.source.ice_endpoint import spelled_host
+from robocomp_yaml.source import rcremote
 from robocomp_yaml.source.ice_proxy import proxy_at
+from robocomp_yaml.source.rcremote import ENDPOINT, facts_of_endpoint, filled
 
 _ATTRIBUTES = {
     "workingDir": "path", "upCommand": "command", "downCommand": "command", "configFile": "path",
@@ -24,8 +25,8 @@ _ATTRIBUTES = {
 }  # fmt: skip
 """The elements of a node with one value, and the attribute of the value; in RCManager's order."""
 
-_OWN = ("alias", "endpoint", "pinged", "dependence", "aliases")
-_GENERAL = {
+_OWN = ("alias", "endpoint", "pinged", "dependence", "aliases", "tab", "at", "cwd", "after", rcremote.ALONE)
+GENERAL = {
     "editor": {"path": "kate", "dock": "false"},
     "timeouts": {"fixed": "1000.0", "blink": "300.0"},
     "clicks": {"switch": "2.0", "interval": "400.0"},
@@ -34,6 +35,7 @@ _GENERAL = {
     "simulation": {"hookes": "0.07", "springlength": "0.5", "friction": "0.4", "step": "0.5", "fieldforce": "20000.0"},
 }
 _SPACE = 100
+_EVERY_COMPONENT = "CommonBehavior"
 _SPECIAL = re.compile(r"[][\\.*+?^${}()|]")
 _LOCAL = (LOOPBACK, "127.0.0.1", "::1")
 
@@ -61,7 +63,30 @@ class _Exporter:
     def of(self, name: str) -> Kept:
         """What the document keeps of a node, and of each one of which it keeps something."""
         kept = self.kept_of(name)
-        return {**self.each, **kept} if kept else kept
+        if not kept:
+            return kept
+        at = kept.get("at")
+        place = dict(zip(("xpos", "ypos"), map(_text, at), strict=False)) if isinstance(at, list) else {}
+        each = {key: value for key, value in self.each.items() if key != "endpoint"}
+        merged = {**each, **self.inherited(name, kept), **place, **kept}
+        known = self.facts(name)
+        return merged | {key: filled(_text(merged[key]), known) for key in rcremote.OF_COMMAND if key in merged}
+
+    def inherited(self, name: str, kept: Kept) -> Kept:
+        """What a further name of a process has as the first one."""
+        process = self.network.processes.get(self.owners.get(name, ""))
+        if process is None or name == process.name or name in self.nodes or rcremote.ALONE in kept:
+            return {}
+        return {key: value for key, value in process.extra if key in rcremote.INHERITED}
+
+    def facts(self, name: str) -> dict[str, str]:
+        """What the texts of a node may repeat of its command."""
+        process = self.network.processes.get(self.owners.get(name, ""))
+        if process is None or process.kind == ICESTORM:
+            return {}
+        config = self.network.config_path(process)
+        known = rcremote.facts(rcremote.of_words(self.address(process), self.folder(process), process.words(config)))
+        return {**known, "config": config} if config else known
 
     def kept_of(self, name: str) -> Kept:
         process = self.network.processes.get(self.owners.get(name, ""))
@@ -75,7 +100,7 @@ class _Exporter:
 
     def children(self) -> Iterator[str]:
         elements = {key: value for key, value in self.kept.items() if not isinstance(value, str)}
-        for key, value in (elements or {"generalInformation": _GENERAL}).items():
+        for key, value in (elements or {"generalInformation": GENERAL}).items():
             yield from _generic(key, value)
         for process in self.network.processes.values():
             with _unwritable.of(process):
@@ -92,7 +117,7 @@ class _Exporter:
     def node(self, process: Process, name: str, number: int) -> Iterator[str]:
         """The node of a name of a process; `number` counts the names of a process from 0."""
         kept = self.of(name)
-        made: dict[str, object] = {"workingDir": process.cwd, "upCommand": self.command(process, name)}
+        made: dict[str, object] = {"workingDir": self.folder(process), "upCommand": self.command(process, name, kept)}
         if not kept:
             config = self.network.config_path(process)
             made |= {"downCommand": f"pkill -f {shlex.quote(self.pattern(process, config))}", "configFile": config}
@@ -114,11 +139,22 @@ class _Exporter:
         text = _text(kept.get("endpoint"))
         proxy = proxy_at(text)
         ports = {endpoint.port for endpoint in process.endpoints}
-        if "endpoint" in kept and (proxy is None or not {one.port for one in proxy.endpoints} - ports):
+        if (
+            "endpoint" in kept
+            and "{port}" not in text
+            and (proxy is None or not {one.port for one in proxy.endpoints} - ports)
+        ):
             return text
-        selected = [endpoint for endpoint in process.endpoints if endpoint.identity][number : number + 1]
-        address = self.address(process)
-        return "".join(f"{one.identity}:{one.protocol} -h {spelled_host(address)} -p {one.port}" for one in selected)
+        known = [endpoint for endpoint in process.endpoints if endpoint.identity]
+        if process.component:  # what it is for, before what all components have, and what it is told
+            known.sort(key=lambda one: (one.identity != one.interface.lower(), one.interface == _EVERY_COMPONENT))
+        selected = known[number : number + 1]
+        pattern = text if "{port}" in text else _text(self.each.get("endpoint")) if kept else ""
+        return "".join(
+            filled(pattern or ENDPOINT.replace("tcp", one.protocol), facts_of_endpoint(one.identity, address, one.port))
+            for address in [self.address(process)]
+            for one in selected
+        )
 
     def dependences(self, process: Process, name: str, kept: Kept) -> list[str]:
         """The dependences that the document keeps, and the others of the process. Of those of a migrated node,
@@ -128,12 +164,20 @@ class _Exporter:
             return texts
         listed = [alias for other in (name, *process.aliases) for alias in _texts(self.of(other))]
         meant = {self.owners[self.by_alias[alias]] for alias in listed if alias in self.by_alias}
-        others = process.explicit if process.extra else process.after
-        return [*texts, *(self.aliases[other] for other in others if other not in meant)]
+        named = dict(process.extra).get("after")
+        others = [_text(other) for other in named] if isinstance(named, list) else process.after
+        aliases = {alias: self.owners[other] for other in others for alias in [self.aliases.get(other)] if alias}
+        return [*texts, *(alias for alias, other in aliases.items() if other not in meant)]
 
-    def command(self, process: Process, name: str) -> str:
-        words = shlex.join(limited(process, process.words(self.network.config_path(process)), "RCManager"))
-        return f"rcremote {self.address(process)} {file_name(name)} {shlex.quote(process.cwd)} {words}"
+    def command(self, process: Process, name: str, kept: Kept) -> str:
+        words = limited(process, process.words(self.network.config_path(process)), "RCManager")
+        folder = self.folder(process)
+        return rcremote.spelled(self.address(process), _text(kept.get("tab")) or file_name(name), folder, words)
+
+    def folder(self, process: Process) -> str:
+        """The working folder of a process, as the document spells it where that is the same."""
+        spelled = _text(dict(process.extra).get("cwd"))
+        return spelled if os.path.normpath(spelled) == process.cwd else process.cwd
 
     def pattern(self, process: Process, config: str) -> str:
         """A regular expression that matches the command line of this process only: it contains the process's own

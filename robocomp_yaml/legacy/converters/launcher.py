@@ -9,8 +9,9 @@ from robocomp_yaml.legacy.converters import toml
 from robocomp_yaml.legacy.document import Notes
 from robocomp_yaml.legacy.draft import DeploymentDraft, Reader, named_node
 from robocomp_yaml.legacy.grammar import trees
-from robocomp_yaml.legacy.networks import command, endpoint
+from robocomp_yaml.legacy.networks import endpoint
 from robocomp_yaml.legacy.networks.node import NetworkDraft
+from robocomp_yaml.source import rcremote
 
 _KEYS = {"name": "", "cwd": "cwd", "cmd": "program", "ice_name": "endpoints"}
 """The keys of a component, and the keys of the document that get their comments."""
@@ -57,7 +58,7 @@ class _LauncherConverter:
         node = named_node(self.reader, self.network, name, at, self.reader.notes(head), at)
         node.by_key = {_KEYS[key]: self.reader.notes(pair) for key, (_, pair) in pairs.items()}
         node.notes.add(node.by_key.pop("", Notes()))
-        node.command = command.parse(texts.get("cmd", ""), texts.get("cwd", ""))
+        node.command = rcremote.parse(texts.get("cmd", ""), texts.get("cwd", ""))
         node.endpoint = endpoint.parse(texts.get("ice_name", ""))
         if "ice_name" in pairs:
             node.endpoint_span = self.reader.span(pairs["ice_name"][1])

@@ -7,11 +7,13 @@ import re
 import msgspec
 from lark import Token, Tree
 
-from robocomp_yaml.legacy.document import DocumentEntry, List, Map, Notes, Raw
+from robocomp_yaml.emit.exports.rcmanager import GENERAL
+from robocomp_yaml.legacy.document import DocumentEntry, List, Map, Notes, Raw, Value
 from robocomp_yaml.legacy.draft import DeploymentDraft, Reader, named_node
 from robocomp_yaml.legacy.grammar import token, trees
-from robocomp_yaml.legacy.networks import command, endpoint
+from robocomp_yaml.legacy.networks import endpoint
 from robocomp_yaml.legacy.networks.node import NetworkDraft, NetworkNode
+from robocomp_yaml.source import rcremote
 
 ATTRIBUTES = {
     "workingDir": "path", "upCommand": "command", "downCommand": "command", "configFile": "path",
@@ -60,6 +62,8 @@ class _RcmanagerConverter:
                 self.node(child, network)
             else:
                 network.extra.entries.append(DocumentEntry(child.name, self.generic(child), child.notes))
+        if _texts(network.extra) == {"generalInformation": GENERAL}:
+            network.extra.entries.clear()  # as it is exported without
         for name, value in root.attributes.items():
             network.extra.put(name, exact(value))
         return DeploymentDraft(network, self.reader.placed.around)
@@ -130,9 +134,10 @@ class _RcmanagerConverter:
                 node.extra.entries = [entry for entry in node.extra.entries if entry.key != child.name]
             by_name[child.name] = child
             node.extra.entries.append(self.extra(child))
+        _place(node.extra)
         folder = by_name["workingDir"].get("path") if "workingDir" in by_name else ""
         if "upCommand" in by_name:
-            node.command = command.parse(by_name["upCommand"].get("command"), folder)
+            node.command = rcremote.parse(by_name["upCommand"].get("command"), folder)
         if "downCommand" in by_name and (user := _SSH.search(by_name["downCommand"].get("command"))):
             network.users.setdefault(user["host"], user["user"])
 
@@ -157,6 +162,22 @@ class _RcmanagerConverter:
             else:
                 result.put(name, List([DocumentEntry("", self.generic(child), child.notes) for child in same]))
         return result
+
+
+def _texts(value: Value) -> object:
+    """Return the texts of attributes, None where there is something else: a comment."""
+    if isinstance(value, Map):
+        return {entry.key: None if entry.notes else _texts(entry.value) for entry in value.entries}
+    return value.lexeme if isinstance(value, Raw) else value if isinstance(value, str) else None
+
+
+def _place(extra: Map) -> None:
+    """Put a position in one entry, as it is in RCManager's graph."""
+    places = [entry for entry in extra.entries if entry.key in ("xpos", "ypos")]
+    if len(places) == 2 and not any(one.notes or isinstance(one.value, Map) for one in places):
+        places.sort(key=lambda one: one.key)
+        extra.entries[extra.entries.index(places[0])] = DocumentEntry("at", List.of(one.value for one in places))
+        extra.entries.remove(places[1])
 
 
 _NUMBER = re.compile(r"-?(?:0|[1-9][0-9]{0,15})(?:\.[0-9]{1,17})?")

@@ -11,10 +11,10 @@ import msgspec
 from robocomp_yaml.legacy.convert import Converted
 from robocomp_yaml.legacy.document import data
 from robocomp_yaml.legacy.draft import ComponentDraft
-from robocomp_yaml.legacy.networks.command import NodeCommand
 from robocomp_yaml.link import options
 from robocomp_yaml.source.discover import of_kind
 from robocomp_yaml.source.heading import root_of
+from robocomp_yaml.source.rcremote import NodeCommand
 
 _PROGRAMS = ("bin", "src")
 """The folders of a component that contain its program."""

@@ -10,11 +10,11 @@ import msgspec
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.digraph import reachable
-from robocomp_yaml.legacy.networks.command import LOCAL, LOOPBACK
 from robocomp_yaml.legacy.networks.components import KnownComponent
 from robocomp_yaml.legacy.networks.node import NetworkNode
 from robocomp_yaml.legacy.networks.served import ConfigAddresses
 from robocomp_yaml.source.ice_proxy import proxy_at
+from robocomp_yaml.source.rcremote import LOCAL, LOOPBACK
 
 _NOTHING = ConfigAddresses()
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 import socket
-from collections import Counter
 from collections.abc import Mapping, Sequence
 
 import msgspec
@@ -15,19 +14,17 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.legacy.document import List, Map, Notes, Raw
 from robocomp_yaml.legacy.draft import DeploymentDraft
 from robocomp_yaml.legacy.ledger import LedgerEntry
-from robocomp_yaml.legacy.networks.command import LOCAL, LOOPBACK, is_config
 from robocomp_yaml.legacy.networks.components import KnownComponent, match, of_folder, of_run
 from robocomp_yaml.legacy.networks.conflicts import Processes, host_of, without_circles
 from robocomp_yaml.legacy.networks.entries import COMMON, Destination, component_entry, program_entry
+from robocomp_yaml.legacy.networks.kept import Derivable, inherit, share
 from robocomp_yaml.legacy.networks.node import NetworkDraft, NetworkNode, safe_name
 from robocomp_yaml.legacy.networks.served import ConfigAddresses, addresses, is_missing
 from robocomp_yaml.legacy.workspaces import Workspaces
+from robocomp_yaml.source.rcremote import LOCAL, LOOPBACK, is_config
 from robocomp_yaml.source.text import OF_NO_LINE
 
 _IP = re.compile(r"[\d.:]+")
-_SHARED = ("workingDir", "configFile", "radius", "color")
-_FEWEST = 3
-"""Nodes of which something is kept only once."""
 
 
 def build_deployments(
@@ -75,6 +72,8 @@ class _DeploymentBuilder(msgspec.Struct, eq=False):
     """By the name of a process's first node, the names of those that it waits for, without circles."""
     unconfigured: dict[str, KnownComponent] = {}
     """By the name of a node, the component whose configuration is missing."""
+    derived: dict[str, Derivable] = {}
+    """By the name of a node, what an exporter derives for it."""
     processes: Processes = msgspec.field(default_factory=lambda: Processes((), {}, {}, {}))
 
     def document(self) -> Map:
@@ -109,29 +108,13 @@ class _DeploymentBuilder(msgspec.Struct, eq=False):
         document.put_some("services", services)
         document.put("components", components)
         self.network.extra.put_some("nodes", kept)
-        self.share(running)
+        self.network.extra.put_some("each", share(nodes, self.derived))
+        for node in nodes:
+            if node.name in self.owners:
+                inherit(node, self.owners[node.name])
         document.put_some(self.site.key, self.network.extra)
         document.entries[-1].notes.foot += notes.foot
         return document
-
-    def share(self, running: Sequence[NetworkNode]) -> None:
-        """Keep what most nodes have in common once, as `each`, if each of them has a value for it."""
-        nodes = [node for node in running if node.extra.entries]
-        shared = Map()
-        for key in _SHARED:
-            entries = [next((one for one in node.extra.entries if one.key == key), None) for node in nodes]
-            plain = [one for one in entries if one is not None and isinstance(one.value, str | Raw) and not one.notes]
-            if len(plain) < len(nodes) or len(nodes) < _FEWEST:
-                continue
-            value, count = Counter(repr(one.value) for one in plain).most_common(1)[0]
-            if 2 * count < len(nodes):
-                continue
-            shared.put(key, next(one.value for one in plain if repr(one.value) == value))
-            for node in nodes:
-                node.extra.entries = [
-                    one for one in node.extra.entries if one.key != key or repr(one.value) != value
-                ]  # fmt: skip
-        self.network.extra.put_some("each", shared)
 
     def is_started(self, node: NetworkNode) -> bool:
         if node.command is None:
@@ -250,21 +233,34 @@ class _DeploymentBuilder(msgspec.Struct, eq=False):
         if owner is not None:
             if node.after:
                 self.keep_dependences(node)
-            return program_entry(node, "", List(), self.site, process=owner.name)
+            return program_entry(node, "", List(), self.site, process=owner.name, derivable=self.derivable(node, owner))
         assert node.command is not None
         after = self.after(node)
         host = hosts.get(host_of(node), "")
         component = self.processes.components.get(node.name)
         if component is None:
-            return program_entry(node, host, after, self.site, home=self.home(node))
+            home, derivable = self.home(node), self.derivable(node, node)
+            return program_entry(node, host, after, self.site, home=home, derivable=derivable)
         depends = [self.by_alias[alias] for alias, _, _ in node.after if alias in self.by_alias]
         connect, guesses = self.processes.connections(node, depends)
         self.diagnostics += guesses
         result, problem = component_entry(
-            node, component, host, after, self.site, connect, self.processes.configured[node.name].ports
-        )
+            node, component, host, after, self.site, connect, self.processes.configured[node.name].ports,
+            self.derivable(node, node),
+        )  # fmt: skip
         if problem:
             self.diagnostics.append(codes.ODD_ENDPOINT.at(node.endpoint_span, problem=problem))
+        return result
+
+    def derivable(self, node: NetworkNode, owner: NetworkNode) -> Derivable:
+        """Return what an exporter derives for a node of the process of another one, or of its own."""
+        component = self.processes.components.get(owner.name)
+        serves = None if component is None else (*component.implements, COMMON)[:1]
+        is_elsewhere = component is not None or bool(self.home(owner))
+        names = [owner, *(one for one in self.network.nodes if self.owners.get(one.name) is owner)]
+        is_one_each = not any(one.endpoint is None or one.is_only_pinged for one in names)
+        is_one_each = len(names) == 1 or (is_one_each and component is None)
+        result = self.derived[node.name] = Derivable(owner.command, is_elsewhere, serves, is_one_each)
         return result
 
     def home(self, node: NetworkNode) -> str:
@@ -288,7 +284,7 @@ class _DeploymentBuilder(msgspec.Struct, eq=False):
                     is_plain = is_plain and at is not node
                     node.notes.add(notes)
                     continue
-                is_plain = is_plain and at is node and target.name == alias and target.name not in self.owners
+                is_plain = is_plain and at is node
                 if self.owners.get(target.name, target).name not in self.waits.get(node.name, ()):
                     is_plain = False  # it would close a circle
                     continue

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import os
-import posixpath
 from collections.abc import Mapping
 
 import msgspec
 
 from robocomp_yaml.legacy.document import List, Map, Raw
-from robocomp_yaml.legacy.networks.command import LOCAL, LOOPBACK, NodeCommand
 from robocomp_yaml.legacy.networks.components import KnownComponent
+from robocomp_yaml.legacy.networks.kept import NOTHING, Derivable, drop_derived
 from robocomp_yaml.legacy.networks.node import NetworkNode
 from robocomp_yaml.legacy.networks.served import candidates, relative_to
+from robocomp_yaml.source.rcremote import NodeCommand
 
 COMMON = "CommonBehavior"
+LINE = 200
+"""What nobody reads but RCManager has one line, although it is longer than others."""
 
 
 class Destination(msgspec.Struct, frozen=True):
@@ -34,8 +36,9 @@ class Destination(msgspec.Struct, frozen=True):
 
 
 def program_entry(
-    node: NetworkNode, host: str, after: List, site: Destination, *, process: str = "", home: str = ""
-) -> Map:
+    node: NetworkNode, host: str, after: List, site: Destination, *, process: str = "", home: str = "",
+    derivable: Derivable = NOTHING,
+) -> Map:  # fmt: skip
     """`home` is the folder in the repository that is the program's working folder on the machine of the file."""
     entry = Map(block=True)
     command = node.command
@@ -52,12 +55,12 @@ def program_entry(
         entry.put("endpoints", endpoints, node.by_key.get("endpoints"))
     elif node.endpoint is not None and not process:
         entry.put("ready", Map.of({"ping": node.endpoint.pinged(node.elsewhere)}), node.by_key.get("endpoints"))
-    return _completed(entry, node, after, site.key)
+    return _completed(entry, node, after, site.key, derivable)
 
 
 def component_entry(
     node: NetworkNode, component: KnownComponent, host: str, after: List, site: Destination,
-    connect: Mapping[str, str], configured: Mapping[str, int],
+    connect: Mapping[str, str], configured: Mapping[str, int], derivable: Derivable,
 ) -> tuple[Map, str]:  # fmt: skip
     """Return the entry, and the problem of its endpoint, or ''. `configured` are the ports of its configuration, which
     need not be repeated."""
@@ -76,7 +79,7 @@ def component_entry(
     if node.endpoint is not None and not node.is_only_pinged:
         problem = _ports(entry, node, component, configured)
     entry.put_some("connect", Map.of(connect))
-    return _completed(entry, node, after, site.key), problem
+    return _completed(entry, node, after, site.key, derivable), problem
 
 
 def _ports(entry: Map, node: NetworkNode, component: KnownComponent, configured: Mapping[str, int]) -> str:
@@ -112,28 +115,10 @@ def _config(command: NodeCommand, component: KnownComponent, site: Destination) 
     return os.path.relpath(existing, home) if existing is not None else below or command.config
 
 
-def _completed(entry: Map, node: NetworkNode, after: List, key: str) -> Map:
+def _completed(entry: Map, node: NetworkNode, after: List, key: str, derivable: Derivable) -> Map:
     """Return the entry with its dependences, and with what an exporter cannot derive."""
     entry.put_some("after", after)
-    derived = _derived(node, entry)
-    if node.is_only_pinged:
-        for extra in node.extra.entries:
-            extra.key = "pinged" if extra.key == "endpoint" else extra.key
-    for extra in list(node.extra.entries):
-        if extra.key in derived and extra.value == derived[extra.key]:
-            node.extra.entries.remove(extra)
-            node.notes.add(extra.notes)
+    drop_derived(node, derivable)
+    node.extra.limit = LINE
     entry.put_some(key, node.extra)
     return entry
-
-
-def _derived(node: NetworkNode, entry: Map) -> dict[str, str]:
-    """Return what an exporter derives from the entry."""
-    command, derived = node.command, dict[str, str]()
-    if command is not None and entry.get("cwd") == command.folder:
-        derived["workingDir"] = posixpath.normpath(command.folder)
-    endpoint = node.endpoint
-    if command is not None and endpoint is not None and not node.is_shared and not node.is_only_pinged \
-            and endpoint.identity.islower():  # fmt: skip
-        derived["endpoint"] = endpoint.proxy(LOCAL if command.host in LOOPBACK else command.host)
-    return derived

@@ -9,9 +9,9 @@ import msgspec
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy.document import Map, Notes
-from robocomp_yaml.legacy.networks.command import NodeCommand
 from robocomp_yaml.legacy.networks.endpoint import NodeEndpoint
 from robocomp_yaml.legacy.settings.headers import free
+from robocomp_yaml.source.rcremote import NodeCommand
 
 _NO_NAME = re.compile(r"[^A-Za-z0-9_-]+[^A-Za-z0-9_]*")
 _LONGEST = 100

@@ -8,11 +8,11 @@ from collections.abc import Iterator, Mapping
 
 import msgspec
 
-from robocomp_yaml.legacy.networks.command import NodeCommand
 from robocomp_yaml.legacy.networks.components import KnownComponent
 from robocomp_yaml.source import properties
 from robocomp_yaml.source.ice_endpoint import parse_endpoint
 from robocomp_yaml.source.ice_proxy import Proxy, proxy_at
+from robocomp_yaml.source.rcremote import NodeCommand
 from robocomp_yaml.source.regular import text as text_of
 
 OWN = "etc/config"

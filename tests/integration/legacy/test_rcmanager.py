@@ -13,9 +13,10 @@ from click.testing import Result
 from conftest import write_tree
 from rcmanager_facts import facts
 from robocomp_yaml.emit.exports import export
-from robocomp_yaml.legacy.networks import command, endpoint
+from robocomp_yaml.legacy.networks import endpoint
 from robocomp_yaml.legacy.networks.node import safe_name
 from robocomp_yaml.pipeline import analyse
+from robocomp_yaml.source import rcremote
 from robocomp_yaml.source.tree import parse
 
 Run = Callable[..., Result]
@@ -49,7 +50,7 @@ def migrated(rcyaml: Run, tmp_path: Path) -> Callable[..., tuple[Any, list[str]]
     ("./start.sh", ("./start.sh",), "", "start"),
 ])  # fmt: skip
 def test_commands(text: str, words: tuple[str, ...], config: str, stem: str) -> None:
-    found = command.parse(text, "/w")
+    found = rcremote.parse(text, "/w")
     assert found is not None
     assert (found.words, found.config, found.stem) == (words, config, stem)
     remote = text.startswith("rcremote")
@@ -58,7 +59,7 @@ def test_commands(text: str, words: tuple[str, ...], config: str, stem: str) -> 
 
 @pytest.mark.parametrize("text", ["", "  ", "rcremote", "rcremote host tab", "rcremote host tab /d", "rcremote h t / "])
 def test_nothing_to_run(text: str) -> None:
-    assert command.parse(text, "/w") is None
+    assert rcremote.parse(text, "/w") is None
 
 
 def test_endpoints() -> None:
@@ -85,7 +86,7 @@ def test_one_host_needs_no_hosts(migrated: Callable[..., tuple[Any, list[str]]])
         "deployment": "robot",
         "components": {"laser": {
             "program": "./bin/laser", "cwd": "/opt/laser", "endpoints": {"laser": "tcp -p 10003"},
-            "x-rcmanager": {"upCommand": "rcremote localhost tab /opt/laser ./bin/laser"},
+            "x-rcmanager": {"tab": "tab"},
         }},
     }  # fmt: skip
     assert said == []
@@ -216,7 +217,7 @@ components:
     program: js
     cwd: /d
     endpoints: {js: tcp -p 10005}
-    x-rcmanager: {endpoint: "js:tcp -p 10005", upCommand: rcremote localhost js /d js}
+    x-rcmanager: {endpoint: "{identity}:tcp -p {port}"}
 # The end.
 """
     )
@@ -380,7 +381,7 @@ def test_who_serves_what_several_nodes_serve(
 
 
 def test_what_most_nodes_share_is_kept_once(rcyaml: Run, tmp_path: Path) -> None:
-    look = '<radius value="10.0"/><color value="{}"/><workingDir path="/home/robot"/>'
+    look = '<xpos value="1.5"/><radius value="10.0"/><color value="{}"/><workingDir path="/home/robot"/>'
     nodes = [
         f'<node alias="{name}" endpoint="arm:tcp -h localhost -p {port}">{look.format(color)}'
         f'<upCommand command="rcremote localhost {name} /opt ./bin/{name}"/></node>'

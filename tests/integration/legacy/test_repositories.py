@@ -398,3 +398,34 @@ def test_two_components_in_the_folder_of_one(rcyaml: Run, tmp_path: Path) -> Non
     result = rcyaml("compile")
     assert result.exit_code == 1 and "OldArm is not compiled: its folder is that of Arm" in result.output
     assert (tmp_path / "arm/generated/component.py").exists()
+
+
+def test_a_second_run_keeps_the_folders_of_interfaces(rcyaml: Run, tmp_path: Path) -> None:
+    """What the first one converted from the search path is not converted again, and is found."""
+    write_tree(tmp_path, {
+        "lib/Arm.idsl": "module RoboCompArm { interface Arm { void go(); }; };\n",
+        "bot/arm/arm.cdsl": 'import "Arm.idsl";\nComponent arm { Communications { requires Arm; }; language python; };\n',
+    })  # fmt: skip
+    texts = []
+    for folders in (["-I", str(tmp_path / "lib")], ["-I", str(tmp_path / "lib")], []):
+        result = rcyaml("migrate", str(tmp_path / "bot"), *folders)
+        assert result.exit_code == 0 and "RC5009" not in result.output, result.output
+        texts.append((tmp_path / "bot/rcyaml.yaml").read_text(encoding="utf-8"))
+    assert "interfaces: [interfaces]" in texts[0] and texts == texts[:1] * 3
+    assert rcyaml("check", str(tmp_path / "bot")).exit_code == 0
+
+
+def test_a_run_after_a_compile_has_all_configurations(rcyaml: Run, tmp_path: Path) -> None:
+    """Those that the compiler knows as the user's are sources still: parameters that only they have stay."""
+    line = "ArmProxy = arm:tcp -h localhost -p 10003\n"
+    write_tree(tmp_path, {
+        "Arm.idsl": "module RoboCompArm { interface Arm { void go(); }; };\n",
+        "bot/bot.cdsl": 'import "Arm.idsl";\nComponent bot { Communications { requires Arm; }; language python; };\n',
+        "bot/etc/config": line, "bot/etc/config_lab": f"{line}tile = 200\n", "bot/etc/sim.conf": f"{line}roof = 3\n",
+    })  # fmt: skip
+    assert rcyaml("migrate", ".").exit_code == 0
+    parameters = (tmp_path / "bot/bot.pdsl.yaml").read_text(encoding="utf-8")
+    assert "tile" in parameters and "roof" in parameters
+    assert rcyaml("compile").exit_code == 0
+    assert rcyaml("migrate", ".").exit_code == 0
+    assert (tmp_path / "bot/bot.pdsl.yaml").read_text(encoding="utf-8") == parameters

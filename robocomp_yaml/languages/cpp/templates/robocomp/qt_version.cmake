@@ -3,18 +3,8 @@
 # first: the one that its lists name; Qt 5, if it is of the generation with MapPrx, which had no other, or if it uses what
 # only Qt 5 has; else Qt 6. If only one of them is installed, it is used.
 
-# RoboComp itself: its classes are compiled with the components, its libraries are installed.
-set(component_robocomp "$ENV{ROBOCOMP}")
-foreach(folder IN ITEMS "$ENV{HOME}/robocomp" /opt/robocomp /home/robocomp/robocomp)
-  if(NOT component_robocomp AND IS_DIRECTORY "${folder}/classes")
-    set(component_robocomp "${folder}")
-  endif()
-endforeach()
-if(component_robocomp)
-  set(ENV{ROBOCOMP} "${component_robocomp}")
-endif()
-
-# The lines with which the code includes headers: the user's code, and what it lists and includes of RoboComp.
+# The lines with which the code includes headers: the user's code, and what it lists and includes of RoboComp; and the
+# headers among them that are named by their paths on another machine.
 set(component_named_qt "")
 file(GLOB component_files "${component_root}/src/*.h" "${component_root}/src/*.hpp" "${component_root}/src/*.cpp")
 foreach(file IN ITEMS src/CMakeListsSpecific.txt src/CMakeLists.txt)
@@ -31,8 +21,10 @@ foreach(file IN ITEMS src/CMakeListsSpecific.txt src/CMakeLists.txt)
 endforeach()
 set(component_lines)
 set(component_read)
+set(component_elsewhere)
 while(component_files)
   list(POP_FRONT component_files file)
+  component_place(file "${file}")
   if(file IN_LIST component_read OR NOT EXISTS "${file}" OR IS_DIRECTORY "${file}"
       OR file MATCHES "/(main|generic[a-z]*|commonbehaviorI)[.](h|cpp)$")
     continue()
@@ -44,6 +36,13 @@ while(component_files)
   foreach(line IN LISTS lines)
     if(line MATCHES "include[ \t]*[<\"]([^>\"]+)")
       set(header "${CMAKE_MATCH_1}")
+      if(IS_ABSOLUTE "${header}" AND NOT EXISTS "${header}")
+        component_place(path "${header}")
+        if(EXISTS "${path}")
+          list(APPEND component_elsewhere "${header}")
+          set(header "${path}")
+        endif()
+      endif()
       foreach(folder IN ITEMS "${home}" "${component_robocomp}/classes" "${component_robocomp}/libs"
           "${component_robocomp}/libs/innermodel/include" "${component_robocomp}/libs/osgviewer/include"
           "${component_robocomp}/libs/qmat/include")
