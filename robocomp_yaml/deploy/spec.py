@@ -16,6 +16,8 @@ from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.regular import content
 
 _NOT_KEPT = ("span", "own_span", "extra", "build")
+_FORMER = {"explicit"}
+"""Fields of earlier versions that did not change how a process runs."""
 
 
 class ProcessSpec(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -52,8 +54,9 @@ class ProcessSpec(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     def of_data(cls, data: dict[str, Any]) -> ProcessSpec | None:
         """The spec; None if another version of rcyaml wrote the data."""
         try:
-            return msgspec.convert(data, cls)
-        except ValueError:
+            process = {name: value for name, value in data["process"].items() if name not in _FORMER}
+            return msgspec.convert({**data, "process": process}, cls)
+        except (ValueError, LookupError):
             return None
 
 

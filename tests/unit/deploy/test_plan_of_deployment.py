@@ -130,3 +130,11 @@ def test_data_of_another_version_is_rejected() -> None:
     data = spec(A).as_data()
     data["process"]["colour"] = "red"
     assert ProcessSpec.of_data(data) is None
+
+
+def test_a_process_of_an_earlier_version_goes_on() -> None:
+    """That version kept a field on which nothing depends that runs."""
+    one = spec(B)
+    data = json.loads(json.dumps(one.as_data()))
+    data["process"]["explicit"] = ["base"]
+    assert ProcessSpec.of_data(data) == one
