@@ -40,7 +40,8 @@ class SliceNameFault(msgspec.Struct, frozen=True):
 
 def check(program: Program) -> Iterator[Diagnostic]:
     for linked in program.modules.values():
-        yield from _module(linked.module)
+        part = "names of module", linked.module.path
+        yield from program.memory.result(part, (linked.module,), lambda module=linked.module: tuple(_module(module)))
 
 
 def _module(module: Module) -> Iterator[Diagnostic]:

@@ -13,6 +13,7 @@ from robocomp_yaml.diag.codes.specific import OBSOLETE
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.layout import SOURCES
+from robocomp_yaml.source.real_paths import RealPaths
 from robocomp_yaml.transactions.manifest import BASE
 from robocomp_yaml.transactions.output_root import Root
 from robocomp_yaml.transactions.plan import ONCE, Merge, Merges, RootPlan
@@ -51,8 +52,9 @@ def review(built: Build, disk: Disk, *, merge: bool = False) -> Review:
     result = Review()
     if not any(file.policy == ONCE for plan in built.plans for file in plan.files):
         return result
+    reals = RealPaths()
     for plan in built.plans:
-        root = Root(plan.root)
+        root = Root(plan.root, reals)
         files = list(_user_files(plan, root, merge, result))
         if not files:
             continue
