@@ -50,9 +50,9 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: EmitOpti
     def slices(modules: Iterable[LinkedModule], folder: str = "") -> Iterator[FilePlan]:
         for linked in modules:
             if linked not in texts:
-                modules = (one.module for one in linked.closure())
+                causes = tuple(one.module for one in linked.closure())
                 part, path = ("slice", linked.module.path), slice_target.file_name(linked)
-                text = program.memory.result(part, tuple(modules), partial(slice_target.text, linked))
+                text = program.memory.result(part, causes, partial(slice_target.text, linked))
                 texts[linked] = FilePlan(path, text, sources=(linked.module.path,))
             plain = texts[linked]
             yield replace(plain, path=folder + plain.path) if folder else plain

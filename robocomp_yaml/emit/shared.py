@@ -77,9 +77,10 @@ class Shared:
 
 def own_modules(program: Program, options: EmitOptions) -> set[LinkedModule]:
     """The modules of the program that are each the own module of a component."""
+    disk, of = program.disk, options.workspace_of
     return {
         scope for linked in program.components.values() for scope in linked.modules()
-        if _is_below(scope, linked) and _is_own(options.workspace_of(linked.component.path), linked, scope, program.disk)
+        if _is_below(scope, linked) and _is_own(of(linked.component.path), linked, scope, disk)
     }  # fmt: skip
 
 

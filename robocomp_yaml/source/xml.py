@@ -24,12 +24,13 @@ MAX_ATTRIBUTES = 100  # of one element
 
 _DOCTYPE = "<!DOCTYPE"
 _SEPARATOR = " "  # not allowed in namespaces and names
-_TAG = re.compile(r"<[^\s/>]+")
+_TAG, _NAME = re.compile(r"<[^\s/>]+"), re.compile(r"[^\s/>]+")
 _ATTRIBUTE = re.compile(r"""\s+([^\s=<>/"']+)\s*=\s*("[^"]*"|'[^']*')""")
 
 
 class Element(msgspec.Struct):
-    """`attributes` maps names, or 'NAMESPACE NAME', to values, `places` to the locations of the values. `content` are
+    """`attributes` maps names, or 'NAMESPACE NAME', to values, `places` to the locations of the values, and `names` to
+    those of the names. `tags` are the locations of the element's own name, at its start and at its end. `content` are
     texts and elements in their order. The element is source[start:end], in bytes."""
 
     name: str
@@ -37,6 +38,8 @@ class Element(msgspec.Struct):
     attributes: dict[str, str]
     span: Span
     places: dict[str, Span] = {}
+    names: dict[str, Span] = {}
+    tags: tuple[Span, ...] = ()
     content: list[str | Element] = []
     source: bytes = b""
     start: int = 0
@@ -122,8 +125,11 @@ class _XmlReader:
         element = Element(name, namespace, attributes, self._here(len(name) + 1), source=self.raw)
         element.start = self.parser.CurrentByteIndex
         if attributes:
-            written = [place for name, place in self._places() if name != "xmlns" and not name.startswith("xmlns:")]
-            element.places = dict(zip(attributes, written, strict=False))  # both in the document's order
+            written = [one for one in self._places() if one[0] != "xmlns" and not one[0].startswith("xmlns:")]
+            # both in the document's order
+            element.names = {name: one[1] for name, one in zip(attributes, written, strict=False)}
+            element.places = {name: one[2] for name, one in zip(attributes, written, strict=False)}
+        element.tags = (self._named(name, 1),)
         if self._open:
             self._open[-1].content.append(element)
         else:
@@ -136,18 +142,30 @@ class _XmlReader:
     def _end(self, _: str) -> None:
         here = self.parser.CurrentByteIndex  # for an empty element, the index after it
         closes = self.raw[here : here + 2] == b"</"
-        self._open.pop().end = self.raw.find(b">", here) + 1 if closes else here
+        element = self._open.pop()
+        element.end = self.raw.find(b">", here) + 1 if closes else here
+        if closes:
+            element.tags += (self._named(element.name, 2),)
 
     def _characters(self, text: str) -> None:
         if self._open:
             self._open[-1].content.append(text)
 
-    def _places(self) -> Iterator[tuple[str, Span]]:
-        """The names and locations of the current tag's attributes, which expat does not provide."""
-        at = self._lines[self.parser.CurrentLineNumber - 1] + self.parser.CurrentColumnNumber
-        match = _TAG.match(self.text, at)
+    def _index(self) -> int:
+        return self._lines[self.parser.CurrentLineNumber - 1] + self.parser.CurrentColumnNumber
+
+    def _named(self, name: str, at: int) -> Span:
+        """The location of a name in the current tag, perhaps behind a prefix, from the character `at`."""
+        start = self._index() + at
+        written = _NAME.match(self.text, start)
+        end = written.end() if written else start + len(name)
+        return self._span(end - len(name), end)
+
+    def _places(self) -> Iterator[tuple[str, Span, Span]]:
+        """The current tag's attributes, with the locations of names and values, which expat does not provide."""
+        match = _TAG.match(self.text, self._index())
         while match and (match := _ATTRIBUTE.match(self.text, match.end())):
-            yield match[1], self._span(match.start(2) + 1, match.end(2) - 1)
+            yield match[1], self._span(*match.span(1)), self._span(match.start(2) + 1, match.end(2) - 1)
 
     def _span(self, start: int, end: int) -> Span:
         first, last = bisect.bisect_right(self._lines, start), bisect.bisect_right(self._lines, end)

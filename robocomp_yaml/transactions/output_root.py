@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import stat
+from collections.abc import Mapping
 from itertools import accumulate
 
 import msgspec
@@ -37,10 +38,12 @@ _APART = frozenset(("", ".", ".."))
 
 class Root:
     """An output root. `path` is as the user wrote it, `real` is the same without symbolic links. `reals` may know other
-    roots."""
+    roots. `unsaved` has contents by real path that replace those of files, for those who only read."""
 
-    def __init__(self, path: str, reals: RealPaths | None = None) -> None:
-        self.path, self._reals = path or ".", reals or RealPaths()
+    def __init__(
+        self, path: str, reals: RealPaths | None = None, unsaved: Mapping[str, bytes] | None = None
+    ) -> None:  # fmt: skip
+        self.path, self._reals, self._unsaved = path or ".", reals or RealPaths(), unsaved or {}
         self.real = self._reals.of(self.path)
         shown = os.path.normpath(self.path)
         self._head = "" if shown == "." else os.path.join(shown, "")
@@ -61,9 +64,10 @@ class Root:
             if not stat.S_ISREG(mode):
                 what = "a folder" if stat.S_ISDIR(mode) else "not a regular file"
                 return PathStatus(exists=True, problem=f"it is {what}", culprit=path)
-            status = PathStatus(
-                exists=True, data=whole(full, is_regular=True)[0] if read else None, mode=stat.S_IMODE(mode)
-            )
+            data = self._unsaved.get(full) if read else None
+            if read and data is None:
+                data = whole(full, is_regular=True)[0]
+            status = PathStatus(exists=True, data=data, mode=stat.S_IMODE(mode))
         except FileNotFoundError:
             status = MISSING
         except NotADirectoryError:

@@ -7,7 +7,7 @@ cannot be used in a language nevertheless are the subject of that language's own
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any
 
 import msgspec
@@ -41,7 +41,11 @@ class SliceNameFault(msgspec.Struct, frozen=True):
 def check(program: Program) -> Iterator[Diagnostic]:
     for linked in program.modules.values():
         part = "names of module", linked.module.path
-        yield from program.memory.result(part, (linked.module,), lambda module=linked.module: tuple(_module(module)))
+        yield from program.memory.result(part, (linked.module,), partial(_faults, linked.module))
+
+
+def _faults(module: Module) -> tuple[Diagnostic, ...]:
+    return tuple(_module(module))
 
 
 def _module(module: Module) -> Iterator[Diagnostic]:
