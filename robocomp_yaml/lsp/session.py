@@ -122,11 +122,19 @@ class Session:
         self.code: dict[str, EditedText] = {}  # the user's code, and Slice
         self.workspaces: dict[str, OpenWorkspace] = {}
         self._has_settings: dict[str, bool] = {}
+        self._disk: Disk | None = None
+
+    @property
+    def disk(self) -> Disk:
+        """The files of the disk, and the open documents."""
+        if self._disk is None:
+            self._disk = Disk({one.path: one.raw for one in self.open.values()})
+        return self._disk
 
     def edit(self, document: EditedText) -> None:
         """A document was opened or changed."""
         self._forget_names()
-        self.open[document.path] = document
+        self.open[document.path], self._disk = document, None
         for workspace in self.workspaces.values():
             workspace.living.edit(document.path, document.raw)
 
@@ -147,6 +155,7 @@ class Session:
         self._forget_names()
         root = self.root_of(path)
         self.open.pop(path, None)
+        self._disk = None
         for workspace in self.workspaces.values():
             workspace.looks.pop(path, None)
             workspace.living.edit(path, None)
@@ -165,7 +174,7 @@ class Session:
 
     def refresh(self) -> None:
         """Files may have changed on the disk."""
-        self._has_settings = {}
+        self._has_settings, self._disk = {}, None
         self._forget_names()
         for workspace in self.workspaces.values():
             workspace.living.refresh()
@@ -178,8 +187,7 @@ class Session:
         return {path: document.version for path, document in (*self.open.items(), *self.code.items())}
 
     def root_of(self, path: str) -> str:
-        disk = Disk({one.path: one.raw for one in self.open.values()})
-        root = root_above(os.path.dirname(path), disk)
+        root = root_above(os.path.dirname(path), self.disk)
         if root is not None:
             return os.path.realpath(root)
         inside = [folder for folder in self.folders if path.startswith(os.path.join(folder, ""))]
@@ -201,9 +209,8 @@ class Session:
 
     def is_document(self, path: str) -> bool:
         """Whether a file is a document, a mock script, or the settings of a workspace."""
-        overlay = {one.path: one.raw for one in self.open.values()}
         is_other = os.path.basename(path) == WORKSPACE_FILE or is_script(path)
-        return is_other or kind_of(path, Disk(overlay)) is not None
+        return is_other or kind_of(path, self.disk) is not None
 
     def is_checked(self, path: str) -> bool:
         """Whether rcyaml has something to say about a file: it is a document, or a state machine."""
@@ -214,7 +221,7 @@ class Session:
         shows, as far as their lines are the same. If this took long the last time, those of the document by itself,
         unless nothing is typed."""
         workspace = self.workspace_of(path)
-        if kind_of(path, Disk(workspace.living.unsaved)) is None:
+        if kind_of(path, self.disk) is None:
             return _as_now(workspace, self.open[path])
         known = workspace.looks.get(path) or self._first(workspace, path)
         if known is not None and known.is_long and not at_rest:
