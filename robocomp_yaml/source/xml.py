@@ -25,6 +25,7 @@ MAX_ATTRIBUTES = 100  # of one element
 _DOCTYPE = "<!DOCTYPE"
 _SEPARATOR = " "  # not allowed in namespaces and names
 _TAG, _NAME = re.compile(r"<[^\s/>]+"), re.compile(r"[^\s/>]+")
+_EMPTY = re.compile(r"\s*/>")
 _ATTRIBUTE = re.compile(r"""\s+([^\s=<>/"']+)\s*=\s*("[^"]*"|'[^']*')""")
 
 
@@ -44,6 +45,7 @@ class Element(msgspec.Struct):
     source: bytes = b""
     start: int = 0
     end: int = 0
+    is_empty: bool = False
 
     @property
     def raw(self) -> str:
@@ -124,8 +126,9 @@ class _XmlReader:
         namespace, _, name = full_name.rpartition(_SEPARATOR)
         element = Element(name, namespace, attributes, self._here(len(name) + 1), source=self.raw)
         element.start = self.parser.CurrentByteIndex
+        places, element.is_empty = self._places()
         if attributes:
-            written = [one for one in self._places() if one[0] != "xmlns" and not one[0].startswith("xmlns:")]
+            written = [one for one in places if one[0] != "xmlns" and not one[0].startswith("xmlns:")]
             # both in the document's order
             element.names = {name: one[1] for name, one in zip(attributes, written, strict=False)}
             element.places = {name: one[2] for name, one in zip(attributes, written, strict=False)}
@@ -141,10 +144,9 @@ class _XmlReader:
 
     def _end(self, _: str) -> None:
         here = self.parser.CurrentByteIndex  # for an empty element, the index after it
-        closes = self.raw[here : here + 2] == b"</"
         element = self._open.pop()
-        element.end = self.raw.find(b">", here) + 1 if closes else here
-        if closes:
+        element.end = here if element.is_empty else self.raw.find(b">", here) + 1
+        if not element.is_empty:
             element.tags += (self._named(element.name, 2),)
 
     def _characters(self, text: str) -> None:
@@ -161,11 +163,16 @@ class _XmlReader:
         end = written.end() if written else start + len(name)
         return self._span(end - len(name), end)
 
-    def _places(self) -> Iterator[tuple[str, Span, Span]]:
-        """The current tag's attributes, with the locations of names and values, which expat does not provide."""
+    def _places(self) -> tuple[list[tuple[str, Span, Span]], bool]:
+        """The current tag's attributes, with the locations of names and values, and whether the tag ends the element,
+        too: expat does not say."""
+        found: list[tuple[str, Span, Span]] = []
         match = _TAG.match(self.text, self._index())
-        while match and (match := _ATTRIBUTE.match(self.text, match.end())):
-            yield match[1], self._span(*match.span(1)), self._span(match.start(2) + 1, match.end(2) - 1)
+        end = match.end() if match else self._index()
+        while match and (match := _ATTRIBUTE.match(self.text, end)):
+            found.append((match[1], self._span(*match.span(1)), self._span(match.start(2) + 1, match.end(2) - 1)))
+            end = match.end()
+        return found, _EMPTY.match(self.text, end) is not None
 
     def _span(self, start: int, end: int) -> Span:
         first, last = bisect.bisect_right(self._lines, start), bisect.bisect_right(self._lines, end)
