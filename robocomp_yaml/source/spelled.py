@@ -76,7 +76,7 @@ class DocumentText:
     def __init__(self, file: str, text: str) -> None:
         self.file, self.text = file, text
         self.is_yaml = file.endswith((".yaml", ".yml"))
-        self._inside: dict[int, tuple[Node, list[Node], list[int]]] = {}
+        self._inside: dict[Node, tuple[list[Node], list[int]]] = {}
 
     @cached_property
     def _starts(self) -> list[int]:
@@ -240,12 +240,12 @@ class DocumentText:
 
     def _child(self, node: Node, index: int) -> Node | None:
         """The key or value of a collection at an index."""
-        if id(node) not in self._inside:
+        if node not in self._inside:
             children = list(_children(node))
             apart = all(max(one.end, one.start + 1) <= other.start for one, other in pairwise(children))
             # What an alias means is where its anchor is.
-            self._inside[id(node)] = node, children, [child.start for child in children] if apart else []
-        _, children, starts = self._inside[id(node)]
+            self._inside[node] = children, [child.start for child in children] if apart else []
+        children, starts = self._inside[node]
         at = bisect_right(starts, index) - 1
         found = children if not starts else children[at : at + 1] if at >= 0 else []
         return next((child for child in found if _has(child, index)), None)
