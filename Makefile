@@ -19,7 +19,7 @@ test_NEEDS := $(demo_NEEDS) \
   openjdk-17-jdk-headless libzeroc-ice3.7-java neovim
 case-study_NEEDS := $(demo_NEEDS) zeroc-ice-compilers libzeroc-ice-dev zeroc-ice-slice cmake g++ make ninja-build espeak-ng
 experiment_NEEDS := $(demo_NEEDS)
-# More packages for the tests, which few want on their own machine: the CI has an SSH server, and systemd.
+# More packages for the tests, which few want on their own machine: the CI has an SSH server, systemd and Emacs.
 MORE ?=
 
 .PHONY: help demo case-study experiment docs pictures test test-long fast unit fuzz mutants lint format macros bench ice clean system-demo system-test system-case-study system-experiment system-python

@@ -7,7 +7,7 @@ both sides have. Documentation and defaults are ignored.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from collections.abc import Sequence as Items
 from typing import Protocol
 
@@ -73,9 +73,11 @@ class InterfaceComparison(msgspec.Struct):
 
 
 class Implementers(msgspec.Struct):
-    """The components that implement an interface. It may come from different documents with the same content."""
+    """The components that implement an interface. It may come from different documents with the same content. `real`
+    returns the real path of a document."""
 
     comparison: InterfaceComparison = msgspec.field(default_factory=InterfaceComparison)
+    real: Callable[[str], str] = os.path.realpath
     _by_name: dict[tuple[str, str], list[tuple[LinkedComponent, Port]]] = {}
 
     def add(self, linked: LinkedComponent) -> None:
@@ -85,11 +87,11 @@ class Implementers(msgspec.Struct):
     def of(self, port: HasInterface, besides: LinkedComponent | None = None) -> list[tuple[LinkedComponent, Port]]:
         """The components that implement the interface of a port, each with its own port, in the order in which they
         were added; without the component of the document that `besides` has."""
-        own = os.path.realpath(besides.component.path) if besides is not None else ""
+        own = self.real(besides.component.path) if besides is not None else ""
         return [
             (linked, other)
             for linked, other in self._by_name.get(name_of(port), ())
-            if os.path.realpath(linked.component.path) != own and self.comparison.is_equal(port, other)
+            if self.real(linked.component.path) != own and self.comparison.is_equal(port, other)
         ]
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-
 import msgspec
 
 from robocomp_yaml.addresses.port_numbers import COMMON_BEHAVIOR
@@ -74,8 +72,3 @@ def of_flat(flat: FlatConfig, linked: LinkedComponent) -> OwnAddresses:
 def adapters(linked: LinkedComponent) -> list[str]:
     """The names of the adapters of a component."""
     return list(dict.fromkeys([*(use.name for use in linked.component.implements), COMMON_BEHAVIOR]))
-
-
-def document(linked: LinkedComponent) -> str:
-    """The real path of a component's document, which identifies the component."""
-    return os.path.realpath(linked.component.path)

@@ -43,19 +43,19 @@ def chosen(linked: LinkedComponent, values: LinkedValues | None, disk: Disk) -> 
 
 def own_values(linked: LinkedComponent, program: Program) -> LinkedValues | None:
     """The `etc/config.yaml` of a component."""
-    values = program.values.get(own_document(linked))
+    values = program.values.get(own_document(linked, program.disk))
     return values if values is not None and values.parameters and values.parameters.component is linked else None
 
 
-def is_own(values: LinkedValues) -> bool:
+def is_own(values: LinkedValues, disk: Disk) -> bool:
     """Whether a values document is the `etc/config.yaml` of its component."""
     component = values.parameters.component if values.parameters else None
-    return component is not None and own_document(component) == os.path.realpath(values.document.path)
+    return component is not None and own_document(component, disk) == disk.real(values.document.path)
 
 
-def own_document(linked: LinkedComponent) -> str:
+def own_document(linked: LinkedComponent, disk: Disk) -> str:
     """The real path of a component's own values document."""
-    return os.path.realpath(os.path.join(os.path.dirname(linked.component.path), "etc", "config.yaml"))
+    return disk.real(os.path.join(os.path.dirname(linked.component.path), "etc", "config.yaml"))
 
 
 def users_properties(flat: FlatConfig | None, values: LinkedValues) -> list[str]:

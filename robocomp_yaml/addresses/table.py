@@ -8,12 +8,12 @@ change once they are in an `etc/config`.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 import msgspec
 
 from robocomp_yaml.addresses.interface_comparison import Implementers
-from robocomp_yaml.addresses.own import OwnAddresses, OwnText, adapters, document, of_flat, of_values
+from robocomp_yaml.addresses.own import OwnAddresses, OwnText, adapters, of_flat, of_values
 from robocomp_yaml.addresses.own_configuration import chosen, is_own
 from robocomp_yaml.addresses.port_numbers import RESERVED, USUAL, FreePorts, default_port
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -42,7 +42,7 @@ class PortTable(msgspec.Struct):
     and the components that implement an interface. `ports` is the range of defaults. `wanted` has for each port
     the adapters that have it, or would have it by default in this range or in the usual one. `first` has the ports that
     rcyaml wrote, where the user changed them: another text would make the user's ports rcyaml's own. `diagnostics`
-    report a full range."""
+    report a full range. `real` returns the real path of a document."""
 
     endpoints: dict[tuple[str, str], IceEndpoint] = {}
     first: dict[tuple[str, str], int] = {}
@@ -50,14 +50,19 @@ class PortTable(msgspec.Struct):
     ports: PortRange = USUAL
     wanted: dict[int, set[tuple[str, str]]] = {}
     diagnostics: list[Diagnostic] = []
+    real: Callable[[str], str] = os.path.realpath
+
+    def key(self, linked: LinkedComponent, name: str) -> tuple[str, str]:
+        """The key of an adapter of a component: the document identifies the component."""
+        return self.real(linked.component.path), name
 
     def endpoint(self, linked: LinkedComponent, name: str) -> IceEndpoint:
         """The endpoint of an adapter of a component."""
-        return self.endpoints[document(linked), name]
+        return self.endpoints[self.key(linked, name)]
 
     def first_port(self, linked: LinkedComponent, name: str) -> int:
         """The port of an adapter in the first `etc/config` of a component, whatever the user made of that."""
-        return self.first.get((document(linked), name)) or self.endpoint(linked, name).port
+        return self.first.get(self.key(linked, name)) or self.endpoint(linked, name).port
 
     def proposed(self, interface: str) -> int:
         """The port of an interface that no component of the workspace implements."""
@@ -110,7 +115,7 @@ class PortTable(msgspec.Struct):
         for _ in range(ports.count):
             if at == number:
                 return True
-            if at not in RESERVED and not self.wanted.get(at, set()) - {(document(linked), name)}:
+            if at not in RESERVED and not self.wanted.get(at, set()) - {self.key(linked, name)}:
                 return False
             at = ports.first + (at + 1 - ports.first) % ports.count
         return False
@@ -121,10 +126,10 @@ def assign(
 ) -> PortTable:
     """The ports of a workspace's components: those that values documents set, those of `etc/config`, else defaults in
     the range `ports`."""
-    configured = {one.parameters.component: one for one in values if one.parameters and is_own(one)}
-    distinct = {document(linked): linked for linked in components}
+    configured = {one.parameters.component: one for one in values if one.parameters and is_own(one, disk)}
+    distinct = {disk.real(linked.component.path): linked for linked in components}
     ordered = sorted(distinct.items(), key=lambda item: (item[1].component.name, item[0]))
-    result, free = PortTable(ports=ports), FreePorts()
+    result, free = PortTable(implementers=Implementers(real=disk.real), ports=ports, real=disk.real), FreePorts()
     for key, linked in ordered:
         for name, endpoint in _fixed(linked, configured.get(linked), disk):
             result.endpoints[key, name] = endpoint

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING
 
@@ -67,7 +66,7 @@ class Addresses:
         """The components of a workspace, if this run has not read all of them. The diagnostics of the others are
         dropped: their own `check` reports them."""
         documents = of_kind(workspace.root, "cdsl", self._program.disk)
-        if {os.path.realpath(path) for path in documents} <= self._program.components.keys():
+        if set(map(self._program.disk.real, documents)) <= self._program.components.keys():
             return Program()
         return self._link(documents)
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
-from functools import cached_property
+from collections.abc import Sequence
+from functools import cached_property, partial
 
 from msgspec.structs import replace
 
@@ -140,7 +140,7 @@ class Compilation:
 
     def _names_below(self, root: str) -> OfferedNames:
         """The names of a workspace, also those of documents that are no part of this run."""
-        from robocomp_yaml.link.workspace_names import names_below
+        from robocomp_yaml.link.workspace_names import documents_of, names_in
 
         documents, disk = self._analysis.documents, self._analysis.disk
 
@@ -148,7 +148,9 @@ class Compilation:
             document = documents.get(disk.real(path))
             return document.tree if document is not None else read_tree(path, disk)[0]
 
-        return names_below(root, disk, tree_of)
+        trees = [(path, tree_of(path)) for path in documents_of(root, disk)]
+        make = partial(names_in, root, trees, disk)
+        return self._analysis.program.memory.result(("workspace names", root), tuple(trees), make)
 
     def _stamp(
         self, own: Review, changes: Changes, schemas: dict[str, str], again: Outcome
@@ -165,7 +167,9 @@ class Compilation:
         settled, once = changes.settled, changes.once
         generated = {os.path.normpath(path) for path in settled}
         created = generated | {os.path.normpath(path) for path in once}
-        created |= {folder for path in created for folder in _above(path)}
+        for path in tuple(created):
+            while (path := os.path.dirname(path)) not in ("", "/") and path not in created:
+                created.add(path)
         states = disk.states | dict.fromkeys((*own.absent, *changes.journals), NOTHING)
         return stamp.create(
             inputs={path: raw for path, raw in {**disk.contents, **own.contents}.items() if path not in generated},
@@ -178,11 +182,6 @@ class Compilation:
             replay=again.as_data(),
             plugins=sorted({name for one in plugins for name in one.named}),
         )
-
-
-def _above(path: str) -> Iterator[str]:
-    while (path := os.path.dirname(path)) not in ("", "/"):
-        yield path
 
 
 def _outcome_of(

@@ -9,6 +9,7 @@ from robocomp_yaml.api.workspace import Workspace
 from robocomp_yaml.diag.listing import some
 from robocomp_yaml.source.discover import finds_again, is_skipped
 from robocomp_yaml.source.disk import Disk, documents_in, names_in, state_of
+from robocomp_yaml.source.real_paths import RealPaths
 from robocomp_yaml.source.text import read_bytes
 
 _SOURCES = "src"
@@ -26,7 +27,8 @@ def folders(workspace: Workspace, paths: Iterable[str], home: str) -> list[str]:
     for settings in analysis.workspaces.declared:
         needed |= {settings.root, *settings.interfaces}
     needed |= {*analysis.search.extra}
-    real = sorted({os.path.realpath(os.path.join(home, folder)) for folder in needed})
+    reals = RealPaths()
+    real = sorted({reals.of(os.path.join(home, folder)) for folder in needed})
     outer: list[str] = []
     for folder in real:
         if not any(folder == other or folder.startswith(os.path.join(other, "")) for other in outer):
@@ -40,10 +42,10 @@ class Concern:
 
     def __init__(self, workspace: Workspace, folders: Iterable[str], written: Mapping[str, Version]) -> None:
         self._disk, self._folders, self._written = workspace.analysis.disk, tuple(folders), written
-        real = _RealPaths()
-        self._asked = {real.of(path) for path in (*self._disk.contents, *self._disk.states)}
+        real = self._disk.real
+        self._asked = set(map(real, (*self._disk.contents, *self._disk.states)))
         self._sources = tuple(
-            os.path.join(real.folder(os.path.dirname(linked.component.path)), _SOURCES, "")
+            os.path.join(real(os.path.dirname(linked.component.path)), _SOURCES, "")
             for linked in workspace.analysis.program.components.values()
         )
 
@@ -97,26 +99,9 @@ def _relative(path: str) -> str:
     return path if relative.startswith(os.pardir) else relative
 
 
-class _RealPaths:
-    """Real paths of many files in few folders, each of which is resolved once."""
-
-    def __init__(self) -> None:
-        self._folders: dict[str, str] = {}
-
-    def folder(self, path: str) -> str:
-        if path not in self._folders:
-            self._folders[path] = os.path.realpath(path or os.curdir)
-        return self._folders[path]
-
-    def of(self, path: str) -> str:
-        folder, name = os.path.split(path)
-        real = os.path.join(self.folder(folder), name)
-        return os.path.realpath(path) if name in ("", os.curdir, os.pardir) or os.path.islink(real) else real
-
-
 def versions(paths: Iterable[str]) -> dict[str, Version]:
     """The versions of files that a run has written, by their real paths."""
-    real = _RealPaths()
+    real = RealPaths()
     return {each: _version(each) for each in map(real.of, paths)}
 
 

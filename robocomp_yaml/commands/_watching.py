@@ -105,6 +105,7 @@ class _Loop:
         self.watchfiles, self.home = watchfiles, home
         self.written: dict[str, Version] = {}
         self.concern: Concern | None = None  # of the last run, and the watched folders
+        self.folders: list[str] = []  # that the last run depends on
         self.is_sure = False  # that nothing changed before the folders were watched
         self.failed = False  # the folder had gone at the last run
 
@@ -114,6 +115,7 @@ class _Loop:
             os.chdir(self.home)  # if it was deleted and made again, it is another folder
             self.living.forget()  # its result has a stamp
             self.workspace = self.living.load()
+            self.folders = folders(self.workspace, self.paths, self.home)
             self.written = versions(self.run(self.workspace))
         except Faulty as faulty:
             tell("text", faulty.diagnostics, faulty.documents)
@@ -124,13 +126,13 @@ class _Loop:
             terminal.say(f"Error: {error.filename or self.home}: {reason_of(error)}", err=True)
 
     def watch(self) -> None:
-        self.watcher = _Watcher(self.watchfiles, folders(self.workspace, self.paths, self.home), self.changes)
+        self.watcher = _Watcher(self.watchfiles, self.folders, self.changes)
         self.concern, self.is_sure = None, False
 
     def next_change(self) -> set[str]:
         """The next changed paths on which the result may depend; none if it turns out not to."""
         changed = self._changed()
-        if not self.watcher.is_valid or folders(self.workspace, self.paths, self.home) != list(self.watcher.asked):
+        if not self.watcher.is_valid or self.folders != list(self.watcher.asked):
             self.watcher.stop()
             self.watch()
         if self.concern is None:

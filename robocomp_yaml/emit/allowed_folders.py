@@ -13,16 +13,19 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.build import Build
 from robocomp_yaml.link.workspace import root_above
-from robocomp_yaml.source.inside import stays_inside
+from robocomp_yaml.source.inside import is_inside
+from robocomp_yaml.source.real_paths import RealPaths
 
 
 class AllowedFolders:
     def __init__(self, paths: Sequence[str], output: str | None) -> None:
         self.folders = [output] if output is not None else list(dict.fromkeys(_folders_of(paths)))
+        self._reals = RealPaths()
 
     def contain(self, folder: str) -> bool:
         """Whether a folder is inside one of them."""
-        return any(stays_inside(allowed, os.path.realpath(folder)) for allowed in self.folders)
+        real = self._reals.of(folder)
+        return any(is_inside(self._reals.of(allowed), real) for allowed in self.folders)
 
     def restrict(self, built: Build) -> None:
         """Removes the plans for other folders, and reports them at their documents."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Mapping
+from functools import partial
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -49,8 +50,10 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: EmitOpti
     def slices(modules: Iterable[LinkedModule], folder: str = "") -> Iterator[FilePlan]:
         for linked in modules:
             if linked not in texts:
-                text, sources = slice_target.text(linked), (linked.module.path,)
-                texts[linked] = FilePlan(slice_target.file_name(linked), text, sources=sources)
+                causes = tuple(one.module for one in linked.closure())
+                part, path = ("slice", linked.module.path), slice_target.file_name(linked)
+                text = program.memory.result(part, causes, partial(slice_target.text, linked))
+                texts[linked] = FilePlan(path, text, sources=(linked.module.path,))
             plain = texts[linked]
             yield replace(plain, path=folder + plain.path) if folder else plain
 
@@ -112,7 +115,7 @@ def _lodgers(program: Program, options: EmitOptions) -> dict[str, LinkedComponen
     by_root: dict[str, list[str]] = {}
     for real in program.requested_components():
         root = component_root(program.components[real].component.path, options)
-        by_root.setdefault(os.path.realpath(root), []).append(real)
+        by_root.setdefault(program.disk.real(root), []).append(real)
     lodgers: dict[str, LinkedComponent] = {}
     for root, reals in by_root.items():
         owners = [real for real in reals if os.path.basename(root).lower() in _names(program.components[real])]

@@ -44,13 +44,13 @@ class Shared:
     def _is_shared(self, workspace: WorkspaceSettings, linked: LinkedComponent, scope: LinkedModule) -> bool:
         return (
             self._is_of(workspace, scope)
-            and not _is_own(workspace, linked, scope)
+            and not _is_own(workspace, linked, scope, self._disk)
             and not _is_hidden(workspace, scope, self._disk)
         )
 
     def _is_of(self, workspace: WorkspaceSettings, scope: LinkedModule) -> bool:
         other = self._options.workspace_of(scope.module.path)
-        return other.declared and os.path.realpath(other.root) == os.path.realpath(workspace.root)
+        return other.declared and self._disk.real(other.root) == self._disk.real(workspace.root)
 
     def add(self, linked: LinkedComponent, layout: Layout) -> None:
         """Adds the shared files that this component needs."""
@@ -77,16 +77,17 @@ class Shared:
 
 def own_modules(program: Program, options: EmitOptions) -> set[LinkedModule]:
     """The modules of the program that are each the own module of a component."""
+    disk, of = program.disk, options.workspace_of
     return {
         scope for linked in program.components.values() for scope in linked.modules()
-        if _is_below(scope, linked) and _is_own(options.workspace_of(linked.component.path), linked, scope)
+        if _is_below(scope, linked) and _is_own(of(linked.component.path), linked, scope, disk)
     }  # fmt: skip
 
 
-def _is_own(workspace: WorkspaceSettings, linked: LinkedComponent, scope: LinkedModule) -> bool:
+def _is_own(workspace: WorkspaceSettings, linked: LinkedComponent, scope: LinkedModule, disk: Disk) -> bool:
     """Whether a module is the component's own: in a folder below the component's, which is not in the search path."""
-    folder = os.path.realpath(os.path.dirname(scope.module.path))
-    return _is_below(scope, linked) and all(folder != os.path.realpath(path) for path in workspace.interfaces)
+    folder = disk.real(os.path.dirname(scope.module.path))
+    return _is_below(scope, linked) and all(folder != disk.real(path) for path in workspace.interfaces)
 
 
 def _is_below(scope: LinkedModule, linked: LinkedComponent) -> bool:
@@ -100,5 +101,5 @@ def _is_hidden(workspace: WorkspaceSettings, scope: LinkedModule, disk: Disk) ->
     name = os.path.basename(scope.module.path)
     for folder in workspace.interfaces:
         if disk.has_file(path := os.path.join(folder, name)):
-            return os.path.realpath(path) != os.path.realpath(scope.module.path)
+            return disk.real(path) != disk.real(scope.module.path)
     return False

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Mapping
+from functools import partial
+from typing import TYPE_CHECKING
 
 import msgspec
 
+from robocomp_yaml.addresses.own import adapters
 from robocomp_yaml.addresses.own_configuration import own_configuration, own_document, own_values, stated_in, users_keys
 from robocomp_yaml.addresses.table import PortTable
 from robocomp_yaml.emit import config
@@ -29,11 +32,14 @@ from robocomp_yaml.source.properties import read as properties_of
 from robocomp_yaml.transactions import settings
 from robocomp_yaml.transactions.plan import FilePlan
 
+if TYPE_CHECKING:
+    from robocomp_yaml.parameters.layers.effective import Effective
+
 
 def documents_of(linked: LinkedComponent, program: Program) -> list[LinkedValues]:
     """The values documents that configure a component: `etc/config.yaml`, and those beside it with a legacy file of
     their own."""
-    folder = os.path.realpath(os.path.join(os.path.dirname(linked.component.path), "etc"))
+    folder = program.disk.real(os.path.join(os.path.dirname(linked.component.path), "etc"))
     own = own_values(linked, program)
     beside = {
         real: values
@@ -41,7 +47,7 @@ def documents_of(linked: LinkedComponent, program: Program) -> list[LinkedValues
         if values.parameters is not None and values.parameters.component is linked and legacy_file(values)
     }
     if own is not None:  # perhaps a link to another folder
-        beside[own_document(linked)] = own
+        beside[own_document(linked, program.disk)] = own
     documents = [values for _, values in sorted(beside.items())]
     joined = {str(layer.value) for values in documents for layer in values.document.extends}
     # The first document of a pair is part of the file of the second one.
@@ -58,15 +64,16 @@ def configs(
         effective, _ = program.effective(values)
         if effective is None:
             continue
-        sections, _ = properties(values, effective, beside=True)
+        sections = _stated(values, effective, program)
         defaults: list[Section] = []
         if not legacy_file(values) and dialect(values) == CLASSIC:
-            defaults = _connections(sections, linked, table)
+            defaults = _connections(sections, linked, table, program)
         path = f"etc/{os.path.basename(legacy_file(values))}" if legacy_file(values) else CONFIG
         source, folder = os.path.basename(values.document.path), root or os.path.dirname(linked.component.path)
-        stated = stated_in(sections)
+        stated, name = stated_in(sections), linked.component.name
+        part, causes = ("config", values.document.path), (sections, defaults, name)
         sections = [*defaults, *sections]
-        text = property_text(sections, linked.component.name, source)
+        text = program.memory.result(part, causes, partial(property_text, sections, name, source))
         if path.endswith(toml_lines.SUFFIX):
             from robocomp_yaml.parameters.writing.toml_text import toml_text  # few configurations are TOML
 
@@ -94,16 +101,43 @@ def _read_before(values: LinkedValues, program: Program) -> str:
     return read
 
 
-def _connections(sections: list[Section], linked: LinkedComponent, table: Callable[[], PortTable]) -> list[Section]:
+def _stated(values: LinkedValues, effective: Effective, program: Program) -> list[Section]:
+    """The properties of a values document, which are kept as long as it has the same values."""
+    part, causes = ("properties", values.document.path), (*values.causes(), effective)
+    return program.memory.result(part, causes, lambda: properties(values, effective, beside=True)[0])
+
+
+def _connections(
+    sections: list[Section], linked: LinkedComponent, table: Callable[[], PortTable], program: Program
+) -> list[Section]:  # fmt: skip
     """The endpoints and proxies that the document does not set, with the values of a first `etc/config`: without
     them the component does not start."""
     keys = {made.key for section in sections for made in section.properties}
     if keys >= set(config.needed(linked)):
         return []
-    existing = config.existing(os.path.dirname(linked.component.path))
-    defaults = config.connections(linked, table(), existing)
-    missing = [Property(key, value) for key, value in defaults.items() if key not in keys]
-    return [Section("Endpoints and proxies, by default", missing)]
+    flat = flat_config(os.path.dirname(linked.component.path), program.disk)
+    existing, ports = flat.properties if flat is not None else {}, table()
+
+    def by_default() -> list[Section]:
+        defaults = config.connections(linked, ports, existing)
+        missing = [Property(key, value) for key, value in defaults.items() if key not in keys]
+        return [Section("Endpoints and proxies, by default", missing)]
+
+    part, causes = ("connections", linked.component.path), (sections, *_causes(linked, ports, existing))
+    return program.memory.result(part, causes, by_default)
+
+
+def _causes(linked: LinkedComponent, ports: PortTable, existing: Mapping[str, str]) -> tuple[object, ...]:
+    """What a first `etc/config` depends on."""
+    resolved = ports.resolve(linked).values()
+    return (
+        linked.component, linked.parameters.parameters,
+        *(port.interface for port in linked.ports),
+        *(ports.endpoint(linked, name).port for name in adapters(linked)),
+        *((one.proxy, one.component and one.component.component, *(other.component for other in one.others))
+          for one in resolved),
+        *existing.items(),
+    )  # fmt: skip
 
 
 class OwnProperties(msgspec.Struct, frozen=True):

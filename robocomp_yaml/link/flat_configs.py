@@ -60,7 +60,9 @@ def flat_at(path: str, disk: Disk) -> FlatConfig | None:
 def _read(path: str, raw: bytes, disk: Disk) -> FlatConfig:
     text = raw.decode("utf-8", "replace")
     # What rcyaml wrote last is not part of what a run depends on: only rcyaml changes it.
-    entries = list(manifest.entries_of(os.path.realpath(path)))
+    entries = list(
+        manifest.entries_of(disk.real(path), lambda at: disk.once(("manifest", at), lambda: manifest.at(at)))
+    )
     head = _HEAD.match(text)
     is_from_values = head is not None and head[1] == VALUES_HEAD
     is_unchanged = any(entry.hash == digest(raw) for entry in entries) if entries else is_from_values

@@ -45,6 +45,7 @@ class LinkedModule(msgspec.Struct, frozen=True, eq=False):
     unresolved: frozenset[str] = frozenset()
     _own: dict[str, Definition] = {}
     _resolved: dict[str, tuple[LinkedModule, Definition] | None] = {}
+    _closure: list[LinkedModule] = []
 
     def __post_init__(self) -> None:
         for definition in self.module.definitions:
@@ -61,9 +62,12 @@ class LinkedModule(msgspec.Struct, frozen=True, eq=False):
             self._resolved[ref.text] = next(((s, s._own[ref.name]) for s in scopes), None)
         return self._resolved[ref.text]
 
-    def closure(self) -> list[LinkedModule]:
-        """This module and all that it imports, directly or not, once each. Importers follow the modules they import."""
-        return list(postorder([self], lambda scope: scope.imports))
+    def closure(self) -> Sequence[LinkedModule]:
+        """This module and all that it imports, directly or not, once each. Importers follow the modules they import.
+        It is cached, as in `find`."""
+        if not self._closure:
+            self._closure.extend(postorder([self], lambda scope: scope.imports))
+        return self._closure
 
 
 class Port(msgspec.Struct, frozen=True):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 
 from robocomp_yaml.link.documents import read_tree
 from robocomp_yaml.link.workspace import SUFFIX, root_above
@@ -24,20 +24,22 @@ _ENTRY = pattern(r"[A-Za-z_][-A-Za-z0-9_.]*\Z")
 _OWN = "x-"  # keys that rcyaml ignores
 
 
-def names_below(
-    root: str, disk: Disk | None = None, tree_of: Callable[[str], Node | None] | None = None
-) -> OfferedNames:
-    """The names of the workspace of this folder. `tree_of` returns the tree of a document; by default it is read."""
+def names_below(root: str, disk: Disk | None = None) -> OfferedNames:
+    """The names of the workspace of this folder."""
     disk = disk or Disk()
+    return names_in(root, ((path, read_tree(path, disk)[0]) for path in documents_of(root, disk)), disk)
+
+
+def names_in(root: str, trees: Iterable[tuple[str, Node | None]], disk: Disk) -> OfferedNames:
+    """The names in the documents of a workspace, which are known with their trees."""
     collected = _Collected(root)
-    for path in _documents(root, disk):
-        tree = read_tree(path, disk)[0] if tree_of is None else tree_of(path)
+    for path, tree in trees:
         if isinstance(tree, Mapping):
             collected.add(path, kind_of(path, disk) or "", tree)
     return collected.offered()
 
 
-def _documents(root: str, disk: Disk) -> Iterator[str]:
+def documents_of(root: str, disk: Disk) -> Iterator[str]:
     """The documents whose workspace is this one: those of a workspace below it are not its own."""
     own: dict[str, bool] = {}
     paths = disk.walked.get(root)

@@ -111,8 +111,10 @@ def make(include: Iterable[str] = ()) -> Server:
 
         def job() -> list[types.TextEdit]:
             document = server.session.open.get(real_path(params.text_document.uri) or "")
-            after = layout(document.path, document.raw)[0] if document is not None else None
-            if document is None or not isinstance(after, bytes) or after == document.raw:
+            if document is None or not server.session.is_document(document.path):
+                return []  # such as another program's YAML
+            after = layout(document.path, document.raw)[0]
+            if not isinstance(after, bytes) or after == document.raw:
                 return []  # a broken document stays as it is
             whole = types.Range(types.Position(0, 0), server.lines(document.text).end())
             return [types.TextEdit(whole, after.decode())]

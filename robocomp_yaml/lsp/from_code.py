@@ -1,4 +1,4 @@
-"""From the user's code, and from generated code, to the documents: which name of theirs a word in code means.
+"""From the user's code, generated code and Slice to the documents: which name of theirs a word in code means.
 
 A word in the user's code means a name if renaming the name would change the word there. In generated code, its spelling
 decides.
@@ -10,8 +10,9 @@ import os
 import re
 
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.lsp.session import Session
+from robocomp_yaml.lsp.session import KnownNames, Session
 from robocomp_yaml.naming.in_generated import GENERATED, component_of, meant_by, names_of_component
+from robocomp_yaml.naming.in_slice import SUFFIX, files_of_slice, meant_in_slice, places_in_slice
 from robocomp_yaml.naming.names import DefinedName
 from robocomp_yaml.naming.places_in_code import places_in_code
 
@@ -19,7 +20,10 @@ _MOST = 6  # names that are tried
 
 
 def name_in_code(session: Session, path: str, line: int, column: int) -> tuple[Span, DefinedName] | None:
-    """The name of a document that the word at a place in code means, with the location of the word."""
+    """The name of a document that the word at a place in code, or in Slice, means, with the location of the word."""
+    if path.endswith(SUFFIX):
+        known = session.names_around(path)
+        return meant_in_slice(known.program, known.names, path, session.text_of(path), line, column)
     lines = session.text_of(path).splitlines()
     text = lines[line - 1] if line <= len(lines) else ""
     word = next((one for one in re.finditer(r"\w+", text) if one.start() < column <= one.end() + 1), None)
@@ -37,6 +41,13 @@ def name_in_code(session: Session, path: str, line: int, column: int) -> tuple[S
         if any(place == Span(place.file, *_rest(span)) and os.path.realpath(place.file) == path for place, _ in places):
             return span, one
     return None
+
+
+def in_slice(session: Session, known: KnownNames, one: DefinedName) -> list[Span]:
+    """Where files of Slice in the workspace of a name have it."""
+    folders = {settings.slice_folder for settings in known.analysis.workspaces.declared}
+    files = files_of_slice(session.workspace_of(one.span.file).root, sorted(folders))
+    return places_in_slice(known.program, known.names, one, ((path, session.text_of(path)) for path in files))
 
 
 def _rest(span: Span) -> tuple[int, int, int, int]:

@@ -11,7 +11,7 @@ from robocomp_yaml.api.completing import schema_keys
 from robocomp_yaml.api.completing.places import typed_at
 from robocomp_yaml.api.completing.proposals import kind_at
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.lsp.from_code import name_in_code
+from robocomp_yaml.lsp.from_code import in_slice, name_in_code
 from robocomp_yaml.lsp.messages import Messages, real_path
 from robocomp_yaml.lsp.server import Server
 from robocomp_yaml.lsp.session import KnownNames
@@ -52,7 +52,7 @@ def add(server: Server) -> None:
         def job() -> _Answer | None:
             if path is None:
                 return None
-            is_document = server.session.is_document(path)
+            is_document = server.session.is_checked(path)
             if is_document and path not in server.session.open:
                 return None
             known = server.session.names_around(path)
@@ -97,7 +97,7 @@ def add(server: Server) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_DECLARATION)
     async def declaration(params: types.DeclarationParams) -> list[types.Location] | None:
-        """What was generated from a name."""
+        """What was generated from a name, and Slice that was written by hand with it."""
 
         def answer(one: DefinedName, _: types.Range, known: KnownNames, messages: Messages) -> list[types.Location]:
             return [messages.location(span) for span in _in_generated(one, known)]
@@ -105,7 +105,8 @@ def add(server: Server) -> None:
         return await asked(params, answer)
 
     def _in_generated(one: DefinedName, known: KnownNames) -> Iterator[Span]:
-        return places_in_generated(known.program, known.names, one)
+        yield from places_in_generated(known.program, known.names, one)
+        yield from in_slice(server.session, known, one)
 
     @server.feature(types.TEXT_DOCUMENT_IMPLEMENTATION)
     async def implementation(params: types.ImplementationParams) -> list[types.Location] | None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from robocomp_yaml.addresses.own import document
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.lsp import users
 from robocomp_yaml.lsp.session import KnownNames
@@ -86,7 +85,7 @@ def _ports(known: KnownNames, path: str) -> Iterator[Note]:
             continue
         table = known.analysis.addresses.table(linked)
         for port in linked.implements:
-            made = table.endpoints.get((document(linked), port.name))
+            made = table.endpoints.get(table.key(linked, port.name))
             if made is not None:
                 more = f"the endpoint of {port.name} in its own configuration"
                 yield port.use.span, f"⟨{made.protocol} {made.port}⟩", more

@@ -30,6 +30,7 @@ AUTO, YES, NO = "auto", "yes", "no"
 AT_ONCE, AT_REST = 0.02, 0.25  # seconds after the last key
 MANY_JOBS = 300  # after so many, garbage is collected
 _CODE, _SOURCES = "**/{src,generated}/**/*.{py,pyi,cpp,h,hpp,java}", "**/src/**/*.{py,cpp,h,hpp,java}"
+_SLICE, _MACHINE = "**/*.ice", "**/*.scxml"
 _WATCHED = "**/*"
 SHAPE = frozenset(
     code.id for code in (codes.UNKNOWN_KEY, codes.MISSING_KEY, codes.WRONG_SHAPE, codes.NOT_A_MAPPING, codes.WRONG_NAME)
@@ -98,14 +99,17 @@ class Server(LanguageServer):
     async def edited(self, document: EditedText) -> None:
         """A document, or a file of the user's code, was opened or changed."""
         if is_code(document.path):
-            self.session.code[document.path] = document
+            await self.run(lambda: self.session.edit_code(document))
+            await self._check_later()
             return
         await self.run(lambda: self.session.edit(document))
         self._later(self._at_once, document.path, AT_ONCE, self._check_document)
         await self._check_later()
 
     async def closed(self, path: str) -> None:
-        if self.session.code.pop(path, None) is not None:
+        if is_code(path):
+            await self.run(lambda: self.session.close_code(path))
+            await self._check_later()
             return
         gone = await self.run(lambda: self.session.close(path))
         for one in gone:
@@ -146,7 +150,7 @@ class Server(LanguageServer):
 
     async def _check_document(self, path: str) -> None:
         def check() -> tuple[list[Diagnostic], DocumentTexts, Versions] | None:
-            if path not in self.session.open or not self.session.is_document(path):
+            if path not in self.session.open or not self.session.is_checked(path):
                 return None
             return *self.session.of_document(path), self.session.versions()
 
@@ -223,8 +227,8 @@ class Server(LanguageServer):
 
 
 def is_code(path: str) -> bool:
-    """Whether it may be the user's code."""
-    return path.endswith((".py", ".cpp", ".h", ".hpp", ".java"))
+    """Whether it may be the user's code, or Slice."""
+    return path.endswith((".py", ".cpp", ".h", ".hpp", ".java", ".ice"))
 
 
 def watchers() -> types.DidChangeWatchedFilesRegistrationOptions:
@@ -240,7 +244,7 @@ def folders_of(params: types.InitializeParams) -> list[str]:
 def of_code(capabilities: types.ClientCapabilities) -> Iterator[types.Registration]:
     """What is answered in code, too, which editors otherwise do not send to this server."""
     known = capabilities.text_document
-    selector = [types.TextDocumentFilterPattern(pattern=_CODE, scheme="file")]
+    selector = [types.TextDocumentFilterPattern(pattern=one, scheme="file") for one in (_CODE, _SLICE)]
     if known is None:
         return
     if known.definition is not None and known.definition.dynamic_registration:
@@ -251,7 +255,9 @@ def of_code(capabilities: types.ClientCapabilities) -> Iterator[types.Registrati
         yield types.Registration("rcyaml-references", types.TEXT_DOCUMENT_REFERENCES, more)
     sync, actions = known.synchronization, known.code_action
     if sync is not None and sync.dynamic_registration and actions is not None and actions.dynamic_registration:
-        sources: list[types.TextDocumentFilter] = [types.TextDocumentFilterPattern(pattern=_SOURCES, scheme="file")]
+        sources: list[types.TextDocumentFilter] = [
+            types.TextDocumentFilterPattern(pattern=one, scheme="file") for one in (_SOURCES, _SLICE, _MACHINE)
+        ]
         kinds = [types.CodeActionKind.QuickFix]
         for method, made in (
             (types.TEXT_DOCUMENT_DID_OPEN, types.TextDocumentRegistrationOptions(sources)),

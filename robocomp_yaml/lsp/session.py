@@ -33,6 +33,7 @@ _MODELINE = re.compile(r"^#\s*yaml-language-server\s*:.*\$schema", re.MULTILINE)
 _HEAD = 10_000  # characters that editors search
 _SETTINGS = (".vscode/settings.json", ".yamlls.json", ".helix/languages.toml")
 LONG = 0.06  # seconds of CPU that a key may take
+MACHINE = ".scxml"
 FEW = 1000  # documents whose names are collected before anybody asks for them
 MANY = 500  # lines of a deployment that probably takes longer
 _ALONE = ("RC01", "RC02")  # codes of syntax and shape
@@ -118,16 +119,35 @@ class Session:
         self.folders = [os.path.realpath(folder) for folder in folders]
         self.include = tuple(include)
         self.open: dict[str, EditedText] = {}
-        self.code: dict[str, EditedText] = {}  # the user's code, of which only what is saved is checked
+        self.code: dict[str, EditedText] = {}  # the user's code, and Slice
         self.workspaces: dict[str, OpenWorkspace] = {}
         self._has_settings: dict[str, bool] = {}
+        self._disk: Disk | None = None
+
+    @property
+    def disk(self) -> Disk:
+        """The files of the disk, and the open documents."""
+        if self._disk is None:
+            self._disk = Disk({one.path: one.raw for one in self.open.values()})
+        return self._disk
 
     def edit(self, document: EditedText) -> None:
         """A document was opened or changed."""
         self._forget_names()
-        self.open[document.path] = document
+        self.open[document.path], self._disk = document, None
         for workspace in self.workspaces.values():
             workspace.living.edit(document.path, document.raw)
+
+    def edit_code(self, code: EditedText) -> None:
+        """A file of the user's code was opened or changed. No document depends on it."""
+        self.code[code.path] = code
+        for workspace in self.workspaces.values():
+            workspace.living.edit(code.path, code.raw)
+
+    def close_code(self, path: str) -> None:
+        self.code.pop(path, None)
+        for workspace in self.workspaces.values():
+            workspace.living.edit(path, None)
 
     def close(self, path: str) -> list[str]:
         """A document was closed. Returns the paths whose diagnostics go with it. The workspace of the last document is
@@ -135,6 +155,7 @@ class Session:
         self._forget_names()
         root = self.root_of(path)
         self.open.pop(path, None)
+        self._disk = None
         for workspace in self.workspaces.values():
             workspace.looks.pop(path, None)
             workspace.living.edit(path, None)
@@ -153,21 +174,20 @@ class Session:
 
     def refresh(self) -> None:
         """Files may have changed on the disk."""
-        self._has_settings = {}
+        self._has_settings, self._disk = {}, None
         self._forget_names()
         for workspace in self.workspaces.values():
             workspace.living.refresh()
 
     def roots(self) -> set[str]:
         """The workspaces of the open documents that are documents of rcyaml."""
-        return {self.root_of(path) for path in self.open if self.is_document(path)}
+        return {self.root_of(path) for path in self.open if self.is_checked(path)}
 
     def versions(self) -> dict[str, int | None]:
-        return {path: document.version for path, document in self.open.items()}
+        return {path: document.version for path, document in (*self.open.items(), *self.code.items())}
 
     def root_of(self, path: str) -> str:
-        disk = Disk({one.path: one.raw for one in self.open.values()})
-        root = root_above(os.path.dirname(path), disk)
+        root = root_above(os.path.dirname(path), self.disk)
         if root is not None:
             return os.path.realpath(root)
         inside = [folder for folder in self.folders if path.startswith(os.path.join(folder, ""))]
@@ -179,7 +199,7 @@ class Session:
     def workspace_of_root(self, root: str) -> OpenWorkspace:
         if root not in self.workspaces:
             workspace = self.workspaces[root] = OpenWorkspace(root, self.include)
-            for document in self.open.values():
+            for document in (*self.open.values(), *self.code.values()):
                 workspace.living.edit(document.path, document.raw)
         workspace = self.workspaces[root]
         if workspace.is_idle:
@@ -188,19 +208,21 @@ class Session:
         return workspace
 
     def is_document(self, path: str) -> bool:
-        """Whether rcyaml has something to say about a file: it is a document, a mock script, or the settings of a
-        workspace."""
-        overlay = {one.path: one.raw for one in self.open.values()}
+        """Whether a file is a document, a mock script, or the settings of a workspace."""
         is_other = os.path.basename(path) == WORKSPACE_FILE or is_script(path)
-        return is_other or kind_of(path, Disk(overlay)) is not None
+        return is_other or kind_of(path, self.disk) is not None
+
+    def is_checked(self, path: str) -> bool:
+        """Whether rcyaml has something to say about a file: it is a document, or a state machine."""
+        return path.endswith(MACHINE) or self.is_document(path)
 
     def of_document(self, path: str, *, at_rest: bool = False) -> tuple[list[Diagnostic], DocumentTexts]:
         """The diagnostics of an open document and of what it names, at once, with those that only its whole workspace
         shows, as far as their lines are the same. If this took long the last time, those of the document by itself,
         unless nothing is typed."""
         workspace = self.workspace_of(path)
-        if kind_of(path, Disk(workspace.living.unsaved)) is None:
-            return workspace.found.get(path, []), workspace.texts
+        if kind_of(path, self.disk) is None:
+            return _as_now(workspace, self.open[path])
         known = workspace.looks.get(path) or self._first(workspace, path)
         if known is not None and known.is_long and not at_rest:
             return self._at_a_glance(workspace, path, known)
@@ -281,11 +303,11 @@ class Session:
         return search.known(path, above(path, search.disk)[0])
 
     def of_code(self, path: str) -> tuple[list[Diagnostic], DocumentTexts]:
-        """The diagnostics of open code, which is checked with its workspace; none if it is not saved."""
+        """The diagnostics of open code, which is checked with its workspace."""
         workspace, code = self.workspaces.get(self.root_of(path)), self.code.get(path)
-        if workspace is None or code is None or not code.is_saved:
+        if workspace is None or code is None:
             return [], DocumentTexts({}, {})
-        return workspace.found.get(path, []), workspace.texts
+        return _as_now(workspace, code)
 
     def names_everywhere(self) -> list[KnownNames]:
         return [self.names_around(path) for path in {self.root_of(path): path for path in self.open}.values()]
@@ -313,7 +335,7 @@ class Session:
         return {**{path: [] for path in (*before, *self._in(root))}, **workspace.found}
 
     def _in(self, root: str) -> list[str]:
-        return [path for path in self.open if self.is_document(path) and self.root_of(path) == root]
+        return [path for path in self.open if self.is_checked(path) and self.root_of(path) == root]
 
     def _beyond(self, workspace: OpenWorkspace, path: str) -> list[tuple[Diagnostic, str]]:
         known = workspace.looks.get(path) or self._first(workspace, path)
@@ -327,6 +349,15 @@ class Session:
         with suppress(KeyError):
             own = set(self._look(workspace, path).diagnostics)
         return [(one, line_of(one)) for one in workspace.found[path] if one not in own]
+
+
+def _as_now(workspace: OpenWorkspace, edited: EditedText) -> tuple[list[Diagnostic], DocumentTexts]:
+    """The diagnostics of a file that is checked only with its workspace, where its lines are the same."""
+    texts, found = DocumentTexts({edited.path: edited.raw}, {}), workspace.found.get(edited.path, [])
+    before, after = workspace.texts.get(edited.path), texts.get(edited.path)
+    if before is None or after is None or before.text == after.text:
+        return found, workspace.texts
+    return list(moved(found, edited.path, before.lines, after.lines)), texts
 
 
 def _names_schemas(path: str) -> bool:

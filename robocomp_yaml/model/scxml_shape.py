@@ -8,6 +8,8 @@ import msgspec
 
 from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.fix import Edit, Fix, Hint
+from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean, suggest
 from robocomp_yaml.semantics.events import seconds
 from robocomp_yaml.source.xml import Element
@@ -77,7 +79,10 @@ def shape_faults(root: Element) -> Iterator[Diagnostic]:
         yield codes.NOT_SCXML.at(root.span, name=root.name)
     else:
         if root.namespace == "":
-            yield codes.NO_NAMESPACE.at(root.span, hint=f'write <scxml xmlns="{SCXML}" …>')
+            at = root.tags[0]
+            behind = Span(at.file, at.end_line, at.end_column, at.end_line, at.end_column)
+            fix = Fix("add the namespace", (Edit(behind, f' xmlns="{SCXML}"'),), safe=True)
+            yield codes.NO_NAMESPACE.at(root.span, hint=f'write <scxml xmlns="{SCXML}" …>', fixes=[fix])
         yield from _element_faults(root)
 
 
@@ -94,7 +99,8 @@ def _element_faults(element: Element) -> Iterator[Diagnostic]:
             hint = did_you_mean(
                 name, known, element.attributes, otherwise=f"it has {', '.join(known) or 'no attributes'}"
             )
-            yield codes.UNKNOWN_ATTRIBUTE.at(element.place(name), name=name, element=element.name, hint=hint)
+            where = element.names.get(name, element.span)
+            yield codes.UNKNOWN_ATTRIBUTE.at(where, name=name, element=element.name, hint=hint)
     for name in shape.required.split():
         if not (element.get(name) or "").strip():
             yield codes.MISSING_ATTRIBUTE.at(element.span, name=name, element=element.name)
@@ -121,6 +127,7 @@ def _element_faults(element: Element) -> Iterator[Diagnostic]:
                 name=child.name,
                 parent=element.name,
                 hint=f"did you mean <{close}>?" if close else otherwise,
+                fixes=[Fix(f"write <{close}>", tuple(Edit(tag, close) for tag in child.tags))] if close else [],
             )
         else:
             yield from _element_faults(child)
@@ -133,7 +140,11 @@ def _values(element: Element) -> Iterator[Diagnostic]:
     for name, value in element.attributes.items():
         allowed = _VALUES.get((element.name, name))
         if allowed and value not in allowed:
-            yield codes.BAD_VALUE.at(element.place(name), name=name, value=value, hint=f"write {' or '.join(allowed)}")
+            otherwise = f"write {' or '.join(allowed)}"
+            hint = did_you_mean(value, allowed, otherwise=otherwise)
+            if len(allowed) == 1:
+                hint = Hint(otherwise, value, allowed[0], safe=True)
+            yield codes.BAD_VALUE.at(element.place(name), name=name, value=value, hint=hint)
     delay = element.get("delay")
     if element.name == "send" and delay is not None and seconds(delay) is None:
         yield codes.BAD_VALUE.at(element.place("delay"), name="delay", value=delay, hint="write 100ms or 1.5s")

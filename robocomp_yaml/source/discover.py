@@ -138,7 +138,9 @@ def is_skipped(path: str) -> bool:
 def of_kind(folder: str, kind: str, disk: Disk | None = None) -> list[str]:
     """The documents of a kind below a folder, in the order of `documents_below`; '' is the working folder."""
     disk = disk or Disk()
-    return [path for path in documents_below(folder or ".", disk=disk) if kind_of(path, disk) == kind]
+    known = disk.walked.get(folder or ".")
+    below = documents_below(folder or ".", disk=disk) if known is None else known
+    return [path for path in below if kind_of(path, disk) == kind]
 
 
 def finds_again(walked: Mapping[str, list[str]], disk: Disk | None = None) -> bool:

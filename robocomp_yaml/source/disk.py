@@ -13,6 +13,7 @@ from typing import Any, TypeVar
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.source.file_names import is_deployment
+from robocomp_yaml.source.real_paths import RealPaths
 from robocomp_yaml.source.regular import content
 from robocomp_yaml.source.text import MAX_DOCUMENT, read_bytes
 
@@ -46,7 +47,7 @@ class Files:
     """The files of the disk, as they are at each request. `reals` are the real paths that are known."""
 
     def __init__(self) -> None:
-        self.reals: dict[str, str] = {}
+        self.reals = RealPaths(self.get)
 
     @property
     def version(self) -> object:
@@ -78,7 +79,7 @@ class KeptFiles(Files):
 
     def forget(self) -> None:
         self._answers.clear()
-        self.reals.clear()
+        self.reals.forget()
         self._version = object()
 
     def renew(self) -> None:
@@ -86,7 +87,7 @@ class KeptFiles(Files):
         before, self._answers = self._answers, {known: known[0](*known[1:]) for known in self._answers}
         changed = (known for known, answer in self._answers.items() if answer != before[known])
         if any(known[0] is not read_bytes or not is_deployment(known[1]) for known in changed):
-            self.reals.clear()
+            self.reals.forget()
             self._version = object()
 
 
@@ -102,7 +103,6 @@ class Disk:
 
     def __init__(self, overlay: Mapping[str, bytes] | None = None, files: Files | None = None) -> None:
         self._files = files or Files()
-        self._real = self._files.reals
         self._overlay = {self.real(path): text for path, text in (overlay or {}).items()}
         self._folders = {folder for path in self._overlay for folder in folders_above(path)}
         self._inside: dict[str, set[str]] = {}  # the names that the overlay adds to folders
@@ -151,15 +151,7 @@ class Disk:
 
     def real(self, path: str) -> str:
         """The real path, without links. Each folder is resolved once."""
-        known = self._real.get(path)
-        if known is None:
-            folder, name = os.path.split(path)
-            if name in ("", os.curdir, os.pardir) or self._files.get(os.path.islink, path):
-                known = self._files.get(os.path.realpath, path)
-            else:
-                known = os.path.join(self.real(folder or os.curdir), name)
-            self._real[path] = known
-        return known
+        return self._files.reals.of(path)
 
     def read(self, path: str, limit: int = MAX_DOCUMENT) -> tuple[bytes | None, list[Diagnostic]]:
         """The content of a file of at most `limit` bytes; None, with diagnostics, if it cannot be read."""

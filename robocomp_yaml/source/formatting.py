@@ -51,6 +51,7 @@ STEP = 2
 _OPENING, _CLOSING = (FlowMappingStartToken, FlowSequenceStartToken), (FlowMappingEndToken, FlowSequenceEndToken)
 _MARKERS = (DirectiveToken, DocumentStartToken, DocumentEndToken)
 _HEADER = pattern(r"([|>])([-+]?)([1-9]?)([-+]?)[ \t]*(#[^\n]*)?")
+_BLANKS = " \t\n"  # a no-break space is text
 _ODD_BACKSLASHES = pattern(r"(?<!\\)(?:\\\\)*\\\Z")
 
 
@@ -160,7 +161,7 @@ class _Layout:
                 self.inner = -1
             case _ if isinstance(token, _MARKERS):
                 self.blocks.clear()
-                self._write(token, token_text(self.source, token).rstrip(), 0)
+                self._write(token, token_text(self.source, token).rstrip(_BLANKS), 0)
             case ScalarToken():
                 self._scalar(token)
             case FlowEntryToken() | AliasToken() | AnchorToken() | TagToken():
@@ -214,7 +215,7 @@ class _Layout:
         if token.style in ("|", ">"):
             self._block_scalar(token, column)
             return
-        text = token_text(self.source, token).rstrip()
+        text = token_text(self.source, token).rstrip(_BLANKS)
         first, *more = (text if "\n" in text else self._requoted(token, text)).split("\n")
         if token.style == "'" and more:
             first, *more = _doubled(text).split("\n")
@@ -230,8 +231,8 @@ class _Layout:
         if not token.style:
             return text
         meant = token.value.translate(self.back)
-        if is_plain(meant, in_flow=bool(self.flows)):
-            return str(meant)
+        if is_plain(meant, in_flow=bool(self.flows)) and meant.isprintable():
+            return str(meant)  # invisible characters stay in quotes
         return text if token.style == '"' else quoted(meant)
 
     def _block_scalar(self, token: Any, column: int) -> None:
@@ -250,7 +251,7 @@ class _Layout:
         text = f"{header[1]}{digit}{ends}"
         self._write(token, text, column)
         if header[5]:
-            self._comment_behind(header[5].rstrip(), start + header.start(5))
+            self._comment_behind(header[5].rstrip(_BLANKS), start + header.start(5))
         self.lines += [_Line(f"{' ' * inner}{line}" if line else "", is_content=not line) for line in body]
         self.end = self_end
 
@@ -259,12 +260,14 @@ class _Layout:
         behind, *whole = self.source[self.end : to].split("\n")
         if self.before is None:
             whole = [behind, *whole]
-        elif behind.strip():
-            self._comment_behind(behind.strip(), self.end + len(behind) - len(behind.lstrip()))
+        elif behind.strip(_BLANKS):
+            self._comment_behind(behind.strip(_BLANKS), self.end + len(behind) - len(behind.lstrip(_BLANKS)))
         for line in whole[: None if to == len(self.source) else -1]:
-            comment = line.strip()
+            comment = line.strip(_BLANKS)
             if comment:
-                column = self._comment_column(len(line) - len(line.lstrip()), old, new, is_last=to == len(self.source))
+                column = self._comment_column(
+                    len(line) - len(line.lstrip(_BLANKS)), old, new, is_last=to == len(self.source)
+                )
                 self.lines.append(_Line(" " * column + comment))
             elif self.lines and self.lines[-1].text:
                 self.lines.append(_Line(""))

@@ -31,9 +31,10 @@ def content(path: str, size: int = -1) -> bytes | None:
         return None
 
 
-def whole(path: str) -> tuple[bytes, os.stat_result]:
-    """The bytes and the status of a regular file, with a third of the system calls of open(). Raises OSError."""
-    opened, status = _opened(path, os.O_RDONLY)
+def whole(path: str, *, is_regular: bool = False) -> tuple[bytes, os.stat_result]:
+    """The bytes and the status of a regular file, with a third of the system calls of open(). Raises OSError.
+    `is_regular`: that it is one was seen just before."""
+    opened, status = _opened(path, os.O_RDONLY, is_regular=is_regular)
     try:
         parts = [os.read(opened, status.st_size + 1)]
         while len(parts[-1]) > 0 and (len(parts) > 1 or len(parts[0]) != status.st_size):  # it may grow meanwhile
@@ -43,8 +44,9 @@ def whole(path: str) -> tuple[bytes, os.stat_result]:
     return b"".join(parts), status
 
 
-def _opened(path: str, flags: int) -> tuple[int, os.stat_result]:
-    _refuse_special(path, os.stat(path))  # before opening it, which can have effects on a device
+def _opened(path: str, flags: int, *, is_regular: bool = False) -> tuple[int, os.stat_result]:
+    if not is_regular:
+        _refuse_special(path, os.stat(path))  # before opening it, which can have effects on a device
     opened = os.open(path, flags | os.O_NONBLOCK | os.O_CLOEXEC)
     try:
         status = os.fstat(opened)

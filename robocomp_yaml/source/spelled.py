@@ -10,6 +10,7 @@ import re
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
+from itertools import pairwise
 
 from msgspec.structs import replace
 
@@ -75,6 +76,7 @@ class DocumentText:
     def __init__(self, file: str, text: str) -> None:
         self.file, self.text = file, text
         self.is_yaml = file.endswith((".yaml", ".yml"))
+        self._inside: dict[Node, tuple[list[Node], list[int]]] = {}
 
     @cached_property
     def _starts(self) -> list[int]:
@@ -233,9 +235,20 @@ class DocumentText:
         """The key or value at an index."""
         node = self.tree
         while node is not None and not isinstance(node, Scalar):
-            children = _children(node)
-            node = next((child for child in children if child.start <= index < max(child.end, child.start + 1)), None)
+            node = self._child(node, index)
         return node
+
+    def _child(self, node: Node, index: int) -> Node | None:
+        """The key or value of a collection at an index."""
+        if node not in self._inside:
+            children = list(_children(node))
+            apart = all(max(one.end, one.start + 1) <= other.start for one, other in pairwise(children))
+            # What an alias means is where its anchor is.
+            self._inside[node] = children, [child.start for child in children] if apart else []
+        children, starts = self._inside[node]
+        at = bisect_right(starts, index) - 1
+        found = children if not starts else children[at : at + 1] if at >= 0 else []
+        return next((child for child in found if _has(child, index)), None)
 
     def _inner(self, node: Scalar) -> tuple[int, int]:
         """The start and end of a scalar, without anchor and tag."""
@@ -262,6 +275,10 @@ def without_lines(text: DocumentText, start: int, end: int) -> list[Edit]:
         indent = re.match(r"[ ]*", before)
         return [text.edit(line + len(indent[0] if indent else ""), rest.start(1), "")]
     return [text.edit(line, rest.end(), "")]
+
+
+def _has(node: Node, index: int) -> bool:
+    return node.start <= index < max(node.end, node.start + 1)
 
 
 def _children(node: Node) -> Iterator[Node]:

@@ -71,6 +71,11 @@ class RootChanges(msgspec.Struct, frozen=True):
     once: tuple[str, ...] = ()
     refused: bool = False
 
+    @property
+    def head(self) -> str:
+        """What to put before a path in this root, to open it from the working folder."""
+        return "" if self.root == "." else os.path.join(self.root, "")
+
     def as_refused(self) -> RootChanges:
         """The same changes, with nothing written below this root."""
         changes = [replace(c, action=REFUSED, orig="") if c.action in WRITING else c for c in self.changes]
@@ -95,12 +100,14 @@ class Changes(msgspec.Struct, frozen=True):
     @property
     def settled(self) -> dict[str, str]:
         """The digests of generated files and manifests after the changes, by paths from the working folder."""
-        return {os.path.join(root.root, path): hash_ for root in self.roots for path, hash_ in root.settled.items()}
+        return {
+            head + path: hash_ for root in self.roots for head in (root.head,) for path, hash_ in root.settled.items()
+        }
 
     @property
     def once(self) -> list[str]:
         """The user's files, which must exist with any content."""
-        return [os.path.join(root.root, path) for root in self.roots for path in root.once]
+        return [head + path for root in self.roots for head in (root.head,) for path in root.once]
 
     @property
     def journals(self) -> list[str]:

@@ -13,6 +13,7 @@ from robocomp_yaml.diag.codes import emitting as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.listing import some
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.source.real_paths import RealPaths
 from robocomp_yaml.transactions.manifest import ManifestEntry
 from robocomp_yaml.transactions.output_root import Root
 from robocomp_yaml.transactions.plan import FilePlan, RootPlan
@@ -86,7 +87,8 @@ class DesiredRoot(msgspec.Struct, frozen=True):
 def by_root(plans: Iterable[RootPlan], others: Iterable[str] = ()) -> list[DesiredRoot]:
     """The plans of each root, sorted by path; `others` are further roots, for which nothing is planned."""
     roots: dict[str, tuple[Root, list[RootPlan]]] = {}
-    root_at = functools.cache(Root)
+    reals = RealPaths()
+    root_at = functools.cache(lambda path: Root(path, reals))
     for path in others:
         roots.setdefault(root_at(path).real, (root_at(path), []))
     for plan in plans:

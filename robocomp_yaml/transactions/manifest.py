@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 
 import msgspec
@@ -34,6 +34,14 @@ class ManifestEntry(msgspec.Struct, frozen=True, omit_defaults=True):
     once: bool = False
 
 
+class _Known(msgspec.Struct):
+    version: int
+    files: dict[str, ManifestEntry]
+
+
+_decoder = msgspec.json.Decoder(_Known)
+
+
 class Manifest(msgspec.Struct, frozen=True):
     files: Mapping[str, ManifestEntry] = {}
 
@@ -49,8 +57,12 @@ def read(data: bytes | None) -> Manifest:
     """The manifest with this content; an empty one for None. Raises Unusable, or Newer."""
     if data is None:
         return Manifest()
+    with suppress(msgspec.DecodeError):
+        known = _decoder.decode(data)
+        if known.version == VERSION:
+            return Manifest(known.files)
     try:
-        raw = json.loads(data)
+        raw = json.loads(data)  # names that are not UTF-8 text, or a reason why it is unusable
         version = raw["version"]
         if isinstance(version, int) and version > VERSION:
             raise Newer("a later version of rcyaml wrote it")
@@ -61,14 +73,20 @@ def read(data: bytes | None) -> Manifest:
     raise Unusable("it is damaged")
 
 
-def entries_of(file: str) -> Iterator[ManifestEntry]:
+def at(folder: str) -> Manifest:
+    """The manifest of a folder; an empty one if there is none, or if it cannot be used."""
+    with suppress(OSError, Unusable), open(os.path.join(folder, PATH), "rb", opener=regular) as stream:
+        return read(stream.read())
+    return Manifest()
+
+
+def entries_of(file: str, manifest_of: Callable[[str], Manifest] = at) -> Iterator[ManifestEntry]:
     """The entries that manifests in the folders above a file have for it, the nearest first."""
     above, path = os.path.split(file)
     while path:
-        with suppress(OSError, Unusable), open(os.path.join(above, PATH), "rb", opener=regular) as stream:
-            entry = read(stream.read()).files.get(path)
-            if entry:
-                yield entry
+        entry = manifest_of(above).files.get(path)
+        if entry:
+            yield entry
         above, name = os.path.split(above)
         path = f"{name}/{path}" if name else ""
 

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-import functools
 import os
 import stat
+from collections.abc import Mapping
 from itertools import accumulate
 
 import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml.diag.errors import reason_of
+from robocomp_yaml.source.inside import is_inside
+from robocomp_yaml.source.real_paths import RealPaths
 from robocomp_yaml.source.regular import whole
 
 STATE = ".rcyaml"
@@ -31,19 +33,24 @@ class PathStatus(msgspec.Struct, frozen=True):
 
 
 MISSING = PathStatus()
+_APART = frozenset(("", ".", ".."))
 
 
 class Root:
-    """An output root. `path` is as the user wrote it, `real` is the same without symbolic links."""
+    """An output root. `path` is as the user wrote it, `real` is the same without symbolic links. `reals` may know other
+    roots. `unsaved` has contents by real path that replace those of files, for those who only read."""
 
-    def __init__(self, path: str) -> None:
-        self.path = path or "."
-        self.real = os.path.realpath(self.path)
-        self._real_folder = functools.cache(os.path.realpath)
+    def __init__(
+        self, path: str, reals: RealPaths | None = None, unsaved: Mapping[str, bytes] | None = None
+    ) -> None:  # fmt: skip
+        self.path, self._reals, self._unsaved = path or ".", reals or RealPaths(), unsaved or {}
+        self.real = self._reals.of(self.path)
+        shown = os.path.normpath(self.path)
+        self._head = "" if shown == "." else os.path.join(shown, "")
 
     def shown(self, path: str) -> str:
         """The path for messages, which can be opened from the working folder."""
-        return os.path.normpath(os.path.join(self.path, path))
+        return self._head + path if _is_plain(path) else os.path.normpath(os.path.join(self.path, path))
 
     def status(self, path: str, *, read: bool = True) -> PathStatus:
         """What is at a path relative to the root, with its content if `read`."""
@@ -57,7 +64,10 @@ class Root:
             if not stat.S_ISREG(mode):
                 what = "a folder" if stat.S_ISDIR(mode) else "not a regular file"
                 return PathStatus(exists=True, problem=f"it is {what}", culprit=path)
-            status = PathStatus(exists=True, data=contents(full) if read else None, mode=stat.S_IMODE(mode))
+            data = self._unsaved.get(full) if read else None
+            if read and data is None:
+                data = whole(full, is_regular=True)[0]
+            status = PathStatus(exists=True, data=data, mode=stat.S_IMODE(mode))
         except FileNotFoundError:
             status = MISSING
         except NotADirectoryError:
@@ -65,7 +75,7 @@ class Root:
         except OSError as error:
             status = PathStatus(problem=reason_of(error), culprit=path)
         folder = path.rpartition("/")[0]
-        if not self._is_inside(self._real_folder(f"{self.real}/{folder}")):
+        if folder and not self._is_inside(self._reals.of(f"{self.real}/{folder}")):
             return replace(self._blocked(path), exists=status.exists, outside=True)
         return status
 
@@ -92,7 +102,7 @@ class Root:
         return PathStatus(problem=f"'{self.path}' is not a folder", culprit=".")
 
     def _is_inside(self, real: str) -> bool:
-        return real == self.real or real.startswith(self.real.rstrip("/") + "/")
+        return is_inside(self.real, real)
 
 
 def folders_of(path: str) -> list[str]:
@@ -107,4 +117,4 @@ def contents(path: str) -> bytes:
 
 def _is_plain(path: str) -> bool:
     """Whether a path is relative, and has neither `.` nor `..`."""
-    return "\0" not in path and all(part not in ("", ".", "..") for part in path.split("/"))
+    return "\0" not in path and _APART.isdisjoint(path.split("/"))

@@ -22,6 +22,7 @@ from robocomp_yaml.source.digest import digest, states
 from robocomp_yaml.source.discover import documents_below
 from robocomp_yaml.source.disk import documents_in, names_in, state_of
 from robocomp_yaml.source.inside import stays_inside
+from robocomp_yaml.source.real_paths import RealPaths
 from robocomp_yaml.source.regular import regular, whole
 from robocomp_yaml.transactions import whole_file
 
@@ -73,7 +74,7 @@ def create(
     read, `outputs` the digests of what was written: the disk may have changed since."""
     try:
         return RunStamp(
-            tool(),
+            _own_tool(),
             {
                 path: (real, f"{digest(data)} {_readers(os.stat(path)):o}")
                 for (path, data), real in zip(inputs.items(), _real_paths(inputs), strict=True)
@@ -146,6 +147,12 @@ def save(folder: str, name: str, stamp: RunStamp) -> None:
         _remove_old(os.path.dirname(path))
 
 
+@functools.cache
+def _own_tool() -> str:
+    """The identity of the rcyaml that this process runs, which stays the same if another one is installed meanwhile."""
+    return tool()
+
+
 def tool() -> str:
     """The identity of this rcyaml: its version, the RECORD of its installer (with the hashes of all files, which differ
     between two builds of one version), and size and times of each file, which detect later changes and those in a
@@ -178,11 +185,8 @@ def _records(folder: str) -> Iterator[str]:
 
 
 def _real_paths(paths: Iterable[str]) -> Iterator[str]:
-    """The real path of each path; a folder is resolved once."""
-    real_folder = functools.cache(os.path.realpath)
-    for path in paths:
-        folder, name = os.path.split(path)
-        yield os.path.realpath(path) if os.path.islink(path) else os.path.join(real_folder(folder), name)
+    """The real path of each path."""
+    yield from map(RealPaths().of, paths)
 
 
 def walked(folder: str) -> list[str]:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import functools
 import os
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 from msgspec.structs import replace
 
@@ -36,7 +37,8 @@ def prepare(
         f"{desired.root.real}/{path}": (desired.root.real, file.plan.text)
         for desired in roots for path, file in desired.files.items()
     }  # fmt: skip
-    planners = [_RootPlanner(desired, adopt, merges or Merges(), planned) for desired in roots]
+    rights = functools.cache(rights_of)  # most files of a component are made of the same documents
+    planners = [_RootPlanner(desired, adopt, merges or Merges(), planned, rights) for desired in roots]
     prepared = tuple(planner.prepare() for planner in planners)
     return Changes(prepared, tuple(diagnostic for planner in planners for diagnostic in planner.diagnostics))
 
@@ -79,12 +81,17 @@ class _RootPlanner:
     are the files of all roots, each with its text and the innermost root that plans it, which writes it.
     """
 
-    def __init__(self, desired: DesiredRoot, adopt: bool, merges: Merges, planned: dict[str, tuple[str, str]]) -> None:
+    def __init__(
+        self, desired: DesiredRoot, adopt: bool, merges: Merges, planned: dict[str, tuple[str, str]],
+        rights_of: Callable[[tuple[str, ...]], int],
+    ) -> None:  # fmt: skip
         self.desired = desired
         self.root = desired.root
         self.adopt = adopt
         self.merges = merges
         self.planned = planned
+        self.rights_of = rights_of
+        self.has_base = functools.cache(lambda folder: os.path.lexists(f"{self.root.real}/{manifest.BASE}/{folder}"))
         self.old = Manifest()
         self.entries: dict[str, ManifestEntry] = {}
         self.diagnostics = list(desired.diagnostics())
@@ -173,7 +180,7 @@ class _RootPlanner:
         if not status.exists:
             self._write(plan, status, changes.CREATE)
         elif status.data == text:
-            rights = rights_of(plan.sources)
+            rights = self.rights_of(plan.sources)
             is_open = bool(status.mode) and status.mode != atomic.limited(status.mode, rights)
             if is_open or (plan.executable and status.mode and not status.mode & 0o100):
                 self._write(plan, status, changes.UPDATE)
@@ -218,7 +225,7 @@ class _RootPlanner:
     def _has_same_settings(self, plan: FilePlan, status: PathStatus, text: bytes) -> bool:
         """Whether the user's property file has the planned properties, and rights that are not too wide."""
         data = status.data or b""
-        is_open = bool(status.mode) and status.mode != atomic.limited(status.mode, rights_of(plan.sources))
+        is_open = bool(status.mode) and status.mode != atomic.limited(status.mode, self.rights_of(plan.sources))
         base = self.root.status(f"{manifest.BASE}/{plan.path}").data if plan.path in self.old.files else None
         # After a change of the document, blanks count: they are part of a text.
         exactly = base not in (None, text, plan.base.encode())
@@ -284,7 +291,7 @@ class _RootPlanner:
             # Whoever may read it may execute it.
             mode |= (mode & 0o444) >> 2
         if not self._is_written_inside(plan):
-            before, rights = status.data if status.exists else None, rights_of(plan.sources)
+            before, rights = status.data if status.exists else None, self.rights_of(plan.sources)
             self.steps.append(atomic.FileStep(plan.path, before, text, plan.executable, mode, orig, rights))
         return self._note(plan.path, action, status.data, text, orig)
 
@@ -318,10 +325,11 @@ class _RootPlanner:
 
     def _keep_base(self, plan: FilePlan, text: bytes) -> None:
         """Keeps the generated text, which a later merge starts from."""
-        self._write_internal(f"{manifest.BASE}/{plan.path}", text, rights_of(plan.sources))
+        self._write_internal(f"{manifest.BASE}/{plan.path}", text, self.rights_of(plan.sources))
 
     def _drop_base(self, path: str) -> None:
-        self._write_internal(f"{manifest.BASE}/{path}", None)
+        if self.has_base(os.path.dirname(path)):
+            self._write_internal(f"{manifest.BASE}/{path}", None)
 
     def _manifest(self, status: PathStatus) -> None:
         text = status.data

@@ -1,4 +1,5 @@
-"""After any sequence of edits, the living analysis says the same as a fresh one: diagnostics, networks and values."""
+"""After any sequence of edits, the living analysis says the same as a fresh one: diagnostics, networks and values, and
+what a compile of it does."""
 
 from __future__ import annotations
 
@@ -213,6 +214,53 @@ def test_a_living_analysis_equals_a_fresh_one(tmp_path_factory: pytest.TempPathF
                 edited.living.refresh()
                 name = edited.random.choice([*WORKSPACE, *edited.unsaved])
                 assert said(edited.living.look(name)) == said(api.load(name, overlay=edited.unsaved)), (done, name)
+    finally:
+        os.chdir(home)
+        shutil.rmtree(folder)
+
+
+def damaged(random: Random) -> str:
+    """Somebody deletes, edits or links a file that rcyaml wrote, or that is the user's; or a whole folder goes."""
+    written = sorted(os.path.join(where, name) for where, _, names in os.walk(".") for name in names)
+    path = Path(random.choice([one for one in written if not one.endswith(".yaml")] or written))
+    what = random.choice(["delete", "edit", "edit", "forbid", "link", "remove the folder"])
+    if what == "delete":
+        path.unlink()
+    elif what == "edit" and not path.is_symlink():
+        path.write_bytes(path.read_bytes()[random.randrange(2) :] + b"\n")
+    elif what == "forbid":
+        path.chmod(0o600)
+    elif what == "link":
+        moved = path.with_name(f"moved-{path.name}")
+        path.rename(moved)
+        path.symlink_to(random.choice([moved.name, "/nowhere/at/all", "../" * 9]))
+    elif what == "remove the folder" and path.parent != Path() and ".yaml" not in " ".join(os.listdir(path.parent)):
+        shutil.rmtree(path.parent)
+    return f"{what} {path}"
+
+
+@settings(max_examples=max(CASES // 20, 2), deadline=None, suppress_health_check=list(HealthCheck))
+@given(seed=st.integers(0, 1 << 40))
+def test_a_living_compile_does_the_same_as_a_fresh_one(tmp_path_factory: pytest.TempPathFactory, seed: int) -> None:
+    """As `compile --watch`: the user changes documents and generated files alike between two runs."""
+    home, folder = os.getcwd(), tmp_path_factory.mktemp("watched")
+    os.chdir(folder)
+    try:
+        write_tree(Path(), WORKSPACE)
+        random = Random(seed)
+        edited, done = Edited(random), list[str]()
+        for _ in range(12):
+            if random.random() < 0.5:
+                done.append(damaged(random))
+            else:
+                done.append(edited.step())
+                for name in list(edited.unsaved):  # a compile reads what is saved
+                    edited.save(name)
+            edited.living.forget()
+            living, fresh = edited.living.load().compile(), api.load().compile()
+            assert living.look() == fresh.look(), done
+            if random.random() < 0.8:
+                living.apply()
     finally:
         os.chdir(home)
         shutil.rmtree(folder)

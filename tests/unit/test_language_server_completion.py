@@ -82,6 +82,26 @@ def test_the_word_at_the_cursor_is_replaced() -> None:
     assert (place.line, place.column, place.end_column) == (2, 23, 30)
 
 
+@pytest.mark.parametrize("end", ["\n", "\r\n"])
+@pytest.mark.parametrize("more", ["", "\n", "\nz: {y: x}\n"])
+@pytest.mark.parametrize(
+    ("marked", "keys"),
+    [
+        ("a: {b: 1,\n  c: d|", ("a", "c")),
+        ("a: [b, c,\n  d|", ("a", "")),
+        ("a:\n  - {b: 1, # {[\n     c: |", ("a", "", "c")),
+        ("a: {\n  b: 'it''s {',\n\n  c: [\n    d, |", ("a", "c", "")),
+        ('a: see [1\nb: {c: "x\n  y", d: e|', ("b", "d")),
+    ],
+)
+def test_brackets_that_were_opened_lines_above_need_not_be_closed(
+    marked: str, keys: tuple[str, ...], more: str, end: str
+) -> None:
+    before = marked.removesuffix("|").replace("\n", end)
+    place = typed_at(before + more.replace("\n", end), before.count("\n") + 1, len(before) - before.rfind("\n"))
+    assert place is not None and place.keys == keys
+
+
 @pytest.mark.parametrize("text", ["", "a: [b: {", "\x00", "x: |\n  text", "- a\n- b"])
 def test_odd_texts_have_no_place_or_one(text: str) -> None:
     for column in range(1, 12):

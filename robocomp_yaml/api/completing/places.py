@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from itertools import chain
 
 import msgspec
 
@@ -13,6 +15,11 @@ MARK = "rcyaml0cursor"
 _BEFORE, _BEHIND = re.compile(r"[\w./-]*\Z"), re.compile(r"[\w./-]*")
 _LINE_END = re.compile("\r\n|\r|\n")
 _OPENED = {"[": "]", "{": "}"}
+_PIECE = re.compile(
+    r"(?<![^\s])\#[^\r\n]*|(?<![^\s\[{,])(?P<quoted>'(?:[^']|'')*'?|\"(?:[^\"\\]|\\.)*\"?)|[\[\]{}]", re.DOTALL
+)
+_QUOTED = re.compile(r"'(?:[^']|'')*'|\"(?:[^\"\\]|\\.)*\"", re.DOTALL)
+_FAR, _MOST = 40, 5  # lines above, and ways to close them
 
 
 class TypedPlace(msgspec.Struct, frozen=True):
@@ -58,7 +65,8 @@ def typed_at(text: str, line: int, column: int) -> TypedPlace | None:
     attempts = [f"{before}{MARK}{behind}", whole_line, f"{closed}{below}", f"{closed}\n"]
     if not own.strip() and not behind.strip(" \t")[:1].strip():  # a key is begun in a line of its own
         attempts.append(f"{before}{MARK}:{below}")
-    for attempt in attempts:
+    in_brackets = (f"{before}{MARK}{closing}{end}" for closing in _above(before) for end in (below, "\n"))
+    for attempt in chain(attempts, in_brackets):
         root, _ = parse("", attempt)
         keys = _keys_around(root) if isinstance(root, Mapping) else None
         if keys is not None and isinstance(root, Mapping):
@@ -76,19 +84,33 @@ def typed_at(text: str, line: int, column: int) -> TypedPlace | None:
     return None
 
 
-def _closing(line: str) -> str:
-    """The quote and the brackets that close those which are open at the end of a line."""
-    opened, quote, before = "", "", " "
-    for character in line:
-        if quote:
-            quote = "" if character == quote else quote
-        elif character in "\"'" and before in " \t[{,":
-            quote = character
-        elif character in _OPENED:
-            opened = _OPENED[character] + opened
-        elif opened and character == opened[0]:
+def _above(before: str) -> Iterator[str]:
+    """What may close brackets that were opened in a line above, the nearest one first. In text, brackets mean
+    nothing, so that more than one has to be tried."""
+    known = {_closing(before[before.rfind("\n") + 1 :]), ""}
+    start = len(before)
+    for _ in range(_FAR):
+        start = before.rfind("\n", 0, max(start - 1, 0)) + 1
+        closing = _closing(before[start:])
+        if closing not in known:
+            known.add(closing)
+            yield closing
+        if not start or len(known) > _MOST:
+            return
+
+
+def _closing(text: str) -> str:
+    """The quote and the brackets that close those which are open at the end of a text."""
+    opened, quote = "", ""
+    for match in _PIECE.finditer(text):
+        piece = match[0]
+        if match["quoted"]:
+            is_closed = len(piece) > 1 and piece[-1] == piece[0] and _QUOTED.fullmatch(piece)
+            quote = "" if is_closed else piece[0]
+        elif piece in _OPENED:
+            opened = _OPENED[piece] + opened
+        elif opened and piece == opened[0]:
             opened = opened[1:]
-        before = character
     return quote + opened
 
 

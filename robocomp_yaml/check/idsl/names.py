@@ -7,7 +7,7 @@ cannot be used in a language nevertheless are the subject of that language's own
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any
 
 import msgspec
@@ -40,7 +40,12 @@ class SliceNameFault(msgspec.Struct, frozen=True):
 
 def check(program: Program) -> Iterator[Diagnostic]:
     for linked in program.modules.values():
-        yield from _module(linked.module)
+        part = "names of module", linked.module.path
+        yield from program.memory.result(part, (linked.module,), partial(_faults, linked.module))
+
+
+def _faults(module: Module) -> tuple[Diagnostic, ...]:
+    return tuple(_module(module))
 
 
 def _module(module: Module) -> Iterator[Diagnostic]:

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from functools import partial
 from typing import Any
 
 from robocomp_yaml import languages
 from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.languages.record import TargetLanguage
-from robocomp_yaml.link.program import Program
+from robocomp_yaml.link.program import LinkedParameters, Program
 from robocomp_yaml.parameters.defaults import defaults
 from robocomp_yaml.parameters.expressions import evaluate
 from robocomp_yaml.parameters.types import Parameters, RecordType, ResolvedMember
@@ -20,17 +21,20 @@ from robocomp_yaml.parameters.verdict.specification import default_faults, spell
 def check(program: Program) -> Iterator[Diagnostic]:
     for linked in program.parameter_documents():
         assert linked.document is not None
-        parameters = linked.parameters
-        more = program.plugins_of(linked.document.path).languages
-        known = (*languages.table().values(), *more)
-        records = [parameters.root, *(type_ for type_ in parameters.types if isinstance(type_, RecordType))]
-        faults = [*default_faults(linked), *(fault for record in records for fault in _names(record, known))]
-        yield from faults
-        if linked.broken:
-            continue
-        if not faults:
-            yield from _defaults_together(parameters)
-        yield from spelling_faults(parameters)
+        known = (*languages.table().values(), *program.plugins_of(linked.document.path).languages)
+        owner = linked.component.component.path if linked.component is not None else ""
+        part, causes = ("parameters", linked.document.path, owner), (linked.parameters, linked.broken, *known)
+        yield from program.memory.result(part, causes, partial(_faults, linked, known))
+
+
+def _faults(linked: LinkedParameters, known: Sequence[TargetLanguage]) -> Sequence[Diagnostic]:
+    parameters = linked.parameters
+    records = [parameters.root, *(type_ for type_ in parameters.types if isinstance(type_, RecordType))]
+    faults = [*default_faults(linked), *(fault for record in records for fault in _names(record, known))]
+    if linked.broken:
+        return faults
+    together = () if faults else _defaults_together(parameters)
+    return [*faults, *together, *spelling_faults(parameters)]
 
 
 def _names(record: RecordType, known: Iterable[TargetLanguage]) -> Iterator[Diagnostic]:

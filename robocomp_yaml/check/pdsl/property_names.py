@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 
 from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -28,15 +29,22 @@ _RESERVED = {
 def check(program: Program) -> Iterator[Diagnostic]:
     for linked in program.parameter_documents():
         if not linked.broken:
-            yield from _property_names(linked)
+            assert linked.document is not None
+            taken = dict(_properties_of_ports(linked.component)) if linked.component else {}
+            owner = linked.component.component.path if linked.component else ""
+            part, causes = ("property names", linked.document.path, owner), (linked.parameters, *taken.items())
+            yield from program.memory.result(part, causes, partial(_faults, linked, taken))
 
 
-def _property_names(linked: LinkedParameters) -> Iterator[Diagnostic]:
+def _faults(linked: LinkedParameters, taken: Mapping[str, str]) -> Sequence[Diagnostic]:
+    return tuple(_property_names(linked, taken))
+
+
+def _property_names(linked: LinkedParameters, taken: Mapping[str, str]) -> Iterator[Diagnostic]:
     parameters = linked.parameters
     spans = {path: member.span for path, member in leaves(parameters.root)}
     spans |= {spelling.path: spelling.span for spelling in parameters.spellings if spelling.path in spans}
     yield from _within_document(linked, spans)
-    taken = dict(_properties_of_ports(linked.component)) if linked.component else {}
     types = {path: member.type for path, member in leaves(parameters.root)}
     warned: set[str] = set()
     for path, key, is_spelled in exact_keys(parameters):

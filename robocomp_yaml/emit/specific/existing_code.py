@@ -47,7 +47,8 @@ def check(
     of the documents, `ports` returns the ports of a component's workspace."""
     from robocomp_yaml.emit.specific.review import review
 
-    yield from review(plans(program, diagnostics, workspaces, ports, folders), program.disk).diagnostics
+    built = plans(program, diagnostics, workspaces, ports, folders)
+    yield from review(built, program.disk, unsaved=program.disk.unsaved).diagnostics
 
 
 def plans(

@@ -13,6 +13,7 @@ from robocomp_yaml.diag.codes.specific import OBSOLETE
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.layout import SOURCES
+from robocomp_yaml.source.real_paths import RealPaths
 from robocomp_yaml.transactions.manifest import BASE
 from robocomp_yaml.transactions.output_root import Root
 from robocomp_yaml.transactions.plan import ONCE, Merge, Merges, RootPlan
@@ -45,14 +46,17 @@ class Review(msgspec.Struct):
             self.diagnostics += (one for one in check.check(linked, root, found) if one.span not in known)
 
 
-def review(built: Build, disk: Disk, *, merge: bool = False) -> Review:
+def review(
+    built: Build, disk: Disk, *, merge: bool = False, unsaved: Mapping[str, bytes] | None = None
+) -> Review:  # fmt: skip
     """Reviews the user's files of all plans. Only components with a file that is not up to date are parsed. `disk`
-    records what is read to see how they use the worker."""
+    records what is read to see how they use the worker. `unsaved` has the texts of an editor, by real path."""
     result = Review()
     if not any(file.policy == ONCE for plan in built.plans for file in plan.files):
         return result
+    reals = RealPaths()
     for plan in built.plans:
-        root = Root(plan.root)
+        root = Root(plan.root, reals, unsaved)
         files = list(_user_files(plan, root, merge, result))
         if not files:
             continue

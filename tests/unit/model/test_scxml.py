@@ -14,8 +14,8 @@ CDSL = "component: Door\nlanguage: python\nstatemachine: door.scxml\n"
 @pytest.mark.parametrize(
     ("body", "root", "code", "at", "message", "hint"),
     [
-        ("<state id='a' initial='b' src='x'/>", '', 'RC2208', 'x', "<state> has no attribute 'src'", 'it has id, initial'),
-        ("<state id='a' ID='b'/>", '', 'RC2208', 'b', "<state> has no attribute 'ID'", "'id' is already present"),
+        ("<state id='a' initial='b' src='x'/>", '', 'RC2208', 'src', "<state> has no attribute 'src'", 'it has id, initial'),
+        ("<state id='a' ID='b'/>", '', 'RC2208', 'ID', "<state> has no attribute 'ID'", "'id' is already present"),
         ("<state id='a'><sate/></state>", '', 'RC2207', '<sate', '<state> cannot contain <sate>', 'did you mean <state>?'),
         ("<state id='a'><scxml/></state>", '', 'RC2207', '<scxml', '<state> cannot contain <scxml>', 'it may contain onentry, onexit, transition, state, parallel, history, datamodel, invoke, initial, final'),
         ("<state id='a'>hello there</state>", '', 'RC2214', '<state', "<state> contains the text 'hello', but it cannot contain text", ''),
@@ -27,7 +27,7 @@ CDSL = "component: Door\nlanguage: python\nstatemachine: door.scxml\n"
         ("<state id='a'><initial><transition target='b'/></initial><initial><transition target='b'/></initial><state id='b'/></state>", '', 'RC2213', '<initial', '<state> contains a second <initial>', ''),
         ("<state id='a'><history id='h'/></state>", '', 'RC2212', '<history', '<history> must contain exactly one <transition>', ''),
         ("<state id='a'><history id='h' type='full'><transition target='b'/></history><state id='b'/></state>", '', 'RC2211', 'full', "'full' is not a value of 'type'", 'write shallow or deep'),
-        ("<state id='a'><transition event='x' target='a' type='inner'/></state>", '', 'RC2211', 'inner', "'inner' is not a value of 'type'", 'write external or internal'),
+        ("<state id='a'><transition event='x' target='a' type='inner'/></state>", '', 'RC2211', 'inner', "'inner' is not a value of 'type'", "did you mean 'internal'?"),
         ("<state id='a'><onentry><send event='x' eventexpr='y'/></onentry></state>", '', 'RC2210', 'y', "'event' and 'eventexpr' exclude each other", ''),
         ("<state id='a'><onentry><send event='x' delay='5 minutes'/></onentry></state>", '', 'RC2211', '5 minutes', "'5 minutes' is not a value of 'delay'", 'write 100ms or 1.5s'),
         ("<state id='a'><onentry><send event='x' delay='5'/></onentry></state>", '', 'RC2211', '5', "'5' is not a value of 'delay'", 'write 100ms or 1.5s'),
@@ -55,7 +55,7 @@ CDSL = "component: Door\nlanguage: python\nstatemachine: door.scxml\n"
         ("<state id='a'><onentry><log label='x' expr='1 +'/></onentry></state>", '', 'RC2219', '1 +', 'the value is not Python: invalid syntax', ''),
         ('<state id="a"/>', 'version="2.0" initial="a"', 'RC2211', '2.0', "'2.0' is not a value of 'version'", 'write 1.0'),
         ('<state id="a"/>', 'version="1.0" initial="a" binding="never"', 'RC2211', 'never', "'never' is not a value of 'binding'", 'write early or late'),
-        ('<state id="a"/>', 'version="1.0" initial="a" speed="fast"', 'RC2208', 'fast', "<scxml> has no attribute 'speed'", 'it has initial, name, version, datamodel, binding'),
+        ('<state id="a"/>', 'version="1.0" initial="a" speed="fast"', 'RC2208', 'speed', "<scxml> has no attribute 'speed'", 'it has initial, name, version, datamodel, binding'),
     ],
 )  # fmt: skip
 def test_wrong_scxml(body: str, root: str, code: str, at: str, message: str, hint: str) -> None:

@@ -54,6 +54,14 @@ CASES = {
         "a:     'x'    # one\nb: 1\nc: 2\nd: 3          # four\n",
         "a: x    # one\nb: 1\nc: 2\nd: 3    # four\n",
     ),
+    "no-break spaces, which are text": (
+        "a:  b\u00a0  # c\u00a0\n\u00a0d:\t1\u00a0\n",
+        "a: b\u00a0  # c\u00a0\n\u00a0d: 1\u00a0\n",
+    ),
+    "invisible characters, which only quotes show": (
+        "a:  '\u200b'\nb: \"\u00a0x\"\nc: \u00a0y\nd: '\U0001f916'\n",
+        'a: "\u200b"\nb: "\u00a0x"\nc: \u00a0y\nd: \U0001f916\n',
+    ),
     "text of several lines": (
         "a: one\n       two\n\n       three\nb: 'it''s\n  two'\n",
         'a: one\n  two\n\n  three\nb: "it\'s\n  two"\n',

@@ -60,3 +60,20 @@ def test_places_and_texts() -> None:
     assert (b.span.line, b.span.column, b.place("k").column) == (2, 29, 35)
     assert (b.raw, d.raw, root.raw) == ('<b k="v"/>', "<d>e</d>", text)
     assert d.place("missing") == d.span
+
+
+INNER = (
+    "<b/>", "<b />", "<b x='/>'/>", "<b></b>", "<b>/></b>", "<b><c/></b>", '<p:b\n x = "1"\n/>', "<b><!-- /> --></b >",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("inner", INNER)
+def test_an_element_is_as_written_from_its_first_to_its_last_bracket(inner: str) -> None:
+    text = f"<a xmlns:p='u'>\U0001f916{inner}</a>"
+    root, faults = parse("a.xml", text)
+    assert root is not None and not faults
+    (child,) = root.children
+    assert child.raw == inner and root.raw == text
+    for element, count in ((root, 2), (child, 1 if inner.endswith("/>") else 2)):
+        named = [text.split("\n")[tag.line - 1][tag.column - 1 : tag.end_column - 1] for tag in element.tags]
+        assert named == [element.name] * count
