@@ -13,6 +13,11 @@ def parameters_of(given: ast.arguments | None) -> list[ast.arg]:
     return [*given.posonlyargs, *given.args, *given.kwonlyargs, *more]
 
 
+def plain_parameters(given: ast.arguments | None) -> list[ast.arg]:
+    """The parameters that get one argument each."""
+    return [] if given is None else [*given.posonlyargs, *given.args, *given.kwonlyargs]
+
+
 def annotations_of(node: ast.FunctionDef | ast.AsyncFunctionDef) -> list[ast.expr]:
     found = [argument.annotation for argument in parameters_of(node.args)]
     return [one for one in (*found, node.returns) if one is not None]
