@@ -4,8 +4,8 @@
     FILE:(.text+0x5): undefined reference to `SYMBOL'
     FILE:LINE: multiple definition of `SYMBOL'; OBJECT:FILE:LINE: first defined here
 
-A line may begin with the name of the linker. Without debug information the linker names no line of code, but the object,
-whose path CMake makes of that of the source, and the function.
+A line may begin with the name of the linker. Without debug information the linker names no line of code, but the
+object, whose path CMake makes of that of the source, and the function.
 """
 
 from __future__ import annotations
@@ -34,8 +34,8 @@ _HINTS = {
 
 
 def diagnostics(lines: Iterable[str], source_of: Callable[[str], str | None]) -> Iterator[Diagnostic]:
-    """The faults that are in the user's sources, each symbol once. `source_of` has the path of the user's source, by its
-    path in CMake's tree; None if it is not the user's."""
+    """The faults that are in the user's sources, each symbol once. `source_of` has the path of the user's source, by
+    its path in CMake's tree; None if it is not the user's."""
     seen: set[str] = set()
     source: str | None = None
     function = ""

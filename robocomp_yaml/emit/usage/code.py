@@ -63,8 +63,8 @@ class Arguments(msgspec.Struct, frozen=True):
 class Step(msgspec.Struct, frozen=True):
     """One step of a chain: a name, called if it has `arguments`; or an index, whose name is '' unless it is a literal
     text; or an element in a loop (`is_each`). `shown` is an index as it is written, and `place` its value if that is a
-    literal number. `is_instance`: the name is a type, and the step leads to a value of it. `makes` is "list" or "map" if
-    the step leads from a value to many of them."""
+    literal number. `is_instance`: the name is a type, and the step leads to a value of it. `makes` is "list" or "map"
+    if the step leads from a value to many of them."""
 
     word: Word
     arguments: Arguments | None = None
@@ -98,6 +98,7 @@ class Chain(msgspec.Struct, frozen=True):
 
 WITHOUT_SELF, NO_SELF, NOT_CALLED, NOT_GENERATED = "without self", "no self", "not called", "not generated"
 UNDEFINED, REPEATED, NO_INIT, NO_RESULT, NO_METHOD = "undefined", "repeated", "no init", "no result", "no method"
+ARROW = "arrow"
 
 ASYNC, YIELDS, PROPERTY = "async", "a generator", "a property"
 STATIC, VALUE = "a static method with self", "a value"

@@ -131,16 +131,16 @@ def plain(name: str, natives: Natives) -> Offer:
 def proxies(
     ports: LoweredPorts, called: Callable[[str], str], others: Callable[[str], bool], returned: Returned, *,
     outputs: bool, keywords: Callable[[Method], Iterable[str]] | None = None,
-    future: Callable[[Offer | None], Offer] | None = None, same: Iterable[str] = (),
+    future: Callable[[Offer | None], Offer] | None = None, of_ice: Mapping[str, bool] = {},
 ) -> dict[str, OfferedMember]:  # fmt: skip
     """The proxies of the worker. `called` makes the name of an operation, and `returned` what a call returns; `others`
-    are methods of every proxy, `same` are those that return a proxy like it, and `future` makes what an asynchronous
-    call returns. With `outputs`, calls have arguments for them. Every call may have a context."""
+    are methods of every proxy; `of_ice` are known ones of these, and whether they return a proxy like it. `future`
+    makes what an asynchronous call returns. With `outputs`, calls have arguments for them. Every call may have a context."""
     found = {}
     for accessor, is_topic in [*((one, False) for one in ports.requires), *((one, True) for one in ports.publishes)]:
         made = proxy(
             accessor.port.interface, accessor.port.scope, called, others, returned, outputs=outputs, keywords=keywords,
-            future=future, same=same,
+            future=future, of_ice=of_ice,
         )  # fmt: skip
         found[accessor.name] = OfferedMember(structs.replace(made, kind=TOPIC if is_topic else PROXY))
     return found
@@ -149,7 +149,7 @@ def proxies(
 def proxy(
     interface: Interface, scope: LinkedModule, called: Callable[[str], str], others: Callable[[str], bool],
     returned: Returned, *, outputs: bool, keywords: Callable[[Method], Iterable[str]] | None = None,
-    future: Callable[[Offer | None], Offer] | None = None, same: Iterable[str] = (),
+    future: Callable[[Offer | None], Offer] | None = None, of_ice: Mapping[str, bool] = {},
 ) -> Offer:  # fmt: skip
     """A proxy of an interface, as `proxies` makes them."""
     methods: dict[str, OfferedMember] = {}
@@ -159,7 +159,7 @@ def proxy(
         later = OfferedMember() if future is None else structs.replace(methods[name], result=future(result))
         methods.setdefault(f"{name}{ASYNC}", later)
     made = Offer(TOPIC if interface.is_topic else PROXY, interface.name, methods, others=others)
-    methods |= {name: OfferedMember(result=made) for name in same}
+    methods |= {name: OfferedMember(result=made if is_same else None) for name, is_same in of_ice.items()}
     return made
 
 
@@ -223,11 +223,15 @@ def setters(made: Iterable[Setter]) -> dict[str, OfferedMember]:
     }
 
 
+_ELEMENTS = ("at", "back", "front")
+"""Methods of lists in C++ that return an element."""
+
+
 def of_list(element: Offer | None, lists: Mapping[str, str] = {}, natives: Natives = UNKNOWN) -> Offer:
     """What a list has. `lists` are names that no list has in the language; it also lacks those of its elements."""
     own = dict.fromkeys(element.members, "its elements have it") if element is not None and (lists or natives) else {}
     lacks = {name: hint for name, hint in {**own, **lists}.items() if not hasattr(list, name)}
-    members = natives.get(LIST, {})
+    members = natives.get(LIST, {} if lists else dict.fromkeys(_ELEMENTS, OfferedMember(result=element)))
     name = "a tuple" if members and "append" not in members else "a list"
     return Offer(LIST, name, members, LIST in natives, element=element, each=element, lacks=lacks)
 

@@ -55,3 +55,11 @@ def constant(node: ast.expr) -> bool | int | float | str | None:
 
 def imports_all(node: ast.AST, modules: Iterable[str]) -> bool:
     return isinstance(node, ast.ImportFrom) and (node.module or "") in modules and node.names[0].name == "*"
+
+
+def unpacked_count(targets: list[ast.expr]) -> int:
+    """The number of variables to which a value is unpacked; 0 if it is not, or if it may be any."""
+    for target in targets:
+        if isinstance(target, (ast.Tuple, ast.List)):
+            return 0 if any(isinstance(one, ast.Starred) for one in target.elts) else len(target.elts)
+    return 0

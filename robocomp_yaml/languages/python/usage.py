@@ -66,7 +66,7 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
         outputs=False,
         keywords=_keywords,
         future=_future,
-        same=_SAME_PROXY,
+        of_ice=_OF_ICE,
     )
     if is_own:
         of_parameters = {**natives, offers.LIST: _members_of(tuple)}
@@ -89,7 +89,7 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
     members |= {name: OfferedMember() for one in served for name in one.methods if name not in members}
     made = partial(
         offers.proxy, called=PORTS.called, others=_is_of_every_proxy, returned=returned, outputs=False,
-        keywords=_keywords, future=_future, same=_SAME_PROXY,
+        keywords=_keywords, future=_future, of_ice=_OF_ICE,
     )  # fmt: skip
     modules = offers.modules(
         linked, module_variable, python_name, _is_in_interfaces, types.of_definition, classes=True, prx=made
@@ -186,8 +186,8 @@ def _keywords(method: Method) -> Iterator[str]:
 def _is_of_every_proxy(name: str) -> bool:
     """Methods of Ice, and Ice's asynchronous variants of the operations, which it makes of their names."""
     if name.startswith("ice_"):
-        near = suggest(name, (*_SAME_PROXY, *_OF_ICE))  # another one may be of a later Ice
-        return name in (*_SAME_PROXY, *_OF_ICE) or near is None or likeness(name, near) < _NEAR
+        near = suggest(name, _OF_ICE)  # another one may be of a later Ice
+        return near is None or likeness(name, near) < _NEAR
     return name.startswith(("begin_", "end_", "_")) or name in _OF_PROXIES
 
 
@@ -217,17 +217,15 @@ _OF_LOGS = (
 ).split()
 
 _OF_LOG = frozenset("critical debug error exception info log warning".split())
-_NEAR = 0.8  # similarity of a method of Ice that is surely misspelled
-_SAME_PROXY = tuple(
-    f"ice_{name}" for name in (
+_NEAR = 0.85  # similarity of a method of Ice that is surely misspelled
+_OF_ICE = {
+    f"ice_{name}": True for name in (
         "adapterId batchDatagram batchOneway collocationOptimized compress connectionCached connectionId context "
         "datagram encodingVersion endpointSelection endpoints fixed invocationTimeout locator locatorCacheTimeout "
         "oneway preferSecure router secure timeout twoway"
     ).split()
-)  # fmt: skip
-"""Methods of every proxy that return a proxy of the same type."""
-_OF_ICE = tuple(
-    f"ice_{name}" for name in (
+} | {
+    f"ice_{name}": False for name in (
         "checkedCast facet flushBatchRequests flushBatchRequestsAsync getAdapterId getCachedConnection getCommunicator "
         "getCompress getConnection getConnectionAsync getConnectionId getContext getEncodingVersion "
         "getEndpointSelection getEndpoints getFacet getIdentity getInvocationTimeout getLocator "
@@ -235,7 +233,8 @@ _OF_ICE = tuple(
         "isBatchDatagram isBatchOneway isCollocationOptimized isConnectionCached isDatagram isFixed isOneway "
         "isPreferSecure isSecure isTwoway ping pingAsync staticId toString uncheckedCast"
     ).split()
-)  # fmt: skip
+}  # fmt: skip
+"""Methods of every proxy, and whether they return a proxy of the same type."""
 _OF_PROXIES = frozenset(("checkedCast", "uncheckedCast"))
 
 

@@ -31,9 +31,11 @@ from robocomp_yaml.languages.python.syntax import (
     annotations_of,
     imports_all,
     names_of,
+    unpacked_count,
 )
 from robocomp_yaml.languages.python.usage_chains import SELF, Binding, ChainReader, Frame
 from robocomp_yaml.languages.python.usage_classes import UserClasses
+from robocomp_yaml.languages.python.usage_signatures import results
 
 _Function = (ast.FunctionDef, ast.AsyncFunctionDef)
 # A worker that these get is not changed.
@@ -88,7 +90,9 @@ class UsageReader(ChainReader):
         if any(imports_all(node, {*self._sources, "genericworker"}) for node in tree.body):
             known = {name: Binding(MODULES, (Step(Word(name, Span(self._path))),)) for name in self._modules}
             frame = {**known, **frame}
-        self._returns = {name: one for name, one in _results(tree).items() if name in self._signatures and not self._stored[name]}
+        self._returns = {
+            name: one for name, one in results(tree).items() if name in self._signatures and not self._stored[name]
+        }
         self._find_aliases(tree, frame)
         self._visit_all(tree.body, (frame,))
         return self._found
@@ -155,7 +159,7 @@ class UsageReader(ChainReader):
             case ast.Assign(targets=targets, value=value):
                 for target in targets:
                     self._target(target, value, frames)
-                self._visit_value(value, frames, _unpacked(targets))
+                self._visit_value(value, frames, unpacked_count(targets))
             case ast.AnnAssign(target=target, annotation=annotation, value=ast.expr() as value):
                 self._visit_hints([annotation], frames)
                 self._target(target, value, frames)
@@ -171,8 +175,8 @@ class UsageReader(ChainReader):
                     if form is not None and chain is not None and chain[1]:
                         self._add_again(Chain(*chain, caught=self._caught, added=form))
                 self._visit_all((left, right), frames)
-            case ast.If(test=test) | ast.While(test=test) | ast.IfExp(test=test) | ast.Assert(test=test) if (
-                isinstance(test, (ast.Call, ast.UnaryOp))
+            case ast.If(test=test) | ast.While(test=test) | ast.IfExp(test=test) | ast.Assert(test=test) if isinstance(
+                test, (ast.Call, ast.UnaryOp)
             ):
                 self._used(test.operand if isinstance(test, ast.UnaryOp) else test, CONDITION, frames)
                 self._visit_all(ast.iter_child_nodes(node), frames)
@@ -379,24 +383,6 @@ class UsageReader(ChainReader):
 
     def _add(self, chain: Chain) -> None:
         self._found.chains.append(msgspec.structs.replace(chain, is_hint=True) if self._is_hint else chain)
-
-
-def _results(tree: ast.Module) -> dict[str, ast.expr]:
-    """The annotations of the results of methods, by their names."""
-    return {
-        method.name: method.returns
-        for class_ in tree.body if isinstance(class_, ast.ClassDef)
-        for method in class_.body
-        if isinstance(method, ast.FunctionDef) and method.returns is not None and not method.decorator_list
-    }  # fmt: skip
-
-
-def _unpacked(targets: list[ast.expr]) -> int:
-    """The number of variables to which a value is unpacked; 0 if it is not, or if it may be any."""
-    for target in targets:
-        if isinstance(target, (ast.Tuple, ast.List)):
-            return 0 if any(isinstance(one, ast.Starred) for one in target.elts) else len(target.elts)
-    return 0
 
 
 def _patterns(cases: list[ast.match_case]) -> ast.Tuple:

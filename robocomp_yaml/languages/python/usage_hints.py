@@ -12,9 +12,7 @@ from robocomp_yaml.languages.python.syntax import names_of
 Found = tuple[str, tuple[Step, ...]]
 _GENERIC = "GenericWorker"
 _THE_SAME = frozenset("Annotated ClassVar Final Optional Required".split())
-_LISTS = frozenset(
-    "Collection Deque Iterable Iterator List MutableSequence Sequence deque list".split()
-)
+_LISTS = frozenset("Collection Deque Iterable Iterator List MutableSequence Sequence deque list".split())
 _MAPS = frozenset("Dict Mapping MutableMapping dict".split())
 _NO_WORD = Word("", Span(""))
 _LIST, _MAP = Step(_NO_WORD, makes="list"), Step(_NO_WORD, makes="map")

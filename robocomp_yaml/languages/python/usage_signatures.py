@@ -44,6 +44,16 @@ def functions(tree: ast.Module) -> dict[str, OfferedMember]:
     return found
 
 
+def results(tree: ast.Module) -> dict[str, ast.expr]:
+    """The annotations of the results of methods, by their names."""
+    return {
+        method.name: method.returns
+        for class_ in tree.body if isinstance(class_, ast.ClassDef)
+        for method in class_.body
+        if isinstance(method, ast.FunctionDef) and method.returns is not None and not method.decorator_list
+    }  # fmt: skip
+
+
 def _defined(body: list[ast.stmt]) -> Iterator[tuple[str, ast.AST]]:
     """The names that the statements of a scope bind, each with what binds it."""
 

@@ -34,7 +34,7 @@ def _section(name: str) -> str:
     if name.startswith(_TLS):
         return f"it is a property of Ice: write `properties: {{{name}: …}}` in a values document"
     if name in MANAGER:
-        return f"it is not a parameter: write `topics: {{manager: …}}` in a values document"
+        return "it is not a parameter: write `topics: {manager: …}` in a values document"
     before, _, last = name.rpartition(".")
     if last == "Endpoints" and before:
         written = f"`endpoints: {{{before}: …}}` in a values document, or `ports: {{{before}: …}}` in a deployment"
