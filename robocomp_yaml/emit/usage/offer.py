@@ -135,7 +135,8 @@ def proxies(
 ) -> dict[str, OfferedMember]:  # fmt: skip
     """The proxies of the worker. `called` makes the name of an operation, and `returned` what a call returns; `others`
     are methods of every proxy; `of_ice` are known ones of these, and whether they return a proxy like it. `future`
-    makes what an asynchronous call returns. With `outputs`, calls have arguments for them. Every call may have a context."""
+    makes what an asynchronous call returns. With `outputs`, calls have arguments for them. Every call may have
+    a context."""
     found = {}
     for accessor, is_topic in [*((one, False) for one in ports.requires), *((one, True) for one in ports.publishes)]:
         made = proxy(
