@@ -21,6 +21,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors, in_order
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.diag.listing import some
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues
 from robocomp_yaml.parameters.editing import show
@@ -43,6 +44,7 @@ from robocomp_yaml.parameters.types import (
     leaves,
 )
 from robocomp_yaml.parameters.verdict.judge import judge
+from robocomp_yaml.parameters.verdict.other_properties import section_of
 from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.secrets import HIDDEN, hidden_lines
 from robocomp_yaml.semantics import paths
@@ -357,6 +359,7 @@ def parameter_at(path: str, root: RecordType) -> tuple[list[str], Type]:
     type_ = show.type_at(root, steps) if steps else None
     if steps is None or type_ is None:
         known = [name for name, _ in leaves(root)]
+        elsewhere = section_of(path, is_similar=suggest(path, known) is not None)
         listed = f"known are {some(known, 8)}" if known else ""
-        raise Refused(f"unknown parameter '{path}'{meant(path, known, listed)}")
+        raise Refused(f"unknown parameter '{path}'{f'; {elsewhere}' if elsewhere else meant(path, known, listed)}")
     return steps, type_

@@ -48,7 +48,7 @@ def choose(
 ) -> ChosenProcess:  # fmt: skip
     """Raises Refused if no process is meant, or more than one, and Faulty if its documents have errors."""
     folders = tuple(include)
-    around = [which.deployment(deployment, folders)] if deployment else [] if alone else _around(folders)
+    around = [which.deployment(deployment, folders)] if deployment else [] if alone else _around(name, folders)
     analyses = {path: analyse([path], folders) for path in around}
     found = [one for path, analysis in analyses.items() for one in _in_deployment(analysis, path, name)]
     if len(found) > 1:
@@ -81,9 +81,14 @@ def _with(chosen: ChosenProcess, overrides: Overrides, include: tuple[str, ...])
     return replace(chosen, analysis=analysis, network=network, process=network.processes[name])
 
 
-def _around(include: tuple[str, ...]) -> list[str]:
-    """The deployments of the working folder, or else of its workspace."""
-    folders = dict.fromkeys((".", root_above("") or "."))
+def _around(name: str, include: tuple[str, ...]) -> list[str]:
+    """The deployments of the working folder, or else of its workspace; of the workspace of a path to another one."""
+    root = root_above("") or "."
+    folders = dict.fromkeys((".", root))
+    top = os.path.realpath(root)
+    if os.path.exists(name) and os.path.commonpath([top, os.path.realpath(name)]) != top:
+        other = root_above(name if os.path.isdir(name) else os.path.dirname(name))
+        folders = {} if other is None else {other: None}
     return next(filter(None, (which.deployments_of(folder, include) for folder in folders)), [])
 
 

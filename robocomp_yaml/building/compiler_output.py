@@ -1,4 +1,4 @@
-"""The output of compilers as diagnostics: GCC and Clang, javac, slice2cpp and slice2java, the linker.
+"""The output of compilers as diagnostics: GCC and Clang, javac, slice2cpp and slice2java.
 
     FILE:LINE:COLUMN: error: TEXT        FILE:LINE: error: TEXT        FILE:LINE: TEXT
 
@@ -26,7 +26,6 @@ _LOCATED = re.compile(
 )
 _MARKS = re.compile(r"(?P<lead> +(?:\| )?)(?P<before> *)(?P<marks>~*\^~*)")
 _SLICE = ".ice"
-_UNDEFINED = "undefined reference"
 _NOTES = 3  # notes that are shown with an error: a template may cause dozens
 
 
@@ -59,12 +58,10 @@ class CompilerOutput:
         return iter(found)
 
     def _tool(self, located: re.Match[str]) -> str:
-        if located["text"].startswith(_UNDEFINED):
-            return "the linker"
         return "the Slice compiler" if located["file"].endswith(_SLICE) else self._compiler
 
     def _is_diagnostic(self, located: re.Match[str]) -> bool:
-        """Whether a line is a diagnostic. One without a kind is an error of a Slice compiler or of the linker."""
+        """Whether a line is a diagnostic. One without a kind is an error of a Slice compiler."""
         return bool(located["kind"]) or self._tool(located) != self._compiler
 
     def _span(self, located: re.Match[str]) -> Span:

@@ -14,6 +14,7 @@ import click
 from robocomp_yaml.commands import _options, _signals
 from robocomp_yaml.commands._command import LibraryCommand
 from robocomp_yaml.diag import terminal
+from robocomp_yaml.source.discover import kind_of
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.mocking import Mock
@@ -48,7 +49,10 @@ def command(
 
     for name in interfaces:
         if os.path.isfile(name):
-            raise click.UsageError(f"'{name}' is a file: --script {name} reads a script", ctx)
+            hint = f"{terminal.typed('--script', name)} reads a script"
+            if kind_of(name) == "idsl":
+                hint = "an interface or topic is named, such as Laser, and found in the documents of the workspace"
+            raise click.UsageError(f"'{name}' is a file: {hint}", ctx)
     mock = Mock(interfaces, script or "", include)
     if check or mock.diagnostics:
         _options.report(ctx, format_, mock.diagnostics, 1)

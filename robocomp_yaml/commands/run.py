@@ -113,7 +113,8 @@ def _name(words: tuple[str, ...], deployment: str) -> tuple[str, str]:
     if len(words) == 2 and kind_of(words[0]) == "ddsl" and not deployment:
         return words[1], words[0]
     if len(words) == 1 and kind_of(words[0]) == "ddsl":
-        raise click.UsageError(f"{words[0]} is a deployment: which of its entries? `rcyaml run {words[0]} NAME`")
+        command = terminal.typed("rcyaml", "run", words[0])
+        raise click.UsageError(f"{words[0]} is a deployment: which of its entries? `{command} NAME`")
     if len(words) > 1:
         raise click.UsageError(f"'{words[1]}' is unexpected: arguments of the program follow `--`")
     return (words[0] if words else "."), deployment

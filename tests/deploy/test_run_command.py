@@ -335,6 +335,24 @@ def test_a_deployment_of_the_workspace_is_named_from_any_folder(
     assert "../../d/Leg.ddsl.yaml" in rcyaml("run", "same", "--deployment", "Leg", "--dry-run").stdout
 
 
+def test_a_path_to_another_workspace_means_the_deployment_there(
+    tmp_path: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    component = "component: ArmComp\nlanguage: python\n"
+    deployment = "deployment: Robot\ncomponents: {left: {component: arm, port: 12345}}\n"
+    robot = tmp_path / "my robot"
+    write_tree(robot, {"rcyaml.yaml": "", "arm/arm.cdsl.yaml": component, "robot.ddsl.yaml": deployment})
+    assert rcyaml("compile", "my robot").exit_code == 0
+    write_tree(tmp_path, {"elsewhere/other.ddsl.yaml": "deployment: Other\ncomponents: {arm: {program: 'true'}}\n"})
+    monkeypatch.chdir(tmp_path / "elsewhere")
+    for path in (str(robot / "arm"), "../my robot/arm", "../my robot/arm/arm.cdsl.yaml"):
+        shown = rcyaml("run", path, "--dry-run")
+        assert "name     left\nas in    " in shown.stdout and "-p 12345" in shown.stdout, shown.output
+    assert "as in    other.ddsl.yaml" in rcyaml("run", "arm", "--dry-run").stdout
+    refused = rcyaml("run", "../my robot/robot.ddsl.yaml")
+    assert "`rcyaml run '../my robot/robot.ddsl.yaml' NAME`" in refused.stderr
+
+
 def test_a_broken_deployment_beside_does_not_matter(tmp_path: Path, rcyaml: Rcyaml) -> None:
     whole = "deployment: Arm\ncomponents: {arm: {program: 'true'}}\n"
     write_tree(

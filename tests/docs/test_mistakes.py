@@ -105,7 +105,7 @@ this page (`tests/docs/mistakes.py`).
 | what | checked by |
 |---|---|
 | documents: shape, names, types, values, networks | `rcyaml check`, `compile`, and the editor (shape) |
-| how code uses its worker: proxies, methods with their arguments and results, parameters, events and states, types and enumerators; in Python also imports of modules, members of structs, attributes of the worker, and slips such as a missing `self` | `rcyaml check` and `compile`, with the documents as they are now |
+| how code uses its worker: proxies, methods with their arguments and results, parameters, events and states, types and enumerators; in Python also imports of modules, members of structs, attributes of the worker, calls of the code's own functions, and slips such as a missing `self`; annotations are believed | `rcyaml check` and `compile`, with the documents as they are now |
 | methods that other components call: missing, outdated, never called | the same |
 | types of other expressions in Python | `rcyaml check --code`, with [ty](https://docs.astral.sh/ty/) |
 | types of expressions in C++ and Java | the compilers: `rcyaml build` |

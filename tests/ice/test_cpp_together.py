@@ -93,10 +93,12 @@ def test_a_workspace(rcyaml: Rcyaml, tmp_path: Path) -> None:
     assert rcyaml("deploy", "plan").exit_code == 0, "changed back is not changed"
     assert build(rcyaml) == {"ArmComp": "up to date", "LegComp": "up to date"}
 
-    # Undefined symbols of the linker are reported too.
+    # Undefined symbols of the linker are reported where the code uses them.
     mend = append(arm / "src" / "specificworker.cpp", "int nowhere();\nint somewhere() { return nowhere(); }\n")
     told = rcyaml("build", "arm")
-    assert "ArmComp cannot be built: the linker finds no definition of nowhere()" in told.stdout
+    line = (arm / "src" / "specificworker.cpp").read_text().splitlines().index("int somewhere() { return nowhere(); }")
+    assert "the linker rejects this: undefined reference to 'nowhere()'" in told.stdout
+    assert f"arm/src/specificworker.cpp:{line + 1}:26" in told.stdout
     assert (arm / "bin" / "ArmComp").is_file(), "the earlier one"
     mend()
     assert rcyaml("deploy", "plan").exit_code == 0

@@ -46,7 +46,7 @@ RIGHT = {
     "lists and maps": of_arm("all: {out: {poses: [{x: 1, side: left, name: a}], named: {a: {x: 0, side: left}}}}"),
     "an exception": of_arm("where: {throws: {Stuck: {where: {x: 1, side: left}}}}"),
     "nothing": of_arm("stop: "),
-    "answers in turn": of_arm("stop: [{delay: 1 s}, {delay: 2}, {}]"),
+    "answers in turn": of_arm("stop: [{delay: 1 s}, {delay: 2}, {delay: .5 h}, {delay: 0}, {}]"),
     "by its module": "interfaces:\n  RoboCompArm.Arm: {endpoint: tcp -p 10005}\n",
     "a topic": "topics:\n  Moved: {rate: 0.5, messages: [{to: {pose: {x: 1, side: left}}}]}\n",
     "keys of one's own": "doc: For Monday.\nx-author: me\ninterfaces: {Arm: }\n",
@@ -69,7 +69,10 @@ WRONG = {
     "two of a name": ("interfaces: {Leg: }\n", "RC9005", "Leg", "several modules define 'Leg'"),
     "a rate of nothing": ("topics: {Moved: {rate: 0}}\n", "RC0204", "0", "messages per second"),
     "an unknown key": ("interfaces: {Arm: {method: {}}}\n", "RC0202", "method", "'method'"),
-    "an odd delay": (of_arm("stop: {delay: soon}"), "RC0204", "soon", "delay: is a duration"),
+    "an odd delay": (of_arm("stop: {delay: soon}"), "RC0204", "soon", "a time is milliseconds"),
+    "a delay that is a fraction": (of_arm("stop: {delay: 0.3}"), "RC0204", "0.3", "a time is milliseconds, such as 500, or"),
+    "a delay with another unit": (of_arm("stop: {delay: 3 sec}"), "RC0204", "3 sec", "a time is milliseconds"),
+    "a delay below zero": (of_arm("stop: {delay: -1}"), "RC0204", "-1", "a time is milliseconds"),
     "a message without its argument": ("topics: {Moved: {messages: [{to: }]}}\n", "RC9001", "", "'pose' is missing"),
 }  # fmt: skip
 

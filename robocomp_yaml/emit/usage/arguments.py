@@ -13,7 +13,9 @@ from robocomp_yaml.emit.usage.code import (
     MAPPING,
     MODULES,
     NOTHING,
+    NUMBER,
     TEXT,
+    TRUTH,
     TUPLE,
     Arguments,
     Chain,
@@ -124,6 +126,23 @@ def leads_to(chain: Chain, worker: WorkerOffer) -> tuple[Offer | None, OfferedMe
             return None, None
         now = after(step, member)
     return now, member
+
+
+def wrong_sum(chain: Chain, now: Offer | None, member: OfferedMember | None) -> Iterator[Diagnostic]:
+    """A value that is added to one of another type, which Python does not convert."""
+    other, last = chain.added, chain.steps[-1].word
+    if other is None or "TypeError" in chain.caught or not last.text:
+        return
+    is_struct = now is not None and now.kind == offers.STRUCT
+    if now is not None and not is_struct and not (now.kind == offers.PLAIN and now.is_complete):
+        return
+    if now is None and (member is None or member.parameter is None):
+        return
+    what = _what(chain, now, member)
+    is_wrong = is_struct or {what, other.text} in ({TEXT, NUMBER}, {TEXT, TRUTH}, {TEXT, LIST}, {NUMBER, LIST})
+    if is_wrong and what:
+        hint = "write str(…), or an f-string" if TEXT in (what, other.text) and not is_struct else ""
+        yield codes.NOT_ADDED.at(last.span, name=last.text, what=what, other=other.text, hint=hint)
 
 
 def after(step: Step, member: OfferedMember) -> Offer | None:

@@ -5,13 +5,19 @@ A language's part `usage` reads them. It is silent about all that it cannot be s
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
 import msgspec
 
 from robocomp_yaml.diag.span import Span
 
-WORKER, MODULES, SETTINGS, SERVED = "worker", "modules", "settings", "served"
-"""Where a chain begins: at the worker, at the Slice modules, at the properties that RoboComp's code gets, or at the
-arguments of the worker's own methods."""
+if TYPE_CHECKING:
+    from robocomp_yaml.emit.usage.offer import OfferedMember
+
+WORKER, MODULES, SETTINGS, SERVED, FILE = "worker", "modules", "settings", "served", "file"
+"""Where a chain begins: at the worker, at the Slice modules, at the properties that RoboComp's code gets, at the
+arguments of the worker's own methods, or at what the file itself defines."""
 
 
 class Word(msgspec.Struct, frozen=True):
@@ -20,6 +26,7 @@ class Word(msgspec.Struct, frozen=True):
 
 
 NUMBER, TEXT, TRUTH, LIST, TUPLE, SET = "a number", "a text", "true or false", "a list", "a tuple", "a set"
+CONDITION, LOOPED = "a condition", "a list"
 MAPPING, NOTHING, NO_MAPPING, FUNCTION, GENERATOR = "a mapping", "None", "no mapping", "a function", "a generator"
 """What a value surely is, in words."""
 
@@ -56,7 +63,8 @@ class Arguments(msgspec.Struct, frozen=True):
 class Step(msgspec.Struct, frozen=True):
     """One step of a chain: a name, called if it has `arguments`; or an index, whose name is '' unless it is a literal
     text; or an element in a loop (`is_each`). `shown` is an index as it is written, and `place` its value if that is a
-    literal number."""
+    literal number. `is_instance`: the name is a type, and the step leads to a value of it. `makes` is "list" or "map"
+    if the step leads from a value to many of them."""
 
     word: Word
     arguments: Arguments | None = None
@@ -64,6 +72,8 @@ class Step(msgspec.Struct, frozen=True):
     is_each: bool = False
     shown: Word | None = None
     place: int | None = None
+    is_instance: bool = False
+    makes: str = ""
 
 
 class Chain(msgspec.Struct, frozen=True):
@@ -71,7 +81,7 @@ class Chain(msgspec.Struct, frozen=True):
     `is_assigned`, and `constant` is the value if it is a literal. `caught` are the exceptions that the code around it
     handles by name. `compared` are the literals that it is compared with, and `unpacked` is the number of variables to
     which it is unpacked. `is_again`: another chain has all of its steps, and is judged. `is_hint`: it is part of an
-    annotation that is not evaluated."""
+    annotation that is not evaluated. `added` is what it is added to, and `used` what it is used as."""
 
     root: str
     steps: tuple[Step, ...]
@@ -82,10 +92,13 @@ class Chain(msgspec.Struct, frozen=True):
     unpacked: int = 0
     is_again: bool = False
     is_hint: bool = False
+    added: Word | None = None
+    used: str = ""
 
 
 WITHOUT_SELF, NO_SELF, NOT_CALLED, NOT_GENERATED = "without self", "no self", "not called", "not generated"
 UNDEFINED, REPEATED, NO_INIT, NO_RESULT, NO_METHOD = "undefined", "repeated", "no init", "no result", "no method"
+ARROW = "arrow"
 
 ASYNC, YIELDS, PROPERTY = "async", "a generator", "a property"
 STATIC, VALUE = "a static method with self", "a value"
@@ -116,7 +129,8 @@ class CodeUsage(msgspec.Struct, frozen=True):
     `methods` are those of the classes that are derived from the generic worker. `own` are names that the code defines
     itself, `texts` its literal texts: names in them may be used in ways that nobody sees. `is_open`: the worker may
     have further attributes, which are set without their names; `is_shared`: other code may set some. `faults` are
-    errors of syntax, each with a text; with any, nothing else is read.
+    errors of syntax, each with a text; with any, nothing else is read. `signatures` are those of methods that the code
+    defines itself, and `functions` those of its functions, by file.
     """
 
     chains: tuple[Chain, ...] = ()
@@ -128,6 +142,8 @@ class CodeUsage(msgspec.Struct, frozen=True):
     faults: tuple[tuple[str, Span], ...] = ()
     slips: tuple[Slip, ...] = ()
     returned: tuple[Returned, ...] = ()
+    signatures: Mapping[str, OfferedMember] = {}
+    functions: Mapping[str, Mapping[str, OfferedMember]] = {}
 
 
 def literal_head(steps: tuple[Step, ...]) -> tuple[Step, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping
 
 import msgspec
 
@@ -13,8 +13,10 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean, likeness, suggest
 from robocomp_yaml.emit.usage import offer as offers
-from robocomp_yaml.emit.usage.arguments import after, is_context, wrong_arguments, wrong_results
+from robocomp_yaml.emit.usage.arguments import after, is_context, wrong_arguments, wrong_results, wrong_sum
 from robocomp_yaml.emit.usage.code import (
+    FILE,
+    LOOPED,
     SETTINGS,
     WORKER,
     Arguments,
@@ -37,6 +39,7 @@ _PROXY = re.compile(r"\w+_(?:pub)?proxy\d*_*\Z")
 _NEARLY = re.compile(r"([a-z]\w*?)_?(?:pub_?)?(?:[Pp]rox[yi]|[Pp]rx)\d*_*\Z")
 
 _LONGER, _MISTYPED = 3, 0.85  # characters, and similarity, of a proxy that is surely misspelled
+_OF_ICE = "ice_"
 _FEW = 6  # members that are listed
 _VALUES = (offers.RECORD, offers.TOOL, offers.PROXY, offers.TOPIC, offers.EVENTS, offers.PARAMETERS)
 
@@ -70,7 +73,9 @@ def judge(
     judging = _Judging(linked, usage, offer)
     seen = set[tuple[str, Span]]()  # chains through variables share their first steps
     for chain in usage.chains:
-        if chain.root in offer.roots:
+        if chain.root == FILE:
+            yield from judging.own_call(chain, usage.functions.get(chain.steps[0].word.span.file, {}))
+        elif chain.root in offer.roots:
             for fault in judging.chain(chain):
                 if (fault.code, fault.span) not in seen:
                     seen.add((fault.code, fault.span))
@@ -93,11 +98,19 @@ class _Judging(msgspec.Struct):
         """Follows a chain to the first step that is not offered."""
         now: Offer | None = self.offer.roots[chain.root]
         if chain.root == WORKER and chain.steps[0].word.text in self.usage.own:
+            yield from self.own_call(chain, self.usage.signatures)
             return
         member: OfferedMember | None = None
         for number, step in enumerate(chain.steps):
             if now is None:
                 return
+            if step.makes:
+                now, member = offers.of_list(now) if step.makes == "list" else offers.of_values(now), None
+                continue
+            if step.is_instance:  # what an annotation says is judged where it is
+                member = now.members.get(step.word.text)
+                now, member = (member.instance or member.value) if member is not None else None, None
+                continue
             if step.is_index:
                 word = step.word if step.word.text else step.shown
                 if word is not None and not chain.is_again and "TypeError" not in chain.caught:
@@ -129,8 +142,20 @@ class _Judging(msgspec.Struct):
             now = after(step, member)
         integers = self.linked.component.language.name == "python"  # an enum of C++98 may be compared with one
         yield from never_equal(chain, member, now, integers=integers)
+        yield from wrong_sum(chain, now, member)
+        if chain.used and now is not None and now.kind == offers.RESULTS and not now.count:
+            yield self._results(now, chain.steps[-1].word, chain.used)
+        elif chain.used == LOOPED and now is not None and now.kind == offers.STRUCT and chain.steps[-1].arguments:
+            yield self._results(now, chain.steps[-1].word, chain.used)
         if chain.unpacked and now is not None and not _is_unpacked(now, chain.unpacked):
             yield self._results(now, chain.steps[-1].word, f"{chain.unpacked} values")
+
+    def own_call(self, chain: Chain, signatures: Mapping[str, OfferedMember]) -> Iterator[Diagnostic]:
+        """The arguments of a call of what the code defines itself."""
+        word, arguments = chain.steps[0].word, chain.steps[0].arguments
+        member = signatures.get(word.text)
+        if member is not None and arguments is not None and not chain.is_again and word.text not in self.usage.texts:
+            yield from self._call(offers.NOTHING, word, member, arguments, chain)
 
     def _called_or_not(self, now: Offer, step: Step, member: OfferedMember, chain: Chain) -> Diagnostic | None:
         """A value that is called, or a getter that is not."""
@@ -207,7 +232,7 @@ class _Judging(msgspec.Struct):
                 return self._at(codes.UNKNOWN_ATTRIBUTE, word, known, component=component)
             case offers.PROXY | offers.TOPIC:
                 code = codes.UNKNOWN_METHOD if now.kind == offers.PROXY else codes.UNKNOWN_EVENT
-                listed = [one for one in known if not one.endswith(offers.ASYNC)]
+                listed = [one for one in known if not one.endswith(offers.ASYNC) and not one.startswith(_OF_ICE)]
                 return self._at(code, word, known, _listed(listed, "it has"), interface=now.name)
             case offers.PARAMETERS | offers.RECORD:
                 if not_editable := self._not_editable(name, known):

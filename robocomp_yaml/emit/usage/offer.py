@@ -69,7 +69,8 @@ class OfferedMember(msgspec.Struct, frozen=True):
     `takes_path`: its argument is the path of a parameter, or a mapping of such paths; `is_state`: the name of a state.
     `parameter` is what an assignment, or a setter, sets, and `read` what a getter returns; `path` its path. `inputs`
     are the first parameters of an operation, or the members of a struct. `can_be_empty`: no arguments are right, too.
-    Unless `instead` is '', it exists in annotations only, and elsewhere, `instead` is the hint."""
+    Unless `instead` is '', it exists in annotations only, and elsewhere, `instead` is the hint. `instance` is what a
+    value has that an annotation with this name allows."""
 
     value: Offer | None = None
     result: Offer | None = None
@@ -85,6 +86,7 @@ class OfferedMember(msgspec.Struct, frozen=True):
     path: str = ""
     can_be_empty: bool = False
     instead: str = ""
+    instance: Offer | None = None
 
 
 class ServedInterface(msgspec.Struct, frozen=True):
@@ -129,23 +131,37 @@ def plain(name: str, natives: Natives) -> Offer:
 def proxies(
     ports: LoweredPorts, called: Callable[[str], str], others: Callable[[str], bool], returned: Returned, *,
     outputs: bool, keywords: Callable[[Method], Iterable[str]] | None = None,
-    future: Callable[[Offer | None], Offer] | None = None,
+    future: Callable[[Offer | None], Offer] | None = None, of_ice: Mapping[str, bool] = {},
 ) -> dict[str, OfferedMember]:  # fmt: skip
     """The proxies of the worker. `called` makes the name of an operation, and `returned` what a call returns; `others`
-    are methods of every proxy, and `future` makes what an asynchronous call returns. With `outputs`, calls have
-    arguments for them. Every call may have a context."""
+    are methods of every proxy; `of_ice` are known ones of these, and whether they return a proxy like it. `future`
+    makes what an asynchronous call returns. With `outputs`, calls have arguments for them. Every call may have
+    a context."""
     found = {}
     for accessor, is_topic in [*((one, False) for one in ports.requires), *((one, True) for one in ports.publishes)]:
-        port = accessor.port
-        methods: dict[str, OfferedMember] = {}
-        for method in port.interface.methods:
-            name, result = called(method.name), returned(method, port.scope)
-            methods[name] = structs.replace(_operation(method, called, outputs, keywords), result=result)
-            later = OfferedMember() if future is None else structs.replace(methods[name], result=future(result))
-            methods.setdefault(f"{name}{ASYNC}", later)
-        offer = Offer(TOPIC if is_topic else PROXY, port.interface.name, methods, others=others)
-        found[accessor.name] = OfferedMember(offer)
+        made = proxy(
+            accessor.port.interface, accessor.port.scope, called, others, returned, outputs=outputs, keywords=keywords,
+            future=future, of_ice=of_ice,
+        )  # fmt: skip
+        found[accessor.name] = OfferedMember(structs.replace(made, kind=TOPIC if is_topic else PROXY))
     return found
+
+
+def proxy(
+    interface: Interface, scope: LinkedModule, called: Callable[[str], str], others: Callable[[str], bool],
+    returned: Returned, *, outputs: bool, keywords: Callable[[Method], Iterable[str]] | None = None,
+    future: Callable[[Offer | None], Offer] | None = None, of_ice: Mapping[str, bool] = {},
+) -> Offer:  # fmt: skip
+    """A proxy of an interface, as `proxies` makes them."""
+    methods: dict[str, OfferedMember] = {}
+    for method in interface.methods:
+        name, result = called(method.name), returned(method, scope)
+        methods[name] = structs.replace(_operation(method, called, outputs, keywords), result=result)
+        later = OfferedMember() if future is None else structs.replace(methods[name], result=future(result))
+        methods.setdefault(f"{name}{ASYNC}", later)
+    made = Offer(TOPIC if interface.is_topic else PROXY, interface.name, methods, others=others)
+    methods |= {name: OfferedMember(result=made if is_same else None) for name, is_same in of_ice.items()}
+    return made
 
 
 def _operation(
@@ -208,11 +224,15 @@ def setters(made: Iterable[Setter]) -> dict[str, OfferedMember]:
     }
 
 
+_ELEMENTS = ("at", "back", "front")
+"""Methods of lists in C++ that return an element."""
+
+
 def of_list(element: Offer | None, lists: Mapping[str, str] = {}, natives: Natives = UNKNOWN) -> Offer:
     """What a list has. `lists` are names that no list has in the language; it also lacks those of its elements."""
     own = dict.fromkeys(element.members, "its elements have it") if element is not None and (lists or natives) else {}
     lacks = {name: hint for name, hint in {**own, **lists}.items() if not hasattr(list, name)}
-    members = natives.get(LIST, {})
+    members = natives.get(LIST, {} if lists else dict.fromkeys(_ELEMENTS, OfferedMember(result=element)))
     name = "a tuple" if members and "append" not in members else "a list"
     return Offer(LIST, name, members, LIST in natives, element=element, each=element, lacks=lacks)
 
@@ -221,14 +241,20 @@ def of_map(element: Offer | None, natives: Natives = UNKNOWN) -> Offer:
     """What a mapping has."""
     if MAP not in natives:
         return Offer(MAP, is_complete=False, element=element)
+    more = of_values(element).members
+    members = {name: more.get(name, member) for name, member in natives[MAP].items()}
+    return Offer(MAP, "a mapping", members, element=element)
+
+
+def of_values(element: Offer | None) -> Offer:
+    """What a mapping of Python has at least, if its values are these."""
     pair = Offer(OTHER, is_complete=False, items=(None, element))
-    more = {
+    members = {
         "get": OfferedMember(result=element),
         "values": OfferedMember(result=Offer(OTHER, is_complete=False, each=element)),
         "items": OfferedMember(result=Offer(OTHER, is_complete=False, each=pair)),
     }
-    members = {name: more.get(name, member) for name, member in natives[MAP].items()}
-    return Offer(MAP, "a mapping", members, element=element)
+    return Offer(MAP, "a mapping", members, is_complete=False, element=element)
 
 
 def value(type_: Type, in_code: Callable[[str], str], path: str = "", natives: Natives = UNKNOWN) -> Offer | None:
@@ -267,14 +293,14 @@ def states(machine: StateMachine) -> tuple[str, ...]:
 def modules(
     linked: LinkedComponent, variable: Callable[[str], str], in_code: Callable[[str], str],
     others: Callable[[str], bool], instance: Callable[[object, LinkedModule], Offer | None], *,
-    classes: bool = False,
+    classes: bool = False, prx: Callable[[Interface, LinkedModule], Offer] | None = None,
 ) -> Offer:  # fmt: skip
     """The Slice modules with their types, as attributes. Two documents may define parts of one module. `instance` makes
-    what a value of a type has. With `classes`, exceptions are made like structs, and nobody
+    what a value of a type has, and `prx` what a proxy has. With `classes`, exceptions are made like structs, and nobody
     makes a value of an enum."""
     found: dict[str, dict[str, OfferedMember]] = {}
     for scope in linked.modules():
-        found.setdefault(variable(scope.module.name), {}).update(_types(scope, in_code, instance, classes))
+        found.setdefault(variable(scope.module.name), {}).update(_types(scope, in_code, instance, classes, prx))
     broken = {variable(scope.module.name) for scope in linked.modules() if scope.unresolved or linked.broken}
     offers = {
         name: OfferedMember(Offer(MODULE, name, members, is_complete=name not in broken, others=_is_internal))
@@ -289,7 +315,7 @@ def _is_internal(name: str) -> bool:
 
 def _types(
     scope: LinkedModule, in_code: Callable[[str], str], instance: Callable[[object, LinkedModule], Offer | None],
-    classes: bool,
+    classes: bool, prx: Callable[[Interface, LinkedModule], Offer] | None,
 ) -> dict[str, OfferedMember]:  # fmt: skip
     found = {}
     for definition in scope.module.definitions:
@@ -300,7 +326,7 @@ def _types(
                 names = {in_code(one.name): enumerator for one in enumerators}
                 value = Offer(ENUM, definition.name, names, others=_is_of_enum)
                 such = f"{name}.{next(iter(names))}, or {name}.valueOf(NUMBER)" if classes and names else ""
-                found[name] = OfferedMember(value, signature=such)
+                found[name] = OfferedMember(value, signature=such, instance=enumerator.value)
             case Struct(members=members) | ExceptionType(members=members):
                 fields = frozenset(in_code(one.name) for one in members)
                 is_known = classes or isinstance(definition, Struct)
@@ -308,10 +334,14 @@ def _types(
                     result=instance(definition, scope), most=len(members) if is_known else None,
                     inputs=members if is_known else (), keywords=fields if is_known else None,
                     signature=f"{definition.name}({', '.join(one.name for one in members)})",
+                    instance=instance(definition, scope),
                 )  # fmt: skip
             case Interface():
-                found[name] = OfferedMember()
-                found[f"{definition.name}Prx"] = OfferedMember()
+                found[name] = OfferedMember(instance=NOTHING)
+                made = prx(definition, scope) if prx is not None else None
+                cast = OfferedMember(result=made)
+                casts = Offer(OTHER, name, {"checkedCast": cast, "uncheckedCast": cast}, is_complete=False)
+                found[f"{definition.name}Prx"] = OfferedMember(casts if made is not None else None, instance=made)
             case _:
                 found[name] = OfferedMember(result=instance(definition, scope))
     return found

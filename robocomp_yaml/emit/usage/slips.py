@@ -41,6 +41,9 @@ def of_slip(slip: Slip) -> Diagnostic:
             return codes.NO_INIT.at(slip.word.span, hint="call super().__init__ with its arguments first")
         case code.NO_RESULT:
             return codes.NO_RESULT.at(slip.word.span, name=slip.word.text)
+        case code.ARROW:
+            hint = f"a proxy is a pointer: write {slip.meant}"
+            return codes.UNKNOWN_MEMBER.at(slip.word.span, struct="the pointer", name=slip.word.text, hint=hint)
         case code.NO_METHOD:
             hint = _INSTEAD[slip.meant]
             return codes.NO_METHOD.at(slip.word.span, name=slip.word.text, form=slip.meant, hint=hint)

@@ -10,6 +10,7 @@ from contextlib import contextmanager, suppress
 
 import msgspec
 
+from robocomp_yaml.building import linker_output
 from robocomp_yaml.building.compiler_output import CompilerOutput
 from robocomp_yaml.building.job import BuildStep, ComponentBuild, Job
 from robocomp_yaml.building.processes import Processes
@@ -222,13 +223,15 @@ class _Run:
         if not piece:
             return
         found = list(self._reader.diagnostics(piece))
-        self._job.add(found)
         outputs = next((match[1] for line in piece if (match := _FAILED.match(line))), None)
+        owner = self._owner(outputs.split()) if outputs is not None else None
+        if owner is not None:
+            found += linker_output.diagnostics(piece, lambda path: _users_source(owner, path))
+        self._job.add(found)
         if outputs is None:
             self._unassigned += piece
             return
         output = piece[2:]  # without the command
-        owner = self._owner(outputs.split())
         if owner is not None:
             lines = self.failed.setdefault(owner, [])
             lines += [] if has_errors(found) else output
@@ -250,6 +253,14 @@ class _Run:
             if any(_is_of(os.path.join("", path), part and f"{part}/", program) for path in outputs):
                 return unit
         return None
+
+
+def _users_source(unit: Unit, path: str) -> str | None:
+    """The user's source that CMake compiles to the object of this path in the folder of the target; None for others."""
+    steps = (os.pardir if step == "__" else step for step in path.split("/"))
+    source = os.path.normpath(os.path.join(source_of(unit), *steps))
+    is_users = not _is_below(source, unit.path("generated")) and os.path.isfile(source)
+    return _shown(source) if is_users else None
 
 
 def _is_of(path: str, part: str, program: str) -> bool:

@@ -128,13 +128,18 @@ def read(files: Mapping[str, str], linked: LinkedComponent, worker: WorkerOffer)
     chains = tuple(one.chain for one in uses if one.chain is not None)
     # Beside code for RoboComp's own tool, there may be files of that tool, which are not compiled.
     compiled = [file for file in parsed if not is_robocomp or "specificworker." in file.path]
+    proxies = _proxies(worker.roots[WORKER])
     for file in compiled:
-        chains += tuple(chain for name in sorted(modules) for chain in (*file.qualified(name), *file.typed(name)))
+        for name in sorted(modules):
+            chains += (*file.qualified(name), *file.typed(name, proxies))
     chains += tuple(_of_members(compiled, modules, worker.roots[WORKER], workers))
     methods = unused([word for file in parsed for word in file.methods(workers)], files.values(), _METHOD)
     first = tuple({word.text: word for word in reversed(methods)}.values())  # not its definition, too
     silent = "noreturn" not in words
     slips = [Slip(NO_RESULT, word) for file in compiled if silent for word in file.silent(worker.answering, workers)]
+    for name, interface in ((name, one.value) for name, one in known.items() if name in names - declared):
+        if interface is not None and is_proxy(name):
+            slips += [slip for file in compiled for slip in file.dotted(name, interface.members, workers)]
     return CodeUsage(
         (*chains, *settings), first, frozenset(declared), frozenset(texts), is_shared=True, slips=tuple(slips)
     )  # fmt: skip
@@ -145,7 +150,7 @@ def _of_members(
 ) -> Iterator[Chain]:  # fmt: skip
     """The chains that begin at members of the worker which are proxies, or of another type of a Slice module. The name
     of a member has one declaration in all files."""
-    proxies = {one.value.name: name for name, one in worker.members.items() if one.value is not None and is_proxy(name)}
+    proxies = _proxies(worker)
     for name, type_ in [member for file in files for member in file.members(workers)]:
         interface = re.sub(r"Prx(Ptr)?\Z", "", type_.type.text)
         root, head = MODULES, [Step(type_.module), Step(type_.type, Arguments(is_exact=False))]
@@ -155,6 +160,11 @@ def _of_members(
             found = [file.of_member(name, root, head, workers) for file in files]
             if sum(declared for _, declared in found) == 1:
                 yield from (chain for chains, _ in found for chain in chains)
+
+
+def _proxies(worker: Offer) -> dict[str, str]:
+    """The names of the worker's proxies, by interface."""
+    return {one.value.name: name for name, one in worker.members.items() if one.value is not None and is_proxy(name)}
 
 
 def _extended(texts: Iterable[str]) -> set[str]:

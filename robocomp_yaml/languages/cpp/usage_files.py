@@ -149,7 +149,11 @@ class CppFile(UsageFile):
         """The steps of a chain that begins with some at a node, and the node at which it ends."""
         steps, now = list(head), start
         while (parent := now.parent) is not None:
-            if parent.type == "field_expression" and parent.child_by_field_name("argument") == now:
+            if is_dereferenced(parent) and _is_pointer(steps) and not is_value:
+                is_value = True  # a dot follows
+            elif (get := _of_get(parent, now)) is not None and _is_pointer(steps) and not is_value:
+                parent = get
+            elif parent.type == "field_expression" and parent.child_by_field_name("argument") == now:
                 name = parent.child_by_field_name("field")
                 operator = text(field(parent, "operator"))
                 if name is None or name.type != "field_identifier" or not _is_followed(steps, operator, is_value):
@@ -179,6 +183,9 @@ class CppFile(UsageFile):
     def _through_variable(self, root: str, steps: list[Step], end: Node) -> Iterator[Chain]:
         """The chains that begin at a local variable, if a chain initializes it, and no other of its name is near."""
         parent = end.parent
+        if parent is not None and parent.type == "lambda_capture_initializer" and field(parent, "right") == end:
+            yield from self._of_variable(root, steps, field(parent, "left"), parent)
+            return
         if parent is not None and parent.type in ("initializer_list", "argument_list") and len(parent.children) == 3:
             end, parent = parent, parent.parent  # `auto mouth{mouth_proxy}`
             if parent is None or any(text(child) == "=" for child in parent.children):
@@ -197,11 +204,13 @@ class CppFile(UsageFile):
         while declarator is not None and declarator.type == "reference_declarator":
             declarator = declarator.named_children[-1]
         if declarator is not None and declarator.type == "identifier":
-            yield from self._of_variable(root, steps, declarator, declaration, is_same=is_same)
+            is_value = root == MODULES or is_dereferenced(end)
+            yield from self._of_variable(root, steps, declarator, declaration, is_same=is_same, is_value=is_value)
 
     def _of_variable(
-        self, root: str, steps: list[Step], name: Node, declaration: Node, *, is_same: bool = True
-    ) -> Iterator[Chain]:
+        self, root: str, steps: list[Step], name: Node, declaration: Node, *, is_same: bool = True,
+        is_value: bool | None = None,
+    ) -> Iterator[Chain]:  # fmt: skip
         """The chains of a variable that stands for some steps; only comparisons unless it `is_same`, because its type
         is another one."""
         function = function_around(declaration)
@@ -213,8 +222,9 @@ class CppFile(UsageFile):
                 if node.parent is None or not _is_used(node, node.parent):
                     return
                 uses.append(node)
+        is_value = root == MODULES if is_value is None else is_value
         for node in uses:
-            longer, end = self._steps(steps, node, is_value=root == MODULES)
+            longer, end = self._steps(steps, node, is_value=is_value)
             if is_same and len(longer) > len(steps) and not is_uncertain(node):
                 yield Chain(root, tuple(longer))
             yield from self._compared(root, longer, end)
@@ -251,6 +261,26 @@ class CppFile(UsageFile):
         elif node.type == "string_literal" and "\\" not in written and written[:1] == '"':
             value = written[1:-1]
         return value
+
+
+def is_dereferenced(node: Node) -> bool:
+    """Whether a node is `*x`."""
+    return node.type == "pointer_expression" and text(field(node, "operator")) == "*"
+
+
+def _is_pointer(steps: list[Step]) -> bool:
+    """Whether some steps lead to a proxy, which is a shared pointer."""
+    return len(steps) == 1 and is_proxy(steps[0].word.text)
+
+
+def _of_get(parent: Node, now: Node) -> Node | None:
+    """The call `x.get()` of the pointer in a shared one, if it is above these nodes."""
+    if parent.type != "field_expression" or parent.child_by_field_name("argument") != now:
+        return None
+    call = parent.parent
+    is_get = text(field(parent, "operator")) == "." and text(field(parent, "field")) == "get"
+    is_call = call is not None and call.type == "call_expression" and call.child_by_field_name("function") == parent
+    return call if is_get and is_call else None
 
 
 def _is_used(node: Node, parent: Node) -> bool:

@@ -4,13 +4,13 @@ settings."""
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 
 import msgspec
 from tree_sitter import Node
 
 from robocomp_yaml.emit.specific.code import field, text
-from robocomp_yaml.emit.usage.code import MODULES, SETTINGS, Arguments, Chain, Step, Word
+from robocomp_yaml.emit.usage.code import ARROW, MODULES, SETTINGS, WORKER, Arguments, Chain, Slip, Step, Word
 from robocomp_yaml.languages.cpp.usage_files import (
     IN_CLASSES,
     CppFile,
@@ -28,6 +28,8 @@ _ENDS = re.compile(r"\b(?:qFatal|throw|exit|_exit|abort|terminate|quick_exit|ret
 _LEAVING = frozenset("return_statement throw_statement co_return_statement goto_statement".split())
 _LEAVES = re.compile("[A-Z][A-Z0-9_]+|abort|exit|_exit|terminate|quick_exit|rethrow_exception|qFatal|unreachable")
 _GETTERS = frozenset(("at", "get", "find", "count", "contains"))
+_CASTS = frozenset(("checkedCast", "uncheckedCast"))
+_LISTS = frozenset("array deque list span vector".split())
 _NAMED = re.compile(r"(?:::|std::shared_ptr<\s*(?:::)?)?(\w+)::(\w+)\s*>?")
 
 
@@ -39,8 +41,9 @@ class TypeName(msgspec.Struct, frozen=True):
 
 
 class TypedCppFile(CppFile):
-    def typed(self, module: str) -> Iterator[Chain]:
-        """The chains that begin at local variables and parameters of a type of a Slice module."""
+    def typed(self, module: str, proxies: Mapping[str, str]) -> Iterator[Chain]:
+        """The chains that begin at local variables and parameters of a type of a Slice module. `proxies` are the
+        proxies of the worker, by interface: others of the same type have the same methods."""
         if module.encode() not in self._bytes:
             return
         for node in self._nodes(module, 0, len(self._bytes)):
@@ -48,6 +51,11 @@ class TypedCppFile(CppFile):
             if named is None or named.type != "qualified_identifier" or named.child_by_field_name("scope") != node:
                 continue
             declaration, type_ = named.parent, named.child_by_field_name("name")
+            if type_ is not None and not is_uncertain(named):
+                if (own := proxies.get(re.sub(r"Prx(Ptr)?\Z", "", text(type_)))) and re.search(r"Prx", text(type_)):
+                    yield from self._of_proxy(named, Step(Word(own, self._word(type_).span)))
+                    continue
+                yield from self._of_list(named, [Step(self._word(node)), Step(self._word(type_), is_instance=True)])
             made = _initialized(named)
             if made is not None and type_ is not None and not is_uncertain(named):
                 head = [Step(self._word(node)), Step(self._word(type_), Arguments(is_exact=False))]
@@ -62,6 +70,52 @@ class TypedCppFile(CppFile):
             for declarator in declaration.children_by_field_name("declarator"):
                 if (name := _name(declarator)) is not None:
                     yield from self._of_variable(MODULES, head, name, declaration)
+
+    def dotted(self, proxy: str, methods: Collection[str], workers: Collection[str]) -> Iterator[Slip]:
+        """The methods of a proxy of the worker that follow a dot, and not an arrow."""
+        for node in self._nodes(proxy, 0, len(self._bytes)):
+            start = self._start(node, proxy, workers)
+            parent = start.parent if isinstance(start, Node) else None
+            if parent is None or parent.type != "field_expression" or field(parent, "argument") != start:
+                continue
+            name = field(parent, "field")
+            if text(field(parent, "operator")) == "." and text(name) in methods:
+                yield Slip(ARROW, self._word(name), f"{proxy}->{text(name)}")
+
+    def _of_proxy(self, named: Node, step: Step) -> Iterator[Chain]:
+        """The chains that begin at variables and parameters whose type is a proxy, or a pointer to one, and at casts to
+        it."""
+        outer = _template_around(named)
+        if outer is not None and outer.type == "template_function":
+            call = outer.parent if outer.parent is not None else outer
+            call = call.parent if call.type == "qualified_identifier" and call.parent is not None else call
+            if text(field(outer, "name")) in _CASTS and call.type == "call_expression":
+                steps, end = self._steps([step], call)
+                yield from (Chain(WORKER, tuple(steps)) for _ in steps[1:2])
+                yield from self._through_variable(WORKER, steps, end)
+            return
+        if outer is not None and text(field(outer, "name")) != "shared_ptr":
+            return
+        yield from self._declared(named if outer is None else outer, WORKER, [step])
+
+    def _of_list(self, named: Node, head: list[Step]) -> Iterator[Chain]:
+        """The chains that begin at variables and parameters that are lists of a type."""
+        outer = _template_around(named)
+        if outer is not None and outer.type == "template_type" and text(field(outer, "name")) in _LISTS:
+            yield from self._declared(outer, MODULES, [*head, Step(Word("", head[0].word.span), makes="list")])
+
+    def _declared(self, type_: Node, root: str, head: list[Step]) -> Iterator[Chain]:
+        """The chains that begin at what is declared with a type."""
+        while type_.parent is not None and type_.parent.type == "qualified_identifier":
+            type_ = type_.parent  # `std::`
+        declaration = type_.parent
+        if declaration is None or declaration.type not in _DECLARING or field(declaration, "type") != type_:
+            return
+        for declarator in declaration.children_by_field_name("declarator"):
+            if (name := _name(declarator)) is not None:
+                yield from self._of_variable(root, head, name, declaration)
+                if declaration.type == "for_range_loop":
+                    return
 
     def members(self, workers: Collection[str]) -> Iterator[tuple[str, TypeName]]:
         """The members of the worker's classes that are of a type of a module, each with the type."""
@@ -138,6 +192,16 @@ class TypedCppFile(CppFile):
             node = self._tree.root_node.descendant_for_byte_range(found.start(), found.end())
             if node is not None and node.type == "string_literal":
                 yield node
+
+
+def _template_around(named: Node) -> Node | None:
+    """The template whose only or first argument is this type."""
+    descriptor = named.parent
+    given = descriptor.parent if descriptor is not None and descriptor.type == "type_descriptor" else None
+    if descriptor is None or given is None or given.type != "template_argument_list":
+        return None
+    is_first = given.named_children[0] == descriptor and len(descriptor.named_children) == 1
+    return given.parent if is_first else None
 
 
 def _initialized(type_: Node) -> tuple[Node, Node] | None:

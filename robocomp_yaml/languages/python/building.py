@@ -8,6 +8,7 @@ import shutil
 import sys
 from collections.abc import Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from typing import Any
 
 from robocomp_yaml.building.job import BuildStep, ComponentBuild, Job
 from robocomp_yaml.building.unit import Unit
@@ -15,9 +16,11 @@ from robocomp_yaml.diag.codes import building as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
 from robocomp_yaml.diag.errors import reason_of
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.languages.python import LANGUAGE
 
 _MARK = "\x1ercyaml "
+_OUTDATED = "outdated"
 _LAST = 10  # lines that are shown of an error outside of the user's code
 
 
@@ -29,9 +32,13 @@ def build(job: Job, units: list[Unit]) -> dict[Unit, ComponentBuild]:
             for number, (unit, future) in enumerate(running.items()):
                 job.report(BuildStep(number, len(units), f"Trying {unit.name}"))
                 code, cpu, lines = future.result()
-                found = list(_diagnostics(lines))
+                faults = [json.loads(line.removeprefix(_MARK)) for line in lines if line.startswith(_MARK)]
+                found = list(_diagnostics(faults))
                 job.add(found)
-                if code and not has_errors(found):
+                if outdated := next((fault["text"] for fault in faults if fault["kind"] == _OUTDATED), ""):
+                    command = typed("rcyaml", "compile", unit.document)
+                    job.add_failure(unit, outdated.partition(": compile")[0], hint=f"`{command}`")
+                elif code and not has_errors(found):
                     output = [line for line in lines if not line.startswith(_MARK)]
                     job.add_failure(unit, "its code cannot be imported", more=output[-_LAST:])
                 done[unit] = ComponentBuild(code == 0, cpu)
@@ -55,10 +62,9 @@ def _tried(job: Job, unit: Unit) -> tuple[int, float, list[str]]:
     return ended.code, ended.cpu, lines
 
 
-def _diagnostics(lines: Iterable[str]) -> Iterator[Diagnostic]:
-    for line in lines:
-        if line.startswith(_MARK):
-            fault = json.loads(line.removeprefix(_MARK))
+def _diagnostics(faults: Iterable[dict[str, Any]]) -> Iterator[Diagnostic]:
+    for fault in faults:
+        if fault["kind"] != _OUTDATED:
             code = codes.ERROR_OF_COMPILER if fault["kind"] == "error" else codes.WARNING_OF_COMPILER
             column = max(1, fault["column"])
             end = max(column + 1, fault["end"])

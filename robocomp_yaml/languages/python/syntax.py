@@ -13,6 +13,11 @@ def parameters_of(given: ast.arguments | None) -> list[ast.arg]:
     return [*given.posonlyargs, *given.args, *given.kwonlyargs, *more]
 
 
+def plain_parameters(given: ast.arguments | None) -> list[ast.arg]:
+    """The parameters that get one argument each."""
+    return [] if given is None else [*given.posonlyargs, *given.args, *given.kwonlyargs]
+
+
 def annotations_of(node: ast.FunctionDef | ast.AsyncFunctionDef) -> list[ast.expr]:
     found = [argument.annotation for argument in parameters_of(node.args)]
     return [one for one in (*found, node.returns) if one is not None]
@@ -50,3 +55,11 @@ def constant(node: ast.expr) -> bool | int | float | str | None:
 
 def imports_all(node: ast.AST, modules: Iterable[str]) -> bool:
     return isinstance(node, ast.ImportFrom) and (node.module or "") in modules and node.names[0].name == "*"
+
+
+def unpacked_count(targets: list[ast.expr]) -> int:
+    """The number of variables to which a value is unpacked; 0 if it is not, or if it may be any."""
+    for target in targets:
+        if isinstance(target, (ast.Tuple, ast.List)):
+            return 0 if any(isinstance(one, ast.Starred) for one in target.elts) else len(target.elts)
+    return 0

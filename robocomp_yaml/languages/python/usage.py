@@ -15,6 +15,7 @@ from functools import partial
 from msgspec import structs
 
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.suggest import likeness, suggest
 from robocomp_yaml.emit.lowering import ports as lowering
 from robocomp_yaml.emit.usage import offer as offers
 from robocomp_yaml.emit.usage.code import MODULES, SERVED, WORKER, CodeUsage, Slip
@@ -27,6 +28,7 @@ from robocomp_yaml.languages.python.names import PORTS, WORKER_ATTRIBUTES, modul
 from robocomp_yaml.languages.python.types import hint_of
 from robocomp_yaml.languages.python.usage_classes import UserClasses, classes_of
 from robocomp_yaml.languages.python.usage_files import FileUsage, UsageReader
+from robocomp_yaml.languages.python.usage_signatures import functions, methods
 from robocomp_yaml.languages.python.usage_slips import slips
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model import machine_names
@@ -64,6 +66,7 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
         outputs=False,
         keywords=_keywords,
         future=_future,
+        of_ice=_OF_ICE,
     )
     if is_own:
         of_parameters = {**natives, offers.LIST: _members_of(tuple)}
@@ -84,11 +87,15 @@ def offer(linked: LinkedComponent) -> WorkerOffer:
         members |= dict.fromkeys((*handled, *(one.name for one in machine_names.actions(machine))), others)
     served = offers.served(ports)
     members |= {name: OfferedMember() for one in served for name in one.methods if name not in members}
+    made = partial(
+        offers.proxy, called=PORTS.called, others=_is_of_every_proxy, returned=returned, outputs=False,
+        keywords=_keywords, future=_future, of_ice=_OF_ICE,
+    )  # fmt: skip
     modules = offers.modules(
-        linked, module_variable, python_name, _is_in_interfaces, types.of_definition, classes=True
+        linked, module_variable, python_name, _is_in_interfaces, types.of_definition, classes=True, prx=made
     )  # fmt: skip
     if is_own and not linked.broken:
-        modules = _as_hints(linked, modules)
+        modules = _as_hints(linked, modules, types)
     if not is_own:  # RoboComp's tool also has the sequences beside the modules
         beside = dict.fromkeys(_sequences(linked), OfferedMember())
         modules = structs.replace(modules, members={**beside, **modules.members})
@@ -148,14 +155,16 @@ _NATIVES: dict[str, tuple[type, ...]] = {
 }  # fmt: skip
 
 
-def _as_hints(linked: LinkedComponent, modules: Offer) -> Offer:
+def _as_hints(linked: LinkedComponent, modules: Offer, types: OfferedTypes) -> Offer:
     """The modules with sequences and maps for annotations only: Ice makes no classes of them."""
     members = dict(modules.members)
     for scope in linked.modules():
         module = members[module_variable(scope.module.name)]
         assert module.value is not None
         hints = {
-            python_name(one.name): OfferedMember(instead=f"in Python, it is {hint_of(one, scope)}")
+            python_name(one.name): OfferedMember(
+                instead=f"in Python, it is {hint_of(one, scope)}", instance=types.of_definition(one, scope)
+            )
             for one in scope.module.definitions if isinstance(one, (Map, Sequence))
         }  # fmt: skip
         value = structs.replace(module.value, members={**module.value.members, **hints})
@@ -176,7 +185,10 @@ def _keywords(method: Method) -> Iterator[str]:
 
 def _is_of_every_proxy(name: str) -> bool:
     """Methods of Ice, and Ice's asynchronous variants of the operations, which it makes of their names."""
-    return name.startswith(("ice_", "begin_", "end_", "_")) or name in _OF_PROXIES
+    if name.startswith("ice_"):
+        near = suggest(name, _OF_ICE)  # another one may be of a later Ice
+        return near is None or likeness(name, near) < _NEAR
+    return name.startswith(("begin_", "end_", "_")) or name in _OF_PROXIES
 
 
 def _is_of_every_struct(name: str) -> bool:
@@ -205,6 +217,24 @@ _OF_LOGS = (
 ).split()
 
 _OF_LOG = frozenset("critical debug error exception info log warning".split())
+_NEAR = 0.85  # similarity of a method of Ice that is surely misspelled
+_OF_ICE = {
+    f"ice_{name}": True for name in (
+        "adapterId batchDatagram batchOneway collocationOptimized compress connectionCached connectionId context "
+        "datagram encodingVersion endpointSelection endpoints fixed invocationTimeout locator locatorCacheTimeout "
+        "oneway preferSecure router secure timeout twoway"
+    ).split()
+} | {
+    f"ice_{name}": False for name in (
+        "checkedCast facet flushBatchRequests flushBatchRequestsAsync getAdapterId getCachedConnection getCommunicator "
+        "getCompress getConnection getConnectionAsync getConnectionId getContext getEncodingVersion "
+        "getEndpointSelection getEndpoints getFacet getIdentity getInvocationTimeout getLocator "
+        "getLocatorCacheTimeout getRouter getTimeout id idAsync identity ids idsAsync invoke invokeAsync isA isAAsync "
+        "isBatchDatagram isBatchOneway isCollocationOptimized isConnectionCached isDatagram isFixed isOneway "
+        "isPreferSecure isSecure isTwoway ping pingAsync staticId toString uncheckedCast"
+    ).split()
+}  # fmt: skip
+"""Methods of every proxy, and whether they return a proxy of the same type."""
 _OF_PROXIES = frozenset(("checkedCast", "uncheckedCast"))
 
 
@@ -257,12 +287,16 @@ def _read(files: Mapping[str, str], linked: LinkedComponent, worker: WorkerOffer
         return CodeUsage(slips=found_slips)
     modules = frozenset(worker.roots[MODULES].members)
     stored, served = _stored(trees), worker.roots[SERVED].members
+    signatures = {name: one for name, one in methods(trees).items() if name not in stored}
+    own = {path: functions(tree) for path, tree in trees.items()}
     every = {
-        path: UsageReader(path, files[path], classes, modules, served, worker.answering, stored, is_robocomp).read(tree)
+        path: UsageReader(
+            path, files[path], classes, modules, served, worker.answering, stored, signatures, own[path], is_robocomp
+        ).read(tree)
         for path, tree in trees.items()
     }
     whole = _together(every.values(), [one for path, one in every.items() if path in imported], classes)
-    return structs.replace(whole, slips=found_slips)
+    return structs.replace(whole, slips=found_slips, signatures=signatures, functions=own)
 
 
 def _stored(trees: Mapping[str, ast.Module]) -> Counter[str]:

@@ -12,6 +12,9 @@ import msgspec
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.digraph import preorder
 from robocomp_yaml.emit.usage.code import (
+    CONDITION,
+    FILE,
+    LOOPED,
     MODULES,
     SERVED,
     SETTINGS,
@@ -28,9 +31,11 @@ from robocomp_yaml.languages.python.syntax import (
     annotations_of,
     imports_all,
     names_of,
+    unpacked_count,
 )
 from robocomp_yaml.languages.python.usage_chains import SELF, Binding, ChainReader, Frame
 from robocomp_yaml.languages.python.usage_classes import UserClasses
+from robocomp_yaml.languages.python.usage_signatures import results
 
 _Function = (ast.FunctionDef, ast.AsyncFunctionDef)
 # A worker that these get is not changed.
@@ -57,10 +62,13 @@ class UsageReader(ChainReader):
         served: Container[str],
         answers: Container[str],
         stored: Counter[str],
+        signatures: Container[str],
+        functions: Container[str],
         is_robocomp: bool,
     ) -> None:
         super().__init__(path, text, {"generated.interfaces", *(("interfaces",) if is_robocomp else ())})
-        self._classes, self._stored = classes, stored
+        self._classes, self._stored, self._workers = classes, stored, classes.workers
+        self._signatures, self._functions = signatures, functions
         self._modules, self._served, self._answers, self._is_robocomp = modules, served, answers, is_robocomp
         self._found = FileUsage()
         self._caught: frozenset[str] = frozenset()
@@ -82,6 +90,9 @@ class UsageReader(ChainReader):
         if any(imports_all(node, {*self._sources, "genericworker"}) for node in tree.body):
             known = {name: Binding(MODULES, (Step(Word(name, Span(self._path))),)) for name in self._modules}
             frame = {**known, **frame}
+        self._returns = {
+            name: one for name, one in results(tree).items() if name in self._signatures and not self._stored[name]
+        }
         self._find_aliases(tree, frame)
         self._visit_all(tree.body, (frame,))
         return self._found
@@ -92,6 +103,8 @@ class UsageReader(ChainReader):
             if not isinstance(class_, ast.ClassDef) or class_.name not in self._classes.workers:
                 continue
             for method in class_.body:
+                if isinstance(method, ast.AnnAssign) and isinstance(method.target, ast.Name):
+                    self._hint_alias(method.target.id, method.annotation, frame)
                 for node in ast.walk(method) if isinstance(method, _Function) else ():
                     match node:
                         case (
@@ -105,6 +118,17 @@ class UsageReader(ChainReader):
                                 chain = self._chain(value, frames)
                                 if (chain is not None and chain[1]) or chain == (SETTINGS, ()):
                                     self._aliases[name] = chain
+                    match node:
+                        case ast.AnnAssign(target=ast.Attribute(value=ast.Name(id=owner), attr=name), annotation=hint):
+                            if isinstance(method, _Function):
+                                if self._lookup(owner, (frame, self._method_frame(method))) == (WORKER, ()):
+                                    self._hint_alias(name, hint, frame)
+
+    def _hint_alias(self, name: str, hint: ast.expr, frame: Frame) -> None:
+        """An attribute of the worker with an annotation."""
+        found = self._hinted(hint, (frame,), 0)
+        if found is not None and found[1] and name not in self._aliases:
+            self._aliases[name] = found
 
     # Statements and expressions
 
@@ -135,8 +159,9 @@ class UsageReader(ChainReader):
             case ast.Assign(targets=targets, value=value):
                 for target in targets:
                     self._target(target, value, frames)
-                self._visit_value(value, frames, _unpacked(targets))
-            case ast.AnnAssign(target=target, value=ast.expr() as value):
+                self._visit_value(value, frames, unpacked_count(targets))
+            case ast.AnnAssign(target=target, annotation=annotation, value=ast.expr() as value):
+                self._visit_hints([annotation], frames)
                 self._target(target, value, frames)
                 self._visit_value(value, frames)
             case ast.AnnAssign(target=target, annotation=annotation):
@@ -144,6 +169,20 @@ class UsageReader(ChainReader):
                 self._visit_hints([annotation], frames)
             case ast.Compare(left=left, ops=[ast.Eq() | ast.NotEq() | ast.In() | ast.NotIn()], comparators=[right]):
                 self._compared(left, right, frames)
+            case ast.BinOp(left=left, op=ast.Add(), right=right):
+                for one, other in ((left, right), (right, left)):
+                    form, chain = self._form(other, frames), self._chain(one, frames)
+                    if form is not None and chain is not None and chain[1]:
+                        self._add_again(Chain(*chain, caught=self._caught, added=form))
+                self._visit_all((left, right), frames)
+            case ast.If(test=test) | ast.While(test=test) | ast.IfExp(test=test) | ast.Assert(test=test) if isinstance(
+                test, (ast.Call, ast.UnaryOp)
+            ):
+                self._used(test.operand if isinstance(test, ast.UnaryOp) else test, CONDITION, frames)
+                self._visit_all(ast.iter_child_nodes(node), frames)
+            case ast.For(iter=ast.Call() as value) | ast.comprehension(iter=ast.Call() as value):
+                self._used(value, LOOPED, frames)
+                self._visit_all(ast.iter_child_nodes(node), frames)
             case ast.Match(subject=subject, cases=cases):
                 self._compared(subject, _patterns(cases), frames)
                 self._visit_all(cases, frames)
@@ -182,6 +221,12 @@ class UsageReader(ChainReader):
             if chain is not None and chain[1]:
                 self._add_again(Chain(*chain, caught=self._caught, compared=found))
         self._visit_all((left, right), frames)
+
+    def _used(self, node: ast.expr, used: str, frames: tuple[Frame, ...]) -> None:
+        """The result of a call that is used at once."""
+        chain = self._chain(node, frames) if isinstance(node, ast.Call) else None
+        if chain is not None and chain[1]:
+            self._add_again(Chain(*chain, caught=self._caught, used=used))
 
     def _add_again(self, chain: Chain) -> None:
         """Adds a chain whose steps belong to another one, too."""
@@ -314,7 +359,19 @@ class UsageReader(ChainReader):
                     self._visit(now, frames)
                     return
 
+    def _own_call(self, node: ast.Call, frames: tuple[Frame, ...]) -> None:
+        """Records a call of what the code defines itself."""
+        match node.func:
+            case ast.Attribute(value=ast.Name(id=owner), attr=name) if name in self._signatures:
+                if self._lookup(owner, frames) == (WORKER, ()):
+                    word = self._word(name, node.func, (node.func.end_col_offset or 0) - len(name.encode()))
+                    self._add(Chain(WORKER, (Step(word, self._arguments_of(node, frames, 0)),), caught=self._caught))
+            case ast.Name(id=name) if name in self._functions and not any(name in one for one in frames[1:]):
+                word = self._word(name, node.func, node.func.col_offset)
+                self._add(Chain(FILE, (Step(word, self._arguments_of(node, frames, 0)),), caught=self._caught))
+
     def _call(self, node: ast.Call, frames: tuple[Frame, ...], keys: set[int]) -> None:
+        self._own_call(node, frames)
         name = next(iter(names_of(node.func)), "")
         is_harmless = name in _HARMLESS or name in self._classes.defined
         if name == "setattr" or name == "__setattr__":
@@ -326,14 +383,6 @@ class UsageReader(ChainReader):
 
     def _add(self, chain: Chain) -> None:
         self._found.chains.append(msgspec.structs.replace(chain, is_hint=True) if self._is_hint else chain)
-
-
-def _unpacked(targets: list[ast.expr]) -> int:
-    """The number of variables to which a value is unpacked; 0 if it is not, or if it may be any."""
-    for target in targets:
-        if isinstance(target, (ast.Tuple, ast.List)):
-            return 0 if any(isinstance(one, ast.Starred) for one in target.elts) else len(target.elts)
-    return 0
 
 
 def _patterns(cases: list[ast.match_case]) -> ast.Tuple:

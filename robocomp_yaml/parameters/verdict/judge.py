@@ -23,6 +23,7 @@ from robocomp_yaml.parameters.types import (
     json_type,
     unit_of,
 )
+from robocomp_yaml.parameters.verdict.other_properties import section_of
 from robocomp_yaml.parameters.verdict.plain import KIND, wrong
 from robocomp_yaml.parameters.words import kind_in_words
 from robocomp_yaml.secrets import HIDDEN, url
@@ -215,6 +216,9 @@ def _record(type_: RecordType, node: Node, path: Path, complete: bool, key: Scal
 
 def unknown(name: Scalar, type_: RecordType, path: Path, node: Mapping) -> Diagnostic:
     hint = hint_for_key(name.lexeme, (member.name for member in type_.members), node.entries)
+    value = node.entries[name.lexeme][1] if name.lexeme in node.entries else None
+    if not path:
+        hint = Hint(section_of(name.lexeme, value, is_similar=bool(hint.meant))) or hint
     return codes.UNKNOWN_PARAMETER.at(name.span, path=in_words((*path, name.lexeme)), hint=hint)
 
 

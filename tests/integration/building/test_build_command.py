@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -136,6 +137,18 @@ def test_a_component_that_is_not_compiled(rcyaml: Rcyaml, tmp_path: Path) -> Non
     assert result.exit_code == 1
     assert "error[RC8004]: ArmComp is not compiled yet" in result.stdout
     assert "`rcyaml compile arm/arm.cdsl.yaml`" in result.stdout
+
+
+def test_a_component_of_another_run_time_is_told_with_its_command(workspace: Path, rcyaml: Rcyaml) -> None:
+    """Another component was compiled with another rcyaml, which replaced the run time."""
+    code = workspace / "leg" / "generated" / "component.py"
+    before = re.search(r"runtime=[\"'](\w+)", code.read_text())
+    assert before is not None
+    code.write_text(code.read_text().replace(before[1], "0" * len(before[1])))
+    result = rcyaml("build")
+    assert "LegComp cannot be built: it was generated for another run time than the one in" in result.stdout
+    assert "`rcyaml compile leg/leg.cdsl.yaml`" in result.stdout and "Traceback" not in result.stdout
+    assert "built       arm/bin/ArmComp" in result.stdout
 
 
 def test_a_change_since_the_compile_is_reported(workspace: Path, rcyaml: Rcyaml) -> None:

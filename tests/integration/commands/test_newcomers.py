@@ -49,6 +49,7 @@ def test_an_empty_folder_has_one_summary(
         (["deploy", "plan", "nowhere.yaml"], "Invalid value for 'DDSL': Path 'nowhere.yaml' does not exist"),
         (["deploy", "export"], "Missing option '--as'. Choose from: compose, icegrid, rcmanager, systemd"),
         (["mock", "notes.txt"], "--script notes.txt reads a script"),
+        (["mock", "Pump.idsl.yaml"], "is a file: an interface or topic is named"),
     ],
 )
 def test_a_command_says_what_to_type_instead(
@@ -56,7 +57,8 @@ def test_a_command_says_what_to_type_instead(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))  # no deployment runs, whatever other tests have left
-    (tmp_path / "notes.txt").write_text("hi\n")
+    for name in ("notes.txt", "Pump.idsl.yaml"):
+        (tmp_path / name).write_text("hi\n")
     done = rcyaml(*words)
     assert done.exit_code == 2 and said in " ".join(done.stderr.split())
 

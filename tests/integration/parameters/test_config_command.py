@@ -193,6 +193,7 @@ def test_set_does_not_make_a_list_that_a_layer_holds(run: Run) -> None:
         ("speed", "[", "'[' is not a value"),
         ("motors", "[]", "error[RC3305]: motors has 0 elements, and must have 1 to 4"),
         ("sped", "1", "unknown parameter 'sped'; did you mean 'speed'?"),
+        ("Ice.MessageSizeMax", "3", "write `ice: {MessageSizeMax: …}` in a values document"),
         ("motors[7].vel", "1", "the list has 2 elements"),
         ("speed", "0.1, device: x", "speed must be a number (m/s), and is a mapping"),
     ],

@@ -103,6 +103,13 @@ def test_right_deployments(text: str, others: dict[str, str]) -> None:
         ('components: {m: {component: mouth, config: ../speech/x.config.yaml}}\n', {'speech/x.config.yaml': 'component: speech.cdsl.yaml\n'}, 'RC4104', '../speech/x.config.yaml', 'these are values of component SpeechComp, not of MouthComp', 'a component cannot use the values of another one: see `component:` in that document'),
         ('components: {m: {component: mouth, set: {period.compute: 0}}}\n', {}, 'RC3303', '0', 'period.compute is 0 ms, and must be at least 1 ms', ''),
         ('components: {m: {component: mouth, set: {nothing: 0}}}\n', {}, 'RC3301', 'nothing', "unknown parameter 'nothing'", 'known keys: period'),
+        ('components: {m: {component: mouth, set: {Ice.MessageSizeMax: 3}}}\n', {}, 'RC3301', 'Ice.MessageSizeMax', "unknown parameter 'Ice'", 'it is a property of Ice: write `ice: {MessageSizeMax: …}` in a values document'),
+        ('components: {m: {component: mouth, set: {Ice: {Warn: {Connections: 1}}}}}\n', {}, 'RC3301', 'Ice', "unknown parameter 'Ice'", 'it is a property of Ice: write `ice: {Warn.Connections: …}` in a values document'),
+        ('components: {m: {component: mouth, set: {Ice: 3}}}\n', {}, 'RC3301', 'Ice', "unknown parameter 'Ice'", 'known keys: period'),
+        ('components: {m: {component: mouth, set: {IceSSL.CAs: ca.pem}}}\n', {}, 'RC3301', 'IceSSL.CAs', "unknown parameter 'IceSSL'", 'it is a property of Ice: write `properties: {IceSSL.CAs: …}` in a values document'),
+        ('components: {m: {component: mouth, set: {Mouth.Endpoints: tcp}}}\n', {}, 'RC3301', 'Mouth.Endpoints', "unknown parameter 'Mouth'", 'it is not a parameter: write `endpoints: {Mouth: …}` in a values document, or `ports: {Mouth: …}` in a deployment'),
+        ('components: {m: {component: mouth, set: {SpeechProxy: x}}}\n', {}, 'RC3301', 'SpeechProxy', "unknown parameter 'SpeechProxy'", 'it is not a parameter: write `proxies: {Speech: …}` in a values document, or `connect: {Speech: …}` in a deployment'),
+        ('components: {m: {component: mouth, set: {TopicManager.Proxy: x}}}\n', {}, 'RC3301', 'TopicManager.Proxy', "unknown parameter 'TopicManager'", 'it is not a parameter: write `topics: {manager: …}` in a values document'),
         ('components: {m: {component: mouth, set: {period.compute: x}}}\n', {}, 'RC3302', 'x', "period.compute must be a whole number (ms), and is the text 'x'", ''),
     ],
 )  # fmt: skip

@@ -63,8 +63,13 @@ def _end(error: SyntaxError) -> int | None:
 
 
 def _imports(source: str) -> bool:
-    from generated.component import COMPONENT
     from generated.runtime.errors import StartError
+
+    try:
+        from generated.component import COMPONENT
+    except StartError as error:  # another run time
+        print(sys.argv[2] + json.dumps({"kind": "outdated", "text": str(error)}), flush=True)
+        return False
     from generated.runtime.settings import Settings
     from generated.runtime.stage import Stage
     from generated.runtime.stopping import Stopping
