@@ -138,10 +138,9 @@ def ensure_nodes(
             reason = f"it was started, but does not reach the registry at {registry.address}:{registry.port}: {words}"
             hint = "all hosts must reach each other over TCP: check for a firewall between them"
         if reason:
-            where = host.span if host.span.file else Span(network.path)
             hint = "" if is_here(host) else hint
             faults[host.name] = codes.NO_NODE.at(
-                where, name=host.name, address=host.address, reason=reason, hint=hint
+                network.span_of_host(host), name=host.name, address=host.address, reason=reason, hint=hint
             )  # fmt: skip
     return faults
 
