@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import socket
 import threading
 import time
 from collections.abc import Collection, Iterable, Mapping, Sequence
@@ -78,7 +77,7 @@ def created(files: GridFiles, network: Network) -> GridSession:
 
 
 def _session(files: GridFiles, registry: Registry, network: Network) -> GridSession:
-    if not (daemons.is_alive(files.registry_folder) or _answers(registry)):
+    if not (daemons.is_alive(files.registry_folder) or registry.listens):
         try:
             daemons.start_registry(files, registry)
         except OSError as error:
@@ -94,15 +93,6 @@ def _session(files: GridFiles, registry: Registry, network: Network) -> GridSess
         return reach(files, registry, _PATIENCE)
     except Unreachable as error:
         raise _failed(network, daemons.last_words(files.registry_folder) or str(error)) from error
-
-
-def _answers(registry: Registry) -> bool:
-    """Whether something listens at the registry's port: also a registry whose files were deleted."""
-    try:
-        with socket.create_connection((registry.address, registry.port), 1.0):
-            return True
-    except OSError:
-        return False
 
 
 def ensure_nodes(

@@ -15,6 +15,7 @@ from robocomp_yaml.deploy.engines import LOCAL
 from robocomp_yaml.deploy.install import units
 from robocomp_yaml.deploy.install.installed import Installed, InstalledUnit, forget, keep, of_folder
 from robocomp_yaml.deploy.install.units import HostUnit
+from robocomp_yaml.deploy.local.obstacles import unset
 from robocomp_yaml.deploy.probe import run_on
 from robocomp_yaml.deploy.ssh import HostFailed
 from robocomp_yaml.diag.codes import deploying as codes
@@ -28,7 +29,7 @@ def install(
     network: Network, engine: str, wanted: list[HostUnit]
 ) -> tuple[list[HostUnit], list[Diagnostic]]:  # fmt: skip
     """Writes the units on all hosts, and returns those that were written. A host that cannot be reached is reported."""
-    diagnostics = _unset(network)
+    diagnostics = [one for process in network.enabled() for one in unset(process)]  # also at the next boot
     if diagnostics:
         return [], diagnostics
     if engine != LOCAL:
@@ -167,15 +168,3 @@ def _unreached(network: Network, wanted: Iterable[HostUnit]) -> list[Diagnostic]
 def _fault(network: Network, host: NetworkHost, what: str, error: HostFailed) -> Diagnostic:
     where = network.span_of_host(host)
     return codes.NO_UNIT.at(where, hint=error.hint, host=host.name, what=what, reason=str(error))
-
-
-def _unset(network: Network) -> list[Diagnostic]:
-    """Diagnostics for variables that are not set now, and would not be set at the next boot."""
-    return [
-        codes.UNSET_VARIABLE.at(
-            process.span, name=process.name, variable=variable.source, hint=f"export {variable.source}=…"
-        )
-        for process in network.enabled()
-        for variable in process.env
-        if variable.source and variable.source not in os.environ
-    ]  # fmt: skip
