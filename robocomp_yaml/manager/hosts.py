@@ -8,14 +8,9 @@ from typing import Any
 from starlette.requests import Request
 
 from robocomp_yaml.manager.access import OPERATE, READ
-from robocomp_yaml.manager.commands import ONE, Command, Served, body_of
+from robocomp_yaml.manager.commands import ONE, Command, Served, body_of, reading
 from robocomp_yaml.manager.events import PROGRESS
 from robocomp_yaml.manager.requests import PushRequest
-
-
-async def _availability(served: Served, request: Request) -> Any:
-    managed = served.watcher(request).managed
-    return await asyncio.to_thread(managed.available, request.query_params.get("host", ""))
 
 
 async def _push(served: Served, request: Request) -> Any:
@@ -33,6 +28,6 @@ async def _push(served: Served, request: Request) -> Any:
 
 COMMANDS = (
     Command("GET", f"{ONE}/availability", READ, "Which processes a host could run, and what it lacks for each.",
-            _availability, query=(("host", "The name of the host."),)),
+            reading(lambda managed, query: managed.available(query.get("host", ""))), query=(("host", "The name of the host."),)),
     Command("POST", f"{ONE}/push", OPERATE, "Bring to hosts what their processes need.", _push, PushRequest),
 )  # fmt: skip

@@ -58,14 +58,12 @@ class Members:
                 report(Fault(key.span, paths.in_words((*path, key.lexeme)), "is unknown", hint))
         for name, type_ in self.types.items():
             entry, default = node.entries.get(name), self._defaults.get(name)
+            value: Any = None
             if entry is not None:
                 value = type_.to_ice(entry[1], (*path, name), report)
             elif default is not None:
                 value = type_.to_ice(tree.scalar_at(node.span, default.lexeme), (*path, name), report)
-            elif name in meant:
-                value = None
-            else:
-                value = None
+            elif name not in meant:
                 article = "an" if type_.name[:1].lower() in "aeiou" else "a"
                 hint = f"write `{name}: …`, {article} {type_.name}"
                 report(Fault(node.span, paths.in_words((*path, name)), "is missing", hint))

@@ -63,7 +63,7 @@ def created(files: GridFiles, network: Network) -> GridSession:
     address = registry_address(network.hosts.values())
     registry = files.registry()
     if registry is None or registry.address != address:
-        _end_local(files)
+        end_daemons(files)
         try:
             if registry is None:
                 clear_up(network.folder)  # processes that run although their folder was removed
@@ -236,7 +236,7 @@ def end_node(
 def end_here(files: GridFiles) -> None:
     """Ends what runs on this machine. The deployment's key stays only if a node needs it that was started by hand."""
     nodes = files.nodes()
-    _end_local(files)
+    end_daemons(files)
     left = {host: is_started for host, is_started in nodes.items() if not is_started}
     files.keep_nodes(left)
     files.drop_configurations(with_key=not left)
@@ -244,11 +244,6 @@ def end_here(files: GridFiles) -> None:
 
 def end_daemons(files: GridFiles) -> None:
     """Ends the registry, and the nodes of this machine that rcyaml started. All else stays, for the next start."""
-    _end_local(files)
-
-
-def _end_local(files: GridFiles) -> None:
-    """Ends the registry, and the nodes of this machine that rcyaml started."""
     nodes = [f"{files.root}/nodes/{host}" for host, is_started in files.nodes().items() if is_started]
     for folder in (*nodes, files.registry_folder):
         daemons.end(folder)
