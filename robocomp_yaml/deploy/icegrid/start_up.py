@@ -7,6 +7,7 @@ import time
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
+from functools import partial
 from typing import TYPE_CHECKING
 
 from robocomp_yaml.deploy import folder as own_folder
@@ -123,7 +124,8 @@ def ensure_nodes(
         by_hand_too = f"start it by hand, then try again: {daemons.by_hand(shown_path(scripts[host.name]), host)}"
         hint = f"{hint}; or {by_hand_too}" if hint else by_hand_too
         own = f"{files.on(host.name).root}/nodes/{host.name}"
-        if not reason and not (_has_node(grid, host) or (is_here(host) and _has_ended_hung(grid, host.name))):
+        is_up = bool(reason) or until(partial(grid.has_node, host.name), _PATIENCE)
+        if not is_up and not (is_here(host) and _has_ended_hung(grid, host.name)):
             words = daemons.last_words(own) or f"see {own}/log on that host"
             reason = f"it was started, but does not reach the registry at {registry.address}:{registry.port}: {words}"
             hint = "all hosts must reach each other over TCP: check for a firewall between them"
@@ -133,10 +135,6 @@ def ensure_nodes(
                 network.span_of_host(host), name=host.name, address=host.address, reason=reason, hint=hint
             )  # fmt: skip
     return faults
-
-
-def _has_node(grid: GridSession, host: NetworkHost) -> bool:
-    return until(lambda: grid.has_node(host.name), _PATIENCE)
 
 
 def _has_ended_hung(grid: GridSession, host: str) -> bool:

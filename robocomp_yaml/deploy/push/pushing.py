@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Callable, Collection, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import TypeVar
@@ -43,7 +44,7 @@ def compared(
         return push, faults
 
     found, diagnostics = _on_each(network, hosts, work)
-    if sending.lacks_rsync():
+    if shutil.which("rsync") is None:
         diagnostics += [_without_rsync(network, push.host, "this machine") for push, _ in found if not push.is_empty]
     return [push for push, _ in found], diagnostics + [fault for _, faults in found for fault in faults]
 

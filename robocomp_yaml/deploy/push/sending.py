@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import shlex
-import shutil
 import subprocess
 import tempfile
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -92,7 +91,3 @@ def _rsync(host: NetworkHost, base: str, target: str, names: Mapping[str, str], 
     if rsync.returncode:
         said = [line.strip() for line in errors if line.strip() and not line.startswith("rsync error:")]
         raise HostFailed(said[0] if said else f"rsync ended with exit code {rsync.returncode}")
-
-
-def lacks_rsync() -> bool:
-    return shutil.which("rsync") is None
