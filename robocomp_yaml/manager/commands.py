@@ -27,6 +27,7 @@ from robocomp_yaml.manager.requests import (
     EditRequest,
     OperationRequest,
     ParameterRequest,
+    PushRequest,
     UndoRequest,
     Unknown,
 )
@@ -228,6 +229,19 @@ async def _set_parameter(served: Served, request: Request) -> Any:
     return done
 
 
+async def _push(served: Served, request: Request) -> Any:
+    wanted, watcher = await body_of(request, PushRequest), served.watcher(request)
+    events, loop = watcher.events, asyncio.get_running_loop()
+
+    def report(host: str, path: str) -> None:
+        loop.call_soon_threadsafe(events.send, PROGRESS, {"action": "push", "host": host, "path": path})
+
+    events.happened("", f"push {' '.join(wanted.hosts)}".rstrip())
+    done = await asyncio.to_thread(watcher.managed.push, wanted.hosts, report)
+    events.happened("", f"push: {'done' if done['ok'] else 'failed'}")
+    return done
+
+
 ONE = "/deployments/{deployment}"
 _NAMES = ("name", "A process or group; may be repeated. Without it, all.")
 COMMANDS = (
@@ -247,6 +261,14 @@ COMMANDS = (
             reading(_document), query=(("path", "The document; by default, that of the deployment."),)),
     Command("GET", f"{ONE}/parameters", READ, "The values that a running component has now.",
             reading(_parameters), query=(("process", "The process."),)),
+    Command("GET", f"{ONE}/entries", READ, "The entries with their ports, and what could be added.",
+            reading(lambda managed, query: managed.entries())),
+    Command("GET", f"{ONE}/process", READ, "The types of a process' parameters and of its methods' arguments.",
+            reading(lambda managed, query: managed.process(query.get("name", ""))), query=(("name", "The process."),)),
+    Command("GET", f"{ONE}/availability", READ, "Which processes a host could run, and what it lacks for each.",
+            reading(lambda managed, query: managed.available(query.get("host", ""))),
+            query=(("host", "The name of the host."),)),
+    Command("POST", f"{ONE}/push", OPERATE, "Bring to hosts what their processes need.", _push, PushRequest),
     Command("POST", f"{ONE}/up", OPERATE, "Start the network, and apply changes to it.", _operation("up"),
             OperationRequest),
     Command("POST", f"{ONE}/restart", OPERATE, "Stop processes, and start them again.", _operation("restart"),
