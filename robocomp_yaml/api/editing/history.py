@@ -7,7 +7,6 @@ that the change made.
 
 from __future__ import annotations
 
-import contextlib
 import os
 
 import msgspec
