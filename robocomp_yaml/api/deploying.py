@@ -193,8 +193,7 @@ class Deployment:
             raise Faulty(self.diagnostics)
         forced = (chosen or self.enabled) if restart else set[str]()
 
-        async def decided(result: Result) -> str:
-            return on_failure if isinstance(on_failure, str) else await on_failure(result)
+        decided = operations.always(on_failure) if isinstance(on_failure, str) else on_failure
 
         async def work() -> Result:
             await self._engine.open(self.network, create=True)
@@ -235,8 +234,7 @@ class Deployment:
         configurations. Programs that were rebuilt since then stay rebuilt. Raises Refused if there was none."""
         own = self.network.folder
 
-        async def decided(result: Result) -> str:
-            return on_failure if isinstance(on_failure, str) else await on_failure(result)
+        decided = operations.always(on_failure) if isinstance(on_failure, str) else on_failure
 
         async def work() -> Result:
             is_running = await self._engine.open(self.network, create=False)

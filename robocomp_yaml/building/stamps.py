@@ -111,11 +111,7 @@ def keep(unit: Unit, begun: BuildStamp) -> None:
         return
     with contextlib.suppress(OSError):
         os.makedirs(unit.path(FOLDER), exist_ok=True)
-        with (
-            contextlib.suppress(FileExistsError),
-            open(unit.path(f"{FOLDER}/.gitignore"), "x", encoding="utf-8") as own,
-        ):
-            own.write("*\n")
+        whole_file.ignore_all(unit.path(FOLDER))
         kept = msgspec.structs.replace(begun, program=program, digest=Inputs().digest(unit.program, program))
         text = json.dumps(msgspec.to_builtins(kept), separators=(",", ":"))
         whole_file.put(unit.path(_NAME), text.encode("utf-8", "surrogateescape"))

@@ -45,6 +45,7 @@ class _Since(click.ParamType):  # type: ignore[type-arg]  # older ones are not g
 
 
 _names = click.argument("names", cls=DocumentAnd, metavar="[NAME]...")
+_nothing = click.argument("nothing", cls=DocumentAnd, limit=0, expose_value=False)
 _engine = click.option("--engine", type=click.Choice([*ENGINES]),
                        help="The engine: local for one machine, icegrid for several.")  # fmt: skip
 _timeout = click.option("--timeout", type=Duration(), metavar="TIME",
@@ -166,7 +167,7 @@ def restart(
 
 
 @_subcommand("Go back to the last up that was all ready.", _engine, lenient=True)
-@click.argument("nothing", cls=DocumentAnd, limit=0, expose_value=False)
+@_nothing
 @_on_failure("What happens to the restarted processes if one fails.")
 @_timeout
 def rollback(session: DeploySession, on_failure: str, timeout: float | None) -> None:
@@ -192,9 +193,6 @@ def push(session: DeploySession, names: tuple[str, ...], dry_run: bool) -> None:
     from robocomp_yaml.commands import _pushing
 
     _pushing.push(session, names, dry_run=dry_run)
-
-
-_nothing = click.argument("nothing", cls=DocumentAnd, limit=0, expose_value=False)
 
 
 @_subcommand("Let systemd start the network at boot.", _engine)
@@ -230,10 +228,7 @@ def probe(session: DeploySession, host: tuple[str, ...]) -> None:
     session.probe(*host)
 
 
-@_subcommand(
-    "Write the network in the format of another tool.",
-    click.argument("nothing", cls=DocumentAnd, limit=0, expose_value=False),
-)
+@_subcommand("Write the network in the format of another tool.", _nothing)
 @click.option("--as", "form", required=True, type=PluginChoice(_exports), help="The tool.")
 @click.option("-o", "--output", metavar="DIR", type=click.Path(file_okay=False), help="Write the files below DIR.")
 def export(session: DeploySession, form: str, output: str | None) -> None:

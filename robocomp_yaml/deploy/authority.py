@@ -98,9 +98,7 @@ class Authority:
         return all(os.path.exists(f"{self._folder}/authority.{end}") for end in ("key", "crt"))
 
     def _index(self) -> dict[str, Certificate]:
-        with contextlib.suppress(OSError, ValueError), open(f"{self._folder}/index.json", "rb") as file:
-            return msgspec.json.decode(file.read(), type=dict[str, Certificate])
-        return {}
+        return registered.read(f"{self._folder}/index.json", dict[str, Certificate]) or {}
 
     def _make_authority(self) -> None:
         with openssl.certificate(self._folder, "rcyaml", _AUTHORITY) as work:

@@ -22,7 +22,9 @@ def beside(network: Network) -> Iterator[None]:
     async def start() -> None:
         try:
             await engine.open(network, create=True)
-            result = await operations.up(engine, network, (), (), _stop, lambda event: None)
+            result = await operations.up(
+                engine, network, (), (), operations.always(operations.STOP_THEM), lambda event: None
+            )
         except DeployFailed as error:
             raise Faulty([error.diagnostic]) from error
         if result.diagnostics:
@@ -39,7 +41,3 @@ def beside(network: Network) -> Iterator[None]:
             yield
         finally:
             runner.run(stop())
-
-
-async def _stop(failed: operations.Result) -> str:
-    return operations.STOP_THEM

@@ -26,8 +26,7 @@ def make(folder: str) -> None:
     """Creates the folder and its subfolders. Raises OSError."""
     above = os.path.dirname(folder)
     os.makedirs(above, exist_ok=True)
-    with contextlib.suppress(FileExistsError), open(f"{above}/.gitignore", "x", encoding="ascii") as file:
-        file.write("# What is derived for one machine, and may be secret.\n*\n")
+    whole_file.ignore_all(above, "# What is derived for one machine, and may be secret.\n")
     for path in (folder, *(f"{folder}/{part}" for part in _PARTS)):
         with contextlib.suppress(FileExistsError):
             os.mkdir(path)

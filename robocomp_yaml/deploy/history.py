@@ -81,11 +81,7 @@ def _is_same(one: Mapping[str, ProcessSpec | None], other: Mapping[str, ProcessS
     if one.keys() != other.keys():
         return False
     pairs = ((one[name], other[name]) for name in one)
-    return all(old and new and not differences(old, _with_files_of(old, new)) for old, new in pairs)
-
-
-def _with_files_of(old: ProcessSpec, new: ProcessSpec) -> ProcessSpec:
-    return replace(new, digests=old.digests)
+    return all(old and new and not differences(old, replace(new, digests=old.digests)) for old, new in pairs)
 
 
 def read(folder: str) -> list[Specs]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import socket
 
 import msgspec
 
@@ -11,8 +10,6 @@ from robocomp_yaml.deploy import folder, registered
 from robocomp_yaml.deploy.engines import LOCAL
 from robocomp_yaml.deploy.install import installed as records
 from robocomp_yaml.deploy.registered import RegisteredDeployment
-
-_WITHIN = 1.0  # seconds
 
 
 class ListedDeployment(msgspec.Struct, frozen=True):
@@ -37,9 +34,7 @@ def listed() -> list[ListedDeployment]:
     found = [_listed(one, _state(one), installed.pop(one.folder, ())) for one in every]
     for one in records.every():
         if one.folder in installed:
-            hosts = tuple(unit.host for unit in one.units)
-            entry = RegisteredDeployment(one.name, one.document, one.folder, one.engine, hosts)
-            found.append(_listed(entry, "not running", installed[one.folder]))
+            found.append(_listed(one.entry, "not running", installed[one.folder]))
     return sorted(found, key=lambda one: (one.name, one.folder))
 
 
@@ -75,10 +70,4 @@ def _answers(one: RegisteredDeployment) -> bool:
     from robocomp_yaml.deploy.icegrid.grid_files import GridFiles
 
     registry = GridFiles(one.folder).registry() or GridFiles(registered.copies(one.folder)).registry()
-    if registry is None:
-        return False
-    try:
-        with socket.create_connection((registry.address, registry.port), _WITHIN):
-            return True
-    except OSError:
-        return False
+    return registry is not None and registry.listens

@@ -42,6 +42,15 @@ class Result(msgspec.Struct):
 Choose = Callable[[Result], Awaitable[str]]
 
 
+def always(what: str) -> Choose:
+    """The choice that is the same for every result."""
+
+    async def choose(result: Result) -> str:
+        return what
+
+    return choose
+
+
 class Status(msgspec.Struct, frozen=True):
     """The status of a process of the network, or of a process that runs and is no longer part of it. `running` is None
     if it was never started."""

@@ -16,7 +16,7 @@ import msgspec
 
 from robocomp_yaml import languages, resources
 from robocomp_yaml.deploy.here import is_here
-from robocomp_yaml.deploy.ssh import CLIENT, SshFailed
+from robocomp_yaml.deploy.ssh import CLIENT, CommandResult, HostFailed
 from robocomp_yaml.diag.codes import deploying as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.errors import reason_of
@@ -38,14 +38,6 @@ class ProgramQuery(msgspec.Struct, frozen=True):
 
     program: str
     python: str = ""
-
-
-class ProbeFailed(Exception):
-    """The host cannot be probed; the text has the reason. `hint` suggests what to do, or is ''."""
-
-    def __init__(self, reason: str, hint: str = "") -> None:
-        super().__init__(reason)
-        self.hint = hint
 
 
 class ProbedProgram(msgspec.Struct, frozen=True):
@@ -103,7 +95,7 @@ async def ask(
     answers: dict[str, list[ProbedProgram]] = {}
     failed: list[Diagnostic] = []
     for host, answer in zip(hosts, results, strict=True):
-        if isinstance(answer, ProbeFailed):
+        if isinstance(answer, HostFailed):
             failed.append(
                 codes.NO_ANSWER.at(host.span, host=host.name, address=host.address, reason=answer, hint=answer.hint)
             )
@@ -115,18 +107,17 @@ async def ask(
 
 
 async def probe(host: NetworkHost, queries: dict[ProgramQuery, tuple[str, ...]]) -> list[ProbedProgram]:
-    """The programs of a host. Raises ProbeFailed."""
+    """The programs of a host. Raises HostFailed."""
     is_far = bool(host.folders) and not is_here(host)
     there = [host.there(one.program) if is_far and one.program.startswith("/") else one.program for one in queries]
     questions = "".join(f"{one.python}\t{path}\n" for one, path in zip(queries, there, strict=True)).encode(
         errors="surrogateescape"
     )
     script = ["sh", "-c", resources.text(SCRIPT), "ask", modules()]
-    code, answer, errors = await asyncio.to_thread(run_on, host, script, questions)
-    lines = answer.decode(errors="surrogateescape").splitlines()
-    if code or len(lines) != len(queries):
-        text = errors.strip().splitlines()
-        raise ProbeFailed(text[-1] if text else f"the answer is not valid (exit code {code})")
+    done = await asyncio.to_thread(run_on, host, script, questions)
+    lines = done.output.decode(errors="surrogateescape").splitlines()
+    if done.code or len(lines) != len(queries):
+        raise HostFailed(done.reason("the answer is not valid"))
     answers = zip(queries.items(), lines, strict=True)
     return [_found(one.program, used_by, line.split("\t")) for (one, used_by), line in answers]
 
@@ -136,18 +127,14 @@ def _found(program: str, used_by: tuple[str, ...], fields: Sequence[str]) -> Pro
     return ProbedProgram(program, used_by, path, digest, day, tuple(missing.split()))
 
 
-def run_on(host: NetworkHost, script: list[str], given: bytes = b"") -> tuple[int, bytes, str]:
-    """The exit code, the output and the errors of a command on a host. Raises ProbeFailed."""
+def run_on(host: NetworkHost, script: list[str], given: bytes = b"") -> CommandResult:
+    """The result of a command on a host. Raises HostFailed."""
     if not is_here(host):
-        try:
-            done = CLIENT.run(host, script, given, WITHIN)
-        except SshFailed as error:
-            raise ProbeFailed(str(error), error.hint) from error
-        return done.code, done.output, done.errors
+        return CLIENT.run(host, script, given, WITHIN)
     try:
         found = subprocess.run(script, input=given, capture_output=True, check=False, timeout=WITHIN)
     except subprocess.TimeoutExpired as error:
-        raise ProbeFailed(f"no answer within {WITHIN:g} s") from error
+        raise HostFailed(f"no answer within {WITHIN:g} s") from error
     except OSError as error:
-        raise ProbeFailed(f"cannot run {script[0]}: {reason_of(error)}") from error
-    return found.returncode, found.stdout, found.stderr.decode(errors="replace")
+        raise HostFailed(f"cannot run {script[0]}: {reason_of(error)}") from error
+    return CommandResult(found.returncode, found.stdout, found.stderr.decode(errors="replace"))

@@ -10,6 +10,7 @@ import contextlib
 import os
 import shutil
 from collections.abc import Iterable
+from typing import TypeVar
 
 import msgspec
 
@@ -18,6 +19,7 @@ from robocomp_yaml.network.network import Network, NetworkHost, SshAccess
 from robocomp_yaml.source.digest import digest
 from robocomp_yaml.transactions import whole_file
 
+T = TypeVar("T")
 _ENTRY = "deployment.json"
 _COPIES = "files"
 
@@ -73,18 +75,14 @@ def root() -> str:
     return os.path.join(base if os.path.isabs(base) else os.path.expanduser("~/.local/state"), "rcyaml", "deployments")
 
 
-def _folder(folder: str) -> str:
-    return os.path.join(root(), digest(os.fsencode(os.path.realpath(folder)))[:20])
-
-
 def private(folder: str) -> str:
     """The user's own folder about the deployment in this folder."""
-    return _folder(folder)
+    return os.path.join(root(), digest(os.fsencode(os.path.realpath(folder)))[:20])
 
 
 def made_private(folder: str) -> str:
     """The same, created with mode 0700. Raises OSError."""
-    own = _folder(folder)
+    own = private(folder)
     make_folder(own)
     return own
 
@@ -98,12 +96,12 @@ def make_folder(path: str) -> None:
 
 def authority(folder: str) -> str:
     """The folder with the certificates of the deployment in this folder. `down` does not remove it."""
-    return os.path.join(os.path.dirname(root()), "authorities", os.path.basename(_folder(folder)))
+    return os.path.join(os.path.dirname(root()), "authorities", os.path.basename(private(folder)))
 
 
 def copies(folder: str) -> str:
     """The folder with the copies of the files of the deployment in this folder."""
-    return f"{_folder(folder)}/{_COPIES}"
+    return f"{private(folder)}/{_COPIES}"
 
 
 def keep(one: RegisteredDeployment) -> None:
@@ -136,7 +134,7 @@ def restore(folder: str) -> bool:
 
 def forget(folder: str) -> None:
     """Removes the entry of the deployment in this folder, and the copies of its files."""
-    own = _folder(folder)
+    own = private(folder)
     shutil.rmtree(f"{own}/{_COPIES}", ignore_errors=True)
     with contextlib.suppress(OSError):
         os.unlink(f"{own}/{_ENTRY}")
@@ -145,7 +143,7 @@ def forget(folder: str) -> None:
 
 
 def of_folder(folder: str) -> RegisteredDeployment | None:
-    return _read(_folder(folder))
+    return _read(private(folder))
 
 
 def every() -> list[RegisteredDeployment]:
@@ -172,6 +170,11 @@ def of_document(path: str) -> RegisteredDeployment | None:
 
 def _read(folder: str) -> RegisteredDeployment | None:
     """The entry in a folder, None if there is no valid one."""
-    with contextlib.suppress(OSError, ValueError), open(f"{folder}/{_ENTRY}", "rb") as file:
-        return msgspec.json.decode(file.read(), type=RegisteredDeployment)
+    return read(f"{folder}/{_ENTRY}", RegisteredDeployment)
+
+
+def read(path: str, kind: type[T]) -> T | None:
+    """A record of the user's state, None if there is no valid one."""
+    with contextlib.suppress(OSError, ValueError), open(path, "rb") as file:
+        return msgspec.json.decode(file.read(), type=kind)
     return None

@@ -143,11 +143,7 @@ async def samples(
             order = [*own, *(name for name in running if name not in own)]
             chosen = [name for name in order if not names or name in names]
             processes = {name: _process(network, running.get(name), name) for name in chosen}
-            targets = {
-                name: (process.introspection, process.pem)
-                for name, process in processes.items()
-                if process and process.introspection and (problem or _runs(running.get(name)))
-            }
+            targets = _targets(processes, None if problem else running)
             told = await asked.sections(targets, min(_LONGEST, max(every, 0.2)))
             now = {name: _Reading(clock, running.get(name), told.get(name)) for name in chosen}
             found = (
@@ -167,8 +163,16 @@ def _process(network: Network, running: Running | None, name: str) -> Process | 
     return running.spec.process if running and running.spec else network.processes.get(name)
 
 
-def _runs(running: Running | None) -> bool:
-    return running is not None and running.state == RUNNING
+def _targets(
+    processes: Mapping[str, Process | None], running: Mapping[str, Running] | None
+) -> dict[str, tuple[str, str]]:
+    """Whom to ask: those that run and describe themselves. Without `running`, it is unknown which ones run."""
+    return {
+        name: (process.introspection, process.pem)
+        for name, process in processes.items()
+        if process and process.introspection
+        and (running is None or (name in running and running[name].state == RUNNING))
+    }  # fmt: skip
 
 
 class _Session:
@@ -273,11 +277,7 @@ class PublishedTopics:
         """The messages per second of each topic since the last call, of all its publishers that run and answer."""
         publishers = {one.source for one in network.connections if one.kind == TOPIC and one.is_out}
         processes = {name: _process(network, running.get(name), name) for name in publishers}
-        targets = {
-            name: (process.introspection, process.pem)
-            for name, process in processes.items()
-            if process and process.introspection and _runs(running.get(name))
-        }
+        targets = _targets(processes, running)
         told = await self._asked.sections(targets, _LONGEST)
         now = {name: _Reading(time.monotonic(), running.get(name), told.get(name)) for name in targets}
         found: dict[str, float] = {}

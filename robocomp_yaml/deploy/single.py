@@ -107,10 +107,7 @@ class SingleRun(msgspec.Struct):
     ) -> bool:  # fmt: skip
         """Whether all processes beside are ready."""
         assert self.beside
-
-        async def stop(failed: operations.Result) -> str:
-            return operations.STOP_THEM
-
+        stop = operations.always(operations.STOP_THEM)
         await engine.open(self.beside, create=True)
         up = asyncio.create_task(operations.up(engine, self.beside, (), (), stop, report))
         await _either(up, interruptions.more_than(0))

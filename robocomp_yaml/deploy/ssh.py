@@ -26,26 +26,33 @@ _LOST = 255  # ssh's own exit code
 _SECRET = ("id_rsa", "id_ecdsa", "id_ecdsa_sk", "id_ed25519", "id_ed25519_sk")
 
 
-class SshFailed(Exception):
-    """A host cannot be reached; the text has the reason in the user's words. `hint` suggests what to do, or is ''."""
+class HostFailed(Exception):
+    """A host cannot be asked; the text has the reason in the user's words. `hint` suggests what to do, or is ''."""
 
     def __init__(self, reason: str, hint: str = "") -> None:
-        super().__init__(f"ssh: {reason}")
+        super().__init__(reason)
         self.hint = hint
 
 
-class SshResult(msgspec.Struct, frozen=True):
+class SshFailed(HostFailed):
+    """A host cannot be reached."""
+
+    def __init__(self, reason: str, hint: str = "") -> None:
+        super().__init__(f"ssh: {reason}", hint)
+
+
+class CommandResult(msgspec.Struct, frozen=True):
     """The result of a command on a host."""
 
     code: int
     output: bytes
     errors: str
 
-    @property
-    def reason(self) -> str:
-        """The last line of its errors."""
+    def reason(self, otherwise: str = "") -> str:
+        """The last line of its errors; without one the exit code, behind the words `otherwise`."""
         lines = self.errors.strip().splitlines()
-        return lines[-1].strip() if lines else f"exit code {self.code}"
+        number = f"exit code {self.code}"
+        return lines[-1] if lines else f"{otherwise} ({number})" if otherwise else number
 
 
 class SshClient:
@@ -58,7 +65,7 @@ class SshClient:
         self._locks: dict[NetworkHost, threading.Lock] = {}
         self._lock = threading.Lock()
 
-    def run(self, host: NetworkHost, command: list[str], given: bytes = b"", within: float = 60.0) -> SshResult:
+    def run(self, host: NetworkHost, command: list[str], given: bytes = b"", within: float = 60.0) -> CommandResult:
         """Runs a command on a host, with `given` as its input. Raises SshFailed."""
         words = [*self.shell(host), *options(host.ssh), "--", login(host), shlex.join(command)]
         try:
@@ -71,7 +78,7 @@ class SshClient:
         errors = done.stderr.decode(errors="replace")
         if done.returncode == _LOST:
             raise self._why(host, errors)
-        return SshResult(done.returncode, done.stdout, errors)
+        return CommandResult(done.returncode, done.stdout, errors)
 
     def shell(self, host: NetworkHost) -> list[str]:
         """The words of ssh up to the address, for a program that runs ssh itself. No word needs quotes. Raises

@@ -78,25 +78,20 @@ class OutputRoot(msgspec.Struct):
 
     def add(self, path: str, text: str, *, force: bool = False, sources: tuple[str, ...] = ()) -> Output:
         """Plan a file, and return it with its state. `force` overwrites a file that a user edited."""
-        output = Output(path, text, sources=sources)
+        on_disk = self.root.status(path)
+        data = on_disk.data or b""
+        output = Output(path, text, before=data.decode("utf-8", "replace"), sources=sources)
         self.outputs.append(output)
-        on_disk, new = self.root.status(path), text.encode()
         if on_disk.problem or self.problem:
             output.state, output.problem = FAILED, on_disk.problem or self.problem
         elif not on_disk.exists:
             output.state = CREATED
+        elif data == text.encode():
+            output.state = UNCHANGED
+        elif path not in self.memory:
+            output.state = TAKEN
         else:
-            data = on_disk.data or b""
-            output.before = data.decode("utf-8", "replace")
-            written = self.memory.get(path)
-            if data == new:
-                output.state = UNCHANGED
-            elif written is None:
-                output.state = TAKEN
-            elif written == digest(data) or force:
-                output.state = CHANGED
-            else:
-                output.state = EDITED
+            output.state = CHANGED if force or self.memory[path] == digest(data) else EDITED
         return output
 
     def differs_from_last(self, output: Output) -> bool:

@@ -272,7 +272,7 @@ class Attachments(msgspec.Struct):
             for other in self._extends.get(real, ()):
                 if other not in values:
                     tie(linked, broken=True)  # the layer has errors of its own
-                elif self._reaches(other, real):
+                elif real in reachable([other], lambda one: self._extends.get(one, ())):
                     layer = next(x for x in linked.document.extends if refers_to(x, linked.document, other))
                     self.diagnostics.append(value_codes.LAYER_CYCLE.at(layer.span, name=layer.value))
                     tie(linked, broken=True)
@@ -304,9 +304,6 @@ class Attachments(msgspec.Struct):
         if real in self.tables.components:
             return self.tables.components[real].parameters
         return self.tables.parameters.get(real)
-
-    def _reaches(self, start: str, goal: str) -> bool:
-        return goal in reachable([start], lambda real: self._extends.get(real, ()))
 
 
 def _is_compiled(document: Document) -> bool:

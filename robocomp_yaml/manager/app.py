@@ -21,6 +21,7 @@ from robocomp_yaml.manager.access import API, READ, SAFE_METHODS, AccessRules, G
 from robocomp_yaml.manager.commands import Command, Served
 from robocomp_yaml.manager.description import described
 from robocomp_yaml.manager.events import ServerEvent
+from robocomp_yaml.manager.requests import Unknown
 from robocomp_yaml.manager.table import COMMANDS
 from robocomp_yaml.manager.watching import Watcher
 
@@ -59,9 +60,9 @@ def application(watchers: Mapping[str, Watcher], rules: AccessRules, page: Mappi
 
     routes = [
         *(Route(API + one.path, _handler(one, served, rules.rights), methods=[one.method]) for one in COMMANDS),
-        Route(f"{API}/deployments/{{deployment}}/events", _events(served), methods=["GET"]),
-        Route(f"{API}/deployments/{{deployment}}/log-events", _log_events(served), methods=["GET"]),
-        Route(f"{API}/deployments/{{deployment}}/topic", _topic(served), methods=["GET"]),
+        Route(f"{API}/deployments/{{deployment}}/events", _streaming(served, _events), methods=["GET"]),
+        Route(f"{API}/deployments/{{deployment}}/log-events", _streaming(served, _log_events), methods=["GET"]),
+        Route(f"{API}/deployments/{{deployment}}/topic", _streaming(served, _topic), methods=["GET"]),
         Route(f"{API}/openapi.json", openapi, methods=["GET"]),
         Route("/{name:path}", files, methods=["GET"]),
     ]
@@ -96,52 +97,36 @@ def _failed(error: Refused | Faulty | NoAnswer) -> JSONResponse:
         return _error(_SILENT, error.message, hint=error.hint)
     if isinstance(error, commands.TooLarge):
         return _error(_LARGE, str(error))
-    return _error(404 if isinstance(error, commands.Unknown) else _WRONG, str(error))
+    return _error(404 if isinstance(error, Unknown) else _WRONG, str(error))
 
 
 def _error(status: int, text: str, **more: Any) -> JSONResponse:
     return JSONResponse(plain({"error": text, **more}), status)
 
 
-def _events(served: Served) -> Callable[[Request], Awaitable[Response]]:
+def _streaming(
+    served: Served, texts_of: Callable[[Watcher, Request], Awaitable[AsyncIterator[str]]]
+) -> Callable[[Request], Awaitable[Response]]:  # fmt: skip
     async def handle(request: Request) -> Response:
         try:
-            watcher = served.watcher(request)
-        except Refused as refused:
-            return _error(404, str(refused))
-        return _stream(watcher.events.listen(*watcher.first))
-
-    return handle
-
-
-def _log_events(served: Served) -> Callable[[Request], Awaitable[Response]]:
-    async def handle(request: Request) -> Response:
-        try:
-            watcher = served.watcher(request)
-            names = watcher.chosen(request.query_params.getlist("name"))
-        except Refused as refused:
-            return _error(404, str(refused))
-
-        async def texts() -> AsyncIterator[str]:
-            async for line in watcher.log_lines(names, commands.number(request, "last", 20)):
-                yield ServerEvent("line", line).text
-
-        return _stream(texts())
-
-    return handle
-
-
-def _topic(served: Served) -> Callable[[Request], Awaitable[Response]]:
-    async def handle(request: Request) -> Response:
-        try:
-            feeds = served.watcher(request).topics
-            found = await feeds.find(request.query_params.get("topic", ""))
-            return _stream(feeds.texts(*await feeds.open(*found)))
+            texts = await texts_of(served.watcher(request), request)
         except (Refused, Faulty, NoAnswer) as error:
             return _failed(error)
+        return StreamingResponse(texts, media_type="text/event-stream")
 
     return handle
 
 
-def _stream(texts: AsyncIterator[str]) -> StreamingResponse:
-    return StreamingResponse(texts, media_type="text/event-stream")
+async def _events(watcher: Watcher, request: Request) -> AsyncIterator[str]:
+    return watcher.events.listen(*watcher.first)
+
+
+async def _log_events(watcher: Watcher, request: Request) -> AsyncIterator[str]:
+    names = watcher.chosen(request.query_params.getlist("name"))
+    lines = watcher.log_lines(names, commands.number(request.query_params, "last", 20))
+    return (ServerEvent("line", line).text async for line in lines)
+
+
+async def _topic(watcher: Watcher, request: Request) -> AsyncIterator[str]:
+    found = await watcher.topics.find(request.query_params.get("topic", ""))
+    return watcher.topics.texts(*await watcher.topics.open(*found))

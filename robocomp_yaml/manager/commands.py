@@ -11,6 +11,7 @@ from collections.abc import Awaitable, Callable, Collection, Mapping
 from typing import Any
 
 import msgspec
+from starlette.datastructures import QueryParams
 from starlette.requests import Request
 
 from robocomp_yaml.api.editing.editor import Revision
@@ -20,22 +21,20 @@ from robocomp_yaml.diag.render.json import as_data
 from robocomp_yaml.manager import requests
 from robocomp_yaml.manager.access import EDIT, OPERATE, READ
 from robocomp_yaml.manager.events import PROGRESS
-from robocomp_yaml.manager.managed import NETWORK
+from robocomp_yaml.manager.managed import NETWORK, ManagedDeployment
 from robocomp_yaml.manager.requests import (
     CallRequest,
     EditRequest,
     OperationRequest,
     ParameterRequest,
+    PushRequest,
     UndoRequest,
+    Unknown,
 )
 from robocomp_yaml.manager.watching import Watcher
 
 _LARGEST = 1 << 20  # bytes of a body
 _MOST_LINES = 10_000
-
-
-class Unknown(Refused):
-    """The address names something that is not there."""
 
 
 class TooLarge(Refused):
@@ -73,11 +72,20 @@ def number_in(text: str) -> int:
     return int(text) if text.isascii() and text.isdigit() and len(text) < 19 else 0
 
 
-def number(request: Request, name: str, default: int) -> int:
-    text = request.query_params.get(name, "")
+def number(query: QueryParams, name: str, default: int) -> int:
+    text = query.get(name, "")
     if text and not (text.isascii() and text.isdigit() and len(text) < 9):
         raise Refused(f"{name} is '{text}', and must be a number")
     return min(int(text), _MOST_LINES) if text else default
+
+
+def reading(work: Callable[[ManagedDeployment, QueryParams], Any]) -> Callable[[Served, Request], Awaitable[Any]]:
+    """A command that asks a deployment, in a thread, what its query says."""
+
+    async def run(served: Served, request: Request) -> Any:
+        return await asyncio.to_thread(work, served.watcher(request).managed, request.query_params)
+
+    return run
 
 
 async def body_of(request: Request, type_: type[requests.T]) -> requests.T:
@@ -102,9 +110,8 @@ async def _list(served: Served, request: Request) -> Any:
     }  # fmt: skip
 
 
-async def _graph(served: Served, request: Request) -> Any:
-    shut, of = frozenset(request.query_params.getlist("closed")), request.query_params.get("of", NETWORK)
-    return await asyncio.to_thread(served.watcher(request).managed.graph, shut, of)
+def _graph(managed: ManagedDeployment, query: QueryParams) -> Any:
+    return managed.graph(frozenset(query.getlist("closed")), query.get("of", NETWORK))
 
 
 async def _status(served: Served, request: Request) -> Any:
@@ -116,12 +123,11 @@ async def _history(served: Served, request: Request) -> Any:
     return {"happened": list(served.watcher(request).events.past)}
 
 
-async def _plan(served: Served, request: Request) -> Any:
-    action = request.query_params.get("action", "up")
+def _plan(managed: ManagedDeployment, query: QueryParams) -> Any:
+    action = query.get("action", "up")
     if action not in ("up", "restart", "down"):
         raise Refused(f"there is no plan of '{action}': up, restart or down")
-    managed = served.watcher(request).managed
-    return await asyncio.to_thread(managed.plan, request.query_params.getlist("name"), action)
+    return managed.plan(query.getlist("name"), action)
 
 
 def _operation(action: str) -> Callable[[Served, Request], Awaitable[Any]]:
@@ -143,20 +149,17 @@ def _operation(action: str) -> Callable[[Served, Request], Awaitable[Any]]:
     return run
 
 
-async def _logs(served: Served, request: Request) -> Any:
-    query, managed = request.query_params, served.watcher(request).managed
-    names, last = query.getlist("name"), number(request, "last", 20)
-    lines = await asyncio.to_thread(managed.logs, names, last, query.get("since", ""), query.get("grep", ""))
-    return {"lines": lines}
+def _logs(managed: ManagedDeployment, query: QueryParams) -> Any:
+    last = number(query, "last", 20)
+    return {"lines": managed.logs(query.getlist("name"), last, query.get("since", ""), query.get("grep", ""))}
 
 
-async def _documents(served: Served, request: Request) -> Any:
-    return {"documents": await asyncio.to_thread(served.watcher(request).managed.documents)}
+def _documents(managed: ManagedDeployment, query: QueryParams) -> Any:
+    return {"documents": managed.documents()}
 
 
-async def _document(served: Served, request: Request) -> Any:
-    managed = served.watcher(request).managed
-    return await asyncio.to_thread(managed.document, request.query_params.get("path") or managed.path)
+def _document(managed: ManagedDeployment, query: QueryParams) -> Any:
+    return managed.document(query.get("path") or managed.path)
 
 
 async def _edit(served: Served, request: Request) -> Any:
@@ -204,16 +207,11 @@ async def _call(served: Served, request: Request) -> Any:
     return done
 
 
-async def _parameters(served: Served, request: Request) -> Any:
-    managed, process = served.watcher(request).managed, request.query_params.get("process", "")
+def _parameters(managed: ManagedDeployment, query: QueryParams) -> Any:
+    from robocomp_yaml.api.running_parameters import RunningParameters
 
-    def work() -> Any:
-        from robocomp_yaml.api.running_parameters import RunningParameters
-
-        with RunningParameters(managed.addresses(), process).connected() as session:
-            return {"parameters": [msgspec.to_builtins(row) for row in session.values()]}
-
-    return await asyncio.to_thread(work)
+    with RunningParameters(managed.addresses(), query.get("process", "")).connected() as session:
+        return {"parameters": [msgspec.to_builtins(row) for row in session.values()]}
 
 
 async def _set_parameter(served: Served, request: Request) -> Any:
@@ -231,25 +229,46 @@ async def _set_parameter(served: Served, request: Request) -> Any:
     return done
 
 
+async def _push(served: Served, request: Request) -> Any:
+    wanted, watcher = await body_of(request, PushRequest), served.watcher(request)
+    events, loop = watcher.events, asyncio.get_running_loop()
+
+    def report(host: str, path: str) -> None:
+        loop.call_soon_threadsafe(events.send, PROGRESS, {"action": "push", "host": host, "path": path})
+
+    events.happened("", f"push {' '.join(wanted.hosts)}".rstrip())
+    done = await asyncio.to_thread(watcher.managed.push, wanted.hosts, report)
+    events.happened("", f"push: {'done' if done['ok'] else 'failed'}")
+    return done
+
+
 ONE = "/deployments/{deployment}"
 _NAMES = ("name", "A process or group; may be repeated. Without it, all.")
 COMMANDS = (
     Command("GET", "/deployments", READ, "The deployments that are served, and what this manager may do.", _list),
-    Command("GET", f"{ONE}/graph", READ, "The picture of the network, with its geometry.", _graph,
+    Command("GET", f"{ONE}/graph", READ, "The picture of the network, with its geometry.", reading(_graph),
             query=(("closed", "A box that is drawn as one node: `host NAME` or `group NAME`; may be repeated."),
                    ("of", "network, or components: those of the workspace, with what they are wired to."))),
     Command("GET", f"{ONE}/status", READ, "The state of each process.", _status),
     Command("GET", f"{ONE}/history", READ, "What happened since the manager runs, whoever caused it.", _history),
-    Command("GET", f"{ONE}/plan", READ, "What an operation would do, and why.", _plan,
+    Command("GET", f"{ONE}/plan", READ, "What an operation would do, and why.", reading(_plan),
             query=(_NAMES, ("action", "up, restart or down; by default up."))),
-    Command("GET", f"{ONE}/logs", READ, "The last lines of the logs.", _logs,
+    Command("GET", f"{ONE}/logs", READ, "The last lines of the logs.", reading(_logs),
             query=(_NAMES, ("last", "The number of lines of each process; by default 20."),
                    ("since", "A time in UTC, as lines have it."), ("grep", "A regular expression."))),
-    Command("GET", f"{ONE}/documents", READ, "The documents of the workspace.", _documents),
-    Command("GET", f"{ONE}/document", READ, "The text of a document, its version and its diagnostics.", _document,
-            query=(("path", "The document; by default, that of the deployment."),)),
-    Command("GET", f"{ONE}/parameters", READ, "The values that a running component has now.", _parameters,
-            query=(("process", "The process."),)),
+    Command("GET", f"{ONE}/documents", READ, "The documents of the workspace.", reading(_documents)),
+    Command("GET", f"{ONE}/document", READ, "The text of a document, its version and its diagnostics.",
+            reading(_document), query=(("path", "The document; by default, that of the deployment."),)),
+    Command("GET", f"{ONE}/parameters", READ, "The values that a running component has now.",
+            reading(_parameters), query=(("process", "The process."),)),
+    Command("GET", f"{ONE}/entries", READ, "The entries with their ports, and what could be added.",
+            reading(lambda managed, query: managed.entries())),
+    Command("GET", f"{ONE}/process", READ, "The types of a process' parameters and of its methods' arguments.",
+            reading(lambda managed, query: managed.process(query.get("name", ""))), query=(("name", "The process."),)),
+    Command("GET", f"{ONE}/availability", READ, "Which processes a host could run, and what it lacks for each.",
+            reading(lambda managed, query: managed.available(query.get("host", ""))),
+            query=(("host", "The name of the host."),)),
+    Command("POST", f"{ONE}/push", OPERATE, "Bring to hosts what their processes need.", _push, PushRequest),
     Command("POST", f"{ONE}/up", OPERATE, "Start the network, and apply changes to it.", _operation("up"),
             OperationRequest),
     Command("POST", f"{ONE}/restart", OPERATE, "Stop processes, and start them again.", _operation("restart"),

@@ -13,7 +13,7 @@ from robocomp_yaml.api.editing.editor import new_errors
 from robocomp_yaml.api.workspace import Workspace
 from robocomp_yaml.diag.render.json import as_data
 from robocomp_yaml.manager.access import EDIT, READ
-from robocomp_yaml.manager.commands import ONE, Command, Served, body_of, revised
+from robocomp_yaml.manager.commands import ONE, Command, Served, body_of, reading, revised
 from robocomp_yaml.manager.events import DOCUMENTS
 from robocomp_yaml.manager.managed import ManagedDeployment
 from robocomp_yaml.manager.requests import CompletionRequest, DiagnoseRequest, PositionsRequest, WriteRequest
@@ -70,15 +70,6 @@ async def _write(served: Served, request: Request) -> Any:
     return {**revised(revision), "written": is_written}
 
 
-async def _component(served: Served, request: Request) -> Any:
-    managed = served.watcher(request).managed
-    return await asyncio.to_thread(managed.component, request.query_params.get("name", ""))
-
-
-async def _positions(served: Served, request: Request) -> Any:
-    return {"positions": msgspec.to_builtins(await asyncio.to_thread(served.watcher(request).managed.positions))}
-
-
 async def _move(served: Served, request: Request) -> Any:
     wanted, watcher = await body_of(request, PositionsRequest), served.watcher(request)
     now = await asyncio.to_thread(watcher.managed.move, wanted.positions)
@@ -88,8 +79,10 @@ async def _move(served: Served, request: Request) -> Any:
 
 COMMANDS = (
     Command("GET", f"{ONE}/component", READ, "What a component implements, requires, publishes and subscribes to.",
-            _component, query=(("name", "The component's name, its folder or its document."),)),
-    Command("GET", f"{ONE}/positions", READ, "Where a person put nodes of the picture, in pixels.", _positions),
+            reading(lambda managed, query: managed.component(query.get("name", ""))),
+            query=(("name", "The component's name, its folder or its document."),)),
+    Command("GET", f"{ONE}/positions", READ, "Where a person put nodes of the picture, in pixels.",
+            reading(lambda managed, query: {"positions": msgspec.to_builtins(managed.positions())})),
     Command("POST", f"{ONE}/positions", EDIT, "Keep positions of nodes, or forget them.", _move, PositionsRequest),
     Command("POST", f"{ONE}/completion", READ, "What can be typed at a position of an unsaved text.", _complete,
             CompletionRequest),

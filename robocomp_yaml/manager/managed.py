@@ -177,9 +177,7 @@ class ManagedDeployment:
                 data = json_data.result_data(deployment.up(
                     *names, restart=action == "restart", on_failure=on_failure, timeout=timeout, report=report
                 ))  # fmt: skip
-        diagnostics = deployment.diagnostics
-        return {**data, "ok": not has_errors(diagnostics),
-                "diagnostics": [as_data(one) for one in diagnostics]}  # fmt: skip
+        return _outcome(deployment, data)
 
     def logs(self, names: Sequence[str], last: int, since: str, pattern: str) -> list[dict[str, str]]:
         deployment = self._deployment(lenient=True)
@@ -306,9 +304,7 @@ class ManagedDeployment:
         """Brings to hosts what their processes need. Raises Faulty and Refused."""
         deployment = self._deployment(lenient=False)
         done = push(deployment, hosts, report=report)
-        diagnostics = deployment.diagnostics
-        return {"hosts": [json_data.push_data(one) for one in done], "ok": not has_errors(diagnostics),
-                "diagnostics": [as_data(one) for one in diagnostics]}  # fmt: skip
+        return _outcome(deployment, {"hosts": [json_data.push_data(one) for one in done]})
 
     def _deployment(self, *, lenient: bool) -> api.Deployment:
         return self.with_workspace(
@@ -326,6 +322,12 @@ class ManagedDeployment:
         if chosen not in self._documents(workspace):
             raise Refused(f"'{path}' is not a document of this workspace")
         return chosen
+
+
+def _outcome(deployment: api.Deployment, data: dict[str, Any]) -> dict[str, Any]:
+    """What an operation returned, and whether it had no errors."""
+    found = deployment.diagnostics
+    return {**data, "ok": not has_errors(found), "diagnostics": [as_data(one) for one in found]}
 
 
 def _state(path: str) -> tuple[int, int, int] | None:

@@ -13,6 +13,10 @@ from robocomp_yaml.diag.errors import Refused
 T = TypeVar("T")
 
 
+class Unknown(Refused):
+    """The address names something that is not there."""
+
+
 class OperationRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """`names` are processes and groups; without one, it is all of the network. `timeout` is in seconds."""
 

@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from robocomp_yaml.manager import commands, documents, fields, hosts
+from robocomp_yaml.manager import commands, documents
 
-COMMANDS = (*commands.COMMANDS, *documents.COMMANDS, *fields.COMMANDS, *hosts.COMMANDS)
+COMMANDS = (*commands.COMMANDS, *documents.COMMANDS)

@@ -23,6 +23,7 @@ from robocomp_yaml.deploy.sampling import PublishedTopics
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.manager.events import DOCUMENTS, STATES, Events, ServerEvent
 from robocomp_yaml.manager.managed import ManagedDeployment
+from robocomp_yaml.manager.requests import Unknown
 from robocomp_yaml.manager.topics import TopicFeeds
 from robocomp_yaml.network.network import Network
 
@@ -76,14 +77,14 @@ class Watcher:
         })]  # fmt: skip
 
     def chosen(self, names: Sequence[str]) -> list[str]:
-        """The processes that these names and groups mean, all without names. Raises Refused if one is unknown."""
+        """The processes that these names and groups mean, all without names. Raises Unknown if one is."""
         network = self._network
         processes = network.processes if network is not None else {}
         found: list[str] = []
         for name in names:
             members = [one.name for one in processes.values() if name in (one.name, *one.aliases, *one.groups)]
             if not members:
-                raise Refused(f"there is no process or group '{name}'{meant(name, processes)}")
+                raise Unknown(f"there is no process or group '{name}'{meant(name, processes)}")
             found += members
         return found or [one.name for one in processes.values() if one.enabled]
 

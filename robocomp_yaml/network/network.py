@@ -311,6 +311,10 @@ class Network(msgspec.Struct, frozen=True):
         process = self.processes.get(name)
         return process.span if process and process.span.file else Span(self.path)
 
+    def span_of_host(self, host: NetworkHost) -> Span:
+        """The location of a host; the document if it has none."""
+        return host.span if host.span.file else Span(self.path)
+
     @property
     def is_tls(self) -> bool:
         return self.security == TLS

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from typing import Any
 
 from msgspec.structs import replace
 
@@ -26,8 +27,6 @@ from robocomp_yaml.network.network import (
 )
 from robocomp_yaml.parameters.hidden import secrets_of
 from robocomp_yaml.source.disk import Disk
-
-_DEFAULTS = RestartRule()
 
 
 def of_draft(draft: Draft, text: str | None, disk: Disk, secrets: tuple[str, ...] = ()) -> Process:
@@ -164,15 +163,10 @@ def _command(draft: Draft, program: str) -> Iterator[str]:
 
 def _restart(given: model.Restart | None) -> RestartRule:
     if given is None:
-        return _DEFAULTS
-    delay = _DEFAULTS.delay if given.delay is None else given.delay
-    return RestartRule(
-        given.policy,
-        delay,
-        max(delay, _DEFAULTS.longest),
-        _DEFAULTS.tries if given.tries is None else given.tries,
-        _DEFAULTS.window if given.within is None else given.within,
-    )
+        return RestartRule()
+    keys: dict[str, Any] = {"delay": given.delay, "tries": given.tries, "window": given.within}
+    rule = RestartRule(given.policy, **{key: value for key, value in keys.items() if value is not None})
+    return replace(rule, longest=max(rule.delay, rule.longest))
 
 
 def _code(folder: str, component: LinkedComponent | None, disk: Disk) -> tuple[str, ...]:

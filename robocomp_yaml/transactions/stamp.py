@@ -142,7 +142,7 @@ def save(folder: str, name: str, stamp: RunStamp) -> None:
         return
     with contextlib.suppress(OSError):
         os.makedirs(os.path.dirname(path), exist_ok=True)
-        _ignored_by_git(os.path.dirname(path))
+        whole_file.ignore_all(os.path.dirname(path))
         whole_file.put(path, json.dumps(asdict(stamp), separators=(",", ":")).encode())
         _remove_old(os.path.dirname(path))
 
@@ -218,11 +218,6 @@ def _state(path: str) -> str:
 
 def _file(folder: str, name: str) -> str:
     return os.path.join(folder, FOLDER, f"{name}.json")
-
-
-def _ignored_by_git(folder: str) -> None:
-    with contextlib.suppress(FileExistsError), open(os.path.join(folder, ".gitignore"), "x", encoding="utf-8") as file:
-        file.write("*\n")
 
 
 def _remove_old(folder: str) -> None:

@@ -16,6 +16,12 @@ _UNSUPPORTED = (
 )  # fmt: skip
 
 
+def ignore_all(folder: str, comment: str = "") -> None:
+    """Makes git ignore all of a folder, unless it has a file that says otherwise. Raises OSError."""
+    with contextlib.suppress(FileExistsError), open(f"{folder}/.gitignore", "x", encoding="utf-8") as file:
+        file.write(f"{comment}*\n")
+
+
 def create(path: str | os.PathLike[str], text: str) -> None:
     """Creates a file. Raises FileExistsError if the path exists, which is left unchanged, and OSError."""
     target = os.fspath(path)

@@ -58,47 +58,46 @@ class Members:
                 report(Fault(key.span, paths.in_words((*path, key.lexeme)), "is unknown", hint))
         for name, type_ in self.types.items():
             entry, default = node.entries.get(name), self._defaults.get(name)
+            value: Any = None
             if entry is not None:
                 value = type_.to_ice(entry[1], (*path, name), report)
             elif default is not None:
                 value = type_.to_ice(tree.scalar_at(node.span, default.lexeme), (*path, name), report)
-            elif name in meant:
-                value = None
-            else:
-                value = None
+            elif name not in meant:
                 article = "an" if type_.name[:1].lower() in "aeiou" else "a"
                 hint = f"write `{name}: …`, {article} {type_.name}"
                 report(Fault(node.span, paths.in_words((*path, name)), "is missing", hint))
             setattr(made, self.attributes[name], value)
 
-    def zero(self, made: Any) -> None:
-        """Sets the attributes of a value to defaults, else to `zero`."""
-        self._set(made, lambda name, type_: type_.zero())
-
-    def example(self, made: Any) -> None:
-        """Sets the attributes of a value to defaults, else to examples."""
-        self._set(made, lambda name, type_: type_.example(name))
-
-    def _set(self, made: Any, otherwise: Callable[[str, WireType], Any]) -> None:
+    def set(self, made: Any, otherwise: Callable[[str, WireType], Any]) -> Any:
+        """The value, with the attributes set to defaults, else to what `otherwise` returns for name and type."""
         for name, type_ in self.types.items():
             default = self._defaults.get(name)
             value = type_.to_ice(tree.scalar_at(Span(""), default.lexeme), (), lambda fault: None) if default else None
             setattr(made, self.attributes[name], otherwise(name, type_) if value is None else value)
+        return made
 
     def to_data(self, made: Any) -> dict[str, Data]:
         return {name: type_.to_data(getattr(made, self.attributes[name])) for name, type_ in self.types.items()}
 
 
-class Struct(WireType):
+class Defined(WireType):
+    """A type with an id of Ice's own, made of `parts`."""
+
+    id: str
+    parts: tuple[WireType | Members, ...]
+
+    @property
+    def shape(self) -> Shape:
+        return (self.id, *(part.shape for part in self.parts))
+
+
+class Struct(Defined):
     def __init__(self, id_: str, definition: model.Struct, members: Members) -> None:
         self.name, self.members = definition.name, members
         self.kind = kept(type(definition.name, (_Record,), {}))
         self.ice = IcePy.defineStruct(id_, self.kind, (), members.described())
-        self.id = id_
-
-    @property
-    def shape(self) -> Shape:
-        return (self.id, self.members.shape)
+        self.id, self.parts = id_, (members,)
 
     def to_ice(self, node: Node, path: Path, report: Report) -> Any:
         if not isinstance(node, tree.Mapping):
@@ -111,25 +110,17 @@ class Struct(WireType):
         return self.members.to_data(value)
 
     def zero(self) -> Any:
-        made = self.kind()
-        self.members.zero(made)
-        return made
+        return self.members.set(self.kind(), lambda name, type_: type_.zero())
 
     def example(self, name: str) -> Any:
-        made = self.kind()
-        self.members.example(made)
-        return made
+        return self.members.set(self.kind(), lambda name, type_: type_.example(name))
 
 
-class SequenceOf(WireType):
+class SequenceOf(Defined):
     def __init__(self, id_: str, name: str, element: WireType) -> None:
         self.name, self.element = name, element
         self.ice = IcePy.defineSequence(id_, (), element.ice)
-        self.id = id_
-
-    @property
-    def shape(self) -> Shape:
-        return (self.id, self.element.shape)
+        self.id, self.parts = id_, (element,)
 
     def to_ice(self, node: Node, path: Path, report: Report) -> Any:
         if not isinstance(node, tree.Sequence):
@@ -149,15 +140,11 @@ class SequenceOf(WireType):
         return b"\0" if self.element.name == "byte" else [self.element.example(name)]
 
 
-class MapOf(WireType):
+class MapOf(Defined):
     def __init__(self, id_: str, name: str, key: WireType, value: WireType) -> None:
         self.name, self.key_type, self.value_type = name, key, value
         self.ice = IcePy.defineDictionary(id_, (), key.ice, value.ice)
-        self.id = id_
-
-    @property
-    def shape(self) -> Shape:
-        return (self.id, self.key_type.shape, self.value_type.shape)
+        self.id, self.parts = id_, (key, value)
 
     def to_ice(self, node: Node, path: Path, report: Report) -> Any:
         if isinstance(self.key_type, Struct):

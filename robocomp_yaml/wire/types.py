@@ -19,8 +19,8 @@ class Types:
     def __init__(self) -> None:
         wholes = [Whole("byte", IcePy._t_byte), Whole("short", IcePy._t_short), Whole("int", IcePy._t_int)]
         reals = [Real("float", IcePy._t_float), Real("double", IcePy._t_double)]
-        basic = [Truth(), *wholes, Whole("long", IcePy._t_long), *reals, Text()]
-        self._basic: Mapping[str, WireType] = {one.name: one for one in basic}
+        others = [Truth("bool", IcePy._t_bool), Whole("long", IcePy._t_long), Text("string", IcePy._t_string)]
+        self._basic: Mapping[str, WireType] = {one.name: one for one in (*wholes, *reals, *others)}
         self._made: dict[tuple[LinkedModule, str], WireType] = {}
 
     def of(self, scope: LinkedModule, ref: TypeRef) -> WireType:

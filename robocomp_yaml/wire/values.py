@@ -97,24 +97,32 @@ class WireType(ABC):
         report(Fault(node.span, paths.in_words(path), f"must be {words}, but is {_shown(node)}", hint))
 
 
-class Truth(WireType):
-    name, ice = "bool", IcePy._t_bool
+class Basic(WireType):
+    """A type that Python has, too: `kind`."""
+
+    kind: type[Any]
+
+    def __init__(self, name: str, ice: Any) -> None:
+        self.name, self.ice = name, ice
+
+    def to_data(self, value: Any) -> Data:
+        return self.kind(value)
+
+    def zero(self) -> Any:
+        return self.kind()
+
+
+class Truth(Basic):
+    kind = bool
 
     def to_ice(self, node: Node, path: Path, report: Report) -> Any:
         if isinstance(node.data, bool):
             return node.data
         return self._wrong(node, path, report, "true or false")
 
-    def to_data(self, value: Any) -> Data:
-        return bool(value)
 
-    def zero(self) -> Any:
-        return False
-
-
-class Whole(WireType):
-    def __init__(self, name: str, ice: Any) -> None:
-        self.name, self.ice = name, ice
+class Whole(Basic):
+    kind = int
 
     def to_ice(self, node: Node, path: Path, report: Report) -> Any:
         data = node.data
@@ -127,18 +135,11 @@ class Whole(WireType):
             return data
         return self._wrong(node, path, report, f"from {least} to {most} ({self.name})")
 
-    def to_data(self, value: Any) -> Data:
-        return int(value)
 
-    def zero(self) -> Any:
-        return 0
-
-
-class Real(WireType):
+class Real(Basic):
     """Unlike parameters, what travels may be infinite, or not a number."""
 
-    def __init__(self, name: str, ice: Any) -> None:
-        self.name, self.ice = name, ice
+    kind = float
 
     def to_ice(self, node: Node, path: Path, report: Report) -> Any:
         data = node.data
@@ -161,9 +162,6 @@ class Real(WireType):
             return value
         return next(short for digits in range(6, 10) if as_float(short := float(f"{value:.{digits}g}")) == value)
 
-    def zero(self) -> Any:
-        return 0.0
-
 
 def as_float(number: float) -> float:
     """The nearest number of 32 bits; an infinity where it is too large."""
@@ -173,20 +171,14 @@ def as_float(number: float) -> float:
         return math.copysign(math.inf, number)
 
 
-class Text(WireType):
-    name, ice = "string", IcePy._t_string
+class Text(Basic):
+    kind = str
 
     def to_ice(self, node: Node, path: Path, report: Report) -> Any:
         if isinstance(node.data, str):
             return node.data
         hint = f'quote it: "{node.lexeme}"' if isinstance(node, tree.Scalar) and node.lexeme else ""
         return self._wrong(node, path, report, "text", hint)
-
-    def to_data(self, value: Any) -> Data:
-        return str(value)
-
-    def zero(self) -> Any:
-        return ""
 
     def example(self, name: str) -> Any:
         return name

@@ -7,7 +7,6 @@ that the change made.
 
 from __future__ import annotations
 
-import contextlib
 import os
 
 import msgspec
@@ -74,8 +73,7 @@ def write(document: str, history: EditHistory) -> None:
     folder = os.path.dirname(path)
     try:
         os.makedirs(folder, mode=0o700, exist_ok=True)
-        with contextlib.suppress(FileExistsError), open(f"{folder}/.gitignore", "x", encoding="ascii") as file:
-            file.write("# The changes that `rcyaml edit undo` can undo.\n*\n")
+        whole_file.ignore_all(folder, "# The changes that `rcyaml edit undo` can undo.\n")
         whole_file.put(path, msgspec.msgpack.encode(history), 0o600)
     except OSError as error:
         raise cannot_write(path, error) from None

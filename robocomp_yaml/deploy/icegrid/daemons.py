@@ -14,7 +14,7 @@ import shlex
 import signal
 import socket
 import subprocess
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 
 import msgspec
 
@@ -42,11 +42,18 @@ def start_registry(files: GridFiles, registry: Registry) -> None:
     own_folder.write(files.folder, "state/icegrid/registry/settings", text)
     own_folder.write(files.folder, "state/icegrid/registry/guard", resources.text("templates/icegrid/guard"))
     command = ["bash", f"{own}/guard", own, "icegridregistry", f"--Ice.Config={own}/settings"]
+    start_detached(command, files.folder)
+
+
+def start_detached(command: Sequence[str], folder: str, **environment: str) -> int:
+    """Starts a process of the deployment in a folder that goes on when this process ends. Returns its pid. Raises
+    OSError."""
     started = subprocess.Popen(
-        command, env={**os.environ, MARK: f"{files.folder}:"}, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL, start_new_session=True, cwd="/",
+        command, env={**os.environ, MARK: f"{folder}:", **environment}, stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True, cwd="/",
     )  # fmt: skip
-    started.returncode = 0  # it goes on when this process ends, which does not wait for it
+    started.returncode = 0  # nobody waits for it
+    return started.pid
 
 
 def end(folder: str) -> None:

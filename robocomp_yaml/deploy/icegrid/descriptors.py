@@ -86,7 +86,6 @@ def server(files: GridFiles, spec: ProcessSpec, user: str, number: int, *, is_lo
         pwd=_literal(process.cwd), envs=environment, user=user, activation="manual",
         logs=[_literal(files.log(process.name)), _literal(files.status(process.name))],
         deactivationTimeout=f"{STOP_WITHIN + _AFTER_KILL:g}",
-        propertySet=_property_set(_QUIET),
     )  # fmt: skip
     if is_storm:
         assert process.config
@@ -98,32 +97,26 @@ def keeper(files: GridFiles, user: str) -> Any:
     """The keeper: a server that restarts processes when their node has come back. IceGrid itself restarts the
     keeper."""
     words = (files.folder, sys.executable, "-m", _KEEPER_MODULE, files.folder)
-    facts = _facts(
-        KEEPER, "setpriv",
-        ["--pdeathsig", "KILL", "--", "bash", "-c", _KEEPER_SCRIPT, "bash", *map(_literal, words)],
-        pwd="/", user=user, activation="always", deactivationTimeout="5", propertySet=_property_set(_QUIET),
-        envs=[f"PYTHONPATH={package_path()}", f"{MARK}={files.folder}:"], logs=[],
-    )  # fmt: skip
-    return IceGrid.ServerDescriptor(**facts)
+    options = ["--pdeathsig", "KILL", "--", "bash", "-c", _KEEPER_SCRIPT, "bash", *map(_literal, words)]
+    environment = [f"PYTHONPATH={package_path()}", f"{MARK}={files.folder}:"]
+    return _own(KEEPER, "setpriv", options, user, activation="always", envs=environment)
 
 
 def ender(files: GridFiles, names: Iterable[str], user: str) -> Any:
     """A server that ends these processes on its host, which IceGrid has forgotten."""
-    facts = _facts(
-        f"{KEEPER}.ender", "bash", ["-c", *map(_literal, (_ENDER_SCRIPT, "bash", files.folder, *names))],
-        pwd="/", user=user, activation="manual", deactivationTimeout="5", propertySet=_property_set(_QUIET), envs=[],
-        logs=[],
-    )  # fmt: skip
-    return IceGrid.ServerDescriptor(**facts)
+    words = (_ENDER_SCRIPT, "bash", files.folder, *names)
+    return _own(f"{KEEPER}.ender", "bash", ["-c", *map(_literal, words)], user)
 
 
 def cleaner(paths: Iterable[str], user: str) -> Any:
     """A server that removes these files and folders of its host."""
-    facts = _facts(
-        f"{KEEPER}.cleaner", "rm", ["-rf", "--", *map(_literal, paths)], pwd="/", user=user, activation="manual",
-        deactivationTimeout="5", propertySet=_property_set(_QUIET), envs=[], logs=[],
-    )  # fmt: skip
-    return IceGrid.ServerDescriptor(**facts)
+    return _own(f"{KEEPER}.cleaner", "rm", ["-rf", "--", *map(_literal, paths)], user)
+
+
+def _own(name: str, exe: str, options: list[str], user: str, **facts: Any) -> Any:
+    """A server of rcyaml itself, which the `facts` describe further."""
+    usual: dict[str, Any] = {"pwd": "/", "activation": "manual", "deactivationTimeout": "5", "envs": [], "logs": []}
+    return IceGrid.ServerDescriptor(**_facts(name, exe, options, user=user, **{**usual, **facts}))
 
 
 def package_path() -> str:
@@ -204,7 +197,7 @@ def _facts(name: str, exe: str, options: list[str], **facts: Any) -> dict[str, A
     return {
         "adapters": [], "dbEnvs": [], "description": "", "id": name, "exe": exe, "iceVersion": "", "options": options,
         "activationTimeout": "", "applicationDistrib": False, "distrib": _nothing_to_distribute(),
-        "allocatable": False, **facts,
+        "allocatable": False, "propertySet": _property_set(_QUIET), **facts,
     }  # fmt: skip
 
 

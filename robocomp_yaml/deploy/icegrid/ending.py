@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import os
 import signal
-import subprocess
 import sys
 import time
 from collections.abc import Sequence
@@ -18,6 +17,7 @@ from msgspec.structs import replace
 
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy import registered, remains
+from robocomp_yaml.deploy.icegrid import daemons
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles
 from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.time_limit import until
@@ -36,13 +36,9 @@ def begin(files: GridFiles, hosts: Sequence[str]) -> None:
         with suppress(OSError):
             registered.keep(replace(one, pending=tuple(hosts)))
     path = os.pathsep.join(path for path in sys.path if path)
-    started = subprocess.Popen(
-        [sys.executable, "-m", _MODULE, files.folder, *hosts], cwd="/", start_new_session=True,
-        env={**os.environ, "PYTHONPATH": path, procfs.MARK: f"{files.folder}:"},
-        stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-    )  # fmt: skip
-    own_folder.write(files.folder, _FILE, f"{started.pid}\n")
-    started.returncode = 0  # it goes on when this process ends
+    command = [sys.executable, "-m", _MODULE, files.folder, *hosts]
+    pid = daemons.start_detached(command, files.folder, PYTHONPATH=path)
+    own_folder.write(files.folder, _FILE, f"{pid}\n")
 
 
 def stop(files: GridFiles) -> None:

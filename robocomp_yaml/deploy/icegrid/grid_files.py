@@ -28,6 +28,7 @@ KEEPER = "rcyaml.keeper"
 """The id of the keeper's server. No process can have this name."""
 
 _ROOT = "state/icegrid"
+_ANSWERS_WITHIN = 1.0  # seconds
 _DESIRED, _SPECS, _REGISTRY, _NODES, _RULES, _FOLDERS = (
     f"{_ROOT}/{name}.json" for name in ("wanted", "specs", "registry", "nodes", "rules", "folders")
 )
@@ -38,6 +39,15 @@ class Registry(msgspec.Struct, frozen=True):
 
     address: str
     port: int
+
+    @property
+    def listens(self) -> bool:
+        """Whether something listens there: also a registry whose files were deleted."""
+        try:
+            with socket.create_connection((self.address, self.port), _ANSWERS_WITHIN):
+                return True
+        except OSError:
+            return False
 
 
 class GridFiles(msgspec.Struct, frozen=True):

@@ -18,7 +18,6 @@ from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.listing import some
-from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.network import files
 from robocomp_yaml.network.network import PYTHON, Network, NetworkHost, Process
@@ -48,7 +47,7 @@ def lacking(
             found += answers(network, host, own, lines)
             if code:
                 reason = f"what it has cannot be checked (exit code {code})"
-                where = host.span if host.span.file else Span(network.path)
+                where = network.span_of_host(host)
                 found.append(codes.NO_ANSWER.at(where, host=name, address=host.address, reason=reason))
     return found
 

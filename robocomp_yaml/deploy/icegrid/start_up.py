@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import socket
 import threading
 import time
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
+from functools import partial
 from typing import TYPE_CHECKING
 
 from robocomp_yaml.deploy import folder as own_folder
@@ -64,7 +64,7 @@ def created(files: GridFiles, network: Network) -> GridSession:
     address = registry_address(network.hosts.values())
     registry = files.registry()
     if registry is None or registry.address != address:
-        _end_local(files)
+        end_daemons(files)
         try:
             if registry is None:
                 clear_up(network.folder)  # processes that run although their folder was removed
@@ -78,7 +78,7 @@ def created(files: GridFiles, network: Network) -> GridSession:
 
 
 def _session(files: GridFiles, registry: Registry, network: Network) -> GridSession:
-    if not (daemons.is_alive(files.registry_folder) or _answers(registry)):
+    if not (daemons.is_alive(files.registry_folder) or registry.listens):
         try:
             daemons.start_registry(files, registry)
         except OSError as error:
@@ -94,15 +94,6 @@ def _session(files: GridFiles, registry: Registry, network: Network) -> GridSess
         return reach(files, registry, _PATIENCE)
     except Unreachable as error:
         raise _failed(network, daemons.last_words(files.registry_folder) or str(error)) from error
-
-
-def _answers(registry: Registry) -> bool:
-    """Whether something listens at the registry's port: also a registry whose files were deleted."""
-    try:
-        with socket.create_connection((registry.address, registry.port), 1.0):
-            return True
-    except OSError:
-        return False
 
 
 def ensure_nodes(
@@ -133,21 +124,17 @@ def ensure_nodes(
         by_hand_too = f"start it by hand, then try again: {daemons.by_hand(shown_path(scripts[host.name]), host)}"
         hint = f"{hint}; or {by_hand_too}" if hint else by_hand_too
         own = f"{files.on(host.name).root}/nodes/{host.name}"
-        if not reason and not (_has_node(grid, host) or (is_here(host) and _has_ended_hung(grid, host.name))):
+        is_up = bool(reason) or until(partial(grid.has_node, host.name), _PATIENCE)
+        if not is_up and not (is_here(host) and _has_ended_hung(grid, host.name)):
             words = daemons.last_words(own) or f"see {own}/log on that host"
             reason = f"it was started, but does not reach the registry at {registry.address}:{registry.port}: {words}"
             hint = "all hosts must reach each other over TCP: check for a firewall between them"
         if reason:
-            where = host.span if host.span.file else Span(network.path)
             hint = "" if is_here(host) else hint
             faults[host.name] = codes.NO_NODE.at(
-                where, name=host.name, address=host.address, reason=reason, hint=hint
+                network.span_of_host(host), name=host.name, address=host.address, reason=reason, hint=hint
             )  # fmt: skip
     return faults
-
-
-def _has_node(grid: GridSession, host: NetworkHost) -> bool:
-    return until(lambda: grid.has_node(host.name), _PATIENCE)
 
 
 def _has_ended_hung(grid: GridSession, host: str) -> bool:
@@ -247,7 +234,7 @@ def end_node(
 def end_here(files: GridFiles) -> None:
     """Ends what runs on this machine. The deployment's key stays only if a node needs it that was started by hand."""
     nodes = files.nodes()
-    _end_local(files)
+    end_daemons(files)
     left = {host: is_started for host, is_started in nodes.items() if not is_started}
     files.keep_nodes(left)
     files.drop_configurations(with_key=not left)
@@ -255,11 +242,6 @@ def end_here(files: GridFiles) -> None:
 
 def end_daemons(files: GridFiles) -> None:
     """Ends the registry, and the nodes of this machine that rcyaml started. All else stays, for the next start."""
-    _end_local(files)
-
-
-def _end_local(files: GridFiles) -> None:
-    """Ends the registry, and the nodes of this machine that rcyaml started."""
     nodes = [f"{files.root}/nodes/{host}" for host, is_started in files.nodes().items() if is_started]
     for folder in (*nodes, files.registry_folder):
         daemons.end(folder)

@@ -32,12 +32,16 @@ class Installed(msgspec.Struct, frozen=True):
     engine: str
     units: tuple[InstalledUnit, ...] = ()
 
+    @property
+    def entry(self) -> RegisteredDeployment:
+        """It as an entry of the user's list."""
+        hosts = tuple(unit.host for unit in self.units)
+        return RegisteredDeployment(self.name, self.document, self.folder, self.engine, hosts)
+
 
 def of_folder(folder: str) -> Installed | None:
     """The record of the deployment in this folder, None if it is not installed."""
-    with contextlib.suppress(OSError, ValueError), open(_path(folder), "rb") as file:
-        return msgspec.json.decode(file.read(), type=Installed)
-    return None
+    return registered.read(_path(folder), Installed)
 
 
 def hosts_of(folder: str) -> list[str]:
@@ -47,21 +51,15 @@ def hosts_of(folder: str) -> list[str]:
 
 
 def every() -> list[Installed]:
-    found = []
     with contextlib.suppress(OSError):
-        for name in sorted(os.listdir(_root())):
-            with contextlib.suppress(OSError, ValueError), open(f"{_root()}/{name}", "rb") as file:
-                found.append(msgspec.json.decode(file.read(), type=Installed))
-    return found
+        records = (registered.read(f"{_root()}/{name}", Installed) for name in sorted(os.listdir(_root())))
+        return [one for one in records if one]
+    return []
 
 
 def named(name: str) -> list[RegisteredDeployment]:
     """The installed deployments of this name, as entries of the user's list."""
-    return [
-        RegisteredDeployment(one.name, one.document, one.folder, one.engine, tuple(unit.host for unit in one.units))
-        for one in every()
-        if one.name == name
-    ]
+    return [one.entry for one in every() if one.name == name]
 
 
 def forget(folder: str) -> None:

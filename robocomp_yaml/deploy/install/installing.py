@@ -15,7 +15,9 @@ from robocomp_yaml.deploy.engines import LOCAL
 from robocomp_yaml.deploy.install import units
 from robocomp_yaml.deploy.install.installed import Installed, InstalledUnit, forget, keep, of_folder
 from robocomp_yaml.deploy.install.units import HostUnit
-from robocomp_yaml.deploy.probe import ProbeFailed, run_on
+from robocomp_yaml.deploy.local.obstacles import unset
+from robocomp_yaml.deploy.probe import run_on
+from robocomp_yaml.deploy.ssh import HostFailed
 from robocomp_yaml.diag.codes import deploying as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.errors import reason_of
@@ -27,7 +29,7 @@ def install(
     network: Network, engine: str, wanted: list[HostUnit]
 ) -> tuple[list[HostUnit], list[Diagnostic]]:  # fmt: skip
     """Writes the units on all hosts, and returns those that were written. A host that cannot be reached is reported."""
-    diagnostics = _unset(network)
+    diagnostics = [one for process in network.enabled() for one in unset(process)]  # also at the next boot
     if diagnostics:
         return [], diagnostics
     if engine != LOCAL:
@@ -43,12 +45,9 @@ def install(
     for unit in wanted:
         texts = ["unit", unit.text, *(text for pair in unit.files.items() for text in pair)]
         try:
-            answer = _ask(unit.host, unit.is_here, "install", unit.manager, unit.name, unit.target, network.path, texts)
-            reason, hint = answer.get("refused", ""), ""
-        except ProbeFailed as error:
-            reason, hint = str(error), error.hint
-        if reason:
-            diagnostics.append(_fault(network, unit.host, "written", reason, hint))
+            answer = _ask(unit.host, unit.is_here, "install", unit.manager, unit.name, network.path, texts)
+        except HostFailed as error:
+            diagnostics.append(_fault(network, unit.host, "written", error))
             continue
         done[unit.host.name, unit.name] = InstalledUnit(
             registered.host_of(unit.host), unit.name, unit.manager, tuple(unit.files), unit.is_here
@@ -100,19 +99,15 @@ def uninstall(network: Network, record: Installed) -> list[Diagnostic]:
     diagnostics, left = list[Diagnostic](), list[InstalledUnit]()
     for unit in record.units:
         host = unit.host.host
-        target = "multi-user.target" if unit.manager == units.SYSTEM else "default.target"
         texts = [text for path in unit.files for text in (path, "")]
         if not unit.is_here:  # the key of its node
             own = os.path.dirname(os.path.dirname(os.path.dirname(unit.files[0])))
             texts += [f"{own}/state/icegrid/nodes/{host.name}", ""]
         try:
-            answer = _ask(host, unit.is_here, "remove", unit.manager, unit.name, target, record.document, texts)
-            reason, hint = answer.get("refused", ""), ""
-        except ProbeFailed as error:
-            reason, hint = str(error), error.hint
-        if reason:
+            _ask(host, unit.is_here, "remove", unit.manager, unit.name, record.document, texts)
+        except HostFailed as error:
             left.append(unit)
-            diagnostics.append(_fault(network, network.hosts.get(host.name, host), "removed", reason, hint))
+            diagnostics.append(_fault(network, network.hosts.get(host.name, host), "removed", error))
     if left:
         keep(replace(record, units=tuple(left)))
     else:
@@ -133,17 +128,19 @@ def user() -> str:
 
 
 def _ask(
-    host: NetworkHost, is_near: bool, what: str, manager: str, unit: str, target: str, owner: str, texts: Iterable[str]
+    host: NetworkHost, is_near: bool, what: str, manager: str, unit: str, owner: str, texts: Iterable[str]
 ) -> dict[str, str]:  # fmt: skip
-    """What the script on a host answers. Raises ProbeFailed."""
-    given = "".join(f"{text}\0" for text in (what, manager, unit, target, owner, *texts))
+    """What the script on a host answers. Raises HostFailed, also if it refuses a change."""
+    given = "".join(f"{text}\0" for text in (what, manager, unit, units.target(manager), owner, *texts))
     where = NetworkHost(host.name) if is_near else host
     command = ["bash", "-c", units.script(), "units"]
-    code, output, errors = run_on(where, command, given.encode(errors="surrogateescape"))
-    if code:
-        lines = errors.strip().splitlines()
-        raise ProbeFailed(lines[-1] if lines else f"exit code {code}")
-    return dict(line.split("\t", 1) for line in output.decode(errors="replace").splitlines() if "\t" in line)
+    done = run_on(where, command, given.encode(errors="surrogateescape"))
+    answer = dict(line.split("\t", 1) for line in done.output.decode(errors="replace").splitlines() if "\t" in line)
+    if done.code:
+        raise HostFailed(done.reason())
+    if what != "show" and (refused := answer.get("refused")):
+        raise HostFailed(refused)
+    return answer
 
 
 def _notes(unit: HostUnit, answer: dict[str, str]) -> tuple[str, ...]:
@@ -162,27 +159,12 @@ def _unreached(network: Network, wanted: Iterable[HostUnit]) -> list[Diagnostic]
     found = []
     for unit in wanted:
         try:
-            _ask(unit.host, unit.is_here, "show", unit.manager, unit.name, unit.target, network.path, [])
-        except ProbeFailed as error:
-            found.append(_fault(network, unit.host, "written", str(error), error.hint))
+            _ask(unit.host, unit.is_here, "show", unit.manager, unit.name, network.path, [])
+        except HostFailed as error:
+            found.append(_fault(network, unit.host, "written", error))
     return found
 
 
-def _fault(network: Network, host: NetworkHost, what: str, reason: str, hint: str) -> Diagnostic:
-    return codes.NO_UNIT.at(_span(network, host), hint=hint, host=host.name, what=what, reason=reason)
-
-
-def _unset(network: Network) -> list[Diagnostic]:
-    """Diagnostics for variables that are not set now, and would not be set at the next boot."""
-    return [
-        codes.UNSET_VARIABLE.at(
-            process.span, name=process.name, variable=variable.source, hint=f"export {variable.source}=…"
-        )
-        for process in network.enabled()
-        for variable in process.env
-        if variable.source and variable.source not in os.environ
-    ]  # fmt: skip
-
-
-def _span(network: Network, host: NetworkHost) -> Span:
-    return host.span if host.span.file else Span(network.path)
+def _fault(network: Network, host: NetworkHost, what: str, error: HostFailed) -> Diagnostic:
+    where = network.span_of_host(host)
+    return codes.NO_UNIT.at(where, hint=error.hint, host=host.name, what=what, reason=str(error))

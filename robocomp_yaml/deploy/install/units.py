@@ -41,9 +41,10 @@ class HostUnit(msgspec.Struct, frozen=True):
     is_here: bool = True
     notes: tuple[str, ...] = ()
 
-    @property
-    def target(self) -> str:
-        return "multi-user.target" if self.manager == SYSTEM else "default.target"
+
+def target(manager: str) -> str:
+    """What a manager starts at boot."""
+    return "multi-user.target" if manager == SYSTEM else "default.target"
 
 
 def name_of(network: Network, *, is_node: bool = False) -> str:
@@ -118,7 +119,7 @@ def _tail(unit: UnitFile, own: str, manager: str, user: str) -> None:
     unit.put("RestartSec", "2")
     unit.put("KillMode", "mixed")
     unit.section("Install")
-    unit.put("WantedBy", "multi-user.target" if manager == SYSTEM else "default.target")
+    unit.put("WantedBy", target(manager))
 
 
 def environment(values: Mapping[str, str]) -> str:

@@ -124,13 +124,18 @@ def _owner(pid: int) -> tuple[str, str]:
     return who, f"take that deployment down (`{down}`)"
 
 
-def _of_program(spec: ProcessSpec, reason: Callable[[str, str, str], str]) -> Iterator[Diagnostic]:
-    process = spec.process
+def unset(process: Process) -> Iterator[Diagnostic]:
+    """A diagnostic for each variable of the operator's environment that a process reads, and that is not set."""
     for variable in process.env:
         if variable.source and variable.source not in os.environ:
             yield deploying.UNSET_VARIABLE.at(
-                process.span, hint=f"export {variable.source}=…", name=spec.name, variable=variable.source
+                process.span, hint=f"export {variable.source}=…", name=process.name, variable=variable.source
             )
+
+
+def _of_program(spec: ProcessSpec, reason: Callable[[str, str, str], str]) -> Iterator[Diagnostic]:
+    process = spec.process
+    yield from unset(process)
     try:
         environment = whole_environment_of(process) if process.env else os.environ
         why_not = reason(spec.command[0], process.cwd or "/", environment.get("PATH", os.defpath))

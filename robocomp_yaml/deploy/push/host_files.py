@@ -14,7 +14,8 @@ import msgspec
 
 from robocomp_yaml import resources
 from robocomp_yaml.deploy.here import folder_on
-from robocomp_yaml.deploy.probe import ProbeFailed, run_on
+from robocomp_yaml.deploy.probe import run_on
+from robocomp_yaml.deploy.ssh import HostFailed
 from robocomp_yaml.network.network import Network, NetworkHost
 from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.regular import content, regular
@@ -59,11 +60,11 @@ def name_of(network: Network, host: NetworkHost) -> str:
 
 
 def ask(network: Network, host: NetworkHost, programs: Iterable[str], files: Iterable[str]) -> HostFiles:
-    """What the host has. Raises ProbeFailed."""
+    """What the host has. Raises HostFailed."""
     name = name_of(network, host)
     given = _texts([name, *programs, "", *files])
-    code, output, errors = run_on(host, ["bash", "-c", resources.text("templates/push/ask.sh"), "ask"], given)
-    texts = output.decode(errors="surrogateescape").split("\0")[:-1]
+    done = run_on(host, ["bash", "-c", resources.text("templates/push/ask.sh"), "ask"], given)
+    texts = done.output.decode(errors="surrogateescape").split("\0")[:-1]
     found, own, at = HostFiles(), False, 0
     while at < len(texts) and texts[at] != "d":
         kind, text = texts[at][:1], texts[at][1:]
@@ -89,9 +90,8 @@ def ask(network: Network, host: NetworkHost, programs: Iterable[str], files: Ite
                 found.pushed[one.path] = one
             elif one.how == BROUGHT:
                 found.others.add(one.path)
-    if code or at >= len(texts):
-        lines = errors.strip().splitlines()
-        raise ProbeFailed(lines[-1] if lines else f"the answer is not valid (exit code {code})")
+    if done.code or at >= len(texts):
+        raise HostFailed(done.reason("the answer is not valid"))
     for text in texts[at + 1 :]:
         value, _, path = text.partition("  ")
         found.digests[path] = value
@@ -103,14 +103,13 @@ def keep(
     gone: Iterable[tuple[str, str]] = (),
 ) -> None:  # fmt: skip
     """Writes the list of a host, after it has created folders and deleted files. `gone` are pairs of the folder above
-    which no empty folder is deleted, and the path of a file. Raises ProbeFailed."""
+    which no empty folder is deleted, and the path of a file. Raises HostFailed."""
     texts = [list_path, *(f"{one.how} {one.digest} {one.path}" for one in entries), "", *folders, ""]
     texts += [text for pair in gone for text in pair]
     script = resources.text("templates/push/keep.sh")
-    code, _, errors = run_on(host, ["bash", "-c", script, "keep"], _texts(texts))
-    if code:
-        lines = errors.strip().splitlines()
-        raise ProbeFailed(lines[-1].removeprefix("keep: ") if lines else f"exit code {code}")
+    done = run_on(host, ["bash", "-c", script, "keep"], _texts(texts))
+    if done.code:
+        raise HostFailed(done.reason().removeprefix("keep: "))
 
 
 def _texts(texts: Iterable[str]) -> bytes:

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Callable, Collection, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import TypeVar
 
 from robocomp_yaml.deploy.here import is_here
-from robocomp_yaml.deploy.probe import ProbeFailed
 from robocomp_yaml.deploy.push import host_files, planned, sending
 from robocomp_yaml.deploy.push.planned import HostPush
 from robocomp_yaml.deploy.push.sending import Sent
+from robocomp_yaml.deploy.ssh import HostFailed
 from robocomp_yaml.diag.codes import deploying as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
-from robocomp_yaml.diag.span import Span
 from robocomp_yaml.network import files
 from robocomp_yaml.network.network import Network, NetworkHost
 
@@ -44,7 +44,7 @@ def compared(
         return push, faults
 
     found, diagnostics = _on_each(network, hosts, work)
-    if sending.lacks_rsync():
+    if shutil.which("rsync") is None:
         diagnostics += [_without_rsync(network, push.host, "this machine") for push, _ in found if not push.is_empty]
     return [push for push, _ in found], diagnostics + [fault for _, faults in found for fault in faults]
 
@@ -76,9 +76,8 @@ def _on_each(
     def one(host: NetworkHost) -> T | Diagnostic:
         try:
             return work(host)
-        except ProbeFailed as error:
-            where = _span(network, host)
-            return codes.NO_PUSH.at(where, hint=error.hint, name=host.name, address=host.address, reason=str(error))
+        except HostFailed as error:
+            return _fault(network, host, str(error), error.hint)
 
     with ThreadPoolExecutor(_PARALLEL) as pool:
         results = list(pool.map(one, hosts))
@@ -86,12 +85,11 @@ def _on_each(
     return [result for result in results if not isinstance(result, Diagnostic)], failed
 
 
-def _span(network: Network, host: NetworkHost) -> Span:
-    return host.span if host.span.file else Span(network.path)
+def _fault(network: Network, host: NetworkHost, reason: str, hint: str) -> Diagnostic:
+    where = network.span_of_host(host)
+    return codes.NO_PUSH.at(where, hint=hint, name=host.name, address=host.address, reason=reason)
 
 
 def _without_rsync(network: Network, host: NetworkHost, where: str) -> Diagnostic:
     hint = f"install it on {'that host' if where == 'it' else where} (Debian: rsync)"
-    return codes.NO_PUSH.at(
-        _span(network, host), hint=hint, name=host.name, address=host.address, reason=f"{where} has no rsync"
-    )  # fmt: skip
+    return _fault(network, host, f"{where} has no rsync", hint)

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import os
 import shlex
-import shutil
 import subprocess
 import tempfile
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from datetime import UTC, datetime
 
-from robocomp_yaml.deploy.probe import ProbeFailed
 from robocomp_yaml.deploy.push import host_files
 from robocomp_yaml.deploy.push.host_files import PushedFile
 from robocomp_yaml.deploy.push.planned import HostPush
-from robocomp_yaml.deploy.ssh import CLIENT, SshFailed, login
+from robocomp_yaml.deploy.ssh import CLIENT, HostFailed, login
 from robocomp_yaml.network.network import NetworkHost
 
 _PARTIAL = ".rcyaml-partial"
@@ -24,7 +22,7 @@ Sent = Callable[[str, str], None]
 
 
 def carry_out(push: HostPush, report: Sent) -> None:
-    """Raises ProbeFailed. Then the next push continues: the list has all files that can be there."""
+    """Raises HostFailed. Then the next push continues: the list has all files that can be there."""
     host, there = push.host, push.there
     if push.send:
         coming = {path: PushedFile(host_files.BROUGHT, "-", path) for path in push.send}
@@ -66,11 +64,8 @@ def _above(host: NetworkHost, path: str) -> str:
 
 
 def _rsync(host: NetworkHost, base: str, target: str, names: Mapping[str, str], backup: str) -> Iterator[str]:
-    """The names of the files that rsync has sent. Raises ProbeFailed."""
-    try:
-        shell = shlex.join(CLIENT.shell(host))
-    except SshFailed as error:
-        raise ProbeFailed(str(error), error.hint) from error
+    """The names of the files that rsync has sent. Raises HostFailed."""
+    shell = shlex.join(CLIENT.shell(host))
     address = login(NetworkHost(host.name, f"[{host.address}]" if ":" in host.address else host.address, host.ssh))
     words = [
         "rsync", "--perms", "--times", "--copy-links", "--ignore-times", "--no-implied-dirs", "--omit-dir-times",
@@ -95,8 +90,4 @@ def _rsync(host: NetworkHost, base: str, target: str, names: Mapping[str, str], 
         errors = said_wrong.read().decode(errors="replace").splitlines()
     if rsync.returncode:
         said = [line.strip() for line in errors if line.strip() and not line.startswith("rsync error:")]
-        raise ProbeFailed(said[0] if said else f"rsync ended with exit code {rsync.returncode}")
-
-
-def lacks_rsync() -> bool:
-    return shutil.which("rsync") is None
+        raise HostFailed(said[0] if said else f"rsync ended with exit code {rsync.returncode}")

@@ -59,6 +59,11 @@ class SortedSettings(msgspec.Struct, frozen=True):
     properties: list[NamedSetting] = []
     diagnostics: list[Diagnostic] = []
 
+    @property
+    def sections(self) -> tuple[list[NamedSetting], ...]:
+        """Those with a meaning of their own: all but parameters and properties."""
+        return self.endpoints, self.proxies, self.manager, self.prefixes, self.names, self.ice
+
     def put(self, section: list[NamedSetting], name: str, setting: Setting) -> None:
         """Add a setting to a section. Names that start with `x-` are reserved for the user: such a setting becomes a
         property."""
@@ -148,9 +153,8 @@ def _rest(result: SortedSettings, setting: Setting, ports: PortNames, rules: Rul
         rules.sections["service"].match(setting.key)
         or ports.is_connection(setting.key)
         or references.in_text(setting.text)
+        or len(setting.path) > MAX_DEPTH
     ):
-        result.keep(setting)
-    elif len(setting.path) > MAX_DEPTH:
         result.keep(setting)
     else:
         result.parameters.append(setting)

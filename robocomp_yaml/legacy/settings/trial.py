@@ -157,14 +157,7 @@ _SECTIONS = ("endpoints", "proxies", "topics", "ice")
 
 def _keep(fault: _DocumentFault, settings: SortedSettings) -> bool:
     """Move a setting from its section to the properties."""
-    for section in (
-        settings.endpoints,
-        settings.proxies,
-        settings.manager,
-        settings.prefixes,
-        settings.names,
-        settings.ice,
-    ):
+    for section in settings.sections:
         for named in section:
             if named.name == fault.keys[-1] or (section is settings.proxies and named.name in fault.keys[1:2]):
                 section.remove(named)
