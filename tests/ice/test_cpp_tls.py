@@ -40,6 +40,7 @@ components:
   server: {{component: "{server}", ports: {{Arm: {arm}, Hand: {hand}, CommonBehavior: {behavior}}}}}
   client: {{component: "{client}", ports: {{CommonBehavior: {client_behavior}}}}}
   radio: {{component: "{radio}", ports: {{CommonBehavior: {radio_behavior}}}}}
+  second: {{component: "{radio}", ports: {{CommonBehavior: {second_behavior}}}, after: [radio]}}
 """
 SLICE = ROOT / "templates" / "slice" / "CommonBehavior.ice"
 
@@ -72,9 +73,9 @@ class Robot:
 def robot(
     programs: Programs, free_port: Ports, rcyaml: Rcyaml, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[Robot]:
-    """A network that runs: a server, its client, and a publisher that hears itself."""
+    """A network that runs: a server, its client, and two publishers, of which the first hears the second."""
     monkeypatch.setenv("XDG_STATE_HOME", f"{tmp_path}/own")
-    names = ("storm", "publish", "arm", "hand", "behavior", "client_behavior", "radio_behavior")
+    names = ("storm", "publish", "arm", "hand", "behavior", "client_behavior", "radio_behavior", "second_behavior")
     ports = {name: free_port() for name in names}
     roots = {name.lower(): str(programs(name).root) for name in ("Server", "Client", "Radio")}
     write_tree(tmp_path, {"robot.ddsl.yaml": NETWORK.format(**ports, **roots)})
@@ -90,7 +91,7 @@ def robot(
 
 def test_components_in_cpp_over_tls(robot: Robot) -> None:
     until(lambda: "grasp cba" in robot.log("client"), lambda: robot.log("client"))
-    until(lambda: "all in order" in robot.log("radio"), lambda: robot.log("radio"))  # what it published itself
+    until(lambda: "moved to 4 right" in robot.log("radio"), lambda: robot.log("radio"))
 
     # The own commands have certificate and token; nobody else gets an answer, but with a certificate.
     assert "returns:" in robot.own("call", "server.Arm.state")
