@@ -3,16 +3,17 @@ once."""
 
 from __future__ import annotations
 
-import gc
 import os
 import signal
+
+from robocomp_yaml.garbage import collect_seldom
 
 
 def main() -> None:
     for number in (signal.SIGINT, signal.SIGTERM):
         if signal.getsignal(number) is not signal.SIG_IGN:
             signal.signal(number, lambda number, _: os._exit(128 + number))
-    gc.set_threshold(200_000, 20, 100)  # a run is short, and most of its objects live until its end
+    collect_seldom()
     from robocomp_yaml.cli import main as run
 
     run()

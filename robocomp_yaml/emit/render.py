@@ -1,24 +1,14 @@
 """Renders templates from views.
 
-A view has strings and lists of views. The template's variables are its fields. Compiled templates are cached in the
-user's cache folder, because compiling them takes longer than the rest of a run.
+A view has strings and lists of views. The template's variables are its fields.
 """
 
 from __future__ import annotations
 
-import os
-import stat
-from contextlib import suppress
-from functools import cache
 from types import SimpleNamespace
 
 import msgspec
-from jinja2 import BytecodeCache, Environment, FileSystemBytecodeCache, StrictUndefined
-from jinja2.bccache import Bucket
-from jinja2.loaders import BaseLoader, ChoiceLoader, FileSystemLoader, PrefixLoader
 from msgspec.structs import asdict
-
-from robocomp_yaml import languages, resources
 
 
 class View(SimpleNamespace):
@@ -27,50 +17,7 @@ class View(SimpleNamespace):
 
 def render(name: str, view: msgspec.Struct | View = View(), /, **more: object) -> str:
     """Renders the template `templates/NAME`, or `LANGUAGE/NAME` of a language, with the fields of `view`, and more."""
+    from robocomp_yaml.emit.jinja import environment  # imports Jinja2, which most runs do not need
+
     variables = asdict(view) if isinstance(view, msgspec.Struct) else vars(view)
-    return _environment().get_template(name).render(variables, **more)
-
-
-class _Cache(FileSystemBytecodeCache):
-    """The cache of Jinja2, which compares checksums of sources. Errors of the disk are ignored."""
-
-    def dump_bytecode(self, bucket: Bucket) -> None:
-        with suppress(OSError):
-            super().dump_bytecode(bucket)
-
-
-class _LanguageLoaders(dict[str, BaseLoader]):
-    """The loader of each language's templates, created at its first use, because plug-ins are loaded late."""
-
-    def __missing__(self, name: str) -> BaseLoader:
-        self[name] = FileSystemLoader(languages.known()[name].templates)
-        return self[name]
-
-
-@cache
-def _environment() -> Environment:
-    return Environment(
-        loader=ChoiceLoader([PrefixLoader(_LanguageLoaders()), FileSystemLoader(resources.folder("templates"))]),
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-        autoescape=False,
-        auto_reload=False,
-        bytecode_cache=_bytecode_cache(),
-    )
-
-
-def _bytecode_cache() -> BytecodeCache | None:
-    """The cache; None if there is no folder that only this user can write, because cached code is executed."""
-    base = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
-    folder = os.path.join(base, "rcyaml", "templates")
-    try:
-        os.makedirs(os.path.dirname(folder), exist_ok=True)
-        with suppress(FileExistsError):
-            os.mkdir(folder, mode=0o700)
-        status = os.stat(folder)
-    except OSError:
-        return None
-    private = stat.S_IMODE(status.st_mode) & 0o077 == 0 and status.st_uid == os.getuid()
-    return _Cache(folder) if private and os.access(folder, os.W_OK) else None
+    return environment().get_template(name).render(variables, **more)

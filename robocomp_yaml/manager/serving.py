@@ -16,6 +16,7 @@ import uvicorn
 
 from robocomp_yaml.api.refusals import cannot_write
 from robocomp_yaml.diag.errors import Refused, reason_of
+from robocomp_yaml.garbage import collect_often
 from robocomp_yaml.manager.access import TOKEN, AccessRules
 from robocomp_yaml.manager.app import application
 from robocomp_yaml.manager.watching import Watcher
@@ -152,6 +153,7 @@ async def _until_signal(
     while not server.started and not served.done():
         await asyncio.sleep(0.01)
     if server.started:
+        collect_often()
         on_ready()
     await served
     return 128 + ended[0] if ended else 1

@@ -59,7 +59,7 @@ def schema(kind: str, more: tuple[TargetLanguage, ...] = ()) -> dict[str, Any]:
 
 @cache
 def _validator(kind: str, more: tuple[TargetLanguage, ...]) -> jsonschema_rs.Draft7Validator:
-    return jsonschema_rs.Draft7Validator(schema(kind, more))
+    return jsonschema_rs.Draft7Validator(schema_text(kind, more))  # `schema` is needed for errors alone
 
 
 def validate(kind: str, root: Node, more: tuple[TargetLanguage, ...] = ()) -> list[Diagnostic]:

@@ -61,7 +61,11 @@ def read_bytes(path: str, limit: int = MAX_DOCUMENT) -> tuple[bytes | None, list
     try:
         with open(path, "rb", opener=regular) as file:
             status = os.fstat(file.fileno())
-            raw = file.read(limit + 1) if status.st_size <= limit else b""
+            raw = b""
+            if status.st_size <= limit:
+                raw = file.read(status.st_size + 1)  # memory for `limit` would be slow to get
+                if len(raw) > status.st_size:  # it grows, or its size is not known
+                    raw += file.read(limit + 1 - len(raw))
             size = max(status.st_size, len(raw))
             if size > limit:
                 return None, [

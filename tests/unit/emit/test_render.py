@@ -14,6 +14,7 @@ from jinja2 import Environment, UndefinedError, nodes
 
 from robocomp_yaml import languages, resources
 from robocomp_yaml.emit import render
+from robocomp_yaml.emit.jinja import environment
 
 FOLDERS = (Path(resources.folder("templates")), *(Path(language.templates) for language in languages.table().values()))
 TEMPLATES = sorted(path for folder in FOLDERS for path in folder.rglob("*.j2"))
@@ -47,9 +48,9 @@ def templates(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]
     folder.mkdir()
     monkeypatch.setattr(resources, "folder", lambda name: tmp_path / name)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    render._environment.cache_clear()
+    environment.cache_clear()
     yield folder
-    render._environment.cache_clear()
+    environment.cache_clear()
 
 
 @pytest.mark.parametrize("path", TEMPLATES, ids=lambda path: f"{path.parent.name}/{path.name}")
@@ -76,7 +77,7 @@ def test_a_variable_that_the_view_lacks(templates: Path) -> None:
 
 def again(templates: Path) -> str:
     """The text that the next run renders."""
-    render._environment.cache_clear()
+    environment.cache_clear()
     return render.render("a.j2", View("x"))
 
 
