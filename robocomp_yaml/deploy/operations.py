@@ -176,13 +176,18 @@ async def last_lines(engine: Engine, name: str) -> list[str]:
     return [f"{name} | {line}" for line in (found if last is None else last)]
 
 
-async def status(engine: Engine, network: Network, names: Collection[str], reached: bool) -> list[Status]:
+async def status(
+    engine: Engine, network: Network, names: Collection[str], reached: bool, known: Mapping[str, Status] | None = None
+) -> list[Status]:  # fmt: skip
     """The status of processes: those of the network first, in its order. `reached` is what `Engine.open` returned.
-    Without `names`, all processes. Raises DeployFailed."""
+    Without `names`, all processes. Those that are `known` are not asked: only what the engine observes is new of them.
+    Raises DeployFailed."""
     running = await engine.observe(use=True) if reached else {}
 
     async def status_of(name: str) -> Status:
         one, process = running.get(name), network.processes.get(name)
+        if one and known and name in known:
+            return replace(known[name], running=one)
         host = one.host if one else process.host if process else ""
         process = process or (one.spec.process if one and one.spec else None)
         is_server = process is not None and process.is_server
@@ -196,8 +201,8 @@ async def status(engine: Engine, network: Network, names: Collection[str], reach
         says_why = is_ready or one.not_alive or (own is not None and not own.is_running)
         return Status(name, host, is_ready, one, is_server, own, "" if says_why else await unmet(one.spec))
 
-    known = [process.name for process in network.enabled()]
-    every = [*known, *(name for name in running if name not in known)]
+    enabled = [process.name for process in network.enabled()]
+    every = [*enabled, *(name for name in running if name not in enabled)]
     return await asyncio.gather(*(status_of(name) for name in every if not names or name in names))
 
 

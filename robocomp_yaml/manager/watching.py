@@ -9,7 +9,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import os
-from collections.abc import AsyncIterator, Mapping, Sequence
+from collections.abc import AsyncIterator, Collection, Mapping, Sequence
 from contextlib import aclosing
 from typing import Any
 
@@ -27,9 +27,10 @@ from robocomp_yaml.manager.requests import Unknown
 from robocomp_yaml.manager.topics import TopicFeeds
 from robocomp_yaml.network.network import Network
 
-OBSERVE, ASK, COMMANDS, DISK, RATES = 0.4, 2.0, 10.0, 1.0, 2.0
-"""Seconds between two observations, between two questions whether all are ready, between two runs of the command that
-says so of a process that was, between two looks at the disk, and between two looks at what publishers count."""
+OBSERVE, ASK, AGAIN, COMMANDS, DISK, RATES = 0.4, 2.0, 6.0, 10.0, 1.0, 2.0
+"""Seconds between two observations, between two questions whether all are ready, between two questions to a process
+that was, between two runs of the command that says so, between two looks at the disk, and between two looks at what
+publishers count."""
 
 
 class Watcher:
@@ -47,7 +48,7 @@ class Watcher:
         self._engine_name = ""
         self._running: Mapping[str, Running] = {}
         self._asked, self._seen = 0.0, dict[str, tuple[object, ...]]()
-        self._told: dict[str, tuple[tuple[object, ...], float]] = {}  # what is known of processes with such a command
+        self._ready: dict[str, tuple[tuple[object, ...], float, Status]] = {}  # at the last question, and when it was
         self._measured: dict[str, tuple[int, float, float]] = {}  # process id, seconds of CPU, and when
 
     async def begin(self) -> None:
@@ -121,7 +122,7 @@ class Watcher:
             if self._network is not None and (name != self._engine_name or network.folder != self._network.folder):
                 await self._leave()
             self._network, self._engine_name = network, name
-        self.problem, self._asked = problem, 0.0
+        self.problem, self._asked, self._ready = problem, 0.0, {}
 
     async def _watch_processes(self) -> None:
         while True:
@@ -176,12 +177,11 @@ class Watcher:
 
     async def _ask(self, network: Network) -> None:
         """Asks which processes are ready, and sends what differs."""
-        kept = self._kept(network)
-        asked = {*(one.name for one in network.enabled()), *self._running} - kept
+        known = self._known(network)
         if self._engine is None:
             found = [Status(one.name, one.host, False, None, one.is_server) for one in network.enabled()]
         else:
-            found = await operations.status(self._engine, network, asked, True) if asked else []
+            found = await operations.status(self._engine, network, (), True, known)
         states = {one["name"]: one for one in json_data.status_data(network, found)}
         words = {one.name: json_data.state_in_words(one) for one in found}
         down = {one.name: one.is_down for one in found}
@@ -189,8 +189,7 @@ class Watcher:
             state["words"], state["down"] = words[name], down[name]
             state["load"] = self._load(state)
         changed = [one for name, one in states.items() if _lasting(one) != _lasting(self.states.get(name, {}))]
-        self._tell(network, states)
-        states |= {name: self.states[name] for name in kept}
+        self._keep(found, known)
         gone = [name for name in self.states if name not in states]
         for one in changed:
             was = self.states.get(one["name"])
@@ -210,22 +209,22 @@ class Watcher:
         if changed or gone:
             self._send(changed, gone)
 
-    def _kept(self, network: Network) -> set[str]:
-        """The processes that a command called ready not long ago, and to which nothing happened since. Each question
-        is a process of its own, which would cost more than everything else here."""
+    def _known(self, network: Network) -> dict[str, Status]:
+        """The processes that were ready not long ago, and to which nothing happened since: asking all of them each
+        time would cost more than everything else here."""
         now = asyncio.get_running_loop().time()
-        is_same = {name for name, (gist, when) in self._told.items()
-                   if self._engine is not None and now - when < COMMANDS and self._seen.get(name) == gist}  # fmt: skip
-        return {name for name in is_same if name in network.processes and name in self.states}
+        return {
+            name: status for name, (gist, when, status) in self._ready.items()
+            if (process := network.processes.get(name)) is not None and self._seen.get(name) == gist
+            and now - when < (COMMANDS if process.ready.command else AGAIN)
+        }  # fmt: skip
 
-    def _tell(self, network: Network, states: Mapping[str, Mapping[str, Any]]) -> None:
-        now = asyncio.get_running_loop().time()
-        for name, state in states.items():
-            process = network.processes.get(name)
-            if process is not None and process.ready.command and state["ready"] and name in self._seen:
-                self._told[name] = self._seen[name], now
-            else:
-                self._told.pop(name, None)
+    def _keep(self, found: Sequence[Status], known: Collection[str]) -> None:
+        before, now = self._ready, asyncio.get_running_loop().time()
+        self._ready = {
+            one.name: (self._seen[one.name], before[one.name][1] if one.name in known else now, one)
+            for one in found if one.is_ready and one.name in self._seen
+        }  # fmt: skip
 
     def _load(self, state: Mapping[str, Any]) -> float | None:
         """The percentage of a core that a process used since the last question; None for the first one, and where its

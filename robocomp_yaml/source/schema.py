@@ -21,6 +21,7 @@ from robocomp_yaml.diag.fix import NO_HINT, Fix, Hint, removal
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.languages.record import TargetLanguage
 from robocomp_yaml.patterns import pattern
+from robocomp_yaml.source.holders import holder_of
 from robocomp_yaml.source.retyped import retyped
 from robocomp_yaml.source.schema_text import schema_text
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, not_plain
@@ -177,6 +178,8 @@ def _unknown_key(
         hint = Hint("write `range: [LOWEST, HIGHEST]`")
     else:
         hint = hint_for_key(unknown, known, node.entries)
+        if not hint.meant and (holder := holder_of(whole, around, node.entries[unknown][1].data)):
+            hint = Hint(f"write it below `{holder}:`")
     return codes.UNKNOWN_KEY.at(key.span, key=unknown, where=_where(instance_path), hint=hint)
 
 
@@ -285,6 +288,8 @@ _FOREIGN = {
     "sequence": "list vector array", "list": "vector array sequence", "values": "choices allowed options oneof enum",
     "implements": "provides serves offers", "requires": "needs depends", "after": "depends_on depends dependson",
     "program": "command cmd exec", "env": "environment", "component": "name",
+    "in": "params parameters args arguments inputs input", "out": "outputs output results", "returns": "return result",
+    "throws": "raises exceptions errors", "default": "initial",
 }  # fmt: skip
 _LIMITS = ("min", "max", "minimum", "maximum")
 

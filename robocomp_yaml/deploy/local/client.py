@@ -11,6 +11,8 @@ import subprocess
 import sys
 from typing import Any
 
+import msgspec
+
 from robocomp_yaml.deploy import registered
 from robocomp_yaml.deploy.local import channel, procfs, record
 from robocomp_yaml.deploy.local.channel import LONGEST, RESTORE
@@ -67,7 +69,7 @@ class Client:
     async def _listen(self) -> None:
         try:
             while line := await self._reader.readline():
-                data = json.loads(line)
+                data = msgspec.json.decode(line)
                 answer = self._waiting.get(data["id"])
                 if answer and not answer.done():
                     answer.set_result(data)

@@ -46,6 +46,7 @@ class LocalEngine:
         self._client: Client | None = None
         self._network = Network("", "", "")
         self._specs: dict[str, ProcessSpec] = {}
+        self._observed: dict[str, tuple[dict[str, Any], ProcessSpec | None]] = {}
         self._cleared = CheckedSpecs()
         self._has_staged = False
 
@@ -99,8 +100,16 @@ class LocalEngine:
 
     async def observe(self, *, use: bool = False) -> dict[str, Running]:
         answer = await self._ask("", "observe")
-        found = [_running(entry) for entry in answer["processes"]]
+        found = [_running(entry, self._spec_of(entry["spec"])) for entry in answer["processes"]]
         return {running.name: running for running in found}
+
+    def _spec_of(self, data: dict[str, Any]) -> ProcessSpec | None:
+        """The spec in an answer, which is mostly that of the last answer."""
+        name = data["process"]["name"]
+        known = self._observed.get(name)
+        if known is None or known[0] != data:
+            known = self._observed[name] = data, ProcessSpec.of_data(data)
+        return known[1]
 
     async def obstacles(self, specs: Sequence[ProcessSpec], leaving: Collection[str]) -> list[Diagnostic]:
         own: set[int] = set()
@@ -223,12 +232,12 @@ def _question(spec: ProcessSpec) -> tuple[str | int, ...] | None:
 _DONE = {"start": "started", "stop": "stopped"}
 
 
-def _running(entry: dict[str, Any]) -> Running:
+def _running(entry: dict[str, Any], spec: ProcessSpec | None) -> Running:
     process = entry["spec"]["process"]
     kept = ("state", "pid", "uptime", "restarts", "last_exit", "memory", "cpu", "spread", "lost_lines", "not_alive")
     return Running(
         process["name"],
-        ProcessSpec.of_data(entry["spec"]),
+        spec,
         process["host"],
         **{key: entry[key] for key in kept if key in entry},
     )
