@@ -78,9 +78,9 @@ def head(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("XDG_STATE_HOME", f"{folder}/own")
         ports = Ports()
-        speech, storm = ports(), ports()
+        speech, storm, publish = ports(), ports(), ports()
         document = (
-            f"deployment: Head\nservices: {{storm: {{icestorm: {{port: {storm}}}}}}}\n"
+            f"deployment: Head\nservices: {{storm: {{icestorm: {{port: {storm}, publish: {publish}}}}}}}\n"
             f"components:\n  speech: {{component: speech, port: {speech}, ready: {{within: 60000}}}}\n"
             "  log: {program: sh, args: [-c, 'echo here it is; exec sleep 600']}\n"
         )

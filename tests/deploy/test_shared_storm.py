@@ -19,7 +19,7 @@ pytestmark = pytest.mark.skipif(shutil.which("icebox") is None, reason="no icebo
 
 PART = """\
 deployment: {name}
-services: {{storm: {{icestorm: {{port: {port}, shared: true}}}}}}
+services: {{storm: {{icestorm: {{port: {port}, publish: {publish}, shared: true}}}}}}
 components:
   base: {{program: sleep, args: ["600"], after: [storm]}}
 """
@@ -28,10 +28,11 @@ ROBOT = "deployment: Robot\ninclude: {left: arm.ddsl.yaml, right: arm.ddsl.yaml}
 
 @pytest.fixture
 def folder(tmp_path: Path, free_port: Ports) -> Iterator[Path]:
-    port = free_port()
+    ports = {name: free_port() for name in ("port", "publish")}
+    own = f"services: {{mine: {{icestorm: {{port: {free_port()}, publish: {free_port()}}}}}}}\n"
     write_tree(tmp_path, {
-        "arm.ddsl.yaml": PART.format(name="Arm", port=port), "leg/leg.ddsl.yaml": PART.format(name="Leg", port=port),
-        "robot.ddsl.yaml": ROBOT, "own.ddsl.yaml": f"{ROBOT}services: {{mine: {{icestorm: {{port: {free_port()}}}}}}}\n",
+        "arm.ddsl.yaml": PART.format(name="Arm", **ports), "leg/leg.ddsl.yaml": PART.format(name="Leg", **ports),
+        "robot.ddsl.yaml": ROBOT, "own.ddsl.yaml": f"{ROBOT}{own}",
     })  # fmt: skip
     yield tmp_path
     for name in ("Arm", "Robot", "leg/Leg"):

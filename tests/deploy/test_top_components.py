@@ -125,7 +125,7 @@ DOCUMENT = """\
 deployment: Robot
 alive: off
 security: {security}
-services: {{storm{storm}: {{icestorm: {{port: {storm}}}}}}}
+services: {{storm{storm}: {{icestorm: {{port: {storm}, publish: {publish}}}}}}}
 components:
   left: {{component: {language}}}
   user: {{program: sleep, args: ["600"]}}
@@ -158,7 +158,9 @@ def test_what_a_component_says(
     cdsl = f"component: Hand\nlanguage: {language}\nimports: [Gripper]\nimplements: [Gripper]\npublishes: [Force]\n"
     write_tree(tmp_path, {
         **FILES, f"{language}/hand.cdsl.yaml": f"{cdsl}subscribes: [Force]\nperiod: 40 ms\n",
-        "hands.ddsl.yaml": DOCUMENT.format(language=language, security=security, storm=free_port()),
+        "hands.ddsl.yaml": DOCUMENT.format(
+            language=language, security=security, storm=free_port(), publish=free_port()
+        ),
     })  # fmt: skip
     assert rcyaml("compile", ".").exit_code == 0
     write_tree(tmp_path / language, CODE[language])
