@@ -446,7 +446,9 @@ def test_a_newer_rule_applies_at_once(asked: Asked) -> None:
     rules = asked.runner.folder / "state" / "icegrid" / "rules"
     rules.mkdir(parents=True)
     (rules / "arm").write_text(f"2{AGAIN[1:]}\n\n")
-    until(lambda: not asked.status.not_alive, "that it is not asked any more")
+    until(lambda: asked.status.not_alive == "it is halted", "that it is not asked any more")
+    os.kill(pid, signal.SIGCONT)
+    until(lambda: not asked.status.not_alive, "life")
     time.sleep(1)
     assert not asked.status.not_alive and asked.status.pid == pid
 

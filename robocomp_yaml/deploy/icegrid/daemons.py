@@ -15,6 +15,7 @@ import signal
 import socket
 import subprocess
 from collections.abc import Collection, Mapping, Sequence
+from contextlib import suppress
 
 import msgspec
 
@@ -23,7 +24,7 @@ from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy import ssh
 from robocomp_yaml.deploy.icegrid import settings
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry
-from robocomp_yaml.deploy.local.procfs import MARK
+from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.own_address import own_address
 from robocomp_yaml.network.network import LOOPBACK, NetworkHost
 from robocomp_yaml.source.properties import entry_line
@@ -49,7 +50,7 @@ def start_detached(command: Sequence[str], folder: str, **environment: str) -> i
     """Starts a process of the deployment in a folder that goes on when this process ends. Returns its pid. Raises
     OSError."""
     started = subprocess.Popen(
-        command, env={**os.environ, MARK: f"{folder}:", **environment}, stdin=subprocess.DEVNULL,
+        command, env={**os.environ, procfs.MARK: f"{folder}:", **environment}, stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True, cwd="/",
     )  # fmt: skip
     started.returncode = 0  # nobody waits for it
@@ -72,16 +73,32 @@ def end_hung(folder: str) -> None:
     _signal(folder, "program", f"--Ice.Config={folder}/settings", signal.SIGKILL)
 
 
+def continue_halted(folder: str) -> bool:
+    """Lets the guard of this folder go on that was halted (SIGSTOP), which does the same for its daemon. Returns
+    whether it was halted."""
+    pid = _pid(folder, "pid", f"{folder}/guard")
+    found = procfs.entry(pid) if pid else None
+    if found is None or not found.is_halted:
+        return False
+    with suppress(OSError):
+        os.kill(pid, signal.SIGCONT)
+    return True
+
+
 def _signal(folder: str, file_name: str, word: str, number: int) -> None:
-    """Sends a signal to the process whose pid is in the file, if this word is in its command: a pid can be reused."""
+    if pid := _pid(folder, file_name, word):
+        with suppress(OSError):
+            os.kill(pid, number)
+
+
+def _pid(folder: str, file_name: str, word: str) -> int:
+    """The pid in the file, 0 if this word is not in the command of the process: a pid can be reused."""
     try:
         with open(f"{folder}/{file_name}", encoding="ascii") as file:
             pid = int(file.read())
-        with open(f"/proc/{pid}/cmdline", "rb") as file:
-            if os.fsencode(word) in file.read().split(b"\0"):
-                os.kill(pid, number)
     except (OSError, ValueError):
-        return
+        return 0
+    return pid if word in procfs.command(pid) else 0
 
 
 def last_words(folder: str) -> str:

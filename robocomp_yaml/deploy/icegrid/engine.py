@@ -19,7 +19,7 @@ from msgspec.structs import replace
 
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy import registered
-from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
+from robocomp_yaml.deploy.engine import HALTED, STOP_WITHIN, DeployFailed, Line, Running
 from robocomp_yaml.deploy.here import is_here, is_near
 from robocomp_yaml.deploy.icegrid import obstacles as of_hosts
 from robocomp_yaml.deploy.icegrid import start_up
@@ -90,6 +90,8 @@ class IceGridEngine:
         return True
 
     def _reach(self, create: bool) -> GridSession | None:
+        if start_up.continue_halted(self._files):
+            self.notes.append(deploying.NOT_SUPERVISED.at(Span(self._network.path), what=HALTED))
         grid = start_up.reached(self._files, self._network)
         if grid and create:
             grid.close()

@@ -57,6 +57,12 @@ def reached(files: GridFiles, network: Network) -> GridSession | None:
     return _session(files, registry, network)
 
 
+def continue_halted(files: GridFiles) -> bool:
+    """Lets the guards on this machine go on that were halted (SIGSTOP). Returns whether one was."""
+    nodes = (f"{files.root}/nodes/{host}" for host in files.nodes())
+    return any([daemons.continue_halted(folder) for folder in (files.registry_folder, *nodes)])
+
+
 def created(files: GridFiles, network: Network) -> GridSession:
     """A session with the registry, which is started if none runs at an address that all hosts reach. Raises
     DeployFailed."""

@@ -51,6 +51,17 @@ def supervisor(folder: str) -> int:
     return next((one.pid for one in children if procfs.mark_of(one.pid) == f"{folder}:"), 0)
 
 
+def continue_halted(folder: str) -> bool:
+    """Lets a keeper go on that was halted (SIGSTOP), which does the same for its supervisor. Returns whether it was
+    halted."""
+    keeper = _keeper(folder)
+    if keeper is None or not keeper.is_halted:
+        return False
+    with contextlib.suppress(OSError):
+        os.kill(keeper.pid, signal.SIGCONT)
+    return True
+
+
 def end_hung(folder: str) -> list[str]:
     """Kills a supervisor that does not answer. Its keeper ends the processes; if that hangs, too, it is killed. Returns
     the names of the processes."""

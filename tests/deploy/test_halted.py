@@ -1,0 +1,170 @@
+"""What supervises a network is halted (SIGSTOP): it goes on by itself, or with the next command. The processes of the
+network are the same ones afterwards, as their pids say."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from conftest import write_tree
+from processes import kill_left, until
+from robocomp_yaml.deploy.local import procfs
+from small_networks import Place, is_alive, sleeper
+from test_roles import Rcyaml
+
+needs_icegrid = pytest.mark.skipif(
+    shutil.which("icegridnode") is None, reason="IceGrid is not installed (Debian: zeroc-icegrid)"
+)
+DOCUMENT = """\
+deployment: Robot
+components:
+  base: {program: sleep, args: ["600"], role: server}
+  arm: {program: sleep, args: ["600"], role: server, after: [base]}
+"""
+
+
+def halt(*pids: int) -> None:
+    for pid in pids:
+        os.kill(pid, signal.SIGSTOP)
+
+
+def goes_on(pid: int) -> bool:
+    found = procfs.entry(pid)
+    return found is not None and not found.is_halted
+
+
+def copies(place: Place, name: str) -> list[int]:
+    """The pids of the processes of this name that /proc shows, without those that supervise it."""
+    marked = [pid for pid in procfs.marked(place.folder) if procfs.mark_of(pid) == f"{place.folder}:{name}"]
+    return [pid for pid in marked if procfs.command_line(pid).endswith("sleep 600") and procfs.entry(pid).group == pid]
+
+
+def restarted(place: Place, name: str) -> None:
+    """Kills a process, and waits until it runs again, once."""
+    (pid,) = until(lambda: copies(place, name), "it runs")
+    os.kill(pid, signal.SIGKILL)
+    until(lambda: len(found := copies(place, name)) == 1 and found != [pid], lambda: f"{copies(place, name)}")
+
+
+def test_the_supervisor_goes_on(place: Place) -> None:
+    place.up(sleeper("a"))
+    _, supervisor = place.keeper_and_supervisor()
+    halt(supervisor)
+    restarted(place, "a")
+    assert goes_on(supervisor)
+
+
+def test_supervisor_and_keeper_go_on_with_the_next_command(place: Place, rcyaml: Rcyaml) -> None:
+    write_tree(place.root, {"robot.ddsl.yaml": DOCUMENT})
+    document = f"{place.root}/robot.ddsl.yaml"
+    assert rcyaml("deploy", "up", document).exit_code == 0
+    until(lambda: copies(place, "base"), "it runs")
+    before = copies(place, "base")
+    for command in ("status", "up", "plan"):
+        halt(*place.keeper_and_supervisor())
+        said = rcyaml("deploy", command, document)
+        assert said.exit_code == 0 and "warning[RC7007]: what supervises this deployment was halted" in said.stderr
+        assert all(map(goes_on, place.keeper_and_supervisor()))
+        assert "RC7007" not in rcyaml("deploy", command, document).stderr
+    assert copies(place, "base") == before
+    restarted(place, "base")
+    halt(*place.keeper_and_supervisor())
+    assert rcyaml("deploy", "down", document).exit_code == 0
+    assert not copies(place, "base")
+
+
+def test_a_program_that_nobody_asks_is_told(place: Place) -> None:
+    place.up(sleeper("a"))
+    (pid,) = copies(place, "a")
+    halt(pid)
+    found = place.status(sleeper("a"))["a"]
+    assert found.is_down and found.running and found.running.not_alive == "it is halted"
+    os.kill(pid, signal.SIGCONT)
+    assert place.status(sleeper("a"))["a"].is_ready and copies(place, "a") == [pid]
+
+
+@pytest.fixture
+def grid(place: Place, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
+    """The path of the document of a network that IceGrid runs on this machine."""
+    pytest.importorskip("IceGrid", reason="Ice for Python is not installed (Debian: python3-zeroc-ice)")
+    monkeypatch.setenv("XDG_STATE_HOME", f"{place.root}/own")
+    write_tree(place.root, {"robot.ddsl.yaml": DOCUMENT})
+    document = f"{place.root}/robot.ddsl.yaml"
+    try:
+        assert rcyaml("deploy", "up", document, "--engine", "icegrid").exit_code == 0
+        yield document
+    finally:
+        kill_left(place.folder)
+
+
+def those(place: Place, is_chosen: Callable[[list[str], int], bool]) -> list[int]:
+    return [pid for pid in procfs.marked(place.folder) if is_chosen(procfs.command(pid), pid)]
+
+
+def is_run(name: str) -> Callable[[list[str], int], bool]:
+    return lambda words, pid: words[1:2] != [] and words[1].endswith("/run") and words[2] == name
+
+
+def is_script(script: str) -> Callable[[list[str], int], bool]:
+    return lambda words, pid: any(word.endswith(f"/nodes/localhost/{script}") for word in words[:2])
+
+
+def is_program(name: str) -> Callable[[list[str], int], bool]:
+    return lambda words, pid: words[0] == name
+
+
+@pytest.mark.slow
+@needs_icegrid
+@pytest.mark.parametrize(
+    "chosen",
+    [
+        is_run("base"), is_script("watch"), is_script("guard"), is_program("icegridnode"),
+        is_program("icegridregistry"), lambda words, pid: "robocomp_yaml.deploy.icegrid.keeper" in words,
+    ],
+    ids=["run", "watch", "guard", "node", "registry", "keeper"],
+)  # fmt: skip
+def test_what_supervises_with_icegrid_goes_on(
+    place: Place, grid: str, chosen: Callable[[list[str], int], bool]
+) -> None:
+    """Also all processes of a script: `run` has one more, which writes the log, and the guard one for `watch`."""
+    before = copies(place, "base"), copies(place, "arm")
+    halted = those(place, chosen)
+    assert halted
+    halt(*halted)
+    until(lambda: all(map(goes_on, halted)), lambda: str([procfs.command_line(pid) for pid in halted]), 15)
+    assert (copies(place, "base"), copies(place, "arm")) == before
+    restarted(place, "base")
+
+
+@pytest.mark.slow
+@needs_icegrid
+def test_the_guard_of_the_registry_goes_on_with_the_next_command(place: Place, rcyaml: Rcyaml, grid: str) -> None:
+    before = copies(place, "base"), copies(place, "arm")
+    for command in ("status", "up"):
+        guard = int(Path(place.folder, "state/icegrid/registry/pid").read_text())
+        (registry,) = those(place, is_program("icegridregistry"))
+        halt(guard, registry)
+        said = rcyaml("deploy", command, grid)
+        assert said.exit_code == 0 and "warning[RC7007]" in said.stderr, said.output
+        assert goes_on(guard) and goes_on(registry)
+    (registry,) = those(place, is_program("icegridregistry"))
+    halt(guard)
+    os.kill(registry, signal.SIGKILL)
+    assert rcyaml("deploy", "status", grid).exit_code == 0
+    assert not is_alive(registry) and (copies(place, "base"), copies(place, "arm")) == before
+
+
+@pytest.mark.slow
+@needs_icegrid
+def test_a_program_that_nobody_asks_is_told_with_icegrid(place: Place, rcyaml: Rcyaml, grid: str) -> None:
+    (pid,) = copies(place, "base")
+    halt(pid)
+    until(lambda: "not alive: it is halted" in rcyaml("deploy", "status", grid).stdout, "a notice", 15)
+    os.kill(pid, signal.SIGCONT)
+    until(lambda: rcyaml("deploy", "status", grid).exit_code == 0, "no notice", 15)
+    assert copies(place, "base") == [pid]
