@@ -346,16 +346,22 @@ def test_a_log_of_limited_size(place: Place, monkeypatch: pytest.MonkeyPatch) ->
     assert last == [f"line {number}" for number in range(count - len(last), count)] and len(last) == 500
 
 
+def fill(disk: Path) -> None:
+    """Leaves no room, until the file `ballast` is removed."""
+    with contextlib.suppress(OSError), open(disk / "ballast", "wb") as file:
+        while True:
+            file.write(bytes(4096))
+            file.flush()
+
+
 def test_a_full_disk(place: Place, small_disk: Path, tmp_path: Path) -> None:
     """Lines are lost, which is reported when there is space again. The process goes on."""
     place.root = small_disk
-    talk = "i=0; while [ $i -lt 4000 ]; do echo $i a line that takes room on the disk, as lines do; i=$((i+1)); done"
-    wait = f"touch {tmp_path}/full; while [ ! -e {tmp_path}/go ]; do sleep 0.02; done"
-    (small_disk / "ballast").write_bytes(bytes(150_000))
-    place.up(shell("a", f"{talk}; {wait}; echo there is room; exec sleep 600"))
-    until((tmp_path / "full").exists, "it goes on though nothing can be written")
-    now = place.observe()["a"]
-    assert now.restarts == 0 and now.lost_lines > 0
+    talk = f"while [ ! -e {tmp_path}/go ]; do echo a line that takes room on the disk, as lines do; sleep 0.01; done"
+    place.up(shell("a", f"{talk}; echo there is room; exec sleep 600"))
+    fill(small_disk)
+    until(lambda: place.observe()["a"].lost_lines > 0, "it goes on though nothing can be written")
+    assert place.observe()["a"].restarts == 0
     (small_disk / "ballast").unlink()
     (tmp_path / "go").touch()
     until(lambda: "there is room" in place.log("a"), "what it says then")
@@ -405,10 +411,7 @@ def test_on_a_full_disk_no_supervisor_starts(place: Place, small_disk: Path) -> 
     place.root = small_disk
     assert not place.up(sleeper("a")).diagnostics
     place.down()
-    with contextlib.suppress(OSError), open(small_disk / "ballast", "wb") as file:
-        while True:
-            file.write(bytes(4096))
-            file.flush()
+    fill(small_disk)
     with pytest.raises(DeployFailed) as failed:
         place.up(sleeper("a"))
     assert failed.value.diagnostic.code == "RC7005" and "no space left" in failed.value.diagnostic.message
@@ -429,10 +432,7 @@ def test_a_full_disk_changes_nothing(place: Place, small_disk: Path) -> None:
 
     place.up(*network("x=1\n"))
     before = place.pids()
-    with contextlib.suppress(OSError), open(small_disk / "ballast", "wb") as file:
-        while True:
-            file.write(bytes(4096))
-            file.flush()
+    fill(small_disk)
     with pytest.raises(DeployFailed) as failed:
         place.up(*network("x=2\n" * 2000))
     assert failed.value.diagnostic.code == "RC7005" and "no space left" in failed.value.diagnostic.message

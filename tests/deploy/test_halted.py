@@ -14,6 +14,7 @@ import pytest
 from conftest import write_tree
 from processes import kill_left, until
 from robocomp_yaml.deploy.local import procfs
+from seen import programs
 from small_networks import Place, is_alive, sleeper
 from test_roles import Rcyaml
 
@@ -38,17 +39,14 @@ def goes_on(pid: int) -> bool:
     return found is not None and not found.is_halted
 
 
-def copies(place: Place, name: str) -> list[int]:
-    """The pids of the processes of this name that /proc shows, without those that supervise it."""
-    marked = [pid for pid in procfs.marked(place.folder) if procfs.mark_of(pid) == f"{place.folder}:{name}"]
-    return [pid for pid in marked if procfs.command_line(pid).endswith("sleep 600") and procfs.entry(pid).group == pid]
-
-
 def restarted(place: Place, name: str) -> None:
     """Kills a process, and waits until it runs again, once."""
-    (pid,) = until(lambda: copies(place, name), "it runs")
+    (pid,) = until(lambda: programs(place.folder, name), "it runs")
     os.kill(pid, signal.SIGKILL)
-    until(lambda: len(found := copies(place, name)) == 1 and found != [pid], lambda: f"{copies(place, name)}")
+    until(
+        lambda: len(found := programs(place.folder, name)) == 1 and found != [pid],
+        lambda: f"{programs(place.folder, name)}",
+    )
 
 
 def test_the_supervisor_goes_on(place: Place) -> None:
@@ -63,29 +61,29 @@ def test_supervisor_and_keeper_go_on_with_the_next_command(place: Place, rcyaml:
     write_tree(place.root, {"robot.ddsl.yaml": DOCUMENT})
     document = f"{place.root}/robot.ddsl.yaml"
     assert rcyaml("deploy", "up", document).exit_code == 0
-    until(lambda: copies(place, "base"), "it runs")
-    before = copies(place, "base")
+    until(lambda: programs(place.folder, "base"), "it runs")
+    before = programs(place.folder, "base")
     for command in ("status", "up", "plan"):
         halt(*place.keeper_and_supervisor())
         said = rcyaml("deploy", command, document)
         assert said.exit_code == 0 and "warning[RC7007]: what supervises this deployment was halted" in said.stderr
         assert all(map(goes_on, place.keeper_and_supervisor()))
         assert "RC7007" not in rcyaml("deploy", command, document).stderr
-    assert copies(place, "base") == before
+    assert programs(place.folder, "base") == before
     restarted(place, "base")
     halt(*place.keeper_and_supervisor())
     assert rcyaml("deploy", "down", document).exit_code == 0
-    assert not copies(place, "base")
+    assert not programs(place.folder, "base")
 
 
 def test_a_program_that_nobody_asks_is_told(place: Place) -> None:
     place.up(sleeper("a"))
-    (pid,) = copies(place, "a")
+    (pid,) = programs(place.folder, "a")
     halt(pid)
     found = place.status(sleeper("a"))["a"]
     assert found.is_down and found.running and found.running.not_alive == "it is halted"
     os.kill(pid, signal.SIGCONT)
-    assert place.status(sleeper("a"))["a"].is_ready and copies(place, "a") == [pid]
+    assert place.status(sleeper("a"))["a"].is_ready and programs(place.folder, "a") == [pid]
 
 
 @pytest.fixture
@@ -132,19 +130,19 @@ def test_what_supervises_with_icegrid_goes_on(
     place: Place, grid: str, chosen: Callable[[list[str], int], bool]
 ) -> None:
     """Also all processes of a script: `run` has one more, which writes the log, and the guard one for `watch`."""
-    before = copies(place, "base"), copies(place, "arm")
+    before = programs(place.folder, "base"), programs(place.folder, "arm")
     halted = those(place, chosen)
     assert halted
     halt(*halted)
     until(lambda: all(map(goes_on, halted)), lambda: str([procfs.command_line(pid) for pid in halted]), 15)
-    assert (copies(place, "base"), copies(place, "arm")) == before
+    assert (programs(place.folder, "base"), programs(place.folder, "arm")) == before
     restarted(place, "base")
 
 
 @pytest.mark.slow
 @needs_icegrid
 def test_the_guard_of_the_registry_goes_on_with_the_next_command(place: Place, rcyaml: Rcyaml, grid: str) -> None:
-    before = copies(place, "base"), copies(place, "arm")
+    before = programs(place.folder, "base"), programs(place.folder, "arm")
     for command in ("status", "up"):
         guard = int(Path(place.folder, "state/icegrid/registry/pid").read_text())
         (registry,) = those(place, is_program("icegridregistry"))
@@ -156,15 +154,15 @@ def test_the_guard_of_the_registry_goes_on_with_the_next_command(place: Place, r
     halt(guard)
     os.kill(registry, signal.SIGKILL)
     assert rcyaml("deploy", "status", grid).exit_code == 0
-    assert not is_alive(registry) and (copies(place, "base"), copies(place, "arm")) == before
+    assert not is_alive(registry) and (programs(place.folder, "base"), programs(place.folder, "arm")) == before
 
 
 @pytest.mark.slow
 @needs_icegrid
 def test_a_program_that_nobody_asks_is_told_with_icegrid(place: Place, rcyaml: Rcyaml, grid: str) -> None:
-    (pid,) = copies(place, "base")
+    (pid,) = programs(place.folder, "base")
     halt(pid)
     until(lambda: "not alive: it is halted" in rcyaml("deploy", "status", grid).stdout, "a notice", 15)
     os.kill(pid, signal.SIGCONT)
     until(lambda: rcyaml("deploy", "status", grid).exit_code == 0, "no notice", 15)
-    assert copies(place, "base") == [pid]
+    assert programs(place.folder, "base") == [pid]

@@ -24,7 +24,7 @@ import pytest
 
 from conftest import ROOT, write_tree
 from processes import kill_left, until
-from robocomp_yaml.deploy.local import procfs
+from seen import agreed, programs
 
 NAMES = ("onboard", "head", "arm")
 NAME = "Talk"
@@ -196,9 +196,16 @@ class Deployment:
         return self.rcyaml("deploy", what, "talk.ddsl.yaml", *words, code=code)
 
     def status(self) -> dict[str, Any]:
-        """The status of each process, by its name."""
-        said = json.loads(self.deploy("status", "--format", "json", code=None))
-        return {one["name"]: one for one in said["processes"]}
+        """The status of each process, by its name, which /proc confirms where its host answers."""
+
+        def ask() -> dict[str, Any]:
+            said = json.loads(self.deploy("status", "--format", "json", code=None))
+            return {one["name"]: one for one in said["processes"]}
+
+        def told(said: dict[str, Any]) -> dict[str, tuple[str, int]]:
+            return {name: (one["state"], one["pid"]) for name, one in said.items()}
+
+        return agreed(self.folder, ask, told)
 
     def pids(self) -> dict[str, int]:
         return {name: one["pid"] for name, one in self.status().items()}
@@ -230,9 +237,7 @@ class Deployment:
 
     def copies(self, name: str) -> int:
         """The number of processes with the program of this name, without its runner and its log."""
-        mark = f"{self.folder}:{name}"
-        roots = [pid for pid in procfs.pids() if procfs.mark_of(pid) == mark]
-        return sum(1 for pid in roots if (entry := procfs.entry(pid)) and entry.group == pid and not entry.is_dead)
+        return len(programs(self.folder, name))
 
     def clean_up(self) -> None:
         """Kills all processes that are left."""
