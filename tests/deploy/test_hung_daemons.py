@@ -3,11 +3,10 @@ other engine is in test_nothing_is_left.py."""
 
 from __future__ import annotations
 
-import json
+import os
 import shutil
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -15,6 +14,7 @@ from conftest import write_tree
 from processes import hanging, kill_left, until
 from robocomp_yaml.deploy.icegrid import start_up
 from robocomp_yaml.deploy.local import procfs
+from seen import status
 from small_networks import Place, is_alive
 from test_roles import Rcyaml
 
@@ -53,10 +53,8 @@ def daemon(place: Place, program: str) -> int:
 
 def ready(rcyaml: Rcyaml, document: str) -> dict[str, int]:
     """The pids of the processes that are ready."""
-    found: list[dict[str, Any]] = json.loads(rcyaml("deploy", "status", document, "--format", "json").stdout)[
-        "processes"
-    ]
-    return {one["name"]: one["pid"] for one in found if one["ready"]}
+    folder = f"{os.path.dirname(document)}/.rcyaml/deployments/Robot"
+    return {name: one["pid"] for name, one in status(rcyaml, folder, document).items() if one["ready"]}
 
 
 def test_the_registry_hangs(place: Place, rcyaml: Rcyaml, robot: str) -> None:

@@ -24,7 +24,7 @@ import pytest
 
 from conftest import ROOT, write_tree
 from processes import kill_left, until
-from seen import agreed, programs
+from seen import agreed, programs, states
 
 NAMES = ("onboard", "head", "arm")
 NAME = "Talk"
@@ -202,10 +202,7 @@ class Deployment:
             said = json.loads(self.deploy("status", "--format", "json", code=None))
             return {one["name"]: one for one in said["processes"]}
 
-        def told(said: dict[str, Any]) -> dict[str, tuple[str, int]]:
-            return {name: (one["state"], one["pid"]) for name, one in said.items()}
-
-        return agreed(self.folder, ask, told)
+        return agreed(self.folder, ask, states)
 
     def pids(self) -> dict[str, int]:
         return {name: one["pid"] for name, one in self.status().items()}

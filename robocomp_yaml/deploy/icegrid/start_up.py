@@ -60,7 +60,8 @@ def reached(files: GridFiles, network: Network) -> GridSession | None:
 def continue_halted(files: GridFiles) -> bool:
     """Lets the guards on this machine go on that were halted (SIGSTOP). Returns whether one was."""
     nodes = (f"{files.root}/nodes/{host}" for host in files.nodes())
-    return any([daemons.continue_halted(folder) for folder in (files.registry_folder, *nodes)])
+    halted = [daemons.continue_halted(folder) for folder in (files.registry_folder, *nodes)]
+    return any(halted)
 
 
 def created(files: GridFiles, network: Network) -> GridSession:

@@ -23,8 +23,8 @@ _MOMENT = 0.02  # seconds
 
 
 class ProcessEntry(NamedTuple):
-    """A process. `start` is in clock ticks since boot, so that (pid, start) is unique. `cpu` is in seconds. A process that a
-    debugger halts is not `is_halted`."""
+    """A process. `start` is in clock ticks since boot, so that (pid, start) is unique. `cpu` is in seconds. `is_halted`
+    is False for one that a debugger halts."""
 
     pid: int
     parent: int

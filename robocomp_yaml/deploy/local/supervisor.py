@@ -2,9 +2,9 @@
 
 It consists of two processes. The supervisor itself starts and restarts the children, and answers on the control socket,
 in lines of JSON. Its parent, the keeper, lets the supervisor go on when it was halted, waits until it has ended, and
-then kills all descendants that it left, which Linux has made children of the keeper. With the PID of the process that started it, the
-supervisor stops its children when that process ends, for whatever reason. Both use only the standard library, and the
-keeper forks before most of it is imported, so that both stay small.
+then kills all descendants that it left, which Linux has made children of the keeper. With the PID of the process that
+started it, the supervisor stops its children when that process ends, for whatever reason. Both use only the standard
+library, and the keeper forks before most of it is imported, so that both stay small.
 """
 
 from __future__ import annotations
