@@ -23,7 +23,16 @@ from robocomp_yaml.deploy import json_data, operations
 from robocomp_yaml.deploy.carry_out import SKIPPED
 from robocomp_yaml.deploy.engine import GIVEN_UP, RUNNING, DeployFailed
 from robocomp_yaml.deploy.local import channel, procfs, record
-from robocomp_yaml.network.network import NEVER, Endpoint, EnvironmentVariable, Process, Readiness, RestartRule
+from robocomp_yaml.network.draft import MANAGER, PUBLISH
+from robocomp_yaml.network.network import (
+    ICESTORM,
+    NEVER,
+    Endpoint,
+    EnvironmentVariable,
+    Process,
+    Readiness,
+    RestartRule,
+)
 from small_networks import Place, config_of, is_alive, listener, shell, sleeper
 
 FAILS = "echo about to fail; exit 3"
@@ -125,6 +134,23 @@ def test_a_port_that_another_program_uses(place: Place, free_port: Ports) -> Non
     assert not place.up(sleeper("b"), served).diagnostics
     changed = replace(served, env=(EnvironmentVariable("X", "1"),))
     assert not place.up(sleeper("b"), changed).diagnostics  # its own port is not in its own way
+
+
+@pytest.mark.parametrize(
+    ("ports", "keys"), [((0, 1), "port: PORT, publish: PORT"), ((0,), "port: PORT"), ((1,), "publish: PORT")]
+)
+def test_the_keys_of_all_used_ports_of_an_icestorm_are_named(
+    place: Place, free_port: Ports, ports: tuple[int, ...], keys: str
+) -> None:
+    own = free_port(), free_port()
+    served = tuple(
+        Endpoint(name, "", port, f"tcp -p {port}") for name, port in zip((MANAGER, PUBLISH), own, strict=True)
+    )
+    with contextlib.ExitStack() as others:
+        for number in ports:
+            others.enter_context(socket.create_server(("127.0.0.1", own[number])))
+        (told,) = place.up(replace(sleeper("storm"), kind=ICESTORM, endpoints=served)).diagnostics
+    assert told.code == "RC7001" and told.hint.endswith(f"give 'storm' other ports: `icestorm: {{{keys}}}`")
 
 
 def test_ports_that_another_deployment_uses(place: Place, free_port: Ports, tmp_path: Path) -> None:

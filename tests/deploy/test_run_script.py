@@ -93,6 +93,17 @@ def show(*words: str) -> list[str]:
     return ["=sh", "=-c", '=printf "%s|" "$@"; echo', "=sh", *(f"={word}" for word in words)]
 
 
+def test_each_run_begins_in_the_log_before_what_it_prints(tmp_path: Path) -> None:
+    """Also on a busy machine: a line of an earlier run would make nothing ready."""
+    runners = [Runner(tmp_path / str(number)) for number in range(16)]
+    ends = [runner.start(*show("hi"), rule="1 always 1 1 20 600000") for runner in runners]
+    assert [end.wait(60) for end in ends] == [0] * len(runners)
+    for runner in runners:
+        until(lambda runner=runner: "rcyaml: given up" in runner.log, "the log")
+        lines = [re.sub(r"\d+", "N", line) for line in runner.log.splitlines() if not line.startswith("rcyaml: ended")]
+        assert lines[:-1] == ["rcyaml: started, pid N", "hi|"] * 21
+
+
 def test_arguments_are_passed_unchanged(runner: Runner) -> None:
     words = ["", "two words", "$HOME", "${x}", "'\"\\", "*", "--Ice.Config=mine", "é"]
     assert "|".join(words) + "|" in runner.to_end(*show(*words))
