@@ -360,6 +360,13 @@ def test_a_secret_that_changes_is_not_shown(place: Place) -> None:
     assert result.plan.steps["a"].reason == "config mail.password: *** → ***"
 
 
+def test_a_deleted_log_begins_anew(place: Place) -> None:
+    place.up(shell("a", "while echo a line; do sleep 0.05; done"))
+    until(lambda: place.log("a", 1) == ["a line"], "it prints")
+    shutil.rmtree(f"{place.folder}/logs")
+    until(lambda: place.log("a") == ["a line"] * 3, "further lines")
+
+
 def test_a_log_of_limited_size(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("RCYAML_LOG_LIMIT", "20000")
     count = 2000

@@ -150,11 +150,42 @@ def test_the_guard_of_the_registry_goes_on_with_the_next_command(place: Place, r
         said = rcyaml("deploy", command, grid)
         assert said.exit_code == 0 and "warning[RC7007]" in said.stderr, said.output
         assert goes_on(guard) and goes_on(registry)
+    (node_guard,) = [pid for pid in those(place, is_script("guard")) if "--watch" not in procfs.command(pid)]
+    (helper,) = [pid for pid in those(place, is_script("guard")) if "--watch" in procfs.command(pid)]
+    for pid in (helper, node_guard, *those(place, is_script("watch"))):
+        os.kill(pid, signal.SIGKILL)
+    halt(*(halted := those(place, is_run("base"))))
+    assert "RC7007" in rcyaml("deploy", "status", grid).stderr and all(map(goes_on, halted)), "nobody else does it"
     (registry,) = those(place, is_program("icegridregistry"))
     halt(guard)
     os.kill(registry, signal.SIGKILL)
     assert rcyaml("deploy", "status", grid).exit_code == 0
     assert not is_alive(registry) and (programs(place.folder, "base"), programs(place.folder, "arm")) == before
+
+
+@pytest.mark.slow
+@needs_icegrid
+def test_a_killed_guard_of_a_node_has_a_successor(place: Place, rcyaml: Rcyaml, grid: str) -> None:
+    """Which is no parent of the node, and guards it all the same."""
+    before = programs(place.folder, "base"), programs(place.folder, "arm")
+    node = Path(place.folder, "state/icegrid/nodes/localhost")
+
+    def guard() -> int:
+        return int((node / "pid").read_text())
+
+    for _ in range(2):
+        killed = guard()
+        os.kill(killed, signal.SIGKILL)
+        until(lambda killed=killed: guard() != killed and len(those(place, is_script("watch"))) == 1, "a successor")
+    assert (programs(place.folder, "base"), programs(place.folder, "arm")) == before
+    (program,) = those(place, is_program("icegridnode"))
+    os.kill(program, signal.SIGKILL)
+    until(lambda: not is_alive(program) and len(those(place, is_program("icegridnode"))) == 1, "a node")
+    until(lambda: rcyaml("deploy", "status", grid).exit_code == 0, "its processes")
+    assert not {*programs(place.folder, "base")} & {*before[0]}
+    os.kill(guard(), signal.SIGKILL)
+    assert rcyaml("deploy", "down", grid).exit_code == 0
+    until(lambda: not procfs.marked(place.folder), lambda: str([*map(procfs.command, procfs.marked(place.folder))]))
 
 
 @pytest.mark.slow

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import shutil
 import signal
 import socket
 import subprocess
@@ -102,6 +103,14 @@ def test_each_run_begins_in_the_log_before_what_it_prints(tmp_path: Path) -> Non
         until(lambda runner=runner: "rcyaml: given up" in runner.log, "the log")
         lines = [re.sub(r"\d+", "N", line) for line in runner.log.splitlines() if not line.startswith("rcyaml: ended")]
         assert lines[:-1] == ["rcyaml: started, pid N", "hi|"] * 21
+
+
+def test_a_deleted_log_begins_anew(runner: Runner) -> None:
+    runner.start("=sh", "=-c", "=while echo a line; do sleep 0.05; done")
+    until(lambda: "a line" in runner.log, "it prints")
+    shutil.rmtree(runner.folder / "logs")
+    until(lambda: runner.log.count("a line") >= 3, "further lines")
+    assert "started" not in runner.log
 
 
 def test_arguments_are_passed_unchanged(runner: Runner) -> None:

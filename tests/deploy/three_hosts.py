@@ -24,6 +24,7 @@ import pytest
 
 from conftest import ROOT, write_tree
 from processes import kill_left, until
+from robocomp_yaml.deploy.local import procfs
 from seen import agreed, programs, states
 
 NAMES = ("onboard", "head", "arm")
@@ -228,9 +229,13 @@ class Deployment:
         assert done.returncode == 0, done.stderr
 
     def kill_daemon(self, which: str, *, for_good: bool) -> None:
-        """Kills the registry (`registry`) or a node (`nodes/HOST`). `for_good` kills its guard, too."""
-        for file in ("pid", "program") if for_good else ("program",):
-            os.kill(int((self.state / which / file).read_text()), signal.SIGKILL)
+        """Kills the registry (`registry`) or a node (`nodes/HOST`). `for_good` kills its guard, too, and before that what
+        would take the place of the guard."""
+        guard = str(self.state / which / "guard")
+        helpers = [pid for pid in procfs.marked(self.folder) if procfs.command(pid)[1:3] == [guard, "--watch"]]
+        known = [int((self.state / which / file).read_text()) for file in ("pid", "program")]
+        for pid in [*helpers, *known] if for_good else known[1:]:
+            os.kill(pid, signal.SIGKILL)
 
     def copies(self, name: str) -> int:
         """The number of processes with the program of this name, without its runner and its log."""

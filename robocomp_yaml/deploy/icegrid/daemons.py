@@ -15,7 +15,6 @@ import signal
 import socket
 import subprocess
 from collections.abc import Collection, Mapping, Sequence
-from contextlib import suppress
 
 import msgspec
 
@@ -73,32 +72,15 @@ def end_hung(folder: str) -> None:
     _signal(folder, "program", f"--Ice.Config={folder}/settings", signal.SIGKILL)
 
 
-def continue_halted(folder: str) -> bool:
-    """Lets the guard of this folder go on that was halted (SIGSTOP), which does the same for its daemon. Returns
-    whether it was halted."""
-    pid = _pid(folder, "pid", f"{folder}/guard")
-    found = procfs.entry(pid) if pid else None
-    if found is None or not found.is_halted:
-        return False
-    with suppress(OSError):
-        os.kill(pid, signal.SIGCONT)
-    return True
-
-
 def _signal(folder: str, file_name: str, word: str, number: int) -> None:
-    if pid := _pid(folder, file_name, word):
-        with suppress(OSError):
-            os.kill(pid, number)
-
-
-def _pid(folder: str, file_name: str, word: str) -> int:
-    """The pid in the file, 0 if this word is not in the command of the process: a pid can be reused."""
+    """Sends a signal to the process whose pid is in the file, if this word is in its command: a pid can be reused."""
     try:
         with open(f"{folder}/{file_name}", encoding="ascii") as file:
             pid = int(file.read())
+        if word in procfs.command(pid):
+            os.kill(pid, number)
     except (OSError, ValueError):
-        return 0
-    return pid if word in procfs.command(pid) else 0
+        return
 
 
 def last_words(folder: str) -> str:

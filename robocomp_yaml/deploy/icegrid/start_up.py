@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import signal
 import threading
 import time
 from collections.abc import Collection, Iterable, Mapping, Sequence
@@ -19,6 +21,7 @@ from robocomp_yaml.deploy.icegrid import daemons, ending, settings
 from robocomp_yaml.deploy.icegrid.daemons import NodeStart, outcome
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry, free_port, registry_address
 from robocomp_yaml.deploy.install import installed
+from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.local.record import clear_up
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.deploy.time_limit import until
@@ -58,10 +61,13 @@ def reached(files: GridFiles, network: Network) -> GridSession | None:
 
 
 def continue_halted(files: GridFiles) -> bool:
-    """Lets the guards on this machine go on that were halted (SIGSTOP). Returns whether one was."""
-    nodes = (f"{files.root}/nodes/{host}" for host in files.nodes())
-    halted = [daemons.continue_halted(folder) for folder in (files.registry_folder, *nodes)]
-    return any(halted)
+    """Lets all go on that was halted (SIGSTOP) of what supervises the deployment on this machine. Returns whether there
+    was something."""
+    halted = procfs.halted(files.folder)
+    for pid in halted:
+        with suppress(OSError):
+            os.kill(pid, signal.SIGCONT)
+    return bool(halted)
 
 
 def created(files: GridFiles, network: Network) -> GridSession:
@@ -113,6 +119,7 @@ def ensure_nodes(
     assert registry
     known = files.nodes()
     hosts = list(hosts)
+    _end_homeless(grid, [host for host in hosts if is_here(host)])
     missing = [host for host in hosts if not grid.has_node(host.name)]
     scripts = {host.name: daemons.write_script(files, host, network.hosts.values(), registry) for host in missing}
     begin = time.monotonic()
@@ -142,6 +149,14 @@ def ensure_nodes(
                 network.span_of_host(host), name=host.name, address=host.address, reason=reason, hint=hint
             )  # fmt: skip
     return faults
+
+
+def _end_homeless(grid: GridSession, hosts: Iterable[NetworkHost]) -> None:
+    """Ends the nodes of this machine whose folder somebody deleted, with their processes: they can start nothing."""
+    for host in hosts:
+        if not os.path.exists(f"{grid.files.root}/nodes/{host.name}/run") and grid.has_node(host.name):
+            grid.shut_down_node(host.name)
+            until(lambda host=host: not grid.has_node(host.name), _ENDS_WITHIN)  # type: ignore[misc]
 
 
 def _has_ended_hung(grid: GridSession, host: str) -> bool:

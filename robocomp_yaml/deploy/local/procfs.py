@@ -73,6 +73,11 @@ def marked(folder: str) -> list[int]:
     return [pid for pid in pids() if mark_of(pid).rpartition(":")[0] == folder]
 
 
+def halted(folder: str) -> list[int]:
+    """The pids of what supervises the deployment in this folder and is halted."""
+    return [one.pid for one in table().values() if one.is_halted and mark_of(one.pid) == f"{folder}:"]
+
+
 def families(roots: Mapping[int, str], adopter: int, alive: Mapping[int, ProcessEntry]) -> dict[int, set[int]]:
     """The family of each root among the running processes: the root, its session, orphans with its mark (which are now
     children of `adopter`), and the descendants of all these. `roots` has the mark of each root."""
