@@ -80,6 +80,7 @@ def test_a_program_that_nobody_asks_is_told(place: Place) -> None:
     place.up(sleeper("a"))
     (pid,) = programs(place.folder, "a")
     halt(pid)
+    until(lambda: not goes_on(pid), "it is halted")
     found = place.status(sleeper("a"))["a"]
     assert found.is_down and found.running and found.running.not_alive == "it is halted"
     os.kill(pid, signal.SIGCONT)
@@ -161,6 +162,23 @@ def test_the_guard_of_the_registry_goes_on_with_the_next_command(place: Place, r
     os.kill(registry, signal.SIGKILL)
     assert rcyaml("deploy", "status", grid).exit_code == 0
     assert not is_alive(registry) and (programs(place.folder, "base"), programs(place.folder, "arm")) == before
+
+
+@pytest.mark.slow
+@needs_icegrid
+def test_what_keeps_watch_is_started_again(place: Place, grid: str) -> None:
+    for _ in range(2):
+        (helper,) = [pid for pid in those(place, is_script("guard")) if "--watch" in procfs.command(pid)]
+        os.kill(helper, signal.SIGKILL)
+
+        def is_back(killed: int = helper) -> bool:
+            found = [pid for pid in those(place, is_script("guard")) if "--watch" in procfs.command(pid)]
+            return len(found) == 1 and found != [killed] and len(those(place, is_script("watch"))) == 1
+
+        until(is_back, "another one")
+    halted = [*those(place, is_program("icegridnode")), *those(place, is_run("base"))]
+    halt(*halted)
+    until(lambda: all(map(goes_on, halted)), "all go on", 15)
 
 
 @pytest.mark.slow
