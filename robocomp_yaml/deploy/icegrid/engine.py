@@ -19,13 +19,12 @@ from msgspec.structs import replace
 
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy import registered
-from robocomp_yaml.deploy.differences import shown_path
-from robocomp_yaml.deploy.engine import HALTED, STOP_WITHIN, DeployFailed, EngineHangs, Line, Running
+from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
 from robocomp_yaml.deploy.here import is_here, is_near
 from robocomp_yaml.deploy.icegrid import obstacles as of_hosts
 from robocomp_yaml.deploy.icegrid import start_up
 from robocomp_yaml.deploy.icegrid.grid_files import KEEPER, GridFiles
-from robocomp_yaml.deploy.local import procfs, record
+from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.local.log_reader import LineReader, LogReader, merged
 from robocomp_yaml.deploy.local.obstacles import CheckedSpecs, obstacles
 from robocomp_yaml.deploy.spec import ProcessSpec
@@ -78,8 +77,7 @@ class IceGridEngine:
             raise DeployFailed(deploying.NO_REGISTRY.at(Span(network.path), reason=lacking))
         self._grid = await self._call("", "reached", self._reach, create)
         if self._grid is None:
-            self._require_files()
-            return False
+            return start_up.is_running_without_files(self._files, network)
         self._has_changed = create
         if create:
             with contextlib.suppress(OSError):
@@ -91,22 +89,8 @@ class IceGridEngine:
         self._kept = self._desired = self._files.desired()
         return True
 
-    def _require_files(self) -> None:
-        """Raises EngineHangs if processes run on this machine although the files that lead to the registry are gone or
-        damaged."""
-        if self._files.registry() is not None or not record.running(self._network.folder):
-            return
-        reason = "processes of it run, and its files are damaged: `rcyaml deploy down` ends them"
-        where, path = Span(self._network.path), shown_path(self._network.folder)
-
-        async def end() -> list[str]:
-            return await asyncio.to_thread(record.end_hung, self._network.folder)
-
-        raise EngineHangs(deploying.FOLDER.at(where, path=path, reason=reason), end)
-
     def _reach(self, create: bool) -> GridSession | None:
-        if start_up.continue_halted(self._files):
-            self.notes.append(deploying.NOT_SUPERVISED.at(Span(self._network.path), what=HALTED))
+        self.notes += start_up.continue_halted(self._files, self._network)
         grid = start_up.reached(self._files, self._network)
         if grid and create:
             grid.close()
@@ -388,8 +372,7 @@ class IceGridEngine:
         self._unreached.clear()
         if self._has_changed and not end:
             with contextlib.suppress(OSError):  # a full or read-only disk
-                one = registered.of_folder(self._files.folder)
-                registered.keep(one or registered.entry_of(self._network, self.name))
+                registered.keep(registered.of_folder(self._files.folder) or registered.entry_of(self._network, self.name))
                 registered.copy(self._files.folder, self._files.copied)
         self._calls.shutdown(wait=False)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 import signal
 import threading
@@ -15,14 +16,13 @@ from typing import TYPE_CHECKING
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy import registered, ssh
 from robocomp_yaml.deploy.differences import shown_path
-from robocomp_yaml.deploy.engine import DeployFailed
+from robocomp_yaml.deploy.engine import HALTED, DeployFailed, EngineHangs
 from robocomp_yaml.deploy.here import is_here, is_near
 from robocomp_yaml.deploy.icegrid import daemons, ending, settings
 from robocomp_yaml.deploy.icegrid.daemons import NodeStart, outcome
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry, free_port, registry_address
 from robocomp_yaml.deploy.install import installed
-from robocomp_yaml.deploy.local import procfs
-from robocomp_yaml.deploy.local.record import clear_up
+from robocomp_yaml.deploy.local import procfs, record
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.deploy.time_limit import until
 from robocomp_yaml.diag.codes import deploying as codes
@@ -60,14 +60,28 @@ def reached(files: GridFiles, network: Network) -> GridSession | None:
     return _session(files, registry, network)
 
 
-def continue_halted(files: GridFiles) -> bool:
-    """Lets all go on that was halted (SIGSTOP) of what supervises the deployment on this machine. Returns whether there
-    was something."""
+def is_running_without_files(files: GridFiles, network: Network) -> bool:
+    """False if there is no registry, and no process on this machine. Raises EngineHangs if processes run although the
+    files that lead to their registry are gone or damaged."""
+    if files.registry() is not None or not record.running(network.folder):
+        return False
+    reason = "processes of it run, and its files are damaged: `rcyaml deploy down` ends them"
+    failed = codes.FOLDER.at(Span(network.path), path=shown_path(network.folder), reason=reason)
+
+    async def end() -> list[str]:
+        return await asyncio.to_thread(record.end_hung, network.folder)
+
+    raise EngineHangs(failed, end)
+
+
+def continue_halted(files: GridFiles, network: Network) -> list[Diagnostic]:
+    """Lets all go on that was halted (SIGSTOP) of what supervises the deployment on this machine. Returns a diagnostic
+    if there was something."""
     halted = procfs.halted(files.folder)
     for pid in halted:
         with suppress(OSError):
             os.kill(pid, signal.SIGCONT)
-    return bool(halted)
+    return [codes.NOT_SUPERVISED.at(Span(network.path), what=HALTED)] if halted else []
 
 
 def created(files: GridFiles, network: Network) -> GridSession:
@@ -80,7 +94,7 @@ def created(files: GridFiles, network: Network) -> GridSession:
         end_daemons(files)
         try:
             if registry is None:
-                clear_up(network.folder)  # processes that run although their folder was removed
+                record.clear_up(network.folder)  # processes that run although their folder was removed
             own_folder.make(network.folder)
             settings.make_key(files)
             registry = Registry(address, free_port(address))
