@@ -274,8 +274,7 @@ class IceGridEngine:
         from robocomp_yaml.deploy.icegrid import leftovers
 
         with self._lock:
-            gone = {name: self._specs.pop(name) for name in names if name in self._specs}
-            if not gone:
+            if not (gone := {name: self._specs.pop(name) for name in names if name in self._specs}):
                 return
             states = self._reached().states(gone)
             for name, spec in gone.items():
@@ -372,7 +371,8 @@ class IceGridEngine:
         self._unreached.clear()
         if self._has_changed and not end:
             with contextlib.suppress(OSError):  # a full or read-only disk
-                registered.keep(registered.of_folder(self._files.folder) or registered.entry_of(self._network, self.name))
+                known = registered.of_folder(self._files.folder)
+                registered.keep(known or registered.entry_of(self._network, self.name))
                 registered.copy(self._files.folder, self._files.copied)
         self._calls.shutdown(wait=False)
 
