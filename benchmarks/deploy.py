@@ -13,13 +13,12 @@ import signal
 import statistics
 import subprocess
 import sys
-import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
 
 from robocomp_yaml.deploy.local import procfs
-from run import RCYAML
+from run import RCYAML, working_folder
 
 COUNT, LARGE, CRASHES = 50, 500, 20
 FLOOR = f"import subprocess\nfor _ in range({COUNT}): subprocess.Popen(['true'])"
@@ -69,7 +68,7 @@ def back_after_kill(folder: str, name: str, pid: int) -> float:
 
 
 def main(runs: int) -> None:
-    with tempfile.TemporaryDirectory() as name:
+    with working_folder() as name:
         folder = str(Path(name).resolve() / ".rcyaml/deployments/Many")
         many = document(Path(name) / "many.ddsl.yaml", COUNT, COUNT)
         ups: list[float] = []

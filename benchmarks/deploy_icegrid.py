@@ -22,7 +22,6 @@ import socket
 import statistics
 import subprocess
 import sys
-import tempfile
 import time
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -31,7 +30,7 @@ from pathlib import Path
 from typing import Any
 
 from deploy import COUNT, back_after_kill, children, document, rcyaml, seconds
-from run import RCYAML
+from run import RCYAML, working_folder
 
 CRASHES = 20
 PROXY = "IceGrid/Registry:tcp -h 127.0.0.1 -p {}"
@@ -250,7 +249,7 @@ def tell(what: str, samples: dict[str, list[float]], goal: str) -> None:
 
 
 def main(runs: int) -> None:
-    with tempfile.TemporaryDirectory() as name:
+    with working_folder() as name:
         root = Path(name).resolve()
         ups, _, again, crashes = measured(sleepers(root / "sleepers"), runs)
         tell(f"up, {COUNT} times sleep from nothing", ups, "IceGrid alone + 0.5 s")

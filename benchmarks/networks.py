@@ -15,7 +15,6 @@ import resource
 import shutil
 import signal
 import sys
-import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -24,6 +23,7 @@ from pathlib import Path
 from deploy import COUNT, document, rcyaml
 from deploy_icegrid import servers
 from robocomp_yaml.deploy.local import procfs
+from run import working_folder
 
 ENGINES = ("local", "icegrid")
 MANY = 200
@@ -177,7 +177,7 @@ def noticed(root: Path) -> None:
 
 
 def main(seconds: float) -> None:
-    with tempfile.TemporaryDirectory() as name:
+    with working_folder() as name:
         root = Path(name).resolve()
         for folder in ("many", "eye"):
             (root / folder).mkdir()

@@ -11,7 +11,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -19,6 +18,7 @@ from pathlib import Path
 from playwright.sync_api import Page, expect, sync_playwright
 
 from page import fleet
+from run import working_folder
 
 HERE = Path(__file__).resolve().parent
 ROBOT = {  # by group: each program with what it uses
@@ -136,7 +136,7 @@ def thirty(folder: Path, target: Path) -> None:
 
 
 def main(target: Path) -> None:
-    with tempfile.TemporaryDirectory() as work:
+    with working_folder() as work:
         os.environ["XDG_STATE_HOME"] = f"{work}/own"
         thirty(Path(work) / "robot", target)
         talking(Path(work) / "talk", target)

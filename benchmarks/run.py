@@ -8,12 +8,16 @@ are the migrated interfaces of the corpus beside the checkout, or, if it is miss
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
+import signal
 import statistics
 import subprocess
 import sys
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -36,6 +40,22 @@ class Usage:
     cpu: float
     wall: float
     memory: float
+
+
+@contextmanager
+def working_folder() -> Iterator[str]:
+    """A folder for a benchmark that deploys something. However the benchmark ends, also by SIGTERM, nothing of it runs
+    afterwards, and the folder is gone."""
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
+    with tempfile.TemporaryDirectory() as name:
+        root = str(Path(name).resolve())
+        try:
+            yield root
+        finally:
+            listed = subprocess.run([*RCYAML, "deploy", "ls", "--format", "json"], stdout=subprocess.PIPE).stdout
+            for one in json.loads(listed)["deployments"]:
+                if one["document"].startswith(f"{root}/"):
+                    subprocess.run([*RCYAML, "deploy", "down", one["document"]], stdout=subprocess.DEVNULL)
 
 
 def measure(command: list[str], fresh: Path | None = None) -> Usage:

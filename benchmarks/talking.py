@@ -19,7 +19,7 @@ import time
 from pathlib import Path
 
 from building import write
-from run import RCYAML, measure
+from run import RCYAML, measure, working_folder
 
 TOPICS, SECONDS, PROCESSES = 20, 10, 200
 DOCUMENTS = {
@@ -84,7 +84,7 @@ def cpu(pid: int) -> float:
 
 
 def main(runs: int) -> None:
-    with tempfile.TemporaryDirectory() as name:
+    with working_folder() as name:
         folder = Path(name)
         for path, text in DOCUMENTS.items():
             write(folder / path, text)

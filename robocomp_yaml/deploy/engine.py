@@ -17,9 +17,13 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.network.network import Network
 
 __all__ = [
-    "ENDED", "GIVEN_UP", "LOST", "OWN", "RUNNING", "STARTED", "STOPPED", "STOP_WITHIN", "WAITING", "DeployFailed",
-    "Engine", "EngineHangs", "Line", "Running", "of_last_run",
+    "ENDED", "GIVEN_UP", "HALTED", "KILLED", "LOST", "OWN", "RUNNING", "STARTED", "STOPPED", "STOP_WITHIN", "WAITING",
+    "DeployFailed", "Engine", "EngineHangs", "Line", "Running", "of_last_run",
 ]  # fmt: skip
+
+# The two messages of NOT_SUPERVISED.
+KILLED = "the supervisor of this deployment was killed, and all its processes with it"
+HALTED = "what supervises this deployment was halted (SIGSTOP), and goes on now"
 
 OWN = "rcyaml: "
 """The beginning of each line in a process's log that the engine wrote."""

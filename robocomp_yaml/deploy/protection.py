@@ -25,9 +25,9 @@ _NEW = "new"  # what a plan shows, before the token exists
 
 
 def token_of(folder: str) -> str:
-    """The token of the deployment in this folder, '' if it has none, or if it is not this user's."""
+    """The token of the deployment in this folder, '' if it has none, if it is damaged, or if it is not this user's."""
     for path in _paths(folder):
-        with suppress(OSError), open(path, encoding="ascii") as file:
+        with suppress(OSError, UnicodeDecodeError), open(path, encoding="ascii") as file:
             return file.read().strip()
     return ""
 

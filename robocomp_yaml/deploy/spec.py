@@ -52,11 +52,11 @@ class ProcessSpec(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     @classmethod
     def of_data(cls, data: dict[str, Any]) -> ProcessSpec | None:
-        """The spec; None if another version of rcyaml wrote the data."""
+        """The spec; None if another version of rcyaml wrote the data, or if they are damaged."""
         try:
             process = {name: value for name, value in data["process"].items() if name not in _FORMER}
             return msgspec.convert({**data, "process": process}, cls)
-        except (ValueError, LookupError):
+        except (ValueError, LookupError, TypeError, AttributeError):
             return None
 
 

@@ -21,6 +21,7 @@ from robocomp_yaml.deploy.local.engine import LocalEngine
 from robocomp_yaml.deploy.operations import Result, Status
 from robocomp_yaml.deploy.time_limit import TimeLimit
 from robocomp_yaml.network.network import ConfigFile, Network, NetworkHost, Process, Readiness
+from seen import agreed
 
 LISTEN = "import socket,sys,time; s = socket.create_server(('127.0.0.1', int(sys.argv[1]))); time.sleep(600)"
 HERE = NetworkHost("localhost")
@@ -104,6 +105,14 @@ class Place:
         return asyncio.run(main())
 
     def observe(self) -> dict[str, Running]:
+        """What the engine says, which /proc confirms."""
+
+        def told(found: dict[str, Running]) -> dict[str, tuple[str, int]]:
+            return {name: (one.state, one.pid) for name, one in found.items()}
+
+        return agreed(self.folder, self._observed, told)
+
+    def _observed(self) -> dict[str, Running]:
         async def main() -> dict[str, Running]:
             engine = LocalEngine()
             if not await engine.open(self.network(), create=False):

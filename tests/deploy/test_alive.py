@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import signal
 import socket
-import subprocess
 import sys
 import time
 from collections.abc import Iterator
@@ -14,7 +13,7 @@ from pathlib import Path
 import pytest
 from msgspec.structs import replace
 
-from processes import Ports, killed_on_failure, until
+from processes import Ports, hanging, until
 from robocomp_yaml.deploy.engine import RUNNING, WAITING
 from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.network.network import AUTO, FOREVER, Endpoint, Liveness, Process, Readiness, RestartRule
@@ -172,31 +171,14 @@ def test_a_program_without_the_facet_is_pinged(place: Place, free_port: Ports) -
 
 
 def test_a_process_in_a_debugger_is_left_alone(served: Served) -> None:
-    """Tracing needs no debugger: a process that attaches halts it."""
-    tracer = """\
-import ctypes, os, sys, time
-ptrace = ctypes.CDLL(None, use_errno=True).ptrace
-if ptrace(16, int(sys.argv[1]), None, None):
-    sys.exit(ctypes.get_errno())
-os.waitpid(int(sys.argv[1]), 0x40000000)
-print("attached", flush=True)
-time.sleep(3)
-ptrace(17, int(sys.argv[1]), None, None)
-time.sleep(60)
-"""
     pid = served.up()
-    tracing = subprocess.Popen([sys.executable, "-c", tracer, str(pid)], stdout=subprocess.PIPE)
-    with killed_on_failure(tracing) as debugger:
-        assert debugger.stdout is not None
-        if debugger.stdout.readline() != b"attached\n":
-            pytest.skip("this machine does not allow tracing")
+    with hanging(pid):
         until(lambda: procfs.is_traced([pid]), "a tracer")
         time.sleep(2.5)
         assert served.place.pids()["c"] == pid and not served.why
-        until(lambda: not procfs.is_traced([pid]), "the end of it")
-        time.sleep(4 * EVERY)
-        assert served.place.pids()["c"] == pid and not served.why
-        debugger.kill()
+    until(lambda: not procfs.is_traced([pid]), "the end of it")
+    time.sleep(4 * EVERY)
+    assert served.place.pids()["c"] == pid and not served.why
 
 
 def test_a_slow_start_is_not_missed(place: Place, free_port: Ports) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import sys
 import time
@@ -13,6 +12,7 @@ from typing import Any
 import pytest
 from click.testing import Result
 
+import seen
 from processes import until
 
 pytest.importorskip("Ice", reason="Ice's Python module is not installed")
@@ -58,9 +58,7 @@ def lamp(tmp_path: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch) -> Pat
 
 
 def status(rcyaml: Rcyaml) -> dict[str, Any]:
-    answer = rcyaml("deploy", "status", "robot.ddsl.yaml", "--format", "json").stdout
-    (process,) = json.loads(answer)["processes"]
-    return dict(process)
+    return seen.status(rcyaml, f"{os.getcwd()}/.rcyaml/deployments/Robot", "robot.ddsl.yaml", is_ice=True)["lamp"]
 
 
 def logs(rcyaml: Rcyaml) -> str:

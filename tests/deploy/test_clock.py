@@ -19,6 +19,7 @@ import pytest
 
 from conftest import in_long, write_tree
 from processes import Running, until
+from seen import agreed, states
 from shifted_clock import Clock, make_clock
 from small_networks import Place
 
@@ -68,8 +69,13 @@ class Robot:
         return [sys.executable, "-m", "robocomp_yaml", "deploy", what, "robot.ddsl.yaml", *engine, *words]
 
     def status(self) -> dict[str, Any]:
-        said = json.loads(self.deploy("status", "--format", "json", code=None))
-        return {one["name"]: one for one in said["processes"]}
+        """What rcyaml says, which /proc confirms."""
+
+        def ask() -> dict[str, Any]:
+            said = json.loads(self.deploy("status", "--format", "json", code=None))
+            return {one["name"]: one for one in said["processes"]}
+
+        return agreed(self.place.folder, ask, states)
 
 
 @pytest.fixture(params=ENGINES)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import json
 import os
 import shutil
 import signal
@@ -17,6 +16,7 @@ from click.testing import Result
 from conftest import ROOT
 from processes import Ports, until
 from robocomp_yaml.deploy import ice_ping
+from seen import status
 from small_networks import Place
 
 pytest.importorskip("Ice", reason="Ice's Python module is not installed")
@@ -66,8 +66,7 @@ def test_the_network_of_the_paper(
     os.kill(after["mouth"], signal.SIGKILL)
 
     def is_back() -> bool:
-        answer = rcyaml("deploy", "status", "robot.ddsl.yaml", "mouth", "--format", "json").stdout
-        (mouth,) = json.loads(answer)["processes"]
+        mouth = status(rcyaml, place.folder, "robot.ddsl.yaml", is_ice=True)["mouth"]
         return mouth["ready"] and mouth["restarts"] == 1 and mouth["pid"] != after["mouth"]
 
     until(is_back, "mouth answers again")

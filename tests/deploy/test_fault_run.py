@@ -97,6 +97,45 @@ def runner_killed(run: FaultNetwork) -> None:
     run.settled(chosen)
 
 
+def supervision_halted(run: FaultNetwork) -> None:
+    """On each host all scripts, which `watch` lets go on, except that of the registry; then all daemons, which their
+    guards let go on."""
+    for programs in (("bash",), ("perl", "icegridnode", "icegridregistry")):
+        halted = [pid for host in NAMES for pid in run.marked_on(host) if procfs.command(pid)[0] in programs]
+        assert len(halted) > len(NAMES)
+        halt(halted)
+        if programs == ("bash",):
+            assert "RC7007" in run.talk.deploy("status", code=None)
+        until(lambda pids=halted: not any(map(is_halted, pids)), lambda: str([*map(procfs.command, halted)]))  # noqa: B023
+    run.settled([])
+    chosen = run.one_of_each_host()
+    run.kill(*chosen)
+    run.settled(chosen)
+
+
+def supervisor_halted(run: FaultNetwork) -> None:
+    """Alone; with its keeper, until the next command."""
+    chosen = run.one_of_each_host()
+    keeper, supervisor = _keeper_and_supervisor(run)
+    halt([supervisor])
+    run.kill(*chosen)
+    run.settled(chosen)
+    run.begin()
+    halt([keeper, supervisor])
+    assert "RC7007" in run.talk.deploy("status")
+    run.settled([])
+
+
+def halt(pids: list[int]) -> None:
+    for pid in pids:
+        os.kill(pid, signal.SIGSTOP)
+
+
+def is_halted(pid: int) -> bool:
+    found = procfs.entry(pid)
+    return found is not None and found.is_halted
+
+
 def icestorm_killed(run: FaultNetwork) -> None:
     run.kill("storm")
     run.settled([])
@@ -256,14 +295,23 @@ def _keeper_and_supervisor(run: FaultNetwork) -> tuple[int, int]:
 
 FAULTS: tuple[Fault, ...] = (
     process_killed, process_halted, worker_deadlocked, exits_with_0, dies_again_and_again, peer_absent_at_start,
-    runner_killed, icestorm_killed, node_killed, registry_killed, keeper_killed, link_cut, host_gone, operator_gone,
+    runner_killed, supervision_halted, icestorm_killed, node_killed, registry_killed, keeper_killed, link_cut, host_gone, operator_gone,
     port_taken, up_interrupted, disk_full, document_removed, folder_removed,
 )  # fmt: skip
 LOCAL: tuple[Fault, ...] = (
-    process_killed, process_halted, exits_with_0, icestorm_killed, supervisor_killed, port_taken, up_interrupted,
+    process_killed, process_halted, exits_with_0, icestorm_killed, supervisor_killed, supervisor_halted, port_taken, up_interrupted,
     document_removed, keeper_of_supervisor_killed,
 )  # fmt: skip
-SHORT = (process_killed, exits_with_0, icestorm_killed, node_killed, registry_killed, link_cut, document_removed)
+SHORT = (
+    process_killed,
+    exits_with_0,
+    supervision_halted,
+    icestorm_killed,
+    node_killed,
+    registry_killed,
+    link_cut,
+    document_removed,
+)
 
 
 @pytest.mark.parametrize(

@@ -23,7 +23,16 @@ from robocomp_yaml.deploy import json_data, operations
 from robocomp_yaml.deploy.carry_out import SKIPPED
 from robocomp_yaml.deploy.engine import GIVEN_UP, RUNNING, DeployFailed
 from robocomp_yaml.deploy.local import channel, procfs, record
-from robocomp_yaml.network.network import NEVER, Endpoint, EnvironmentVariable, Process, Readiness, RestartRule
+from robocomp_yaml.network.draft import MANAGER, PUBLISH
+from robocomp_yaml.network.network import (
+    ICESTORM,
+    NEVER,
+    Endpoint,
+    EnvironmentVariable,
+    Process,
+    Readiness,
+    RestartRule,
+)
 from small_networks import Place, config_of, is_alive, listener, shell, sleeper
 
 FAILS = "echo about to fail; exit 3"
@@ -125,6 +134,23 @@ def test_a_port_that_another_program_uses(place: Place, free_port: Ports) -> Non
     assert not place.up(sleeper("b"), served).diagnostics
     changed = replace(served, env=(EnvironmentVariable("X", "1"),))
     assert not place.up(sleeper("b"), changed).diagnostics  # its own port is not in its own way
+
+
+@pytest.mark.parametrize(
+    ("ports", "keys"), [((0, 1), "port: PORT, publish: PORT"), ((0,), "port: PORT"), ((1,), "publish: PORT")]
+)
+def test_the_keys_of_all_used_ports_of_an_icestorm_are_named(
+    place: Place, free_port: Ports, ports: tuple[int, ...], keys: str
+) -> None:
+    own = free_port(), free_port()
+    served = tuple(
+        Endpoint(name, "", port, f"tcp -p {port}") for name, port in zip((MANAGER, PUBLISH), own, strict=True)
+    )
+    with contextlib.ExitStack() as others:
+        for number in ports:
+            others.enter_context(socket.create_server(("127.0.0.1", own[number])))
+        (told,) = place.up(replace(sleeper("storm"), kind=ICESTORM, endpoints=served)).diagnostics
+    assert told.code == "RC7001" and told.hint.endswith(f"give 'storm' other ports: `icestorm: {{{keys}}}`")
 
 
 def test_ports_that_another_deployment_uses(place: Place, free_port: Ports, tmp_path: Path) -> None:
@@ -334,6 +360,13 @@ def test_a_secret_that_changes_is_not_shown(place: Place) -> None:
     assert result.plan.steps["a"].reason == "config mail.password: *** → ***"
 
 
+def test_a_deleted_log_begins_anew(place: Place) -> None:
+    place.up(shell("a", "while echo a line; do sleep 0.05; done"))
+    until(lambda: place.log("a", 1) == ["a line"], "it prints")
+    shutil.rmtree(f"{place.folder}/logs")
+    until(lambda: place.log("a") == ["a line"] * 3, "further lines")
+
+
 def test_a_log_of_limited_size(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("RCYAML_LOG_LIMIT", "20000")
     count = 2000
@@ -346,16 +379,22 @@ def test_a_log_of_limited_size(place: Place, monkeypatch: pytest.MonkeyPatch) ->
     assert last == [f"line {number}" for number in range(count - len(last), count)] and len(last) == 500
 
 
+def fill(disk: Path) -> None:
+    """Leaves no room, until the file `ballast` is removed."""
+    with contextlib.suppress(OSError), open(disk / "ballast", "wb") as file:
+        while True:
+            file.write(bytes(4096))
+            file.flush()
+
+
 def test_a_full_disk(place: Place, small_disk: Path, tmp_path: Path) -> None:
     """Lines are lost, which is reported when there is space again. The process goes on."""
     place.root = small_disk
-    talk = "i=0; while [ $i -lt 4000 ]; do echo $i a line that takes room on the disk, as lines do; i=$((i+1)); done"
-    wait = f"touch {tmp_path}/full; while [ ! -e {tmp_path}/go ]; do sleep 0.02; done"
-    (small_disk / "ballast").write_bytes(bytes(150_000))
-    place.up(shell("a", f"{talk}; {wait}; echo there is room; exec sleep 600"))
-    until((tmp_path / "full").exists, "it goes on though nothing can be written")
-    now = place.observe()["a"]
-    assert now.restarts == 0 and now.lost_lines > 0
+    talk = f"while [ ! -e {tmp_path}/go ]; do echo a line that takes room on the disk, as lines do; sleep 0.01; done"
+    place.up(shell("a", f"{talk}; echo there is room; exec sleep 600"))
+    fill(small_disk)
+    until(lambda: place.observe()["a"].lost_lines > 0, "it goes on though nothing can be written")
+    assert place.observe()["a"].restarts == 0
     (small_disk / "ballast").unlink()
     (tmp_path / "go").touch()
     until(lambda: "there is room" in place.log("a"), "what it says then")
@@ -405,10 +444,7 @@ def test_on_a_full_disk_no_supervisor_starts(place: Place, small_disk: Path) -> 
     place.root = small_disk
     assert not place.up(sleeper("a")).diagnostics
     place.down()
-    with contextlib.suppress(OSError), open(small_disk / "ballast", "wb") as file:
-        while True:
-            file.write(bytes(4096))
-            file.flush()
+    fill(small_disk)
     with pytest.raises(DeployFailed) as failed:
         place.up(sleeper("a"))
     assert failed.value.diagnostic.code == "RC7005" and "no space left" in failed.value.diagnostic.message
@@ -429,10 +465,7 @@ def test_a_full_disk_changes_nothing(place: Place, small_disk: Path) -> None:
 
     place.up(*network("x=1\n"))
     before = place.pids()
-    with contextlib.suppress(OSError), open(small_disk / "ballast", "wb") as file:
-        while True:
-            file.write(bytes(4096))
-            file.flush()
+    fill(small_disk)
     with pytest.raises(DeployFailed) as failed:
         place.up(*network("x=2\n" * 2000))
     assert failed.value.diagnostic.code == "RC7005" and "no space left" in failed.value.diagnostic.message

@@ -3,20 +3,18 @@ other engine is in test_nothing_is_left.py."""
 
 from __future__ import annotations
 
-import json
 import os
 import shutil
-import signal
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from conftest import write_tree
-from processes import kill_left, until
+from processes import hanging, kill_left, until
 from robocomp_yaml.deploy.icegrid import start_up
 from robocomp_yaml.deploy.local import procfs
+from seen import status
 from small_networks import Place, is_alive
 from test_roles import Rcyaml
 
@@ -47,42 +45,39 @@ def robot(place: Place, rcyaml: Rcyaml, tmp_path: Path, monkeypatch: pytest.Monk
         kill_left(place.folder)
 
 
-def halt(place: Place, program: str) -> int:
-    """The pid of a daemon of the deployment, which is halted now."""
+def daemon(place: Place, program: str) -> int:
+    """The pid of a daemon of the deployment."""
     (pid,) = [pid for pid in procfs.marked(place.folder) if procfs.command(pid)[:1] == [program]]
-    os.kill(pid, signal.SIGSTOP)
     return pid
 
 
 def ready(rcyaml: Rcyaml, document: str) -> dict[str, int]:
     """The pids of the processes that are ready."""
-    found: list[dict[str, Any]] = json.loads(rcyaml("deploy", "status", document, "--format", "json").stdout)[
-        "processes"
-    ]
-    return {one["name"]: one["pid"] for one in found if one["ready"]}
+    folder = f"{os.path.dirname(document)}/.rcyaml/deployments/Robot"
+    return {name: one["pid"] for name, one in status(rcyaml, folder, document).items() if one["ready"]}
 
 
 def test_the_registry_hangs(place: Place, rcyaml: Rcyaml, robot: str) -> None:
     """All processes go on."""
     before = ready(rcyaml, robot)
     assert len(before) == 2
-    halted = halt(place, "icegridregistry")
-    assert ready(rcyaml, robot) == before and not is_alive(halted)
-    halted = halt(place, "icegridregistry")
-    down = rcyaml("deploy", "down", robot)
+    with hanging(hung := daemon(place, "icegridregistry")):
+        assert ready(rcyaml, robot) == before and not is_alive(hung)
+    with hanging(daemon(place, "icegridregistry")):
+        down = rcyaml("deploy", "down", robot)
     assert down.exit_code == 0 and "base  stopped" in down.stdout and "arm   stopped" in down.stdout, down.output
     until(lambda: not procfs.marked(place.folder), lambda: str(procfs.marked(place.folder)))
 
 
 def test_the_node_hangs(place: Place, rcyaml: Rcyaml, robot: str) -> None:
     before = ready(rcyaml, robot)
-    halted = halt(place, "icegridnode")
-    restart = rcyaml("deploy", "restart", robot, "arm")
-    assert restart.exit_code == 0 and not is_alive(halted), restart.output
+    with hanging(hung := daemon(place, "icegridnode")):
+        restart = rcyaml("deploy", "restart", robot, "arm")
+    assert restart.exit_code == 0 and not is_alive(hung), restart.output
     after = ready(rcyaml, robot)
     assert len(after) == 2 and not set(after.values()) & set(before.values())
     assert not any(is_alive(pid) for pid in before.values())
-    halted = halt(place, "icegridnode")
-    down = rcyaml("deploy", "down", robot)
+    with hanging(daemon(place, "icegridnode")):
+        down = rcyaml("deploy", "down", robot)
     assert down.exit_code == 0 and "base  stopped" in down.stdout and "arm   stopped" in down.stdout, down.output
     until(lambda: not procfs.marked(place.folder), lambda: str(procfs.marked(place.folder)))

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import os
 import shutil
-import signal
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
-from processes import until
+from processes import hanging, until
 from robocomp_yaml.deploy.local import procfs
 from three_hosts import Deployment, talking
 
@@ -85,14 +83,11 @@ def test_a_node_that_hangs(talk: Deployment) -> None:
         pid for pid in procfs.marked(talk.folder)
         if procfs.command(pid)[0] == "icegridnode" and "/nodes/arm/" in procfs.command_line(pid)
     ]  # fmt: skip
-    os.kill(node, signal.SIGSTOP)
-    try:
+    with hanging(node):
         until(lambda: talk.status()["pan"]["state"] == "lost", "its node does not answer")
         said = talk.deploy("down", code=1)
         assert "the host 'arm'" in said and "'pan' there is ended as soon as it does" in said
         assert procfs.entry(pan) is not None and talk.copies("blink") == 0
-    finally:
-        os.kill(node, signal.SIGCONT)
     until(lambda: procfs.entry(pan) is None, lambda: str(marked(talk)))
     until(lambda: "no deployment" in talk.rcyaml("deploy", "ls"), lambda: talk.rcyaml("deploy", "ls"))
 

@@ -16,6 +16,7 @@ import pytest
 from booted import Machine, need_systemd
 from conftest import write_tree
 from processes import kill_left, until
+from seen import programs
 
 pytestmark = pytest.mark.slow
 UNIT = "rcyaml-Robot.service"
@@ -61,6 +62,8 @@ class InstalledRobot:
         until(lambda: self.machine.systemctl("is-active", UNIT) == "active\n", self.what_happened)
         status = self.status()
         assert all(one["ready"] for one in status.values()), status
+        folder = f"{self.folder}/.rcyaml/deployments/Robot"
+        assert [len(programs(folder, name)) for name in status] == [1] * len(status), status
         return {name: int(str(one["pid"])) for name, one in status.items()}
 
     def what_happened(self) -> str:

@@ -8,12 +8,14 @@ import shutil
 import signal
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from conftest import write_tree
 from processes import kill_left, until
 from robocomp_yaml.deploy import registered
+from seen import status
 from small_networks import Place, is_alive, readable_by_others
 from test_roles import Rcyaml
 
@@ -64,11 +66,11 @@ def test_the_list(robot: Path, rcyaml: Rcyaml) -> None:
 
 @pytest.mark.parametrize("lost", [(), (".rcyaml",), ("robot.ddsl.yaml",), (".rcyaml", "robot.ddsl.yaml")])
 def test_status_logs_and_down_by_name(robot: Path, rcyaml: Rcyaml, lost: tuple[str, ...]) -> None:
-    pids = {one["name"]: one["pid"] for one in _status(rcyaml, "Robot")}
+    pids = {name: one["pid"] for name, one in _status(rcyaml, robot).items()}
     for name in lost:
         path = robot / name
         shutil.rmtree(path) if path.is_dir() else path.unlink()
-    assert {one["name"]: one["pid"] for one in _status(rcyaml, "Robot")} == pids
+    assert {name: one["pid"] for name, one in _status(rcyaml, robot).items()} == pids
     assert "base | the base turns\n" in rcyaml("deploy", "logs", "Robot", "base").stdout
     done = rcyaml("deploy", "down", "Robot")
     assert done.exit_code == 0 and done.stdout == "arm   stopped\nbase  stopped\n"
@@ -80,7 +82,7 @@ def test_status_logs_and_down_by_name(robot: Path, rcyaml: Rcyaml, lost: tuple[s
 def test_with_the_document_but_without_the_folder(robot: Path, rcyaml: Rcyaml) -> None:
     shutil.rmtree(robot / ".rcyaml")
     document = f"{robot}/robot.ddsl.yaml"
-    assert [one["ready"] for one in _status(rcyaml, document)] == [True, True]
+    assert [one["ready"] for one in _status(rcyaml, robot, document).values()] == [True, True]
     assert readable_by_others(f"{robot}/.rcyaml/deployments/Robot") == []
     assert rcyaml("deploy", "down", document).stdout == "arm   stopped\nbase  stopped\n"
 
@@ -109,7 +111,7 @@ def test_a_process_of_the_document_here_goes_first(
     write_tree(robot, {"other/other.ddsl.yaml": DOCUMENT.format(name="Other").replace("arm:", "Robot:")})
     monkeypatch.chdir(robot / "other")
     assert "Robot    not started" in rcyaml("deploy", "status", "Robot").stdout
-    assert len(_status(rcyaml, "../robot.ddsl.yaml")) == 2
+    assert len(_status(rcyaml, robot, "../robot.ddsl.yaml")) == 2
 
 
 def test_a_deployment_here_has_its_name_also_when_it_does_not_run(
@@ -155,8 +157,5 @@ def test_a_state_folder_that_cannot_be_written_prevents_nothing(
     assert rcyaml("deploy", "down", "robot.ddsl.yaml").exit_code == 0
 
 
-def _status(rcyaml: Rcyaml, name: str) -> list[dict[str, object]]:
-    found: list[dict[str, object]] = json.loads(rcyaml("deploy", "status", name, "--format", "json").stdout)[
-        "processes"
-    ]
-    return found
+def _status(rcyaml: Rcyaml, root: Path, name: str = "Robot") -> dict[str, dict[str, Any]]:
+    return status(rcyaml, f"{root}/.rcyaml/deployments/Robot", name)

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from conftest import write_tree
-from processes import kill_left, until
+from processes import hanging, kill_left, until
 from robocomp_yaml.deploy import protection, registered
 from robocomp_yaml.deploy.local import client, procfs
 from small_networks import Place, is_alive
@@ -77,10 +77,10 @@ def test_after_the_end_of_the_supervisor(
     assert left(place) == [] and rcyaml("deploy", "ls").stdout == "no deployment is running\n"
 
 
-@pytest.mark.parametrize("is_keeper_halted", [False, True])
+@pytest.mark.parametrize("does_keeper_hang", [False, True])
 @pytest.mark.parametrize("has_document", [True, False])
 def test_after_the_supervisor_hangs(
-    place: Place, rcyaml: Rcyaml, robot: Callable[..., str], monkeypatch: pytest.MonkeyPatch, is_keeper_halted: bool,
+    place: Place, rcyaml: Rcyaml, robot: Callable[..., str], monkeypatch: pytest.MonkeyPatch, does_keeper_hang: bool,
     has_document: bool,
 ) -> None:  # fmt: skip
     document = robot()
@@ -88,16 +88,15 @@ def test_after_the_supervisor_hangs(
     monkeypatch.setattr(client, "_PATIENCE", 0.5)
     pid = place.pids()["base"]
     keeper, supervisor = place.keeper_and_supervisor()
-    for halted in (supervisor, *([keeper] if is_keeper_halted else [])):
-        os.kill(halted, signal.SIGSTOP)
     if not has_document:
         os.unlink(document)
-    for command in (["status"], ["logs"], ["down", "base"] if has_document else ["status"]):
-        said = rcyaml("deploy", *command[:1], "Robot" if not has_document else document, *command[1:])
-        assert said.exit_code == 1 and f"its supervisor (pid {supervisor}) does not answer" in said.stderr
-        assert "`rcyaml deploy down` ends it" in said.stderr
-    assert is_alive(pid) and rcyaml("deploy", "ls").stdout.count("running") == 1
-    said = rcyaml("deploy", "down", document if has_document else "Robot")
+    with hanging(supervisor, *([keeper] if does_keeper_hang else [])):
+        for command in (["status"], ["logs"], ["down", "base"] if has_document else ["status"]):
+            said = rcyaml("deploy", *command[:1], "Robot" if not has_document else document, *command[1:])
+            assert said.exit_code == 1 and f"its supervisor (pid {supervisor}) does not answer" in said.stderr
+            assert "`rcyaml deploy down` ends it" in said.stderr
+        assert is_alive(pid) and rcyaml("deploy", "ls").stdout.count("running") == 1
+        said = rcyaml("deploy", "down", document if has_document else "Robot")
     assert said.exit_code == 0 and "RC7007" in said.stderr and said.stdout == "base  stopped\n"
     assert not is_alive(pid) and not procfs.marked(place.folder)
     assert left(place) == [] and rcyaml("deploy", "ls").stdout == "no deployment is running\n"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import subprocess
 import sys
@@ -15,6 +14,7 @@ from click.testing import Result
 
 from processes import Ports, until
 from robocomp_yaml.network.network import Process, Readiness
+from seen import status
 from small_networks import Place
 
 pytest.importorskip("Ice", reason="Ice's Python module is not installed")
@@ -71,9 +71,7 @@ def switch(tmp_path: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch) -> C
 
 
 def own(rcyaml: Rcyaml, name: str) -> dict[str, Any]:
-    answer = rcyaml("deploy", "status", "robot.ddsl.yaml", name, "--format", "json").stdout
-    (process,) = json.loads(answer)["processes"]
-    return dict(process)
+    return status(rcyaml, f"{os.getcwd()}/.rcyaml/deployments/Robot", "robot.ddsl.yaml", is_ice=True)[name]
 
 
 def test_it_waits_for_an_absent_server(

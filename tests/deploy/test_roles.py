@@ -14,6 +14,7 @@ from click.testing import Result
 
 from conftest import write_tree
 from processes import Ports, kill_left, until
+from seen import status
 
 Rcyaml = Callable[..., Result]
 
@@ -35,8 +36,8 @@ class Robot:
         return result.output
 
     def of(self, name: str = "laser") -> dict[str, Any]:
-        output = self._rcyaml("deploy", "status", "robot.ddsl.yaml", *self._options, "--format", "json").stdout
-        return next(one for one in json.loads(output)["processes"] if one["name"] == name)
+        folder = f"{self.root}/.rcyaml/deployments/Robot"
+        return status(self._rcyaml, folder, "robot.ddsl.yaml", *self._options)[name]
 
     def until(self, condition: Callable[[dict[str, Any]], bool], what: str) -> dict[str, Any]:
         def seen() -> dict[str, Any] | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import shutil
 import signal
 import socket
 import subprocess
@@ -91,6 +92,25 @@ def runner(tmp_path: Path) -> Iterator[Runner]:
 
 def show(*words: str) -> list[str]:
     return ["=sh", "=-c", '=printf "%s|" "$@"; echo', "=sh", *(f"={word}" for word in words)]
+
+
+def test_each_run_begins_in_the_log_before_what_it_prints(tmp_path: Path) -> None:
+    """Also on a busy machine: a line of an earlier run would make nothing ready."""
+    runners = [Runner(tmp_path / str(number)) for number in range(16)]
+    ends = [runner.start(*show("hi"), rule="1 always 1 1 20 600000") for runner in runners]
+    assert [end.wait(60) for end in ends] == [0] * len(runners)
+    for runner in runners:
+        until(lambda runner=runner: "rcyaml: given up" in runner.log, "the log")
+        lines = [re.sub(r"\d+", "N", line) for line in runner.log.splitlines() if not line.startswith("rcyaml: ended")]
+        assert lines[:-1] == ["rcyaml: started, pid N", "hi|"] * 21
+
+
+def test_a_deleted_log_begins_anew(runner: Runner) -> None:
+    runner.start("=sh", "=-c", "=while echo a line; do sleep 0.05; done")
+    until(lambda: "a line" in runner.log, "it prints")
+    shutil.rmtree(runner.folder / "logs")
+    until(lambda: runner.log.count("a line") >= 3, "further lines")
+    assert "started" not in runner.log
 
 
 def test_arguments_are_passed_unchanged(runner: Runner) -> None:
@@ -446,7 +466,9 @@ def test_a_newer_rule_applies_at_once(asked: Asked) -> None:
     rules = asked.runner.folder / "state" / "icegrid" / "rules"
     rules.mkdir(parents=True)
     (rules / "arm").write_text(f"2{AGAIN[1:]}\n\n")
-    until(lambda: not asked.status.not_alive, "that it is not asked any more")
+    until(lambda: asked.status.not_alive == "it is halted", "that it is not asked any more")
+    os.kill(pid, signal.SIGCONT)
+    until(lambda: not asked.status.not_alive, "life")
     time.sleep(1)
     assert not asked.status.not_alive and asked.status.pid == pid
 

@@ -25,6 +25,7 @@ import pytest
 from conftest import ROOT, write_tree
 from processes import kill_left, until
 from robocomp_yaml.deploy.local import procfs
+from seen import agreed, programs, states
 
 NAMES = ("onboard", "head", "arm")
 NAME = "Talk"
@@ -196,9 +197,13 @@ class Deployment:
         return self.rcyaml("deploy", what, "talk.ddsl.yaml", *words, code=code)
 
     def status(self) -> dict[str, Any]:
-        """The status of each process, by its name."""
-        said = json.loads(self.deploy("status", "--format", "json", code=None))
-        return {one["name"]: one for one in said["processes"]}
+        """The status of each process, by its name, which /proc confirms where its host answers."""
+
+        def ask() -> dict[str, Any]:
+            said = json.loads(self.deploy("status", "--format", "json", code=None))
+            return {one["name"]: one for one in said["processes"]}
+
+        return agreed(self.folder, ask, states)
 
     def pids(self) -> dict[str, int]:
         return {name: one["pid"] for name, one in self.status().items()}
@@ -224,15 +229,17 @@ class Deployment:
         assert done.returncode == 0, done.stderr
 
     def kill_daemon(self, which: str, *, for_good: bool) -> None:
-        """Kills the registry (`registry`) or a node (`nodes/HOST`). `for_good` kills its guard, too."""
-        for file in ("pid", "program") if for_good else ("program",):
-            os.kill(int((self.state / which / file).read_text()), signal.SIGKILL)
+        """Kills the registry (`registry`) or a node (`nodes/HOST`). `for_good` kills its guard, too, and before that what
+        would take the place of the guard."""
+        guard = str(self.state / which / "guard")
+        helpers = [pid for pid in procfs.marked(self.folder) if procfs.command(pid)[1:3] == [guard, "--watch"]]
+        known = [int((self.state / which / file).read_text()) for file in ("pid", "program")]
+        for pid in [*helpers, *known] if for_good else known[1:]:
+            os.kill(pid, signal.SIGKILL)
 
     def copies(self, name: str) -> int:
         """The number of processes with the program of this name, without its runner and its log."""
-        mark = f"{self.folder}:{name}"
-        roots = [pid for pid in procfs.pids() if procfs.mark_of(pid) == mark]
-        return sum(1 for pid in roots if (entry := procfs.entry(pid)) and entry.group == pid and not entry.is_dead)
+        return len(programs(self.folder, name))
 
     def clean_up(self) -> None:
         """Kills all processes that are left."""

@@ -8,10 +8,11 @@ import select
 import signal
 import socket
 import subprocess
+import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -66,6 +67,36 @@ def killed_on_failure(process: subprocess.Popen[Any]) -> Iterator[subprocess.Pop
         except BaseException:
             process.kill()
             raise
+
+
+TRACER = """\
+import ctypes, os, sys
+SEIZE, INTERRUPT, WAIT_FOR_ALL = 0x4206, 0x4207, 0x40000000
+ptrace = ctypes.CDLL(None, use_errno=True).ptrace
+ptrace.argtypes = [ctypes.c_long, ctypes.c_long, ctypes.c_void_p, ctypes.c_void_p]
+for thread in map(int, os.listdir(f"/proc/{sys.argv[1]}/task")):
+    if ptrace(SEIZE, thread, None, None) or ptrace(INTERRUPT, thread, None, None):
+        sys.exit(ctypes.get_errno())
+    os.waitpid(thread, WAIT_FOR_ALL)
+print("attached", flush=True)
+while True:  # a killed process is there until its tracer has noticed
+    os.waitpid(-1, WAIT_FOR_ALL)
+"""
+
+
+@contextmanager
+def hanging(*pids: int) -> Iterator[None]:
+    """These processes do nothing, as in a debugger: a signal does not let them go on. Skips the test where tracing is
+    not allowed."""
+    with ExitStack() as tracers:
+        for pid in pids:
+            tracing = subprocess.Popen([sys.executable, "-c", TRACER, str(pid)], stdout=subprocess.PIPE)
+            tracer = tracers.enter_context(tracing)
+            tracers.callback(tracer.kill)
+            assert tracer.stdout is not None
+            if tracer.stdout.readline() != b"attached\n":
+                pytest.skip("this machine does not allow tracing")
+        yield
 
 
 @dataclass

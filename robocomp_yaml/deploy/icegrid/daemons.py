@@ -23,7 +23,7 @@ from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy import ssh
 from robocomp_yaml.deploy.icegrid import settings
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry
-from robocomp_yaml.deploy.local.procfs import MARK
+from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.own_address import own_address
 from robocomp_yaml.network.network import LOOPBACK, NetworkHost
 from robocomp_yaml.source.properties import entry_line
@@ -49,7 +49,7 @@ def start_detached(command: Sequence[str], folder: str, **environment: str) -> i
     """Starts a process of the deployment in a folder that goes on when this process ends. Returns its pid. Raises
     OSError."""
     started = subprocess.Popen(
-        command, env={**os.environ, MARK: f"{folder}:", **environment}, stdin=subprocess.DEVNULL,
+        command, env={**os.environ, procfs.MARK: f"{folder}:", **environment}, stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True, cwd="/",
     )  # fmt: skip
     started.returncode = 0  # nobody waits for it
@@ -77,9 +77,8 @@ def _signal(folder: str, file_name: str, word: str, number: int) -> None:
     try:
         with open(f"{folder}/{file_name}", encoding="ascii") as file:
             pid = int(file.read())
-        with open(f"/proc/{pid}/cmdline", "rb") as file:
-            if os.fsencode(word) in file.read().split(b"\0"):
-                os.kill(pid, number)
+        if word in procfs.command(pid):
+            os.kill(pid, number)
     except (OSError, ValueError):
         return
 

@@ -77,7 +77,7 @@ class IceGridEngine:
             raise DeployFailed(deploying.NO_REGISTRY.at(Span(network.path), reason=lacking))
         self._grid = await self._call("", "reached", self._reach, create)
         if self._grid is None:
-            return False
+            return start_up.is_running_without_files(self._files, network)
         self._has_changed = create
         if create:
             with contextlib.suppress(OSError):
@@ -90,6 +90,7 @@ class IceGridEngine:
         return True
 
     def _reach(self, create: bool) -> GridSession | None:
+        self.notes += start_up.continue_halted(self._files, self._network)
         grid = start_up.reached(self._files, self._network)
         if grid and create:
             grid.close()
@@ -273,8 +274,7 @@ class IceGridEngine:
         from robocomp_yaml.deploy.icegrid import leftovers
 
         with self._lock:
-            gone = {name: self._specs.pop(name) for name in names if name in self._specs}
-            if not gone:
+            if not (gone := {name: self._specs.pop(name) for name in names if name in self._specs}):
                 return
             states = self._reached().states(gone)
             for name, spec in gone.items():
@@ -371,8 +371,8 @@ class IceGridEngine:
         self._unreached.clear()
         if self._has_changed and not end:
             with contextlib.suppress(OSError):  # a full or read-only disk
-                one = registered.of_folder(self._files.folder)
-                registered.keep(one or registered.entry_of(self._network, self.name))
+                known = registered.of_folder(self._files.folder)
+                registered.keep(known or registered.entry_of(self._network, self.name))
                 registered.copy(self._files.folder, self._files.copied)
         self._calls.shutdown(wait=False)
 

@@ -13,7 +13,7 @@ import os
 import shutil
 import socket
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Any, TypeVar
 
 import msgspec
 
@@ -26,6 +26,9 @@ from robocomp_yaml.network.network import NetworkHost, is_loopback
 
 KEEPER = "rcyaml.keeper"
 """The id of the keeper's server. No process can have this name."""
+
+Kind = TypeVar("Kind")
+Missing = TypeVar("Missing")
 
 _ROOT = "state/icegrid"
 _ANSWERS_WITHIN = 1.0  # seconds
@@ -57,12 +60,12 @@ class GridFiles(msgspec.Struct, frozen=True):
 
     def on(self, host: str) -> GridFiles:
         """The files on the host of this name."""
-        folder = self._read(_FOLDERS, {}).get(host, self.folder)
+        folder = self._read(_FOLDERS, dict[str, str], {}).get(host, self.folder)
         return GridFiles(folder) if folder != self.folder else self
 
     def keep_folders(self, hosts: Iterable[NetworkHost]) -> None:
         """Keeps the folders that the deployment has on these hosts, and on those that were used before."""
-        known = self._read(_FOLDERS, {})
+        known = self._read(_FOLDERS, dict[str, str], {})
         folders = {host.name: folder_on(host, self.folder) for host in hosts}
         if any(known.get(name, self.folder) != path for name, path in folders.items()):
             self._write(_FOLDERS, known | folders)
@@ -92,7 +95,7 @@ class GridFiles(msgspec.Struct, frozen=True):
 
     def next_rule(self) -> int:
         """A number for a new rule, higher than those of all earlier rules."""
-        number: int = self._read(_RULES, 0) + 1
+        number = self._read(_RULES, int, 0) + 1
         self._write(_RULES, number)
         return number
 
@@ -100,15 +103,14 @@ class GridFiles(msgspec.Struct, frozen=True):
         return f"{self.folder}/logs/{name}.log"
 
     def registry(self) -> Registry | None:
-        data = self._read(_REGISTRY, {})
-        return Registry(**data) if data else None
+        return self._read(_REGISTRY, Registry, None)
 
     def keep_registry(self, registry: Registry) -> None:
         self._write(_REGISTRY, {"address": registry.address, "port": registry.port})
 
     def desired(self) -> set[str]:
         """The names of the processes that should run, whatever happens to their nodes."""
-        return set(self._read(_DESIRED, []))
+        return set(self._read(_DESIRED, list[str], []))
 
     def keep_desired(self, names: Iterable[str]) -> None:
         self._write(_DESIRED, sorted(names))
@@ -116,17 +118,19 @@ class GridFiles(msgspec.Struct, frozen=True):
     def nodes(self) -> dict[str, bool]:
         """The hosts that had a node after the last `up`, with whether rcyaml started it, and therefore ends it. A node
         can also be started by hand."""
-        return dict(self._read(_NODES, {}))
+        return self._read(_NODES, dict[str, bool], {})
 
     def keep_nodes(self, nodes: Mapping[str, bool]) -> None:
         self._write(_NODES, dict(nodes))
 
     def specs(self) -> dict[str, ProcessSpec | None]:
         """The specs of the processes; None for one that another version of rcyaml wrote."""
-        return {name: ProcessSpec.of_data(data) for name, data in self._read(_SPECS, {}).items()}
+        return {
+            name: ProcessSpec.of_data(data) for name, data in self._read(_SPECS, dict[str, dict[str, Any]], {}).items()
+        }
 
     def keep_specs(self, specs: dict[str, ProcessSpec | None]) -> None:
-        kept = self._read(_SPECS, {})
+        kept = self._read(_SPECS, dict[str, dict[str, Any]], {})
         self._write(_SPECS, {name: spec.as_data() if spec else kept.get(name) for name, spec in specs.items()})
 
     def drop_configurations(self, *, with_key: bool) -> None:
@@ -149,14 +153,14 @@ class GridFiles(msgspec.Struct, frozen=True):
         """The files that the user's list of deployments keeps, so that the deployment is reached without its folder."""
         return [f"{_ROOT}/key.pem", f"{_ROOT}/certificate.pem", _REGISTRY, _NODES, _SPECS, _DESIRED, _FOLDERS]
 
-    def _read(self, path: str, missing: Any) -> Any:
-        """The content of a file; `missing` without a file, or with one of another version in another format."""
+    def _read(self, path: str, kind: type[Kind], missing: Missing) -> Kind | Missing:
+        """The content of a file; `missing` without a file, or with one in another format: of another version, or
+        damaged."""
         try:
             with open(f"{self.folder}/{path}", encoding="utf-8") as file:
-                data = json.load(file)
+                return msgspec.convert(json.load(file), kind)
         except (FileNotFoundError, NotADirectoryError, ValueError):
             return missing
-        return data if type(data) is type(missing) else missing
 
     def _write(self, path: str, data: Any) -> None:
         own_folder.write(self.folder, path, json.dumps(data))

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import asyncio
+import os
+import signal
 import threading
 import time
 from collections.abc import Collection, Iterable, Mapping, Sequence
@@ -13,13 +16,13 @@ from typing import TYPE_CHECKING
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy import registered, ssh
 from robocomp_yaml.deploy.differences import shown_path
-from robocomp_yaml.deploy.engine import DeployFailed
+from robocomp_yaml.deploy.engine import HALTED, DeployFailed, EngineHangs
 from robocomp_yaml.deploy.here import is_here, is_near
 from robocomp_yaml.deploy.icegrid import daemons, ending, settings
 from robocomp_yaml.deploy.icegrid.daemons import NodeStart, outcome
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry, free_port, registry_address
 from robocomp_yaml.deploy.install import installed
-from robocomp_yaml.deploy.local.record import clear_up
+from robocomp_yaml.deploy.local import procfs, record
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.deploy.time_limit import until
 from robocomp_yaml.diag.codes import deploying as codes
@@ -57,6 +60,30 @@ def reached(files: GridFiles, network: Network) -> GridSession | None:
     return _session(files, registry, network)
 
 
+def is_running_without_files(files: GridFiles, network: Network) -> bool:
+    """False if there is no registry, and no process on this machine. Raises EngineHangs if processes run although the
+    files that lead to their registry are gone or damaged."""
+    if files.registry() is not None or not record.running(network.folder):
+        return False
+    reason = "processes of it run, and its files are damaged: `rcyaml deploy down` ends them"
+    failed = codes.FOLDER.at(Span(network.path), path=shown_path(network.folder), reason=reason)
+
+    async def end() -> list[str]:
+        return await asyncio.to_thread(record.end_hung, network.folder)
+
+    raise EngineHangs(failed, end)
+
+
+def continue_halted(files: GridFiles, network: Network) -> list[Diagnostic]:
+    """Lets all go on that was halted (SIGSTOP) of what supervises the deployment on this machine. Returns a diagnostic
+    if there was something."""
+    halted = procfs.halted(files.folder)
+    for pid in halted:
+        with suppress(OSError):
+            os.kill(pid, signal.SIGCONT)
+    return [codes.NOT_SUPERVISED.at(Span(network.path), what=HALTED)] if halted else []
+
+
 def created(files: GridFiles, network: Network) -> GridSession:
     """A session with the registry, which is started if none runs at an address that all hosts reach. Raises
     DeployFailed."""
@@ -67,7 +94,7 @@ def created(files: GridFiles, network: Network) -> GridSession:
         end_daemons(files)
         try:
             if registry is None:
-                clear_up(network.folder)  # processes that run although their folder was removed
+                record.clear_up(network.folder)  # processes that run although their folder was removed
             own_folder.make(network.folder)
             settings.make_key(files)
             registry = Registry(address, free_port(address))
@@ -106,6 +133,7 @@ def ensure_nodes(
     assert registry
     known = files.nodes()
     hosts = list(hosts)
+    _end_homeless(grid, [host for host in hosts if is_here(host)])
     missing = [host for host in hosts if not grid.has_node(host.name)]
     scripts = {host.name: daemons.write_script(files, host, network.hosts.values(), registry) for host in missing}
     begin = time.monotonic()
@@ -135,6 +163,14 @@ def ensure_nodes(
                 network.span_of_host(host), name=host.name, address=host.address, reason=reason, hint=hint
             )  # fmt: skip
     return faults
+
+
+def _end_homeless(grid: GridSession, hosts: Iterable[NetworkHost]) -> None:
+    """Ends the nodes of this machine whose folder somebody deleted, with their processes: they can start nothing."""
+    for host in hosts:
+        if not os.path.exists(f"{grid.files.root}/nodes/{host.name}/run") and grid.has_node(host.name):
+            grid.shut_down_node(host.name)
+            until(lambda host=host: not grid.has_node(host.name), _ENDS_WITHIN)  # type: ignore[misc]
 
 
 def _has_ended_hung(grid: GridSession, host: str) -> bool:

@@ -78,7 +78,7 @@ def run_status(grid: GridSession, name: str, host: str, *, is_local: bool) -> Ru
     if not is_local:
         return of_text("\n".join(grid.read(name, path)))
     try:
-        with open(path, encoding="utf-8") as file:
+        with open(path, encoding="utf-8", errors="replace") as file:
             return of_text(file.read())
     except OSError:
         return None

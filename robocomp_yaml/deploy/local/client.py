@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import itertools
 import json
 import os
@@ -44,12 +45,22 @@ class Client:
         return cls(*await asyncio.open_unix_connection(sock=connection, limit=LONGEST))
 
     async def hello(self) -> dict[str, Any]:
-        """What the supervisor says of itself. Raises TimeoutError if it hangs, RequestFailed or SupervisorGone."""
+        """What the supervisor says of itself, which takes no time. Raises TimeoutError if it hangs, RequestFailed or
+        SupervisorGone."""
         async with asyncio.timeout(_PATIENCE):
-            return await self.ask("hello")
+            return await self._answer("hello")
 
     async def ask(self, do: str, **facts: object) -> dict[str, Any]:
-        """The answer to a request. Raises RequestFailed or SupervisorGone."""
+        """The answer to a request. Raises TimeoutError if the supervisor hangs, RequestFailed or SupervisorGone."""
+        answer = asyncio.ensure_future(self._answer(do, **facts))
+        try:
+            while not (await asyncio.wait([answer], timeout=_PATIENCE))[0]:
+                await self.hello()
+            return answer.result()
+        finally:
+            answer.cancel()
+
+    async def _answer(self, do: str, **facts: object) -> dict[str, Any]:
         number = next(self._numbers)
         answer = self._waiting[number] = asyncio.get_running_loop().create_future()
         try:
@@ -81,8 +92,10 @@ class Client:
                     answer.set_exception(SupervisorGone())
 
     async def wait_closed(self) -> None:
-        """Waits until the supervisor has ended."""
-        await asyncio.wait([self._listener])
+        """Waits until the supervisor has ended. Raises TimeoutError if it hangs."""
+        with contextlib.suppress(SupervisorGone):
+            while not (await asyncio.wait([self._listener], timeout=_PATIENCE))[0]:
+                await self.hello()
 
     async def close(self) -> None:
         self._listener.cancel()

@@ -13,7 +13,7 @@ from typing import Any
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy import liveness, registered
 from robocomp_yaml.deploy.differences import shown_path
-from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, EngineHangs, Line, Running
+from robocomp_yaml.deploy.engine import HALTED, KILLED, STOP_WITHIN, DeployFailed, EngineHangs, Line, Running
 from robocomp_yaml.deploy.local import client, procfs, record
 from robocomp_yaml.deploy.local.channel import PROTOCOL
 from robocomp_yaml.deploy.local.client import Client, RequestFailed, SupervisorGone
@@ -54,13 +54,17 @@ class LocalEngine:
         self._network = network
         if diagnostic := elsewhere(network):
             raise DeployFailed(diagnostic)
+        if record.continue_halted(network.folder):
+            self.notes.append(deploying.NOT_SUPERVISED.at(Span(network.path), what=HALTED))
         try:
             connection = client.reach(network.folder) or (None if create else await client.revived(network.folder))
             was_killed = connection is None and record.was_killed(network.folder)
             if was_killed or (connection is None and create):
                 left = [*record.clear_up(network.folder), *(client.last_words(network.folder) if was_killed else ())]
                 if was_killed or left:
-                    self.notes.append(deploying.SUPERVISOR_KILLED.at(Span(network.path), more="\n".join(left)))
+                    self.notes.append(
+                        deploying.NOT_SUPERVISED.at(Span(network.path), what=KILLED, more="\n".join(left))
+                    )
             if connection is None and create:
                 own_folder.make(network.folder)
                 connection = await client.start(network.folder, tied=self._is_tied)
@@ -91,7 +95,7 @@ class LocalEngine:
 
     async def _end_hung(self) -> list[str]:
         names = await asyncio.to_thread(record.end_hung, self._network.folder)
-        self.notes.append(deploying.SUPERVISOR_KILLED.at(Span(self._network.path)))
+        self.notes.append(deploying.NOT_SUPERVISED.at(Span(self._network.path), what=KILLED))
         return names
 
     def _register(self, pid: int) -> None:
@@ -191,8 +195,11 @@ class LocalEngine:
             own_folder.drop_staged(self._network.folder)
         if self._client:
             if end:
-                await self._ask("", "end")
-                await self._client.wait_closed()
+                try:
+                    await self._ask("", "end")
+                    await self._client.wait_closed()
+                except (EngineHangs, TimeoutError):
+                    await self._end_hung()
                 await client.wait_gone(self._network.folder)
             await self._disconnect()
         if end:
@@ -208,6 +215,8 @@ class LocalEngine:
         assert self._client, "open it first"
         try:
             return await self._client.ask(do, **facts)
+        except TimeoutError as error:
+            raise self._hangs() from error
         except RequestFailed as error:
             where = self._network.span_of(about)
             raise DeployFailed(deploying.CANNOT.at(where, name=about, what=_DONE.get(do, do), reason=error)) from error
@@ -215,7 +224,7 @@ class LocalEngine:
             raise self._gone() from error
 
     def _gone(self) -> DeployFailed:
-        return DeployFailed(deploying.SUPERVISOR_KILLED.at(Span(self._network.path)).as_severity(ERROR))
+        return DeployFailed(deploying.NOT_SUPERVISED.at(Span(self._network.path), what=KILLED).as_severity(ERROR))
 
     def _folder_failed(self, path: str, reason: str) -> DeployFailed:
         return DeployFailed(deploying.FOLDER.at(Span(self._network.path), path=shown_path(path), reason=reason.lower()))

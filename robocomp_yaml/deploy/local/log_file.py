@@ -91,10 +91,13 @@ class LogFile:
         self._size += written
 
     def _open(self, more: int) -> None:
-        """Opens the file, or a new one if `more` bytes would make it too large."""
+        """Opens the file, or a new one if `more` bytes would make it too large, or if somebody deleted it."""
+        if self._file >= 0 and not os.fstat(self._file).st_nlink:
+            self.close()
         if self._file >= 0 and self._size + more > self.limit:
             self.close()
             os.replace(self.path, f"{self.path}.1")
         if self._file < 0:
+            os.makedirs(os.path.dirname(self.path), mode=0o700, exist_ok=True)
             self._file = os.open(self.path, os.O_WRONLY | os.O_CREAT | os.O_APPEND | os.O_CLOEXEC, 0o600)
             self._size = os.fstat(self._file).st_size

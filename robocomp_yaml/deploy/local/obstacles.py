@@ -18,7 +18,7 @@ from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.errors import reason_of
 from robocomp_yaml.diag.terminal import typed
-from robocomp_yaml.network.draft import PUBLISH
+from robocomp_yaml.network.draft import MANAGER, PUBLISH
 from robocomp_yaml.network.network import FOLDER, ICESTORM, RUNS, Network, Process
 
 _VALID = 2.0  # seconds for which a check without obstacles is valid
@@ -98,8 +98,11 @@ def _of_ports(spec: ProcessSpec, taken: dict[int, list[int]]) -> Iterator[Diagno
             reported.add(pid)
             who, how = _owner(pid)
             other = f"choose another port for '{spec.name}'"
-            if endpoint.interface == PUBLISH and spec.process.kind == ICESTORM:
-                other = f"give the publishers of '{spec.name}' another port: `icestorm: {{publish: PORT}}`"
+            if spec.process.kind == ICESTORM:  # its publishers have a port of their own
+                keys = {MANAGER: "port", PUBLISH: "publish"}
+                used = [keys[one.interface] for one in spec.process.endpoints if pid in taken.get(one.port, ())]
+                which = ", ".join(f"{key}: PORT" for key in used or [keys[endpoint.interface]])
+                other = f"give '{spec.name}' other ports: `icestorm: {{{which}}}`"
             yield deploying.PORT_TAKEN.at(
                 endpoint.span if endpoint.span.file else spec.process.span,
                 hint=f"{how}, or {other}" if how else "",

@@ -23,7 +23,8 @@ _MOMENT = 0.02  # seconds
 
 
 class ProcessEntry(NamedTuple):
-    """A process. `start` is in clock ticks since boot, so that (pid, start) is unique. `cpu` is in seconds."""
+    """A process. `start` is in clock ticks since boot, so that (pid, start) is unique. `cpu` is in seconds. `is_halted`
+    is False for one that a debugger halts."""
 
     pid: int
     parent: int
@@ -32,6 +33,7 @@ class ProcessEntry(NamedTuple):
     start: int
     cpu: float
     is_dead: bool
+    is_halted: bool
 
 
 def pids() -> Iterator[int]:
@@ -47,7 +49,7 @@ def entry(pid: int) -> ProcessEntry | None:
     fields = text[text.rindex(b")") + 2 :].split()
     return ProcessEntry(
         pid, int(fields[1]), int(fields[2]), int(fields[3]), int(fields[19]),
-        (int(fields[11]) + int(fields[12])) / _TICKS, fields[0] in (b"Z", b"X"),
+        (int(fields[11]) + int(fields[12])) / _TICKS, fields[0] in (b"Z", b"X"), fields[0] == b"T",
     )  # fmt: skip
 
 
@@ -69,6 +71,11 @@ def mark_of(pid: int) -> str:
 def marked(folder: str) -> list[int]:
     """The pids of all processes with the mark of the deployment in this folder."""
     return [pid for pid in pids() if mark_of(pid).rpartition(":")[0] == folder]
+
+
+def halted(folder: str) -> list[int]:
+    """The pids of what supervises the deployment in this folder and is halted."""
+    return [one.pid for one in table().values() if one.is_halted and mark_of(one.pid) == f"{folder}:"]
 
 
 def families(roots: Mapping[int, str], adopter: int, alive: Mapping[int, ProcessEntry]) -> dict[int, set[int]]:

@@ -51,10 +51,21 @@ def supervisor(folder: str) -> int:
     return next((one.pid for one in children if procfs.mark_of(one.pid) == f"{folder}:"), 0)
 
 
+def continue_halted(folder: str) -> bool:
+    """Lets a keeper go on that was halted (SIGSTOP), which does the same for its supervisor. Returns whether it was
+    halted."""
+    keeper = _keeper(folder)
+    if keeper is None or not keeper.is_halted:
+        return False
+    with contextlib.suppress(OSError):
+        os.kill(keeper.pid, signal.SIGCONT)
+    return True
+
+
 def end_hung(folder: str) -> list[str]:
     """Kills a supervisor that does not answer. Its keeper ends the processes; if that hangs, too, it is killed. Returns
     the names of the processes."""
-    names = {procfs.mark_of(pid).removeprefix(f"{folder}:") for pid in procfs.marked(folder)}
+    names = running(folder)
     if pid := supervisor(folder):
         with contextlib.suppress(OSError):
             os.kill(pid, signal.SIGKILL)
@@ -62,7 +73,12 @@ def end_hung(folder: str) -> list[str]:
         while _keeper(folder) and time.monotonic() < until:
             time.sleep(0.01)
     clear_up(folder)
-    return sorted(names - {""})
+    return names
+
+
+def running(folder: str) -> list[str]:
+    """The names of the processes that run, by /proc."""
+    return sorted({procfs.mark_of(pid).removeprefix(f"{folder}:") for pid in procfs.marked(folder)} - {""})
 
 
 def is_there(folder: str) -> bool:

@@ -142,6 +142,9 @@ class _Service:
         for child in self.children.values():
             members = families.get(child.pid, set())
             facts = {name: getattr(child, name) for name in _FACTS}
+            is_asked = child.spec["process"]["name"] in self._watches
+            if not is_asked and child.pid in members and self._families.alive[child.pid].is_halted:
+                facts["not_alive"] = "it is halted"
             cpu = sum(self._families.alive[pid].cpu for pid in members)
             used = {"memory": procfs.memory(members), "cpu": cpu, "members": sorted(members)}
             found.append({**facts, "uptime": now - child.since, **used})

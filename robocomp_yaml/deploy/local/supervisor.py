@@ -1,10 +1,10 @@
 """The supervisor of one deployment on this machine: `python -m robocomp_yaml.deploy.local.supervisor FOLDER [PID]`.
 
 It consists of two processes. The supervisor itself starts and restarts the children, and answers on the control socket,
-in lines of JSON. Its parent, the keeper, waits until the supervisor has ended, and then kills all descendants that the
-supervisor left, which Linux has made children of the keeper. With the PID of the process that started it, the
-supervisor stops its children when that process ends, for whatever reason. Both use only the standard library, and the
-keeper forks before most of it is imported, so that both stay small.
+in lines of JSON. Its parent, the keeper, lets the supervisor go on when it was halted, waits until it has ended, and
+then kills all descendants that it left, which Linux has made children of the keeper. With the PID of the process that
+started it, the supervisor stops its children when that process ends, for whatever reason. Both use only the standard
+library, and the keeper forks before most of it is imported, so that both stay small.
 """
 
 from __future__ import annotations
@@ -43,9 +43,12 @@ def _kill(pid: int, number: int) -> None:
 
 
 def _wait_for(supervisor: int) -> int:
+    """The exit status of the supervisor, which goes on at once when it was halted."""
     while True:
-        pid, status = os.wait()
-        if pid == supervisor:
+        pid, status = os.waitpid(-1, os.WUNTRACED)
+        if pid == supervisor and os.WIFSTOPPED(status):
+            _kill(pid, signal.SIGCONT)
+        elif pid == supervisor:
             return status
 
 

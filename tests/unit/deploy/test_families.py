@@ -11,7 +11,7 @@ ME = 100
 
 
 def entry(pid: int, parent: int, session: int) -> ProcessEntry:
-    return ProcessEntry(pid, parent, pid, session, 0, 0.0, False)
+    return ProcessEntry(pid, parent, pid, session, 0, 0.0, False, False)
 
 
 def test_each_process_belongs_to_one_family(monkeypatch: pytest.MonkeyPatch) -> None:

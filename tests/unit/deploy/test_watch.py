@@ -9,7 +9,7 @@ from typing import cast
 import pytest
 
 from robocomp_yaml.deploy.carry_out import Watch
-from robocomp_yaml.deploy.engine import RUNNING, STOPPED, DeployFailed, Engine, Running
+from robocomp_yaml.deploy.engine import KILLED, RUNNING, STOPPED, DeployFailed, Engine, Running
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.span import Span
 
@@ -29,7 +29,7 @@ class Slow:
         await asyncio.sleep(0.05)
         self.at_once -= 1
         if self.fails:
-            raise DeployFailed(deploying.SUPERVISOR_KILLED.at(Span("n.ddsl.yaml")))
+            raise DeployFailed(deploying.NOT_SUPERVISED.at(Span("n.ddsl.yaml"), what=KILLED))
         return seen
 
 

@@ -1,0 +1,217 @@
+"""What supervises a network is halted (SIGSTOP): it goes on by itself, or with the next command. The processes of the
+network are the same ones afterwards, as their pids say."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from conftest import write_tree
+from processes import kill_left, until
+from robocomp_yaml.deploy.local import procfs
+from seen import programs
+from small_networks import Place, is_alive, sleeper
+from test_roles import Rcyaml
+
+needs_icegrid = pytest.mark.skipif(
+    shutil.which("icegridnode") is None, reason="IceGrid is not installed (Debian: zeroc-icegrid)"
+)
+DOCUMENT = """\
+deployment: Robot
+components:
+  base: {program: sleep, args: ["600"], role: server}
+  arm: {program: sleep, args: ["600"], role: server, after: [base]}
+"""
+
+
+def halt(*pids: int) -> None:
+    for pid in pids:
+        os.kill(pid, signal.SIGSTOP)
+
+
+def goes_on(pid: int) -> bool:
+    found = procfs.entry(pid)
+    return found is not None and not found.is_halted
+
+
+def restarted(place: Place, name: str) -> None:
+    """Kills a process, and waits until it runs again, once."""
+    (pid,) = until(lambda: programs(place.folder, name), "it runs")
+    os.kill(pid, signal.SIGKILL)
+    until(
+        lambda: len(found := programs(place.folder, name)) == 1 and found != [pid],
+        lambda: f"{programs(place.folder, name)}",
+    )
+
+
+def test_the_supervisor_goes_on(place: Place) -> None:
+    place.up(sleeper("a"))
+    _, supervisor = place.keeper_and_supervisor()
+    halt(supervisor)
+    restarted(place, "a")
+    assert goes_on(supervisor)
+
+
+def test_supervisor_and_keeper_go_on_with_the_next_command(place: Place, rcyaml: Rcyaml) -> None:
+    write_tree(place.root, {"robot.ddsl.yaml": DOCUMENT})
+    document = f"{place.root}/robot.ddsl.yaml"
+    assert rcyaml("deploy", "up", document).exit_code == 0
+    until(lambda: programs(place.folder, "base"), "it runs")
+    before = programs(place.folder, "base")
+    for command in ("status", "up", "plan"):
+        halt(*place.keeper_and_supervisor())
+        said = rcyaml("deploy", command, document)
+        assert said.exit_code == 0 and "warning[RC7007]: what supervises this deployment was halted" in said.stderr
+        assert all(map(goes_on, place.keeper_and_supervisor()))
+        assert "RC7007" not in rcyaml("deploy", command, document).stderr
+    assert programs(place.folder, "base") == before
+    restarted(place, "base")
+    halt(*place.keeper_and_supervisor())
+    assert rcyaml("deploy", "down", document).exit_code == 0
+    assert not programs(place.folder, "base")
+
+
+def test_a_program_that_nobody_asks_is_told(place: Place) -> None:
+    place.up(sleeper("a"))
+    (pid,) = programs(place.folder, "a")
+    halt(pid)
+    until(lambda: not goes_on(pid), "it is halted")
+    found = place.status(sleeper("a"))["a"]
+    assert found.is_down and found.running and found.running.not_alive == "it is halted"
+    os.kill(pid, signal.SIGCONT)
+    assert place.status(sleeper("a"))["a"].is_ready and programs(place.folder, "a") == [pid]
+
+
+@pytest.fixture
+def grid(place: Place, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
+    """The path of the document of a network that IceGrid runs on this machine."""
+    pytest.importorskip("IceGrid", reason="Ice for Python is not installed (Debian: python3-zeroc-ice)")
+    monkeypatch.setenv("XDG_STATE_HOME", f"{place.root}/own")
+    write_tree(place.root, {"robot.ddsl.yaml": DOCUMENT})
+    document = f"{place.root}/robot.ddsl.yaml"
+    try:
+        assert rcyaml("deploy", "up", document, "--engine", "icegrid").exit_code == 0
+        yield document
+    finally:
+        kill_left(place.folder)
+
+
+def those(place: Place, is_chosen: Callable[[list[str], int], bool]) -> list[int]:
+    return [pid for pid in procfs.marked(place.folder) if is_chosen(procfs.command(pid), pid)]
+
+
+def is_run(name: str) -> Callable[[list[str], int], bool]:
+    return lambda words, pid: words[1:2] != [] and words[1].endswith("/run") and words[2] == name
+
+
+def is_script(script: str) -> Callable[[list[str], int], bool]:
+    return lambda words, pid: any(word.endswith(f"/nodes/localhost/{script}") for word in words[:2])
+
+
+def is_program(name: str) -> Callable[[list[str], int], bool]:
+    return lambda words, pid: words[0] == name
+
+
+@pytest.mark.slow
+@needs_icegrid
+@pytest.mark.parametrize(
+    "chosen",
+    [
+        is_run("base"), is_script("watch"), is_script("guard"), is_program("icegridnode"),
+        is_program("icegridregistry"), lambda words, pid: "robocomp_yaml.deploy.icegrid.keeper" in words,
+    ],
+    ids=["run", "watch", "guard", "node", "registry", "keeper"],
+)  # fmt: skip
+def test_what_supervises_with_icegrid_goes_on(
+    place: Place, grid: str, chosen: Callable[[list[str], int], bool]
+) -> None:
+    """Also all processes of a script: `run` has one more, which writes the log, and the guard one for `watch`."""
+    before = programs(place.folder, "base"), programs(place.folder, "arm")
+    halted = those(place, chosen)
+    assert halted
+    halt(*halted)
+    until(lambda: all(map(goes_on, halted)), lambda: str([procfs.command_line(pid) for pid in halted]), 15)
+    assert (programs(place.folder, "base"), programs(place.folder, "arm")) == before
+    restarted(place, "base")
+
+
+@pytest.mark.slow
+@needs_icegrid
+def test_the_guard_of_the_registry_goes_on_with_the_next_command(place: Place, rcyaml: Rcyaml, grid: str) -> None:
+    before = programs(place.folder, "base"), programs(place.folder, "arm")
+    for command in ("status", "up"):
+        guard = int(Path(place.folder, "state/icegrid/registry/pid").read_text())
+        (registry,) = those(place, is_program("icegridregistry"))
+        halt(guard, registry)
+        said = rcyaml("deploy", command, grid)
+        assert said.exit_code == 0 and "warning[RC7007]" in said.stderr, said.output
+        assert goes_on(guard) and goes_on(registry)
+    (node_guard,) = [pid for pid in those(place, is_script("guard")) if "--watch" not in procfs.command(pid)]
+    (helper,) = [pid for pid in those(place, is_script("guard")) if "--watch" in procfs.command(pid)]
+    for pid in (helper, node_guard, *those(place, is_script("watch"))):
+        os.kill(pid, signal.SIGKILL)
+    halt(*(halted := those(place, is_run("base"))))
+    assert "RC7007" in rcyaml("deploy", "status", grid).stderr and all(map(goes_on, halted)), "nobody else does it"
+    (registry,) = those(place, is_program("icegridregistry"))
+    halt(guard)
+    os.kill(registry, signal.SIGKILL)
+    assert rcyaml("deploy", "status", grid).exit_code == 0
+    assert not is_alive(registry) and (programs(place.folder, "base"), programs(place.folder, "arm")) == before
+
+
+@pytest.mark.slow
+@needs_icegrid
+def test_what_keeps_watch_is_started_again(place: Place, grid: str) -> None:
+    for _ in range(2):
+        (helper,) = [pid for pid in those(place, is_script("guard")) if "--watch" in procfs.command(pid)]
+        os.kill(helper, signal.SIGKILL)
+
+        def is_back(killed: int = helper) -> bool:
+            found = [pid for pid in those(place, is_script("guard")) if "--watch" in procfs.command(pid)]
+            return len(found) == 1 and found != [killed] and len(those(place, is_script("watch"))) == 1
+
+        until(is_back, "another one")
+    halted = [*those(place, is_program("icegridnode")), *those(place, is_run("base"))]
+    halt(*halted)
+    until(lambda: all(map(goes_on, halted)), "all go on", 15)
+
+
+@pytest.mark.slow
+@needs_icegrid
+def test_a_killed_guard_of_a_node_has_a_successor(place: Place, rcyaml: Rcyaml, grid: str) -> None:
+    """Which is no parent of the node, and guards it all the same."""
+    before = programs(place.folder, "base"), programs(place.folder, "arm")
+    node = Path(place.folder, "state/icegrid/nodes/localhost")
+
+    def guard() -> int:
+        return int((node / "pid").read_text())
+
+    for _ in range(2):
+        killed = guard()
+        os.kill(killed, signal.SIGKILL)
+        until(lambda killed=killed: guard() != killed and len(those(place, is_script("watch"))) == 1, "a successor")
+    assert (programs(place.folder, "base"), programs(place.folder, "arm")) == before
+    (program,) = those(place, is_program("icegridnode"))
+    os.kill(program, signal.SIGKILL)
+    until(lambda: not is_alive(program) and len(those(place, is_program("icegridnode"))) == 1, "a node")
+    until(lambda: rcyaml("deploy", "status", grid).exit_code == 0, "its processes")
+    assert not {*programs(place.folder, "base")} & {*before[0]}
+    os.kill(guard(), signal.SIGKILL)
+    assert rcyaml("deploy", "down", grid).exit_code == 0
+    until(lambda: not procfs.marked(place.folder), lambda: str([*map(procfs.command, procfs.marked(place.folder))]))
+
+
+@pytest.mark.slow
+@needs_icegrid
+def test_a_program_that_nobody_asks_is_told_with_icegrid(place: Place, rcyaml: Rcyaml, grid: str) -> None:
+    (pid,) = programs(place.folder, "base")
+    halt(pid)
+    until(lambda: "not alive: it is halted" in rcyaml("deploy", "status", grid).stdout, "a notice", 15)
+    os.kill(pid, signal.SIGCONT)
+    until(lambda: rcyaml("deploy", "status", grid).exit_code == 0, "no notice", 15)
+    assert programs(place.folder, "base") == [pid]
