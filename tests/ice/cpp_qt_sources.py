@@ -150,8 +150,8 @@ public:
 	bool setParams(RoboCompCommonBehavior::ParameterList params);
 
 	int Arm_move(const Path &path, const bool fast);
-	RoboCompTypes::Side Arm_state(RoboCompTypes::Pose &pose, Named &named);
-	void Arm_breakDown();
+	RoboCompTypes::Side state(RoboCompTypes::Pose &pose, Named &named);
+	void breakDown();
 	void Arm_betray();
 	Image grasp(const Image &image);
 
@@ -249,7 +249,7 @@ int SpecificWorker::Arm_move(const Path &path, const bool fast)
 	return path.size();
 }
 
-RoboCompTypes::Side SpecificWorker::Arm_state(RoboCompTypes::Pose &pose, Named &named)
+RoboCompTypes::Side SpecificWorker::state(RoboCompTypes::Pose &pose, Named &named)
 {
 	pose.x = turns;
 	pose.y = 8;
@@ -258,7 +258,7 @@ RoboCompTypes::Side SpecificWorker::Arm_state(RoboCompTypes::Pose &pose, Named &
 	return RoboCompTypes::right;
 }
 
-void SpecificWorker::Arm_breakDown()
+void SpecificWorker::breakDown()
 {
 	QMetaObject::invokeMethod(this, [this] { setPeriod(500); }, Qt::QueuedConnection);
 }

@@ -91,7 +91,9 @@ def _either(operation: OperationView) -> str:
 
 
 def _methods(linked: LinkedComponent) -> Iterator[str]:
-    """The worker's methods, with inputs by reference and by value: versions of RoboComp's tool differ in that."""
+    """The worker's methods, with inputs by reference and by value: versions of RoboComp's tool differ in that. Each has
+    two overloads, so that a call of the generic worker's own ones is ambiguous: a servant finds a method of this name
+    only if the user's class has it, which hides both."""
     seen: set[str] = set()
     for port in (*linked.implements, *linked.subscribes):
         subscribed = port in linked.subscribes
@@ -108,10 +110,15 @@ def _variants(name: str, method: Method, port: Port) -> Iterator[str]:
     outputs = [f"{type_name(m.type, scope)}& {parameter(m.name)}" for m in method.outputs]
     by_reference = [f"{input_type(m.type, scope)} {parameter(m.name)}" for m in method.inputs]
     by_value = [f"{type_name(m.type, scope)} {parameter(m.name)}" for m in method.inputs]
-    head = f"virtual {returns} {name}"
-    for inputs in (by_reference, by_value) if by_reference != by_value else (by_value,):
-        unnamed = [word.rpartition(" ")[0] for word in (*inputs, *outputs)]
-        yield declaration(head, unnamed, f' {{ throw std::logic_error("{name}() is missing"); }}', IN)
+    unnamed = [
+        [word.rpartition(" ")[0] for word in (*inputs, *outputs)]
+        for inputs in ((by_reference, by_value) if by_reference != by_value else (by_value,))
+    ]
+    for types in unnamed:
+        throws = f' {{ throw std::logic_error("{name}() is missing"); }}'
+        yield declaration(f"virtual {returns} {name}", types, throws, IN)
+    if len(unnamed) == 1:
+        yield declaration(f"void {name}", [*unnamed[0], "std::nullptr_t = nullptr"], ";", IN)
 
 
 def _enumerators(scope: LinkedModule) -> View:

@@ -4,6 +4,7 @@
 
 #include "../qt/eventloop.h"
 #include "../runtime/worker.h"
+#include "calling.h"
 #include "configloader.h"
 #include "starting.h"
 
@@ -85,23 +86,6 @@ private:
     std::atomic_int known_;
     std::chrono::steady_clock::time_point lastCheck_;
 };
-
-/// Calls a method of the worker: by the name that RoboComp's tool gives it, or by the one that its oldest versions gave.
-template <typename Worker, typename Call, typename OldCall>
-decltype(auto) call(Worker& worker, Call byName, OldCall byOldName)
-{
-    if constexpr (std::is_invocable_v<Call, Worker&>)
-    {
-        return byName(worker);
-    }
-    else
-    {
-        static_assert(
-            std::is_invocable_v<OldCall, Worker&>,
-            "SpecificWorker lacks a method of an interface: `rcyaml check` names it, with the text to paste");
-        return byOldName(worker);
-    }
-}
 
 /// Creates the worker as that version of RoboComp's main program does for which its constructor was written.
 template <typename Worker, typename Tuple, typename Map>
