@@ -46,6 +46,7 @@ Accepted = Mapping[str, tuple[SourceMethod, ...]]
 """Signatures that are right besides those of the skeleton, by the method's name. Such a method may be missing."""
 
 _NOTHING: Accepted = {}
+_HEAD = re.compile(r"(\w+)\s*\(")
 
 
 def accepted_in(codes: Iterable[SourceCode]) -> Accepted:
@@ -67,7 +68,7 @@ def compare(
     result = Comparison()
     members, definitions = _by_name(yours, "members"), _by_name(yours, "definitions")
     bodies = {name: [pair for pair in pairs if pair[1].has_body] for name, pairs in members.items()}
-    elsewhere = _inherited(new, yours, bases)
+    elsewhere, unseen = _inherited(new, yours, bases), _unseen(yours)
     for skeleton in new:
         older = base.get(skeleton.path)
         for part, known in (("members", members), ("definitions", definitions)):
@@ -78,7 +79,7 @@ def compare(
                 # The oldest versions of RoboComp's tool omit the interface's name.
                 names = (method.name, method.name.partition("_")[2]) if accepted else (method.name,)
                 inside = bodies if part == "definitions" else {}
-                defined = any(known.get(name) or inside.get(name) for name in names)
+                defined = any(known.get(name) or inside.get(name) or name in unseen for name in names)
                 if not defined and method.name not in elsewhere and not others:
                     result.missing.append(MissingMethod(skeleton, method))
                 if mine and not any(_fits_any(one, method, before.get(method.name), others, differ) for _, one in mine):
@@ -102,6 +103,12 @@ def _inherited(new: Sequence[SourceCode], yours: Sequence[SourceCode], bases: Co
         return set()
     words = {word for code in yours for line in code.lines for word in re.findall(r"\w+", line)}
     return {method.name for code in new for method in code.methods} & words
+
+
+def _unseen(yours: Iterable[SourceCode]) -> set[str]:
+    """The methods that may be behind a syntax error, where the grammar sees none: those that look like it."""
+    faulty = (line for code in yours if code.faults for line in code.lines)
+    return {name for line in faulty for name in _HEAD.findall(line)}
 
 
 def _fits_any(
