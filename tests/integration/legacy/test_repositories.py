@@ -83,6 +83,14 @@ def test_an_ice_file_of_its_own_is_no_copy(rcyaml: Run, tmp_path: Path) -> None:
 # Interfaces elsewhere
 
 
+def test_an_interface_that_the_folders_of_include_lack(rcyaml: Run, tmp_path: Path) -> None:
+    """Nobody is told to pass the folder that was passed."""
+    write_tree(tmp_path, {"core/Arm.idsl": module("Arm"), "a/a.cdsl": cdsl("A", requires="Leg", imports="Leg")})
+    assert "pass that folder with -I" in rcyaml("migrate", "a").output
+    said = rcyaml("migrate", "a", "-I", "core", "--force").output
+    assert "it is not in core, either: pass the folder that has it with -I, too" in said, said
+
+
 def test_the_folders_of_include_are_kept(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {
         "core/Arm.idsl.yaml": "module: RoboCompArm\ninterfaces: {Arm: {methods: {go: }}}\n",
@@ -100,7 +108,8 @@ def test_legacy_interfaces_of_include_are_migrated_into_the_repository(rcyaml: R
         "core/Leg.idsl": module("Leg"), "robot/a/a.cdsl": cdsl("A", requires="Arm", imports="Arm"),
     })  # fmt: skip
     result = rcyaml("migrate", "robot", "-I", "core")
-    assert result.exit_code == 0 and result.output.count("note[RC5041]") == 2
+    assert result.exit_code == 0 and result.output.count("note[RC5041]") == 1, "once a folder"
+    assert "2 migrated, too, from a folder of the search path, core: Arm, Base" in result.output
     assert sorted(path.name for path in (tmp_path / "robot/interfaces").iterdir()) == [
         "Arm.idsl.yaml",
         "Base.idsl.yaml",
