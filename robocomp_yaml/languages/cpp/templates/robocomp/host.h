@@ -119,9 +119,9 @@ std::unique_ptr<Worker> construct(const Host& host, const Tuple& tuple, Map& map
 
 /// Starts the worker as its generation of RoboComp's main program does.
 template <typename Map, typename Worker>
-void start(const Host& host, Worker& worker)
+void start(const Host& host, Worker& worker, const RoboCompCommonBehavior::ParameterList& params)
 {
-    if (!worker.setParams(host.parameters()))
+    if (!worker.setParams(params))
     {
         runtime::Log("worker").warning("setParams() has rejected the parameters");
     }
