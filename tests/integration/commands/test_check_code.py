@@ -153,3 +153,10 @@ def test_methods_behind_a_syntax_error_are_not_missing(
         for one in json.loads(rcyaml("check", "--format", "json", file.partition("/")[0]).stdout)["diagnostics"]
     ]
     assert "SpecificWorker lacks Speech_pause" in said, said
+
+
+def test_a_signature_that_does_not_fit_is_reported_once(compiled: Path, rcyaml: Rcyaml) -> None:
+    """A method without a result, of which its signature says the same."""
+    write_tree(compiled, {"Speech.idsl.yaml": SPEECH.replace("stop: ", "stop: {returns: int}")})
+    found = json.loads(rcyaml("check", "--format", "json", "cpp").stdout)["diagnostics"]
+    assert {one["code"] for one in found} == {"RC6202"}, found
