@@ -53,19 +53,27 @@ int main()
     float width = 0.5;
     std::string text;
     int rest = 0;
-    {calls}
+    try
+    {{
+        {calls}
+    }}
+    catch (const std::logic_error& problem)
+    {{
+        fprintf(stderr, "%s\\n", problem.what());
+        return 1;
+    }}
 }}
 """
 
 
-def compile_and_run(folder: Path, names: list[str]) -> subprocess.CompletedProcess[str]:
+def compile_and_run(folder: Path, names: list[str], *more: str) -> subprocess.CompletedProcess[str]:
     """Calls all methods of a worker that has these."""
     linked = next(iter(program({"Arm.idsl.yaml": IDSL, "bot.cdsl.yaml": CDSL}).components.values()))
     view = qt.robocomp_view(linked, port_views(linked))
     assert view is not None
     calls = [f"[&] {{ {one.body} }}();" for service in view.services for one in service.operations]
     own = [METHODS[name.rpartition("_")[2]].format(name) for name in names]
-    parts = {"generic": view.methods, "specific": own, "calls": calls}
+    parts = {"generic": view.methods, "specific": [*own, *more], "calls": calls}
     text = PROGRAM.format(**{name: "\n    ".join(lines) for name, lines in parts.items()})
     (folder / "main.cpp").write_text(text)
     include = f"-I{ROOT / 'robocomp_yaml/languages/cpp/templates'}"
@@ -87,6 +95,21 @@ def test_methods_with_and_without_the_name_of_the_interface(tmp_path: Path, pref
 
 @needs_cpp
 @pytest.mark.parametrize("missing", NAMES)
-def test_a_missing_method_is_an_error_of_the_compiler(tmp_path: Path, missing: str) -> None:
+def test_a_missing_method(tmp_path: Path, missing: str) -> None:
+    """It compiles, as everywhere (RC6201), and a call says what is missing."""
     done = compile_and_run(tmp_path, [f"Arm_{name}" for name in NAMES if name != missing])
-    assert done.returncode == 1 and "SpecificWorker lacks a method of an interface" in done.stderr
+    assert done.returncode == 1 and done.stderr == f"Arm_{missing}() is missing\n", done.stderr
+
+
+@needs_cpp
+@pytest.mark.parametrize("wrong", ["void Arm_open(float, bool) {}", "void Arm_open(std::string) {}"])
+def test_a_method_that_does_not_match_is_an_error_of_the_compiler(tmp_path: Path, wrong: str) -> None:
+    done = compile_and_run(tmp_path, ["Arm_stop", "Arm_say", "Arm_read"], wrong)
+    assert done.returncode == 1 and "a method of SpecificWorker does not match its interface" in done.stderr
+
+
+@needs_cpp
+def test_a_method_of_the_old_name_for_another_interface(tmp_path: Path) -> None:
+    """Which has other parameters, so that the one that is asked for is missing."""
+    done = compile_and_run(tmp_path, ["Arm_stop", "Arm_say", "Arm_read"], "void open(float, float, float) {}")
+    assert done.returncode == 1 and done.stderr == "Arm_open() is missing\n", done.stderr

@@ -76,10 +76,13 @@ def compare(
             for method in getattr(skeleton, part):
                 mine = known.get(method.name, [])
                 others = accepted.get(method.name, ())
-                # The oldest versions of RoboComp's tool omit the interface's name.
-                names = (method.name, method.name.partition("_")[2]) if accepted else (method.name,)
                 inside = bodies if part == "definitions" else {}
-                defined = any(known.get(name) or inside.get(name) or name in unseen for name in names)
+                defined = bool(mine or inside.get(method.name)) or method.name in unseen
+                if accepted and not defined:
+                    # The oldest versions of RoboComp's tool omit the interface's name, which another one may have, too.
+                    old = method.name.partition("_")[2]
+                    pairs = (*known.get(old, ()), *inside.get(old, ()))
+                    defined = old in unseen or any(_fits(one, method, None, differ) for _, one in pairs)
                 if not defined and method.name not in elsewhere and not others:
                     result.missing.append(MissingMethod(skeleton, method))
                 if mine and not any(_fits_any(one, method, before.get(method.name), others, differ) for _, one in mine):
@@ -107,8 +110,12 @@ def _inherited(new: Sequence[SourceCode], yours: Sequence[SourceCode], bases: Co
 
 def _unseen(yours: Iterable[SourceCode]) -> set[str]:
     """The methods that may be behind a syntax error, where the grammar sees none: those that look like it."""
-    faulty = (line for code in yours if code.faults for line in code.lines)
-    return {name for line in faulty for name in _HEAD.findall(line)}
+    names: set[str] = set()
+    for code in yours:
+        if code.faults:
+            heads = {name for line in code.lines for name in _HEAD.findall(line)}
+            names |= heads - {method.name for method in code.methods}
+    return names
 
 
 def _fits_any(

@@ -374,6 +374,23 @@ def test_cpp_of_every_generation_fits(rcyaml: Run, tmp_path: Path, constructor: 
         assert "RC62" not in said, said
 
 
+def test_a_method_of_the_old_name_that_is_that_of_another_interface(rcyaml: Run, tmp_path: Path) -> None:
+    """Two interfaces have `drive`, with other parameters; the class has one of them."""
+    header = (
+        "class SpecificWorker : public GenericWorker\n{\nQ_OBJECT\npublic:\n    SpecificWorker(MapPrx& mprx);\n"
+        "    void drive(float x, float z);\n};\n"
+    )
+    source = "SpecificWorker::SpecificWorker(MapPrx& mprx) {}\nvoid SpecificWorker::drive(float x, float z) {}\n"
+    write_tree(tmp_path, {
+        "Omni.idsl": module("Omni", "void drive(float x, float z);"), "Diff.idsl": module("Diff", "void drive(float x);"),
+        "a/a.cdsl": cdsl("A", implements="Omni, Diff", imports="Omni Diff", language="cpp"),
+        "a/src/specificworker.h": header, "a/src/specificworker.cpp": source,
+    })  # fmt: skip
+    assert rcyaml("migrate", ".").exit_code == 0
+    said = rcyaml("check").output
+    assert "RC6201" in said and "lacks Diff_drive" in said and "Omni_drive" not in said, said
+
+
 @pytest.mark.parametrize(("old", "new", "code"), [
     ("def __init__(self, proxy_map)", "def __init__(self)", "RC6202"), ("def Arm_go(self)", "def Arm_goes(self)", "RC6201"),
     ("def Arm_go(self)", "def Arm_go(self, far)", "RC6202"),

@@ -7,21 +7,30 @@
 namespace robocomp
 {
 
-/// Calls a method of the worker: by the name that RoboComp's tool gives it, or by the one that its oldest versions gave.
-/// The generic worker's own methods are no answer, although private access is permitted: calls of them are ambiguous.
-template <typename Worker, typename Call, typename OldCall>
-decltype(auto) call(Worker& worker, Call byName, OldCall byOldName)
+/// A further parameter of the generic worker's own methods, which are found only if the user's class has none of the name.
+struct Absent
+{
+};
+
+/// Calls a method of the worker: by the name that RoboComp's tool gives it, or by the one that its oldest versions gave;
+/// else the generic worker's own, which says that it is missing.
+template <typename Worker, typename Call, typename OldCall, typename AbsentCall>
+decltype(auto) call(Worker& worker, Call byName, OldCall byOldName, AbsentCall absent)
 {
     if constexpr (std::is_invocable_v<Call, Worker&>)
     {
         return byName(worker);
     }
+    else if constexpr (std::is_invocable_v<OldCall, Worker&>)
+    {
+        return byOldName(worker);
+    }
     else
     {
         static_assert(
-            std::is_invocable_v<OldCall, Worker&>,
-            "SpecificWorker lacks a method of an interface: `rcyaml check` names it, with the text to paste");
-        return byOldName(worker);
+            std::is_invocable_v<AbsentCall, Worker&>,
+            "a method of SpecificWorker does not match its interface: `rcyaml check` shows how it must begin");
+        return absent(worker);
     }
 }
 

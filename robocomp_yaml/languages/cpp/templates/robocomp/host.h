@@ -4,7 +4,6 @@
 
 #include "../qt/eventloop.h"
 #include "../runtime/worker.h"
-#include "calling.h"
 #include "configloader.h"
 #include "starting.h"
 
