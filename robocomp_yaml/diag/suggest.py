@@ -53,6 +53,11 @@ def likeness(one: str, other: str) -> float:
     return SequenceMatcher(None, one.lower(), other.lower()).ratio()
 
 
+def is_typing_error(word: str, meant: str) -> bool:
+    """Whether at most two letters differ. Names of one kind may be similar without being mistaken for each other."""
+    return round((1 - likeness(word, meant)) * (len(word) + len(meant)) / 2) <= 2
+
+
 def hint_for_key(word: str, known: Iterable[str], present: Container[str]) -> Hint:
     """The hint for an unknown key: a similar known key, or all keys that are allowed and not present."""
     if word == "<<":

@@ -45,13 +45,21 @@ def from_search_path(
             if path := _in_folders(stem, search.extra, exactly=bool(is_otherwise)):
                 root = importer.legacy.root
                 entry = LedgerEntry(LegacyFile(path, root, _home(homes, root), is_pulled=True), convert(path, known))
-                entry.diagnostics = [
-                    codes.FROM_SEARCH_PATH.at(imported.span, name=stem, path=path),
-                    *entry.file.diagnostics,
-                ]
+                entry.diagnostics = [*entry.file.diagnostics]
                 interfaces.add(entry.file)
                 todo.append(entry)
                 yield entry
+
+
+def note_pulled(entries: Iterable[LedgerEntry]) -> Iterator[Diagnostic]:
+    """Yield a note for each folder of the search path with interfaces that are migrated, too."""
+    by_folder: dict[str, list[str]] = {}
+    for entry in entries:
+        if entry.legacy.is_pulled:
+            by_folder.setdefault(os.path.dirname(entry.file.path), []).append(entry.file.path)
+    for folder, paths in by_folder.items():
+        names = some([base_name(path) for path in paths])
+        yield codes.FROM_SEARCH_PATH.at(Span(paths[0]), count=len(paths), folder=folder, names=names)
 
 
 def _in_folders(stem: str, folders: Iterable[str], *, exactly: bool) -> str | None:

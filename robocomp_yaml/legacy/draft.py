@@ -197,10 +197,13 @@ class Reader(msgspec.Struct, eq=False):
         base = self.word("base", words[1], at[1]) if words[1:] else self.rules.defaults["base"]
         return Map.of({"toolkit": toolkit, "base": base})
 
-    def port(self, interface: str, used: Collection[str], declared: Collection[str], ros: Tree[Token] | None) -> Value:
-        """Return an entry of a list of ports. A further port of the same interface has a number behind its name.
-        `ros` is the node that marks the port as one of ROS."""
-        name, number = interface, 0
+    def port(
+        self, interface: str, used: Collection[str], declared: Collection[str], ros: Tree[Token] | None,
+        *, from_0: bool = False,
+    ) -> Value:  # fmt: skip
+        """Return an entry of a list of ports. A further port of the same interface has a number behind its name, and if
+        they are counted `from_0`, the first one, too. `ros` is the node that marks the port as one of ROS."""
+        name, number = f"{interface}0" if from_0 else interface, 0
         while name in used or (number and name in declared):
             number += 1
             name = f"{interface}{number}"

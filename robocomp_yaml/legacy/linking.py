@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 import msgspec
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.listing import some
 from robocomp_yaml.legacy.convert import Converted
 from robocomp_yaml.legacy.document import DocumentEntry, List, Map
 from robocomp_yaml.legacy.draft import ComponentDraft, ImportDraft, ModuleDraft, base_name
@@ -128,7 +129,9 @@ def name_imports(
     for imported in imports_of(file):
         name = _name(imported, file, documents, workspace, interfaces)
         if name is None:
-            yield codes.IMPORT_UNKNOWN.at(imported.span, name=imported.stem, hint=_where(imported.stem))
+            yield codes.IMPORT_UNKNOWN.at(
+                imported.span, name=imported.stem, hint=_where(imported.stem, interfaces.search.extra)
+            )
         elif name.lower() == imported.stem.lower() and name != imported.stem:
             yield codes.IMPORT_CASE.at(imported.span, name=imported.stem, found=name)
         imported.entry.value = name or imported.stem
@@ -147,8 +150,8 @@ def add_import(document: Map, stem: str) -> None:
     document.entries.insert(len(document.entries) if at is None else at, DocumentEntry("imports", List.of([stem])))
 
 
-def _where(stem: str) -> str:
-    """Return a hint where RoboComp keeps an interface."""
+def _where(stem: str, searched: Sequence[str]) -> str:
+    """Return a hint where RoboComp keeps an interface that is in none of the folders `searched`."""
     homes = (
         os.environ.get("ROBOCOMP", ""),
         os.path.expanduser("~/robocomp"),
@@ -158,6 +161,8 @@ def _where(stem: str) -> str:
     for folder in (os.path.join(home, _IDSLS) for home in homes if home):
         if os.path.isfile(os.path.join(folder, f"{stem}.idsl")):
             return f"{os.path.join(folder, stem)}.idsl exists: add `-I {folder}`"
+    if searched:
+        return f"it is not in {some(searched)}, either: pass the folder that has it with -I, too"
     return f"RoboComp's own interfaces are in {_IDSLS} of its repository, robocomp/robocomp: pass that folder with -I"
 
 

@@ -14,7 +14,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy import document as yaml
 from robocomp_yaml.legacy import workspaces
 from robocomp_yaml.legacy.convert import convert
-from robocomp_yaml.legacy.copies import from_search_path, skip_copies
+from robocomp_yaml.legacy.copies import from_search_path, note_pulled, skip_copies
 from robocomp_yaml.legacy.document import Notes
 from robocomp_yaml.legacy.draft import ConfigDraft, DeploymentDraft, MachineDraft
 from robocomp_yaml.legacy.foreign import skip_foreign
@@ -77,6 +77,7 @@ def migrate(
     )
     search = ImportSearch((*extra, *discovered.interfaces))
     run.entries += from_search_path([*run.entries], search, formats, known)
+    run.general += note_pulled(run.entries)
     interfaces = InterfaceFiles.of((entry.file for entry in run.entries if not entry.skipped), search)
     run.general += skip_copies(run.entries, interfaces, known)
     accepted = [entry for entry in run.entries if not entry.skipped and not entry.file.refused]

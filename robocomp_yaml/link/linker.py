@@ -15,7 +15,7 @@ from robocomp_yaml import digraph
 from robocomp_yaml.diag.codes import cdsl, idsl
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.fix import Hint, removal
-from robocomp_yaml.diag.suggest import did_you_mean, meaning, suggest
+from robocomp_yaml.diag.suggest import did_you_mean, is_typing_error, meaning, suggest
 from robocomp_yaml.link.documents import Document, Documents
 from robocomp_yaml.link.knot import tie
 from robocomp_yaml.link.program import (
@@ -220,6 +220,7 @@ class Linker(msgspec.Struct):
     ) -> None:
         itself = os.path.basename(document.path).removesuffix(SUFFIX)
         known = [name for name in self.search.known(document.path, workspace) if name != itself]
+        known = [name for name in known if is_typing_error(imported.text, name)]  # its file may be missing
         hint = did_you_mean(imported.text, known, others, open_=True, otherwise=_ADD_FOLDER)
         self.diagnostics.append(codes.UNRESOLVED_IMPORT.at(imported.span, name=imported.text, hint=hint))
 

@@ -150,8 +150,8 @@ public:
 	bool setParams(RoboCompCommonBehavior::ParameterList params);
 
 	int Arm_move(const Path &path, const bool fast);
-	RoboCompTypes::Side Arm_state(RoboCompTypes::Pose &pose, Named &named);
-	void Arm_breakDown();
+	RoboCompTypes::Side state(RoboCompTypes::Pose &pose, Named &named);
+	void breakDown();
 	void Arm_betray();
 	Image grasp(const Image &image);
 
@@ -195,9 +195,10 @@ bool SpecificWorker::setParams(RoboCompCommonBehavior::ParameterList params)
 {
 	try
 	{
-		RoboCompCommonBehavior::Parameter par = params.at("Limits.Force");
+		RoboCompCommonBehavior::Parameter par = params.at("Force");
 		limit = stoi(par.value);
-		owner = params["Owner"].value;
+		owner = params.at("Owner").value;
+		colour = QColor(params.at("Colour").value.c_str());
 	}
 	catch(const std::exception &e) { qFatal("Error reading config params"); }
 	return true;
@@ -249,7 +250,7 @@ int SpecificWorker::Arm_move(const Path &path, const bool fast)
 	return path.size();
 }
 
-RoboCompTypes::Side SpecificWorker::Arm_state(RoboCompTypes::Pose &pose, Named &named)
+RoboCompTypes::Side SpecificWorker::state(RoboCompTypes::Pose &pose, Named &named)
 {
 	pose.x = turns;
 	pose.y = 8;
@@ -258,7 +259,7 @@ RoboCompTypes::Side SpecificWorker::Arm_state(RoboCompTypes::Pose &pose, Named &
 	return RoboCompTypes::right;
 }
 
-void SpecificWorker::Arm_breakDown()
+void SpecificWorker::breakDown()
 {
 	QMetaObject::invokeMethod(this, [this] { setPeriod(500); }, Qt::QueuedConnection);
 }
@@ -273,6 +274,106 @@ void SpecificWorker::Arm_block(const float) {}
 Image SpecificWorker::grasp(const Image &image)
 {
 	return Image(image.rbegin(), image.rend());
+}
+"""
+
+MONITOR_H = """
+#ifndef SPECIFICMONITOR_H
+#define SPECIFICMONITOR_H
+
+#include "genericmonitor.h"
+
+class SpecificMonitor : public GenericMonitor
+{
+  Q_OBJECT
+
+  public:
+	SpecificMonitor(GenericWorker *_worker, Ice::CommunicatorPtr _communicator);
+	~SpecificMonitor();
+
+	void readConfig(RoboCompCommonBehavior::ParameterList &params );
+	void run();
+	void initialize();
+
+	bool sendParamsToWorker(RoboCompCommonBehavior::ParameterList params);
+	bool checkParams(RoboCompCommonBehavior::ParameterList l);
+
+	bool ready;
+};
+
+#endif // GENERICMONITOR_H
+"""
+
+MONITOR = """
+#include "specificmonitor.h"
+
+SpecificMonitor::SpecificMonitor(GenericWorker *_worker,Ice::CommunicatorPtr _communicator):GenericMonitor(_worker, _communicator)
+{
+	ready = false;
+}
+
+SpecificMonitor::~SpecificMonitor()
+{
+	std::cout << "Destroying SpecificMonitor" << std::endl;
+}
+
+void SpecificMonitor::run()
+{
+	initialize();
+	ready = true;
+	forever
+	{
+		this->sleep(period);
+	}
+}
+
+void SpecificMonitor::initialize()
+{
+	rInfo("Starting monitor ...");
+	initialTime=QTime::currentTime();
+	RoboCompCommonBehavior::ParameterList params;
+	readPConfParams(params);
+	readConfig(params);
+	if(!sendParamsToWorker(params))
+	{
+		rError("Error reading config parameters. Exiting");
+		killYourSelf();
+	}
+	state = RoboCompCommonBehavior::Running;
+	emit initializeWorker(period);
+}
+
+bool SpecificMonitor::sendParamsToWorker(RoboCompCommonBehavior::ParameterList params)
+{
+	if(checkParams(params))
+	{
+		if(worker->setParams(params))
+			return true;
+	}
+	else
+	{
+		rError("Incorrect parameters");
+	}
+	return false;
+}
+
+void SpecificMonitor::readConfig(RoboCompCommonBehavior::ParameterList &params )
+{
+	RoboCompCommonBehavior::Parameter aux;
+	aux.editable = true;
+	QStringList colours;
+	colours << "red" << "blue";
+	configGetString( "Limits","Force", aux.value, "");
+	params["Force"] = aux;
+	configGetString( "","Colour", aux.value, "blue", &colours);
+	params["Colour"] = aux;
+	if (not configGetString( "Owner", aux.value, "nobody"))
+		params["Owner"] = aux;
+}
+
+bool SpecificMonitor::checkParams(RoboCompCommonBehavior::ParameterList l)
+{
+	return l.size() > 0;
 }
 """
 
@@ -576,7 +677,9 @@ SOURCES = {
     "Dialog": {"src/specificworker.cpp": DIALOG},
     "Old": {
         "src/specificworker.h": OLD_H, "src/specificworker.cpp": OLD, "src/main.cpp": _STALE,
-        "src/genericworker.cpp": _STALE, "src/armI.cpp": _STALE,
+        "src/genericworker.cpp": _STALE, "src/armI.cpp": _STALE, "src/genericmonitor.cpp": _STALE,
+        "src/genericmonitor.h": f"#ifndef GENERICMONITOR_H\n#define GENERICMONITOR_H\n{_STALE}#endif\n",
+        "src/specificmonitor.h": MONITOR_H, "src/specificmonitor.cpp": MONITOR,
         "src/genericworker.h": f"#ifndef GENERICWORKER_H\n#define GENERICWORKER_H\n{_STALE}#endif\n",
         "src/CMakeListsSpecific.txt": "set(SOURCES specificworker.cpp)\nset(LIBS ${LIBS} m)\n",
     },

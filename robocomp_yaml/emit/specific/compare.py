@@ -46,6 +46,7 @@ Accepted = Mapping[str, tuple[SourceMethod, ...]]
 """Signatures that are right besides those of the skeleton, by the method's name. Such a method may be missing."""
 
 _NOTHING: Accepted = {}
+_HEAD = re.compile(r"(\w+)\s*\(")
 
 
 def accepted_in(codes: Iterable[SourceCode]) -> Accepted:
@@ -60,10 +61,12 @@ def accepted_in(codes: Iterable[SourceCode]) -> Accepted:
 def compare(
     new: Sequence[SourceCode], base: Mapping[str, SourceCode], yours: Sequence[SourceCode], bases: Collection[str] = (),
     accepted: Accepted = _NOTHING, differ: Differ = lambda mine, expected, is_result: False,
+    hidden: Collection[str] = (),
 ) -> Comparison:  # fmt: skip
     """Compares the user's files, `yours`, with the new skeleton. `base` are the skeletons that the user's files were
     written from, as far as they are known, by path. `bases` are the base classes of the skeleton's class, in addition
-    to those in `new`. `accepted` are further signatures. `differ` compares types."""
+    to those in `new`. `accepted` are further signatures. `differ` compares types. `hidden` are
+    methods that are not missing, although the grammar does not see them."""
     result = Comparison()
     members, definitions = _by_name(yours, "members"), _by_name(yours, "definitions")
     bodies = {name: [pair for pair in pairs if pair[1].has_body] for name, pairs in members.items()}
@@ -75,16 +78,29 @@ def compare(
             for method in getattr(skeleton, part):
                 mine = known.get(method.name, [])
                 others = accepted.get(method.name, ())
-                # The oldest versions of RoboComp's tool omit the interface's name.
-                names = (method.name, method.name.partition("_")[2]) if accepted else (method.name,)
                 inside = bodies if part == "definitions" else {}
-                defined = any(known.get(name) or inside.get(name) for name in names)
+                defined = bool(mine or inside.get(method.name)) or method.name in hidden
+                if accepted and not defined:
+                    # The oldest versions of RoboComp's tool omit the interface's name, which another one may have, too.
+                    old = method.name.partition("_")[2]
+                    pairs = (*known.get(old, ()), *inside.get(old, ()))
+                    defined = old in hidden or any(_fits(one, method, None, differ) for _, one in pairs)
                 if not defined and method.name not in elsewhere and not others:
                     result.missing.append(MissingMethod(skeleton, method))
                 if mine and not any(_fits_any(one, method, before.get(method.name), others, differ) for _, one in mine):
                     result.outdated.append(OutdatedMethod(*mine[0], skeleton, method))
     result.obsolete = list(_obsolete(new, base, members, definitions, result.missing))
     return result
+
+
+def behind_errors(yours: Iterable[SourceCode]) -> set[str]:
+    """The methods that may be behind a syntax error, where the grammar sees none: those that look like it."""
+    names: set[str] = set()
+    for code in yours:
+        if code.faults:
+            heads = {name for line in code.lines for name in _HEAD.findall(line)}
+            names |= heads - {method.name for method in code.methods}
+    return names
 
 
 def _by_name(codes: Iterable[SourceCode], part: str) -> dict[str, list[tuple[SourceCode, SourceMethod]]]:

@@ -19,7 +19,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.layout import SOURCES
 from robocomp_yaml.emit.specific import config_merge, threeway
 from robocomp_yaml.emit.specific.code import ImportLine, SourceCode
-from robocomp_yaml.emit.specific.compare import Accepted, accepted_in, compare
+from robocomp_yaml.emit.specific.compare import Accepted, accepted_in, behind_errors, compare
 from robocomp_yaml.emit.specific.insert import insert
 from robocomp_yaml.emit.specific.reading import compiles, others, read
 from robocomp_yaml.emit.specific.threeway import Conflict
@@ -166,13 +166,15 @@ class _Judge:
         """`elsewhere` is the code of the user's other files, and `untouched` are those of them that are not merged."""
         self.side, self.yours, self.goal, self.elsewhere, self.bases = side, yours, goal, elsewhere, bases
         self.untouched, self.accepted = untouched, accepted
+        self.hidden = behind_errors([yours, *elsewhere])
         self.base = {} if old is None else {side.path: old}
         self.changed = _changed(old, goal) if old else set()
         self.was_outdated = self._outdated(yours, old) - self.changed
         self.mine = Counter(_lines(side.yours)) - Counter(_lines(side.base or ""))
 
     def lacking(self, code: SourceCode) -> set[str]:
-        comparison = compare([self.goal], self.base, [code, *self.elsewhere], self.bases, self.accepted)
+        codes = [code, *self.elsewhere]
+        comparison = compare([self.goal], self.base, codes, self.bases, self.accepted, hidden=self.hidden)
         return {one.method.name for one in comparison.missing}
 
     def _outdated(self, code: SourceCode, against: SourceCode | None) -> set[str]:

@@ -17,7 +17,14 @@ from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.emit.specific import config_merge
 from robocomp_yaml.emit.specific.code import CLASS, SourceCode, SourceMethod
-from robocomp_yaml.emit.specific.compare import Comparison, MissingMethod, ObsoleteMethod, accepted_in, compare
+from robocomp_yaml.emit.specific.compare import (
+    Comparison,
+    MissingMethod,
+    ObsoleteMethod,
+    accepted_in,
+    behind_errors,
+    compare,
+)
 from robocomp_yaml.emit.specific.insert import lead
 from robocomp_yaml.emit.specific.reading import code_in, comment_mark, is_code, others, read, signature_types
 from robocomp_yaml.emit.specific.types import Differ
@@ -71,11 +78,11 @@ def _about_class(root: Root, files: Sequence[UserFile], merge: str, differ: Diff
     if any(code.older is not None for code in yours):
         return  # a grammar of today sees other blocks in it, so that methods are missing which are there
     accepted = accepted_in(code for file in files if (code := read(file.path, file.accepted)))
-    comparison = compare(new, base, yours, accepted=accepted, differ=differ)
+    comparison = compare(new, base, yours, accepted=accepted, differ=differ, hidden=behind_errors(yours))
     if comparison.missing or not any(code.location for code in yours):
         # Other files may contain parts of the class.
         yours += others(root, {file.path for file in files})
-        comparison = compare(new, base, yours, accepted=accepted, differ=differ)
+        comparison = compare(new, base, yours, accepted=accepted, differ=differ, hidden=behind_errors(yours))
     home = next((code for code in yours if code.location), None)
     if home is None or home.location is None:
         homes = {code.path for code in new if code.location}

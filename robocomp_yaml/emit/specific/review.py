@@ -9,7 +9,7 @@ import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml.diag.codes import cdsl as codes
-from robocomp_yaml.diag.codes.specific import OBSOLETE
+from robocomp_yaml.diag.codes.specific import OBSOLETE, OUTDATED
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.layout import SOURCES
@@ -42,7 +42,7 @@ class Review(msgspec.Struct):
         found = check.sources(root, suffixes, disk, merged)
         if found is not None:
             self.names.update(found.names)
-            known = {one.span for one in self.diagnostics if one.code == OBSOLETE.id}
+            known = {one.span for one in self.diagnostics if one.code in (OBSOLETE.id, OUTDATED.id)}
             self.diagnostics += (one for one in check.check(linked, root, found) if one.span not in known)
 
 

@@ -46,7 +46,7 @@ def read(path: str, source: str) -> SourceCode:
     root = parse(source).root_node
     lines = lines_of(source)
     imports, import_end = [], 0
-    for node in root.children:
+    for node in _at_top(root):
         if node.type == "preproc_include":
             line = " ".join(text(node).split())
             imports.append(ImportLine(line.partition("include")[2].strip(), f"{line}\n"))
@@ -63,6 +63,12 @@ def read(path: str, source: str) -> SourceCode:
         path, lines, faults(root), tuple(_members(body, lines)), definitions, tuple(imports), import_end,
         location(field(class_, "name"), lines), body.end_point[0], bases=tuple(bases),
     )  # fmt: skip
+
+
+def _at_top(root: Node) -> Iterator[Node]:
+    """The nodes at the top of a file, or in its include guard."""
+    for node in root.children:
+        yield from node.children if node.type == "preproc_ifdef" and text(node.children[0]) == "#ifndef" else (node,)
 
 
 def compiles(code: SourceCode) -> bool:

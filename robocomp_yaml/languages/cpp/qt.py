@@ -17,6 +17,8 @@ from robocomp_yaml.languages.cpp.types import input_type, type_name
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.interface import Enum, Method
 
+_ABSENT = "robocomp::Absent"
+
 
 class Handles(msgspec.Struct, frozen=True):
     """The proxies' classes of a module, for which there is a handle, as in Ice's older mapping."""
@@ -86,12 +88,16 @@ def _either(operation: OperationView) -> str:
     """The call of the worker's method, which the oldest versions of the tool name without the interface."""
     names = (operation.calls, operation.calls.partition("_")[2])
     calls = [f"worker.{name}({operation.arguments})" for name in names]
+    absent = ", ".join(filter(None, (operation.arguments, f"{_ABSENT}()")))
+    calls.append(f"worker.{operation.calls}({absent})")
     ways = [f"[&](auto& worker) -> decltype({call}) {{ return {call}; }}" for call in calls]
     return declaration("return robocomp::call", ["*worker_", *ways], ";", IN * 2)
 
 
 def _methods(linked: LinkedComponent) -> Iterator[str]:
-    """The worker's methods, with inputs by reference and by value: versions of RoboComp's tool differ in that."""
+    """The worker's methods, with inputs by reference and by value: versions of RoboComp's tool differ in that. One
+    more overload makes calls of the generic worker's own ones ambiguous: a servant finds a method of this name only if
+    the user's class has it, which hides them all; else it calls that overload."""
     seen: set[str] = set()
     for port in (*linked.implements, *linked.subscribes):
         subscribed = port in linked.subscribes
@@ -108,10 +114,11 @@ def _variants(name: str, method: Method, port: Port) -> Iterator[str]:
     outputs = [f"{type_name(m.type, scope)}& {parameter(m.name)}" for m in method.outputs]
     by_reference = [f"{input_type(m.type, scope)} {parameter(m.name)}" for m in method.inputs]
     by_value = [f"{type_name(m.type, scope)} {parameter(m.name)}" for m in method.inputs]
-    head = f"virtual {returns} {name}"
+    throws = f' {{ throw std::logic_error("{name}() is missing"); }}'
     for inputs in (by_reference, by_value) if by_reference != by_value else (by_value,):
         unnamed = [word.rpartition(" ")[0] for word in (*inputs, *outputs)]
-        yield declaration(head, unnamed, f' {{ throw std::logic_error("{name}() is missing"); }}', IN)
+        yield declaration(f"virtual {returns} {name}", unnamed, throws, IN)
+    yield declaration(f"{returns} {name}", [*unnamed, f"{_ABSENT} = {{}}"], throws, IN)
 
 
 def _enumerators(scope: LinkedModule) -> View:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+from collections import Counter
 from collections.abc import Callable
 
 from lark import Token, Tree
@@ -55,9 +56,14 @@ class _CdslConverter(ComponentBuilder):
 
     def _has_code_of_robocomp(self) -> bool:
         """Whether the user's code was written for RoboComp's own generator."""
-        folder = os.path.dirname(self.reader.source.path)
-        code = self.reader.rules.code.items()
-        return any(re.search(pattern, regular.text(os.path.join(folder, name)) or "") for name, pattern in code)
+        return any(re.search(pattern, self._code(name)) for name, pattern in self.reader.rules.code.items())
+
+    def _code_names(self, pattern: str) -> bool:
+        """Whether a pattern occurs in the user's code, or in the generic part that RoboComp's tool left."""
+        return any(re.search(pattern, self._code(name)) for name in (*self.reader.rules.code, "src/genericworker.h"))
+
+    def _code(self, name: str) -> str:
+        return regular.text(os.path.join(os.path.dirname(self.reader.source.path), name)) or ""
 
     def _once(self, clause: Tree[Token]) -> None:
         """Report a clause that occurs twice, because it is unknown which one is meant."""
@@ -98,15 +104,18 @@ class _CdslConverter(ComponentBuilder):
             known.notes.add(notes)
         assert isinstance(known.value, List)
         same = [item for other in self.reader.tree.find_data(str(clause.data)) for item in trees(other, "interface")]
-        declared = {self.reader.name(item) for item in same}
+        declared = Counter(self.reader.name(item) for item in same)
         for item in trees(clause, "interface"):
             known.value.put(self._port(item, known.value, declared), self.reader.notes(item))
 
-    def _port(self, item: Tree[Token], listed: List, declared: set[str]) -> Value:
+    def _port(self, item: Tree[Token], listed: List, declared: Counter[str]) -> Value:
         used = {entry.value.entries[0].key if isinstance(entry.value, Map) else entry.value for entry in listed.items}
         middleware = token(item, "MIDDLEWARE")
         ros = item if middleware is not None and middleware.lower() == "ros" else None
-        return self.reader.port(self.reader.name(item), {str(name) for name in used}, declared, ros)
+        name = self.reader.name(item)
+        # The oldest tool counted the proxies of one interface from 0, in the code and in the configuration.
+        from_0 = declared[name] > 1 and self._code_names(rf"\b{name.lower()}0_proxy\b")
+        return self.reader.port(name, {str(name) for name in used}, declared, ros, from_0=from_0)
 
     def language(self, clause: Tree[Token]) -> None:
         word = token(clause, "WORD")

@@ -133,3 +133,30 @@ def test_another_type_alone_is_reported(
     shown = rcyaml("check").stdout
     now = {"text: int": "int", "text: Texts": "list[str]"}.get(new, "-> float")
     assert now in shown and "it must begin as follows" in shown
+
+
+@pytest.mark.parametrize(("file", "old", "fault"), [
+    ("py/src/specificworker.py", "    def Speech_say", "    if a > b then:\n        )\n\n    def Speech_say"),
+    ("cpp/src/specificworker.cpp", "void SpecificWorker::Speech_say", "if a > b (a)'\n}}\n\nvoid SpecificWorker::Speech_say"),
+])  # fmt: skip
+def test_methods_behind_a_syntax_error_are_not_missing(
+    compiled: Path, rcyaml: Rcyaml, file: str, old: str, fault: str
+) -> None:
+    """The compiler reports the error; the grammar sees no method behind it, and one that is there is not pasted."""
+    text = (compiled / file).read_text()
+    (compiled / file).write_text(text.replace(old, fault))
+    assert (compiled / file).read_text() != text
+    assert not diagnostics(rcyaml("check", "--format", "json"))
+    write_tree(compiled, {"Speech.idsl.yaml": SPEECH.replace("stop: ", "stop: , pause: ")})
+    said = [
+        one["message"]
+        for one in json.loads(rcyaml("check", "--format", "json", file.partition("/")[0]).stdout)["diagnostics"]
+    ]
+    assert "SpecificWorker lacks Speech_pause" in said, said
+
+
+def test_a_signature_that_does_not_fit_is_reported_once(compiled: Path, rcyaml: Rcyaml) -> None:
+    """A method without a result, of which its signature says the same."""
+    write_tree(compiled, {"Speech.idsl.yaml": SPEECH.replace("stop: ", "stop: {returns: int}")})
+    found = json.loads(rcyaml("check", "--format", "json", "cpp").stdout)["diagnostics"]
+    assert {one["code"] for one in found} == {"RC6202"}, found

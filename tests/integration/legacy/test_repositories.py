@@ -83,6 +83,14 @@ def test_an_ice_file_of_its_own_is_no_copy(rcyaml: Run, tmp_path: Path) -> None:
 # Interfaces elsewhere
 
 
+def test_an_interface_that_the_folders_of_include_lack(rcyaml: Run, tmp_path: Path) -> None:
+    """Nobody is told to pass the folder that was passed."""
+    write_tree(tmp_path, {"core/Arm.idsl": module("Arm"), "a/a.cdsl": cdsl("A", requires="Leg", imports="Leg")})
+    assert "pass that folder with -I" in rcyaml("migrate", "a").output
+    said = rcyaml("migrate", "a", "-I", "core", "--force").output
+    assert "it is not in core, either: pass the folder that has it with -I, too" in said, said
+
+
 def test_the_folders_of_include_are_kept(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {
         "core/Arm.idsl.yaml": "module: RoboCompArm\ninterfaces: {Arm: {methods: {go: }}}\n",
@@ -100,7 +108,8 @@ def test_legacy_interfaces_of_include_are_migrated_into_the_repository(rcyaml: R
         "core/Leg.idsl": module("Leg"), "robot/a/a.cdsl": cdsl("A", requires="Arm", imports="Arm"),
     })  # fmt: skip
     result = rcyaml("migrate", "robot", "-I", "core")
-    assert result.exit_code == 0 and result.output.count("note[RC5041]") == 2
+    assert result.exit_code == 0 and result.output.count("note[RC5041]") == 1, "once a folder"
+    assert "2 migrated, too, from a folder of the search path, core: Arm, Base" in result.output
     assert sorted(path.name for path in (tmp_path / "robot/interfaces").iterdir()) == [
         "Arm.idsl.yaml",
         "Base.idsl.yaml",
@@ -363,6 +372,23 @@ def test_cpp_of_every_generation_fits(rcyaml: Run, tmp_path: Path, constructor: 
     for command in (["check"], ["compile"], ["compile", "--merge"]):
         said = rcyaml(*command).output
         assert "RC62" not in said, said
+
+
+def test_a_method_of_the_old_name_that_is_that_of_another_interface(rcyaml: Run, tmp_path: Path) -> None:
+    """Two interfaces have `drive`, with other parameters; the class has one of them."""
+    header = (
+        "class SpecificWorker : public GenericWorker\n{\nQ_OBJECT\npublic:\n    SpecificWorker(MapPrx& mprx);\n"
+        "    void drive(float x, float z);\n};\n"
+    )
+    source = "SpecificWorker::SpecificWorker(MapPrx& mprx) {}\nvoid SpecificWorker::drive(float x, float z) {}\n"
+    write_tree(tmp_path, {
+        "Omni.idsl": module("Omni", "void drive(float x, float z);"), "Diff.idsl": module("Diff", "void drive(float x);"),
+        "a/a.cdsl": cdsl("A", implements="Omni, Diff", imports="Omni Diff", language="cpp"),
+        "a/src/specificworker.h": header, "a/src/specificworker.cpp": source,
+    })  # fmt: skip
+    assert rcyaml("migrate", ".").exit_code == 0
+    said = rcyaml("check").output
+    assert "RC6201" in said and "lacks Diff_drive" in said and "Omni_drive" not in said, said
 
 
 @pytest.mark.parametrize(("old", "new", "code"), [

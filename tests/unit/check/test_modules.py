@@ -99,3 +99,12 @@ def test_documents_with_the_same_slice_file(folder_and_name: str, diagnostics: C
     )
     assert "RC1107" in [d["code"] for d in diagnosed if d["severity"] == "error"]
     assert {d["code"] for d in diagnosed if d["severity"] == "error"} == {"RC1107"}
+
+
+@pytest.mark.parametrize(("name", "hint"), [
+    ("Tpes", "did you mean 'Types'?"), ("Typos", "did you mean 'Types'?"), ("Types360RGB", "put its document beside this one"),
+])  # fmt: skip
+def test_an_import_that_is_missing_is_no_typing_error(name: str, hint: str, diagnostics: Check) -> None:
+    """The names of interfaces are similar: `Camera` is not meant by `Camera360`, whose document is elsewhere."""
+    found = diagnostics({"Map.idsl.yaml": f"module: RoboCompMap\nimports: [{name}]\n", "Types.idsl.yaml": POSE})
+    assert _one(found)[3].startswith(hint), found

@@ -140,6 +140,18 @@ def test_faults_of_real_files_are_repaired(tmp_path: Path, source: str, said: li
 OURS = "from generated.genericworker import GenericWorker\n"
 
 
+@pytest.mark.parametrize(("code", "requires"), [
+    ("jointmotor0_proxy->stop(); jointmotor1_proxy->stop();", "[{JointMotor0: JointMotor}, {JointMotor1: JointMotor}, Arm]"),
+    ("jointmotor_proxy->stop(); jointmotor1_proxy->stop(); arm0_proxy;", "[JointMotor, {JointMotor1: JointMotor}, Arm]"),
+])  # fmt: skip
+def test_ports_are_counted_as_the_code_counts_them(tmp_path: Path, code: str, requires: str) -> None:
+    """The oldest tool counted from 0, also in the configuration: `JointMotor0Proxy`."""
+    (tmp_path / "src").mkdir()
+    (tmp_path / "src/specificworker.cpp").write_text(f"void SpecificWorker::compute() {{ {code} }}\n")
+    source = "Component A { Communications { requires JointMotor, JointMotor, Arm; }; language cpp; };"
+    assert f"requires: {requires}\n" in migrated(tmp_path, source, "a.cdsl")
+
+
 @pytest.mark.parametrize(
     ("file", "code", "is_for_robocomp"),
     [

@@ -118,6 +118,14 @@ def test_a_cpp_class() -> None:
     assert found.import_end == 3 and found.faults == 0
 
 
+def test_includes_behind_an_include_guard() -> None:
+    code = read(
+        "a.h", "#ifndef A_H\n#define A_H\n#include <vector>\n#ifdef X\n#include <x.h>\n#endif\nint a;\n#endif\n"
+    )
+    assert code is not None
+    assert [one.key for one in code.imports] == ["<vector>"] and code.import_end == 3
+
+
 @pytest.mark.parametrize("path", ["a.py", "a.h", "a.cpp"])
 @pytest.mark.parametrize("text", ["", "\n", "\0", "(" * 3000, "class SpecificWorker", "ü\r\n\f\x1c", "}{" * 50])
 def test_any_text_can_be_read(path: str, text: str) -> None:

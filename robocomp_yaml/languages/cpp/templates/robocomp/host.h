@@ -86,23 +86,6 @@ private:
     std::chrono::steady_clock::time_point lastCheck_;
 };
 
-/// Calls a method of the worker: by the name that RoboComp's tool gives it, or by the one that its oldest versions gave.
-template <typename Worker, typename Call, typename OldCall>
-decltype(auto) call(Worker& worker, Call byName, OldCall byOldName)
-{
-    if constexpr (std::is_invocable_v<Call, Worker&>)
-    {
-        return byName(worker);
-    }
-    else
-    {
-        static_assert(
-            std::is_invocable_v<OldCall, Worker&>,
-            "SpecificWorker lacks a method of an interface: `rcyaml check` names it, with the text to paste");
-        return byOldName(worker);
-    }
-}
-
 /// Creates the worker as that version of RoboComp's main program does for which its constructor was written.
 template <typename Worker, typename Tuple, typename Map>
 std::unique_ptr<Worker> construct(const Host& host, const Tuple& tuple, Map& map)
@@ -135,9 +118,9 @@ std::unique_ptr<Worker> construct(const Host& host, const Tuple& tuple, Map& map
 
 /// Starts the worker as its generation of RoboComp's main program does.
 template <typename Map, typename Worker>
-void start(const Host& host, Worker& worker)
+void start(const Host& host, Worker& worker, const RoboCompCommonBehavior::ParameterList& params)
 {
-    if (!worker.setParams(host.parameters()))
+    if (!worker.setParams(params))
     {
         runtime::Log("worker").warning("setParams() has rejected the parameters");
     }
