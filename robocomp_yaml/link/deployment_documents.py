@@ -23,8 +23,8 @@ from robocomp_yaml.link.program import NamedDocument, Tables, UsedValues
 from robocomp_yaml.model.deployment import COMPONENT, INDEX, PROCESS, Deployment, Entry
 from robocomp_yaml.model.located import Text
 from robocomp_yaml.patterns import pattern
-from robocomp_yaml.source.discover import of_kind
-from robocomp_yaml.source.disk import Disk
+from robocomp_yaml.source.discover import of_kind, reads_again
+from robocomp_yaml.source.disk import Disk, DiskRecord
 
 _COMPONENT = pattern(r"(?m)^component:[ \t]*[\"']?(\w+)")
 
@@ -42,17 +42,20 @@ class DeploymentDocuments(msgspec.Struct):
     def follow(self, document: Document) -> Sequence[NamedDocument]:
         """The documents that a deployment names."""
         model, disk, memory = document.model, self.documents.disk, self.documents.memory
+        root = self.root_of(document.path)
         assert isinstance(model, Deployment)
         self.models[document.real] = model
 
-        def make() -> tuple[list[NamedDocument], dict[UsedValues, None], list[Diagnostic]]:
-            found = _NamedByDeployment(
-                model, disk, self.root_of(document.path)
-            )  # not of this run: other deployments may name the same
-            return list(found.run()), found.used, found.diagnostics
+        def make() -> tuple[list[NamedDocument], dict[UsedValues, None], list[Diagnostic], DiskRecord]:
+            own = disk.apart()  # other deployments may name the same
+            found = _NamedByDeployment(model, own, root)
+            return list(found.run()), found.used, found.diagnostics, own.record()
 
-        causes = model, disk.version, disk.added
-        named, used, diagnostics = memory.result(("named", document.real), causes, make)
+        causes = model, disk.version, disk.added, root
+        named, used, diagnostics, record = memory.result(
+            ("named", document.real), causes, make, lambda kept: reads_again(kept[3], disk)
+        )
+        disk.recall(record)
         self.used |= used
         self.diagnostics += diagnostics
         return named

@@ -14,7 +14,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.errors import reason_of
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
-from robocomp_yaml.source.disk import NOTHING, Disk
+from robocomp_yaml.source.disk import NOTHING, Disk, DiskRecord
 
 SCRIPT = ".mock.yaml"
 KINDS = ("idsl", "cdsl", "pdsl", "ddsl", "config")
@@ -144,8 +144,18 @@ def of_kind(folder: str, kind: str, disk: Disk | None = None) -> list[str]:
 
 
 def finds_again(walked: Mapping[str, list[str]], disk: Disk | None = None) -> bool:
-    """Whether the documents below these folders are still the same."""
-    return all(list(documents_below(folder, disk=disk)) == found for folder, found in walked.items())
+    """Whether the documents below these folders are still the same. A Disk searches each folder once."""
+    known = disk.walked if disk is not None else {}
+    return all(
+        (known[folder] if folder in known else list(documents_below(folder, disk=disk))) == found
+        for folder, found in walked.items()
+    )
+
+
+def reads_again(record: DiskRecord, disk: Disk) -> bool:
+    """Whether files have the recorded contents, and the same documents are found below the recorded folders. All else
+    that is recorded is the same as long as the version of the disk is."""
+    return disk.has_contents(record) and finds_again(record.walked, disk)
 
 
 def documents_below(

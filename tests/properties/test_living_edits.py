@@ -256,7 +256,6 @@ def test_a_living_compile_does_the_same_as_a_fresh_one(tmp_path_factory: pytest.
                 done.append(edited.step())
                 for name in list(edited.unsaved):  # a compile reads what is saved
                     edited.save(name)
-            edited.living.forget()
             living, fresh = edited.living.load().compile(), api.load().compile()
             assert living.look() == fresh.look(), done
             if random.random() < 0.8:
