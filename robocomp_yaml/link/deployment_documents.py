@@ -23,8 +23,9 @@ from robocomp_yaml.link.program import NamedDocument, Tables, UsedValues
 from robocomp_yaml.model.deployment import COMPONENT, INDEX, PROCESS, Deployment, Entry
 from robocomp_yaml.model.located import Text
 from robocomp_yaml.patterns import pattern
-from robocomp_yaml.source.discover import of_kind, reads_again
-from robocomp_yaml.source.disk import Disk, DiskRecord
+from robocomp_yaml.source.discover import of_kind
+from robocomp_yaml.source.disk import Disk
+from robocomp_yaml.source.recall import recalled
 
 _COMPONENT = pattern(r"(?m)^component:[ \t]*[\"']?(\w+)")
 
@@ -46,16 +47,11 @@ class DeploymentDocuments(msgspec.Struct):
         assert isinstance(model, Deployment)
         self.models[document.real] = model
 
-        def make() -> tuple[list[NamedDocument], dict[UsedValues, None], list[Diagnostic], DiskRecord]:
-            own = disk.apart()  # other deployments may name the same
-            found = _NamedByDeployment(model, own, root)
-            return list(found.run()), found.used, found.diagnostics, own.record()
+        def make(disk: Disk) -> tuple[list[NamedDocument], dict[UsedValues, None], list[Diagnostic]]:
+            found = _NamedByDeployment(model, disk, root)  # not of this run: other deployments may name the same
+            return list(found.run()), found.used, found.diagnostics
 
-        causes = model, disk.version, disk.added, root
-        named, used, diagnostics, record = memory.result(
-            ("named", document.real), causes, make, lambda kept: reads_again(kept[3], disk)
-        )
-        disk.recall(record)
+        named, used, diagnostics = recalled(memory, disk, ("named", document.real), (model, root), make)
         self.used |= used
         self.diagnostics += diagnostics
         return named

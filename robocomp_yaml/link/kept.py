@@ -6,6 +6,7 @@ replaced by the object of the last one, so that it is an equal cause of later pa
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any, TypeVar
 
 import msgspec
@@ -80,16 +81,20 @@ class _Kept:
 
 def facts_of(linked: msgspec.Struct, *without: str) -> tuple[object, ...]:
     """The facts of a linked document, as causes for a memory: all fields, except for caches."""
-    names = (name for name in linked.__struct_fields__ if not name.startswith("_") and name not in without)
-    return tuple(_fact(getattr(linked, name)) for name in names)
+    return tuple([_fact(getattr(linked, name)) for name in _names(type(linked), without)])
+
+
+@cache
+def _names(type_: type[msgspec.Struct], without: tuple[str, ...]) -> list[str]:
+    return [name for name in type_.__struct_fields__ if not name.startswith("_") and name not in without]
 
 
 def _fact(value: object) -> object:
-    if isinstance(value, tuple):
+    if type(value) is tuple:
         return tuple(map(_fact, value))
-    if isinstance(value, frozenset):
+    if type(value) is frozenset:
         return tuple(sorted(value))
-    return facts_of(value) if isinstance(value, Port) else value
+    return facts_of(value) if type(value) is Port else value
 
 
 def _facts_of_parameters(linked: LinkedParameters) -> tuple[object, ...]:

@@ -33,6 +33,8 @@ _SKIPPED = frozenset(("node_modules", "__pycache__", "build", "generated"))
 
 def kind_of(path: str, disk: Disk | None = None) -> str | None:
     """The kind of a document, `idsl` for `NAME.idsl.yaml` and `idsl.yaml`; None if the file is not a document."""
+    if not path.endswith(".yaml"):
+        return None
     name = os.path.basename(path)
     for kind in KINDS:
         if name == f"{kind}.yaml" or name.endswith(f".{kind}.yaml"):
@@ -49,7 +51,8 @@ def _is_values_document(path: str, disk: Disk) -> bool:
     """Many programs have a `config.yaml`. A values document is in `etc/` beside a component, or names the schema in a
     comment above its content, where editors read it."""
     folder = os.path.dirname(path)
-    if os.path.basename(os.path.abspath(folder)) == "etc":
+    name = os.path.basename(folder)
+    if (os.path.basename(os.path.abspath(folder)) if name in ("", ".", "..") else name) == "etc":
         names = disk.documents(os.path.join(folder, os.pardir))
         if any(name == "cdsl.yaml" or name.endswith(".cdsl.yaml") for name in names):
             return True

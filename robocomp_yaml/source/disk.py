@@ -159,7 +159,8 @@ class Disk:
     @property
     def added(self) -> tuple[str, ...]:
         """The real paths of the overlay that are no files of the disk."""
-        return tuple(sorted(path for path in self._overlay if self._files.get(state_of, path) != FILE))
+        missing = (path for path in self._overlay if self._files.get(state_of, path) != FILE)
+        return self.once("added", lambda: tuple(sorted(missing)))
 
     def apart(self) -> Disk:
         """The same disk, which records its requests by itself."""
