@@ -151,7 +151,14 @@ def analyse(
 
         others = [document for real, document in documents.items() if real not in rest.documents]
         part = "secrets", discovered.documents
-        held = memory.result(part, (rest,), lambda: list(secrets.held(program, rest.documents.values())))
+
+
+        def find() -> tuple[list[secrets.Held], DiskRecord]:
+            before = disk.record()
+            return list(secrets.held(program, rest.documents.values())), disk.record(since=before)
+
+        held, record = memory.result(part, (rest,), find, lambda kept: reads_again(kept[1], disk))
+        disk.recall(record)
         diagnostics += secrets.check(program, [*held, *secrets.held(program, others)])
     texts = DocumentTexts(disk.contents, {document.path: document.tree for document in documents.values()})
     part = "commented", discovered.documents

@@ -93,8 +93,8 @@ def _is_own(workspace: WorkspaceSettings, linked: LinkedComponent, scope: Linked
 
 def _is_below(scope: LinkedModule, linked: LinkedComponent) -> bool:
     """Whether a module is in a folder below that of a component."""
-    path, own = scope.module.path, os.path.dirname(linked.component.path)
-    return not f"{relative(os.path.dirname(path), own)}/".startswith(("./", "../"))
+    folders = os.path.dirname(scope.module.path), os.path.dirname(linked.component.path)
+    return not f"{relative(*folders)}/".startswith(("./", "../"))
 
 
 def _is_hidden(workspace: WorkspaceSettings, scope: LinkedModule, disk: Disk) -> bool:

@@ -54,7 +54,7 @@ def documents_of(root: str, disk: Disk) -> Iterator[str]:
 
 
 def _same(one: str, other: str) -> bool:
-    return one == other or os.path.abspath(one) == os.path.abspath(other)
+    return relative(one, other) == os.curdir
 
 
 class _Collected:

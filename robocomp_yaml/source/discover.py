@@ -51,12 +51,17 @@ def _is_values_document(path: str, disk: Disk) -> bool:
     """Many programs have a `config.yaml`. A values document is in `etc/` beside a component, or names the schema in a
     comment above its content, where editors read it."""
     folder = os.path.dirname(path)
-    name = os.path.basename(folder)
-    if (os.path.basename(os.path.abspath(folder)) if name in ("", ".", "..") else name) == "etc":
+    if name_of_folder(folder) == "etc":
         names = disk.documents(os.path.join(folder, os.pardir))
         if any(name == "cdsl.yaml" or name.endswith(".cdsl.yaml") for name in names):
             return True
     return _MODELINE.match(disk.peek(path, 1 << 12)) is not None
+
+
+def name_of_folder(folder: str) -> str:
+    """The name of a folder, also of the working folder and of those above it."""
+    name = os.path.basename(folder)
+    return os.path.basename(os.path.abspath(folder)) if name in ("", os.curdir, os.pardir) else name
 
 
 class DiscoveredDocuments(msgspec.Struct, frozen=True):

@@ -169,19 +169,23 @@ class Disk:
     def record(self, without: Collection[str] = (), since: DiskRecord = NOTHING_REQUESTED) -> DiskRecord:
         """What was requested until now, except for the contents of some files, and for what a record contains."""
         contents = {path: raw for path, raw in self.contents.items() if path not in without}
-        mine = contents, self._heads, self.states, self.listed, self.seen, self.walked
-        more = (
-            {key: answer for key, answer in answers.items() if key not in known}
-            for answers, known in zip(mine, since.answers, strict=True)
-        )
-        return DiskRecord(*more, self.unreadable)
+        answers: tuple[dict[Any, Any], ...] = contents, *self._answers[1:]
+        more: list[Any] = [
+            {key: answer for key, answer in new.items() if key not in known}
+            for new, known in zip(answers, since.answers, strict=True)
+        ]
+        return DiskRecord(*more, unreadable=self.unreadable)
 
     def recall(self, record: DiskRecord) -> None:
         """As if the same had been requested of this Disk."""
-        mine = self.contents, self._heads, self.states, self.listed, self.seen, self.walked
-        for answers, known in zip(mine, record.answers, strict=True):
+        for answers, known in zip(self._answers, record.answers, strict=True):
             answers.update(known)
         self.unreadable = self.unreadable or record.unreadable
+
+    @property
+    def _answers(self) -> tuple[dict[Any, Any], ...]:
+        """As `DiskRecord.answers`."""
+        return self.contents, self._heads, self.states, self.listed, self.seen, self.walked
 
     def has_contents(self, record: DiskRecord) -> bool:
         """Whether the contents of files are those of a record. These requests are not recorded."""

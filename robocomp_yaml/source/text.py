@@ -61,8 +61,8 @@ def read_bytes(path: str, limit: int = MAX_DOCUMENT) -> tuple[bytes | None, list
         raw, status = whole(path, limit=limit)
         size = max(status.st_size, len(raw))
         if size > limit:
-            words = {"size": size_in_words(size), "limit": size_in_words(limit)}
-            return None, [codes.TOO_LARGE.at(Span(path), what="the file", **words)]
+            is_, allowed = size_in_words(size), size_in_words(limit)
+            return None, [codes.TOO_LARGE.at(Span(path), what="the file", size=is_, limit=allowed)]
         return raw, []
     except OSError as error:
         return None, [codes.UNREADABLE.at(Span(path), reason=reason_of(error))]
