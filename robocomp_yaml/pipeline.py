@@ -152,7 +152,6 @@ def analyse(
         others = [document for real, document in documents.items() if real not in rest.documents]
         part = "secrets", discovered.documents
 
-
         def find() -> tuple[list[secrets.Held], DiskRecord]:
             before = disk.record()
             return list(secrets.held(program, rest.documents.values())), disk.record(since=before)
