@@ -2,7 +2,8 @@
 concern kept.
 
 Documents are kept by their content, parameters with their compiled gates, linked documents, effective values and
-configurations of processes by what they depend on. `memory` explains how. The result is always that of a fresh analysis.
+configurations of processes by what they depend on. `memory` explains how. The result is always that of a fresh
+analysis.
 """
 
 from __future__ import annotations

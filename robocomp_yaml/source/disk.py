@@ -170,11 +170,11 @@ class Disk:
         """What was requested until now, except for the contents of some files, and for what a record contains."""
         contents = {path: raw for path, raw in self.contents.items() if path not in without}
         answers: tuple[dict[Any, Any], ...] = contents, *self._answers[1:]
-        more: list[Any] = [
+        contents, heads, states, listed, seen, walked = (
             {key: answer for key, answer in new.items() if key not in known}
             for new, known in zip(answers, since.answers, strict=True)
-        ]
-        return DiskRecord(*more, unreadable=self.unreadable)
+        )
+        return DiskRecord(contents, heads, states, listed, seen, walked, self.unreadable)
 
     def recall(self, record: DiskRecord) -> None:
         """As if the same had been requested of this Disk."""
