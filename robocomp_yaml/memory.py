@@ -51,6 +51,11 @@ class Memory:
         self._results[part] = causes, result
         return result
 
+    @property
+    def is_lasting(self) -> bool:
+        """Whether another analysis may follow."""
+        return self._parts is not None
+
     def _use(self, part: Hashable) -> None:
         """A part is used, and with it all that was used for it."""
         used = self._making[-1] if self._making else self._used

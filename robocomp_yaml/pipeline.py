@@ -37,8 +37,8 @@ from robocomp_yaml.memory import Memory
 from robocomp_yaml.network.networks import DerivedNetworks, networks_of
 from robocomp_yaml.secrets import KINDS
 from robocomp_yaml.source.allowances import Allowance
-from robocomp_yaml.source.discover import WORKSPACE_FILE, DiscoveredDocuments, discover, finds_again
-from robocomp_yaml.source.disk import Disk, Files
+from robocomp_yaml.source.discover import WORKSPACE_FILE, DiscoveredDocuments, discover, reads_again
+from robocomp_yaml.source.disk import Disk, DiskRecord, Files
 from robocomp_yaml.source.file_names import is_deployment
 from robocomp_yaml.source.spelled import DocumentTexts, spelled
 
@@ -151,12 +151,18 @@ def analyse(
 
         others = [document for real, document in documents.items() if real not in rest.documents]
         part = "secrets", discovered.documents
-        held = memory.result(part, (rest,), lambda: list(secrets.held(program, rest.documents.values())))
+
+        def find() -> tuple[list[secrets.Held], DiskRecord]:
+            before = disk.record()
+            return list(secrets.held(program, rest.documents.values())), disk.record(since=before)
+
+        held, record = memory.result(part, (rest,), find, lambda kept: reads_again(kept[1], disk))
+        disk.recall(record)
         diagnostics += secrets.check(program, [*held, *secrets.held(program, others)])
     texts = DocumentTexts(disk.contents, {document.path: document.tree for document in documents.values()})
     part = "commented", discovered.documents
-    commented = memory.result(part, (rest,), lambda: commented_in(rest.contents))
-    more = commented_in({path: raw for path, raw in disk.contents.items() if path not in rest.contents})
+    commented = memory.result(part, (rest,), lambda: commented_in(rest.record.contents))
+    more = commented_in({path: raw for path, raw in disk.contents.items() if path not in rest.record.contents})
     allowed = Allowances.of(texts, [*commented, *more], program.plugins_of)
     analysis = Analysis(
         program, documents, workspaces, search, discovered, disk, derived, addresses, rest, texts, allowed
@@ -197,23 +203,21 @@ def _link_undeployed(linker: Linker, named: NamedDocuments, discovered: Discover
     part = "undeployed", discovered.documents, tuple(linker.deployments)
     disk = linker.documents.disk
     causes = undeployed.causes(linker, named)
-    known = memory.result(part, causes, make, lambda kept: finds_again(kept.walked, disk))
+    known = memory.result(part, causes, make, lambda kept: reads_again(kept.record, disk))
     if not is_new:
         undeployed.recall(linker, known)
     return known
 
 
 class _Derived(msgspec.Struct, frozen=True):
-    """Linked deployments, their networks and all diagnostics, with the files that were read for them and what was
-    computed; `walked` are the folders that were searched, with the documents found. `is_lasting`: no plug-in checked
-    them, whose checks may depend on anything."""
+    """Linked deployments, their networks and all diagnostics, with what was requested of the disk for them and what was
+    computed. `is_lasting`: no plug-in checked them, whose checks may depend on anything."""
 
     deployments: Mapping[str, LinkedDeployment]
     networks: DerivedNetworks
     diagnostics: list[Diagnostic]
-    contents: Mapping[str, bytes]
+    record: DiskRecord
     kept: undeployed.Kept
-    walked: Mapping[str, list[str]]
     is_lasting: bool
 
 
@@ -226,26 +230,25 @@ def _derive(linker: Linker, rest: Undeployed, addresses: Addresses, discovered: 
 
     def make() -> _Derived:
         nonlocal is_new
-        is_new, begin, walked = True, len(linker.diagnostics), set(disk.walked)
+        is_new, begin = True, len(linker.diagnostics)
         linker.link_deployments()
         program = linker.linked()
         networks = networks_of(program, addresses)
         linker.diagnostics += check_networks(networks, program)
-        documents = (linker.documents.read[real] for real in linker.deployments)
-        contents = undeployed.contents_of(disk, documents)
+        documents = {linker.documents.read[real].path for real in linker.deployments}
         return _Derived(
-            program.deployments, networks, linker.diagnostics[begin:], contents, undeployed.kept_of(linker),
-            undeployed.walked_since(disk, walked),  # the other components of a workspace have ports, too
+            program.deployments, networks, linker.diagnostics[begin:], disk.record(documents, rest.record),
+            undeployed.kept_of(linker),
             not any(linker.workspaces.plugins_of(model.path).active for model in models.values()),
         )  # fmt: skip
 
     part, models = ("networks", discovered.documents), linker.deployments
     causes = rest, disk.version, *models, *models.values()
-    made = memory.result(part, causes, make, lambda kept: kept.is_lasting and finds_again(kept.walked, disk))
+    made = memory.result(part, causes, make, lambda kept: kept.is_lasting and reads_again(kept.record, disk))
     if not is_new:
         linker.tables.deployments.update(made.deployments)
         linker.diagnostics += made.diagnostics
-        disk.recall(made.contents)
+        disk.recall(made.record)
         undeployed.recall_kept(linker, made.kept)
     return made.networks
 

@@ -99,10 +99,11 @@ def build_stale(
 def to_build(analysis: Analysis) -> list[str]:
     """The names of the components whose programs exist, and are stale."""
     inputs = Inputs()
+    built = [one for one in _components(analysis) if one.component.language.target.build]
     return [
         unit.name
-        for unit in units(analysis)
-        if unit.language.build and (state := stamps.inspect(unit, inputs)).is_there and state.changed
+        for unit in units(analysis, built)
+        if (state := stamps.inspect(unit, inputs)).is_there and state.changed
     ]
 
 

@@ -152,13 +152,24 @@ class Compilation:
         make = partial(names_in, root, trees, disk)
         return self._analysis.program.memory.result(("workspace names", root), tuple(trees), make)
 
+    def _walked(self, changes: Changes) -> dict[str, list[str]]:
+        """What `stamp.walked` returns now for the folders in which documents were searched."""
+        discovered, known = self._analysis.discovered, self._analysis.disk.walked
+        if len(discovered.folders) == 1 and not changes.has_other_roots:
+            folder = discovered.folders[0]
+            return {
+                each: [*found, *discovered.roots] if each == folder else stamp.walked(each)
+                for each, found in known.items()
+            }
+        return {folder: stamp.walked(folder) for folder in known}
+
     def _stamp(
         self, own: Review, changes: Changes, schemas: dict[str, str], again: Outcome
     ) -> stamp.RunStamp | None:  # fmt: skip
         """The stamp of this compile, also if it has errors; None if something could not be read: a change of that would
         be unnoticed."""
         disk = self._analysis.disk
-        walked = {folder: stamp.walked(folder) for folder in disk.walked}  # this run may have created new roots
+        walked = self._walked(changes)
         plugins = [workspace.plugins for workspace in self._analysis.workspaces.declared]
         if any(one.broken for one in plugins) or any(one.code == PLUGIN_FAILED.id for one in again.diagnostics):
             return None  # what is missing is not part of the stamp
@@ -168,11 +179,12 @@ class Compilation:
         generated = {os.path.normpath(path) for path in settled}
         created = generated | {os.path.normpath(path) for path in once}
         for path in tuple(created):
-            while (path := os.path.dirname(path)) not in ("", "/") and path not in created:
+            while (path := path.rpartition("/")[0]) and path not in created:
                 created.add(path)
         states = disk.states | dict.fromkeys((*own.absent, *changes.journals), NOTHING)
         return stamp.create(
             inputs={path: raw for path, raw in {**disk.contents, **own.contents}.items() if path not in generated},
+            real=disk.real,
             states={path: state for path, state in states.items() if os.path.normpath(path) not in created},
             listed=disk.listed,
             names={**disk.seen, **own.names},

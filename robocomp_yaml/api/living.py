@@ -1,8 +1,9 @@
 """A living analysis: documents that are analysed again after each change, with the results that the change does not
 concern kept.
 
-Documents are kept by their content, parameters with their compiled gates, effective values and configurations of
-processes by what they depend on. `memory` explains how. The result is always that of a fresh analysis.
+Documents are kept by their content, parameters with their compiled gates, linked documents, effective values and
+configurations of processes by what they depend on. `memory` explains how. The result is always that of a fresh
+analysis.
 """
 
 from __future__ import annotations

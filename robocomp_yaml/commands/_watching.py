@@ -113,7 +113,6 @@ class _Loop:
         self.written, self.concern, self.failed = {}, None, False
         try:
             os.chdir(self.home)  # if it was deleted and made again, it is another folder
-            self.living.forget()  # its result has a stamp
             self.workspace = self.living.load()
             self.folders = folders(self.workspace, self.paths, self.home)
             self.written = versions(self.run(self.workspace))

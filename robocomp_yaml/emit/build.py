@@ -24,6 +24,7 @@ from robocomp_yaml.emit.layout import is_settings
 from robocomp_yaml.emit.options import EmitOptions
 from robocomp_yaml.emit.shared import Shared, own_modules
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
+from robocomp_yaml.source.relative import relative
 from robocomp_yaml.transactions.plan import FilePlan, RootPlan
 
 if TYPE_CHECKING:
@@ -70,7 +71,7 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: EmitOpti
         if _unusable(linked.module, cause, state, result):
             result.skipped.add(requested[linked])
             continue
-        owner = os.path.relpath(linked.module.path, roots[linked])
+        owner = relative(linked.module.path, roots[linked])
         files = tuple(slices([linked, *_imports(linked, roots)]))
         result.plans.append(RootPlan(roots[linked], owner, files))
     shared = Shared(options, slices, program.disk)

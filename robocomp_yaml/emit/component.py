@@ -21,6 +21,7 @@ from robocomp_yaml.link.workspace import WorkspaceSettings
 from robocomp_yaml.parameters.json_schema import DOCUMENT, EFFECTIVE, document_schema
 from robocomp_yaml.parameters.specification.document import ValuesDocument
 from robocomp_yaml.plugins import LANGUAGES
+from robocomp_yaml.source.relative import relative
 from robocomp_yaml.transactions.plan import FilePlan, RootPlan
 
 SCHEMA, EFFECTIVE_SCHEMA = "generated/config.schema.json", "generated/effective.schema.json"
@@ -71,7 +72,7 @@ def component_plan(
             files.append(config.plan(linked, table))
     if options.emits("docs"):
         files += _docs(linked)
-    owner = os.path.relpath(component.path, root)
+    owner = relative(component.path, root)
     return RootPlan(root, owner, tuple(files), partial=bool(options.targets))
 
 

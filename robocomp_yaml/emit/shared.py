@@ -11,6 +11,7 @@ from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import WorkspaceSettings
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 from robocomp_yaml.source.disk import Disk
+from robocomp_yaml.source.relative import relative
 from robocomp_yaml.transactions.plan import FilePlan, RootPlan
 
 Slices = Callable[[Iterable[LinkedModule]], Iterator[FilePlan]]
@@ -34,12 +35,12 @@ class Shared:
         workspace = options.workspace_of(linked.component.path)
         if not (workspace.declared and target.runtime and runtime.has_common(linked)):
             return ALONE
-        shared_runtime = os.path.relpath(runtime_folder(workspace, target), root or ".")
+        shared_runtime = relative(runtime_folder(workspace, target), root)
         modules = linked.modules()
         if not all(self._is_shared(workspace, linked, one) for one in modules):
             return Layout(runtime=shared_runtime)
         texts = {file.path: file.text for file in self._slices(modules)}
-        return Layout(os.path.relpath(workspace.slice_folder, root or "."), shared_runtime, fingerprint(texts))
+        return Layout(relative(workspace.slice_folder, root), shared_runtime, fingerprint(texts))
 
     def _is_shared(self, workspace: WorkspaceSettings, linked: LinkedComponent, scope: LinkedModule) -> bool:
         return (
@@ -63,14 +64,14 @@ class Shared:
             from robocomp_yaml.emit import runtime
 
             root = runtime_folder(workspace, component.language.target)
-            owner = os.path.relpath(os.path.join(workspace.root, WORKSPACE_FILE), root)
+            owner = relative(os.path.join(workspace.root, WORKSPACE_FILE), root)
             self._runtimes[workspace.root, name] = RootPlan(root, owner, runtime.files(name))
 
     def plans(self, planned: Set[tuple[str, str]]) -> Iterator[RootPlan]:
         """The plans of the shared files, except those that are `planned`, as pairs of root and owner."""
         yield from self._runtimes.values()
         for scope, root in self._modules.items():
-            owner = os.path.relpath(scope.module.path, root)
+            owner = relative(scope.module.path, root)
             if (root, owner) not in planned:
                 yield RootPlan(root, owner, tuple(self._slices([scope])), partial=True)
 
@@ -92,8 +93,8 @@ def _is_own(workspace: WorkspaceSettings, linked: LinkedComponent, scope: Linked
 
 def _is_below(scope: LinkedModule, linked: LinkedComponent) -> bool:
     """Whether a module is in a folder below that of a component."""
-    folder, own = (os.path.dirname(os.path.abspath(path)) for path in (scope.module.path, linked.component.path))
-    return folder.startswith(f"{own}/")
+    folders = os.path.dirname(scope.module.path), os.path.dirname(linked.component.path)
+    return not f"{relative(*folders)}/".startswith(("./", "../"))
 
 
 def _is_hidden(workspace: WorkspaceSettings, scope: LinkedModule, disk: Disk) -> bool:

@@ -8,6 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml.addresses.own import adapters
 from robocomp_yaml.addresses.own_configuration import own_configuration, own_document, own_values, stated_in, users_keys
@@ -28,7 +29,9 @@ from robocomp_yaml.parameters.writing.properties import (
 )
 from robocomp_yaml.parameters.writing.write import Property
 from robocomp_yaml.semantics import connections, toml_lines
+from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.properties import read as properties_of
+from robocomp_yaml.source.recall import recalled
 from robocomp_yaml.transactions import settings
 from robocomp_yaml.transactions.plan import FilePlan
 
@@ -60,7 +63,22 @@ def configs(
     """The property files of a component, whose documents have no errors. `table` returns the ports of the workspace,
     and is called only if a document does not set all of them. `root` is the folder of the files, if it is not that of
     the component."""
-    for values in documents_of(linked, program):
+    documents, memory = documents_of(linked, program), program.memory
+    if not (documents and memory.is_lasting):
+        yield from _configs(linked, documents, program, table, root)
+        return
+
+    def make(disk: Disk) -> tuple[FilePlan, ...]:
+        return tuple(_configs(linked, documents, replace(program, disk=disk), table, root))
+
+    part, causes = ("configs", linked.component.path, root), (linked, *documents, *_causes(linked, table()))
+    yield from recalled(memory, program.disk, part, causes, make)
+
+
+def _configs(
+    linked: LinkedComponent, documents: list[LinkedValues], program: Program, table: Callable[[], PortTable], root: str
+) -> Iterator[FilePlan]:  # fmt: skip
+    for values in documents:
         effective, _ = program.effective(values)
         if effective is None:
             continue
@@ -123,12 +141,12 @@ def _connections(
         missing = [Property(key, value) for key, value in defaults.items() if key not in keys]
         return [Section("Endpoints and proxies, by default", missing)]
 
-    part, causes = ("connections", linked.component.path), (sections, *_causes(linked, ports, existing))
+    part, causes = ("connections", linked.component.path), (sections, *_causes(linked, ports), *existing.items())
     return program.memory.result(part, causes, by_default)
 
 
-def _causes(linked: LinkedComponent, ports: PortTable, existing: Mapping[str, str]) -> tuple[object, ...]:
-    """What a first `etc/config` depends on."""
+def _causes(linked: LinkedComponent, ports: PortTable) -> tuple[object, ...]:
+    """What a first `etc/config` depends on, beside the existing one."""
     resolved = ports.resolve(linked).values()
     return (
         linked.component, linked.parameters.parameters,
@@ -136,7 +154,6 @@ def _causes(linked: LinkedComponent, ports: PortTable, existing: Mapping[str, st
         *(ports.endpoint(linked, name).port for name in adapters(linked)),
         *((one.proxy, one.component and one.component.component, *(other.component for other in one.others))
           for one in resolved),
-        *existing.items(),
     )  # fmt: skip
 
 

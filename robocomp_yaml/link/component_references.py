@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from robocomp_yaml.diag.fix import NO_HINT, Hint
 from robocomp_yaml.diag.suggest import meaning, suggest
 from robocomp_yaml.patterns import pattern
-from robocomp_yaml.source.discover import kind_of
+from robocomp_yaml.source.discover import kind_of, name_of_folder
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.yaml_text import quoted
 
@@ -48,7 +48,7 @@ class References(msgspec.Struct, frozen=True):
     def components_of(self, values: str) -> list[str]:
         """The component documents of which a path is `etc/config.yaml`; none for other paths."""
         folder, name = os.path.split(values)
-        if name != "config.yaml" or os.path.basename(os.path.abspath(folder)) != "etc":
+        if name != "config.yaml" or name_of_folder(folder) != "etc":
             return []
         return self.beside(os.path.normpath(os.path.join(folder, os.pardir)), "cdsl")
 

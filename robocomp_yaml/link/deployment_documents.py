@@ -25,6 +25,7 @@ from robocomp_yaml.model.located import Text
 from robocomp_yaml.patterns import pattern
 from robocomp_yaml.source.discover import of_kind
 from robocomp_yaml.source.disk import Disk
+from robocomp_yaml.source.recall import recalled
 
 _COMPONENT = pattern(r"(?m)^component:[ \t]*[\"']?(\w+)")
 
@@ -42,17 +43,15 @@ class DeploymentDocuments(msgspec.Struct):
     def follow(self, document: Document) -> Sequence[NamedDocument]:
         """The documents that a deployment names."""
         model, disk, memory = document.model, self.documents.disk, self.documents.memory
+        root = self.root_of(document.path)
         assert isinstance(model, Deployment)
         self.models[document.real] = model
 
-        def make() -> tuple[list[NamedDocument], dict[UsedValues, None], list[Diagnostic]]:
-            found = _NamedByDeployment(
-                model, disk, self.root_of(document.path)
-            )  # not of this run: other deployments may name the same
+        def make(disk: Disk) -> tuple[list[NamedDocument], dict[UsedValues, None], list[Diagnostic]]:
+            found = _NamedByDeployment(model, disk, root)  # not of this run: other deployments may name the same
             return list(found.run()), found.used, found.diagnostics
 
-        causes = model, disk.version, disk.added
-        named, used, diagnostics = memory.result(("named", document.real), causes, make)
+        named, used, diagnostics = recalled(memory, disk, ("named", document.real), (model, root), make)
         self.used |= used
         self.diagnostics += diagnostics
         return named

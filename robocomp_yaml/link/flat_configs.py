@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Mapping
+from functools import partial
 
 import msgspec
 
@@ -15,6 +16,7 @@ from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.properties import FIRST_HEAD, VALUES_HEAD, IceProperty
 from robocomp_yaml.source.text import MAX_DOCUMENT
 from robocomp_yaml.transactions import manifest, settings
+from robocomp_yaml.transactions.manifest import Manifest
 
 FLAT = os.path.join("etc", "config")
 
@@ -59,10 +61,7 @@ def flat_at(path: str, disk: Disk) -> FlatConfig | None:
 
 def _read(path: str, raw: bytes, disk: Disk) -> FlatConfig:
     text = raw.decode("utf-8", "replace")
-    # What rcyaml wrote last is not part of what a run depends on: only rcyaml changes it.
-    entries = list(
-        manifest.entries_of(disk.real(path), lambda at: disk.once(("manifest", at), lambda: manifest.at(at)))
-    )
+    entries = list(manifest.entries_of(disk.real(path), partial(_manifest, disk)))
     head = _HEAD.match(text)
     is_from_values = head is not None and head[1] == VALUES_HEAD
     is_unchanged = any(entry.hash == digest(raw) for entry in entries) if entries else is_from_values
@@ -71,6 +70,12 @@ def _read(path: str, raw: bytes, disk: Disk) -> FlatConfig:
     first = {} if is_from_values else values
     before = first if is_unchanged else _base(path, disk, is_first=not is_from_values)
     return FlatConfig(path, text, last, values, before, bool(entries) or head is not None, is_unchanged)
+
+
+def _manifest(disk: Disk, folder: str) -> Manifest:
+    """The manifest of a folder. What rcyaml wrote last is not part of any stamp: only rcyaml changes it."""
+    raw = disk.peek(os.path.join(folder, manifest.PATH), MAX_DOCUMENT)
+    return disk.once(("manifest", folder), lambda: manifest.usable(raw or None))
 
 
 def _base(path: str, disk: Disk, *, is_first: bool) -> Mapping[str, str]:

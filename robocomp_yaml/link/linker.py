@@ -127,6 +127,10 @@ class Linker(msgspec.Struct):
         for document, component in sorted(components, key=lambda pair: pair[0].path):
             self.diagnostics += _link_ports(component, partial(self._importable, document))
             self._read_machine(component)
+        if self.documents.memory.is_lasting:
+            from robocomp_yaml.link.kept import keep  # most analyses are not followed by another one
+
+            keep(self.tables, self.documents.memory)
 
     def _use(self, used: UsedValues) -> None:
         """Links values as an entry of a deployment uses them."""

@@ -1,13 +1,13 @@
 """A program without its deployments. Deployments name other documents, and no other document names a deployment, so
 that most edits of a deployment leave the rest of the program as it is.
 
-A living analysis keeps the rest as long as the files of the disk and the unsaved texts of other documents are the same,
-and deployments name the same documents and use the same values.
+A living analysis keeps the rest as long as the files of the disk and the texts of other documents are the same, and
+deployments name the same documents and use the same values.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence, Set
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import msgspec
@@ -16,28 +16,26 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.documents import Document
 from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import NamedDocuments, Program, Tables
-from robocomp_yaml.source.disk import Disk
-from robocomp_yaml.source.file_names import is_deployment
+from robocomp_yaml.source.disk import DiskRecord
 
 Kept = tuple[Mapping[Any, Any], ...]
 """What was computed at the first use, until some moment."""
 
 
 class Undeployed(msgspec.Struct, frozen=True):
-    """A program without its deployments, as a linker left it: the linked documents, the files that were read and what
-    was computed for them, and all diagnostics. `walked` are the folders that were searched, with the documents
-    found."""
+    """A program without its deployments, as a linker left it: the linked documents, what was requested of the disk and
+    what was computed for them, and all diagnostics."""
 
     tables: Tables
     documents: Mapping[str, Document]
     diagnostics: Sequence[Diagnostic]
-    contents: Mapping[str, bytes]
+    record: DiskRecord
     kept: Kept
-    walked: Mapping[str, list[str]]
 
 
 def causes(linker: Linker, named: NamedDocuments) -> tuple[object, ...]:
-    """What the program of these documents depends on."""
+    """What the program of these documents depends on, apart from the contents of files and from the documents in
+    folders, which are recorded."""
     disk = linker.documents.disk
     return (
         disk.version,
@@ -45,7 +43,6 @@ def causes(linker: Linker, named: NamedDocuments) -> tuple[object, ...]:
         "\n".join(f"{one.values}\t{one.component}\t{one.is_completed}" for one in named.values),
         "\n".join(linker.search.extra),
         disk.added,
-        *(part for path, text in sorted(disk.unsaved.items()) if not is_deployment(path) for part in (path, text)),
     )
 
 
@@ -53,7 +50,7 @@ def linked(linker: Linker, named: NamedDocuments, check: Callable[[Program], Ite
     """Links and checks the documents that a linker's deployments name, and those that were requested."""
     disk, documents = linker.documents.disk, linker.documents
     deployments = dict(documents.read)
-    begin, walked = (len(documents.diagnostics), len(linker.diagnostics)), set(disk.walked)
+    begin = len(documents.diagnostics), len(linker.diagnostics)
     linker.link_named(named)
     program = linker.linked()
     diagnostics = [*documents.diagnostics[begin[0] :], *linker.diagnostics[begin[1] :], *check(program)]
@@ -63,16 +60,15 @@ def linked(linker: Linker, named: NamedDocuments, check: Callable[[Program], Ite
         Tables(*map(dict, msgspec.structs.astuple(linker.tables))),
         {real: document for real, document in documents.read.items() if real not in deployments},
         diagnostics,
-        contents_of(disk, deployments.values()),
+        disk.record({document.path for document in deployments.values()}),
         kept_of(linker),
-        walked_since(disk, walked),
     )
 
 
 def recall(linker: Linker, known: Undeployed) -> None:
     """Continues as if the linker had linked and checked these documents."""
     linker.documents.read |= known.documents
-    linker.documents.disk.recall(known.contents)
+    linker.documents.disk.recall(known.record)
     linker.diagnostics += known.diagnostics
     for table, found in zip(_tables(linker.tables), _tables(known.tables), strict=True):
         table.update(found)
@@ -88,17 +84,6 @@ def recall_kept(linker: Linker, kept: Kept) -> None:
     """Continues as if the linker had computed this."""
     for cache, found in zip(_caches(linker), kept, strict=True):
         cache.update(found)
-
-
-def contents_of(disk: Disk, without: Iterable[Document]) -> dict[str, bytes]:
-    """The files that were read until now, except some documents."""
-    paths = {document.path for document in without}
-    return {path: raw for path, raw in disk.contents.items() if path not in paths}
-
-
-def walked_since(disk: Disk, before: Set[str]) -> dict[str, list[str]]:
-    """The folders that were searched for documents, except some, with the documents found."""
-    return {folder: found for folder, found in disk.walked.items() if folder not in before}
 
 
 def _tables(tables: Tables) -> tuple[dict[str, Any], ...]:

@@ -16,6 +16,7 @@ from robocomp_yaml.patterns import pattern
 from robocomp_yaml.source.discover import documents_below, kind_of
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.heading import text_at_top
+from robocomp_yaml.source.relative import relative
 from robocomp_yaml.source.schema_names import OfferedName, OfferedNames
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
@@ -53,7 +54,7 @@ def documents_of(root: str, disk: Disk) -> Iterator[str]:
 
 
 def _same(one: str, other: str) -> bool:
-    return os.path.abspath(one) == os.path.abspath(other)
+    return relative(one, other) == os.curdir
 
 
 class _Collected:
@@ -142,7 +143,7 @@ class _Collected:
             seen = f", as seen from {self._from_root(folder)}" if len(folders) > 1 else ""
             for path, name in self._components:
                 home = os.path.dirname(path)
-                target = path if by_folder[home] > 1 or os.path.abspath(home) == os.path.abspath(folder) else home
+                target = path if by_folder[home] > 1 or _same(home, folder) else home
                 self._add("components", _relative(target, folder), f"component {name}{seen}")
             for path, name in self._deployments:
                 self._add("deployments", _relative(path, folder), f"deployment {name}{seen}")
@@ -152,7 +153,7 @@ class _Collected:
 
 
 def _relative(path: str, folder: str) -> str:
-    return os.path.relpath(path or ".", folder or ".").replace(os.sep, "/")
+    return relative(path, folder).replace(os.sep, "/")
 
 
 def _members(tree: Mapping, section: str) -> Iterator[tuple[str, Node]]:

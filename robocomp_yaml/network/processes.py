@@ -176,10 +176,11 @@ def _code(folder: str, component: LinkedComponent | None, disk: Disk) -> tuple[s
 
 
 def _files_of(folder: str, loaded: tuple[tuple[str, tuple[str, ...]], ...]) -> tuple[str, ...]:
+    top = os.path.abspath(folder)
     files = (
-        os.path.abspath(os.path.join(where, name))
+        os.path.join(where, name)
         for below, endings in loaded
-        for where, _, names in os.walk(os.path.join(folder, below))
+        for where, _, names in os.walk(os.path.join(top, below))
         for name in names
         if name.endswith(endings)
     )

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 
+try:
+    from _blake2 import blake2b  # as `hashlib` has it, which also imports OpenSSL: 2 ms
+except ImportError:
+    from hashlib import blake2b
+
 
 def digest(data: bytes) -> str:
-    try:
-        from _blake2 import blake2b  # as `hashlib` has it, which also imports OpenSSL: 2 ms
-    except ImportError:
-        from hashlib import blake2b
-
     return blake2b(data, digest_size=16).hexdigest()
 
 

@@ -14,7 +14,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.errors import reason_of
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
-from robocomp_yaml.source.disk import NOTHING, Disk
+from robocomp_yaml.source.disk import NOTHING, Disk, DiskRecord
 
 SCRIPT = ".mock.yaml"
 KINDS = ("idsl", "cdsl", "pdsl", "ddsl", "config")
@@ -33,6 +33,8 @@ _SKIPPED = frozenset(("node_modules", "__pycache__", "build", "generated"))
 
 def kind_of(path: str, disk: Disk | None = None) -> str | None:
     """The kind of a document, `idsl` for `NAME.idsl.yaml` and `idsl.yaml`; None if the file is not a document."""
+    if not path.endswith(".yaml"):
+        return None
     name = os.path.basename(path)
     for kind in KINDS:
         if name == f"{kind}.yaml" or name.endswith(f".{kind}.yaml"):
@@ -49,11 +51,17 @@ def _is_values_document(path: str, disk: Disk) -> bool:
     """Many programs have a `config.yaml`. A values document is in `etc/` beside a component, or names the schema in a
     comment above its content, where editors read it."""
     folder = os.path.dirname(path)
-    if os.path.basename(os.path.abspath(folder)) == "etc":
+    if name_of_folder(folder) == "etc":
         names = disk.documents(os.path.join(folder, os.pardir))
         if any(name == "cdsl.yaml" or name.endswith(".cdsl.yaml") for name in names):
             return True
     return _MODELINE.match(disk.peek(path, 1 << 12)) is not None
+
+
+def name_of_folder(folder: str) -> str:
+    """The name of a folder, also of the working folder and of those above it."""
+    name = os.path.basename(folder)
+    return os.path.basename(os.path.abspath(folder)) if name in ("", os.curdir, os.pardir) else name
 
 
 class DiscoveredDocuments(msgspec.Struct, frozen=True):
@@ -144,8 +152,18 @@ def of_kind(folder: str, kind: str, disk: Disk | None = None) -> list[str]:
 
 
 def finds_again(walked: Mapping[str, list[str]], disk: Disk | None = None) -> bool:
-    """Whether the documents below these folders are still the same."""
-    return all(list(documents_below(folder, disk=disk)) == found for folder, found in walked.items())
+    """Whether the documents below these folders are still the same. A Disk searches each folder once."""
+    known = disk.walked if disk is not None else {}
+    return all(
+        (known[folder] if folder in known else list(documents_below(folder, disk=disk))) == found
+        for folder, found in walked.items()
+    )
+
+
+def reads_again(record: DiskRecord, disk: Disk) -> bool:
+    """Whether files have the recorded contents, and the same documents are found below the recorded folders. All else
+    that is recorded is the same as long as the version of the disk is."""
+    return disk.has_contents(record) and finds_again(record.walked, disk)
 
 
 def documents_below(

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import os
 import stat
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from typing import Any, TypeVar
 
+import msgspec
+
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.source.file_names import is_deployment
 from robocomp_yaml.source.real_paths import RealPaths
 from robocomp_yaml.source.regular import content
 from robocomp_yaml.source.text import MAX_DOCUMENT, read_bytes
@@ -43,6 +44,9 @@ def _peek(path: str, size: int) -> bytes:
     return content(path, size) or b""
 
 
+_OF_CONTENTS = (read_bytes, _peek)
+
+
 class Files:
     """The files of the disk, as they are at each request. `reals` are the real paths that are known."""
 
@@ -51,7 +55,7 @@ class Files:
 
     @property
     def version(self) -> object:
-        """As long as it is the same, so are the answers, except for the contents of deployments."""
+        """As long as it is the same, so are the answers, except for the contents of files."""
         return object()
 
     def get(self, request: Callable[..., _Answer], *arguments: Any) -> _Answer:
@@ -84,11 +88,35 @@ class KeptFiles(Files):
 
     def renew(self) -> None:
         """Repeats all requests."""
-        before, self._answers = self._answers, {known: known[0](*known[1:]) for known in self._answers}
-        changed = (known for known, answer in self._answers.items() if answer != before[known])
-        if any(known[0] is not read_bytes or not is_deployment(known[1]) for known in changed):
+        is_same = True
+        for known, before in self._answers.items():
+            request, *arguments = known
+            answer = request(*arguments)
+            if answer != before:
+                self._answers[known] = answer
+                is_same = is_same and request in _OF_CONTENTS
+        if not is_same:
             self.reals.forget()
             self._version = object()
+
+
+class DiskRecord(msgspec.Struct, frozen=True):
+    """What was requested of a Disk, as its attributes say; `heads` are beginnings of files, by path and size."""
+
+    contents: Mapping[str, bytes] = {}
+    heads: Mapping[tuple[str, int], bytes] = {}
+    states: Mapping[str, str] = {}
+    listed: Mapping[str, list[str]] = {}
+    seen: Mapping[str, list[str]] = {}
+    walked: Mapping[str, list[str]] = {}
+    unreadable: bool = False
+
+    @property
+    def answers(self) -> tuple[Mapping[Any, Any], ...]:
+        return self.contents, self.heads, self.states, self.listed, self.seen, self.walked
+
+
+NOTHING_REQUESTED = DiskRecord()
 
 
 class Disk:
@@ -115,11 +143,12 @@ class Disk:
         self.seen: dict[str, list[str]] = {}
         self.walked: dict[str, list[str]] = {}
         self.unreadable = False
+        self._heads: dict[tuple[str, int], bytes] = {}
         self._made: dict[object, Any] = {}
 
     @property
     def version(self) -> object:
-        """As long as it is the same, so are the files of the disk, except for the contents of deployments."""
+        """As long as it is the same, so are the files of the disk, except for their contents."""
         return self._files.version
 
     @property
@@ -130,13 +159,39 @@ class Disk:
     @property
     def added(self) -> tuple[str, ...]:
         """The real paths of the overlay that are no files of the disk."""
-        return tuple(sorted(path for path in self._overlay if self._files.get(state_of, path) != FILE))
+        missing = (path for path in self._overlay if self._files.get(state_of, path) != FILE)
+        return self.once("added", lambda: tuple(sorted(missing)))
 
-    def recall(self, contents: Mapping[str, bytes]) -> None:
-        """As if these files had been read from this Disk. What else was requested for them is not recorded, so that no
-        stamp can be made of it."""
-        self.contents = {**contents, **self.contents}
-        self.unreadable = True
+    def apart(self) -> Disk:
+        """The same disk, which records its requests by itself."""
+        return Disk(self._overlay, self._files)
+
+    def record(self, without: Collection[str] = (), since: DiskRecord = NOTHING_REQUESTED) -> DiskRecord:
+        """What was requested until now, except for the contents of some files, and for what a record contains."""
+        contents = {path: raw for path, raw in self.contents.items() if path not in without}
+        answers: tuple[dict[Any, Any], ...] = contents, *self._answers[1:]
+        contents, heads, states, listed, seen, walked = (
+            {key: answer for key, answer in new.items() if key not in known}
+            for new, known in zip(answers, since.answers, strict=True)
+        )
+        return DiskRecord(contents, heads, states, listed, seen, walked, self.unreadable)
+
+    def recall(self, record: DiskRecord) -> None:
+        """As if the same had been requested of this Disk."""
+        for answers, known in zip(self._answers, record.answers, strict=True):
+            answers.update(known)
+        self.unreadable = self.unreadable or record.unreadable
+
+    @property
+    def _answers(self) -> tuple[dict[Any, Any], ...]:
+        """As `DiskRecord.answers`."""
+        return self.contents, self._heads, self.states, self.listed, self.seen, self.walked
+
+    def has_contents(self, record: DiskRecord) -> bool:
+        """Whether the contents of files are those of a record. These requests are not recorded."""
+        return all(self._content(path)[0] == raw for path, raw in record.contents.items()) and all(
+            self._head(path, size) == raw for (path, size), raw in record.heads.items()
+        )
 
     def ask(self, request: Callable[..., _Answer], *arguments: Any) -> _Answer:
         """What a function returns of the files of the disk. This request is not recorded."""
@@ -155,10 +210,7 @@ class Disk:
 
     def read(self, path: str, limit: int = MAX_DOCUMENT) -> tuple[bytes | None, list[Diagnostic]]:
         """The content of a file of at most `limit` bytes; None, with diagnostics, if it cannot be read."""
-        diagnostics: list[Diagnostic] = []
-        raw = self._unsaved(path)
-        if raw is None:
-            raw, diagnostics = self._files.get(read_bytes, self._on_disk(path), limit)
+        raw, diagnostics = self._content(path, limit)
         if raw is not None:
             self.contents[path] = raw
         else:
@@ -166,9 +218,9 @@ class Disk:
         return raw, diagnostics
 
     def peek(self, path: str, size: int) -> bytes:
-        """The first `size` bytes of a file; none if it cannot be read. This request is not recorded."""
-        raw = self._unsaved(path)
-        return raw[:size] if raw is not None else self._files.get(_peek, self._on_disk(path), size)
+        """The first `size` bytes of a file; none if it cannot be read. No stamp contains this request."""
+        head = self._heads[path, size] = self._head(path, size)
+        return head
 
     def state(self, path: str) -> str:
         """The kind of a path: FILE, FOLDER, OTHER or NOTHING."""
@@ -240,6 +292,17 @@ class Disk:
             return path
         real = self.real(path)
         return real if self._files.get(os.path.lexists, real) else path
+
+    def _content(self, path: str, limit: int = MAX_DOCUMENT) -> tuple[bytes | None, list[Diagnostic]]:
+        raw = self._unsaved(path)
+        if raw is not None:
+            return raw, []
+        found: tuple[bytes | None, list[Diagnostic]] = self._files.get(read_bytes, self._on_disk(path), limit)
+        return found
+
+    def _head(self, path: str, size: int) -> bytes:
+        raw = self._unsaved(path)
+        return raw[:size] if raw is not None else self._files.get(_peek, self._on_disk(path), size)
 
     def _unsaved(self, path: str) -> bytes | None:
         return self._overlay.get(self.real(path)) if self._overlay else None

@@ -6,6 +6,9 @@ from __future__ import annotations
 import errno
 import os
 import stat
+import sys
+
+_FLAGS = os.O_NONBLOCK | os.O_CLOEXEC
 
 
 def regular(path: str, flags: int) -> int:
@@ -31,23 +34,27 @@ def content(path: str, size: int = -1) -> bytes | None:
         return None
 
 
-def whole(path: str, *, is_regular: bool = False) -> tuple[bytes, os.stat_result]:
+def whole(path: str, *, is_regular: bool = False, limit: int = sys.maxsize) -> tuple[bytes, os.stat_result]:
     """The bytes and the status of a regular file, with a third of the system calls of open(). Raises OSError.
-    `is_regular`: that it is one was seen just before."""
+    `is_regular`: that it is one was seen just before. Of a file of more than `limit` bytes, the content may be missing
+    or incomplete."""
     opened, status = _opened(path, os.O_RDONLY, is_regular=is_regular)
     try:
-        parts = [os.read(opened, status.st_size + 1)]
-        while len(parts[-1]) > 0 and (len(parts) > 1 or len(parts[0]) != status.st_size):  # it may grow meanwhile
-            parts.append(os.read(opened, 1 << 20))
+        if status.st_size > limit:
+            return b"", status
+        data = os.read(opened, status.st_size + 1)
+        if len(data) != status.st_size:  # it may grow meanwhile
+            while len(data) <= limit and (more := os.read(opened, 1 << 20)):
+                data += more
     finally:
         os.close(opened)
-    return b"".join(parts), status
+    return data, status
 
 
 def _opened(path: str, flags: int, *, is_regular: bool = False) -> tuple[int, os.stat_result]:
     if not is_regular:
         _refuse_special(path, os.stat(path))  # before opening it, which can have effects on a device
-    opened = os.open(path, flags | os.O_NONBLOCK | os.O_CLOEXEC)
+    opened = os.open(path, flags | _FLAGS)
     try:
         status = os.fstat(opened)
         _refuse_special(path, status)
@@ -58,7 +65,8 @@ def _opened(path: str, flags: int, *, is_regular: bool = False) -> tuple[int, os
 
 
 def _refuse_special(path: str, status: os.stat_result) -> None:
+    if stat.S_ISREG(status.st_mode):
+        return
     if stat.S_ISDIR(status.st_mode):
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), path)
-    if not stat.S_ISREG(status.st_mode):
-        raise OSError(errno.EINVAL, "it is not a regular file", path)
+    raise OSError(errno.EINVAL, "it is not a regular file", path)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 
 from robocomp_yaml.diag.codes import files as codes
@@ -10,7 +9,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.errors import reason_of
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.patterns import pattern
-from robocomp_yaml.source.regular import regular
+from robocomp_yaml.source.regular import whole
 
 MAX_DOCUMENT = 16 << 20
 MAX_SCALAR = 1 << 20
@@ -59,20 +58,11 @@ def read_bytes(path: str, limit: int = MAX_DOCUMENT) -> tuple[bytes | None, list
     """The content of a file of at most `limit` bytes; None, with diagnostics, if it cannot be read. Pipes and devices
     are not read, because they may block or be endless."""
     try:
-        with open(path, "rb", opener=regular) as file:
-            status = os.fstat(file.fileno())
-            raw = b""
-            if status.st_size <= limit:
-                raw = file.read(status.st_size + 1)  # memory for `limit` would be slow to get
-                if len(raw) > status.st_size:  # it grows, or its size is not known
-                    raw += file.read(limit + 1 - len(raw))
-            size = max(status.st_size, len(raw))
-            if size > limit:
-                return None, [
-                    codes.TOO_LARGE.at(
-                        Span(path), what="the file", size=size_in_words(size), limit=size_in_words(limit)
-                    )
-                ]
-            return raw, []
+        raw, status = whole(path, limit=limit)
+        size = max(status.st_size, len(raw))
+        if size > limit:
+            is_, allowed = size_in_words(size), size_in_words(limit)
+            return None, [codes.TOO_LARGE.at(Span(path), what="the file", size=is_, limit=allowed)]
+        return raw, []
     except OSError as error:
         return None, [codes.UNREADABLE.at(Span(path), reason=reason_of(error))]

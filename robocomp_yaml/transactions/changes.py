@@ -13,6 +13,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.source.properties import without_secret
 from robocomp_yaml.transactions.atomic import FileStep
 from robocomp_yaml.transactions.journal import JOURNAL, JOURNAL_DONE
+from robocomp_yaml.transactions.manifest import PATH
 
 CREATE, UPDATE, ADOPT, EDITED, MERGE = "create", "update", "adopt", "edited", "merge"
 REMOVE, UNCHANGED, KEPT, LEFT, REFUSED = "remove", "unchanged", "kept", "left", "refused"
@@ -96,6 +97,12 @@ class Changes(msgspec.Struct, frozen=True):
     def dirty(self) -> bool:
         """Whether a file changes that is not internal."""
         return any(change.action in (*WRITING, REFUSED) for change in self)
+
+    @property
+    def has_other_roots(self) -> bool:
+        """Whether a folder gets its first manifest, or loses its manifest."""
+        steps = (step for root in self.roots for step in root.steps if step.path == PATH)
+        return any(step.before is None or step.after is None for step in steps)
 
     @property
     def settled(self) -> dict[str, str]:

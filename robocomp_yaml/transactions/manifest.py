@@ -9,7 +9,7 @@ from contextlib import suppress
 
 import msgspec
 
-from robocomp_yaml.source.regular import regular
+from robocomp_yaml.source.regular import content
 from robocomp_yaml.transactions.output_root import STATE
 
 PATH = f"{STATE}/manifest.json"
@@ -75,9 +75,15 @@ def read(data: bytes | None) -> Manifest:
 
 def at(folder: str) -> Manifest:
     """The manifest of a folder; an empty one if there is none, or if it cannot be used."""
-    with suppress(OSError, Unusable), open(os.path.join(folder, PATH), "rb", opener=regular) as stream:
-        return read(stream.read())
-    return Manifest()
+    return usable(content(os.path.join(folder, PATH)))
+
+
+def usable(data: bytes | None) -> Manifest:
+    """The manifest with this content; an empty one for None, or if it cannot be used."""
+    try:
+        return read(data)
+    except Unusable:
+        return Manifest()
 
 
 def entries_of(file: str, manifest_of: Callable[[str], Manifest] = at) -> Iterator[ManifestEntry]:

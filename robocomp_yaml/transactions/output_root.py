@@ -47,6 +47,7 @@ class Root:
         self.real = self._reals.of(self.path)
         shown = os.path.normpath(self.path)
         self._head = "" if shown == "." else os.path.join(shown, "")
+        self._folders: dict[str, bool] = {}  # whether a folder below the root is really there
 
     def shown(self, path: str) -> str:
         """The path for messages, which can be opened from the working folder."""
@@ -75,7 +76,9 @@ class Root:
         except OSError as error:
             status = PathStatus(problem=reason_of(error), culprit=path)
         folder = path.rpartition("/")[0]
-        if folder and not self._is_inside(self._reals.of(f"{self.real}/{folder}")):
+        if folder not in self._folders:
+            self._folders[folder] = not folder or self._is_inside(self._reals.of(f"{self.real}/{folder}"))
+        if not self._folders[folder]:
             return replace(self._blocked(path), exists=status.exists, outside=True)
         return status
 

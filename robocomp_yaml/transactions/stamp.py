@@ -12,7 +12,7 @@ import functools
 import json
 import os
 import stat
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 
 import msgspec
 from msgspec.structs import asdict
@@ -61,6 +61,7 @@ def key(arguments: Iterable[str]) -> str:
 def create(
     *,
     inputs: Mapping[str, bytes],
+    real: Callable[[str], str],
     states: Mapping[str, str],
     listed: Mapping[str, list[str]],
     names: Mapping[str, list[str]],
@@ -71,14 +72,12 @@ def create(
     plugins: Iterable[str] = (),
 ) -> RunStamp | None:
     """The stamp of a run that has ended; None if one of its files was deleted since. `inputs` are the bytes that were
-    read, `outputs` the digests of what was written: the disk may have changed since."""
+    read, `real` returns the real path of each, `outputs` are the digests of what was written: the disk may have changed
+    since."""
     try:
         return RunStamp(
             _own_tool(),
-            {
-                path: (real, f"{digest(data)} {_readers(os.stat(path)):o}")
-                for (path, data), real in zip(inputs.items(), _real_paths(inputs), strict=True)
-            },
+            {path: (real(path), f"{digest(data)} {_readers(os.stat(path)):o}") for path, data in inputs.items()},
             dict(states),
             dict(listed),
             dict(names),

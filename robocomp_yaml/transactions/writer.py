@@ -328,7 +328,7 @@ class _RootPlanner:
         self._write_internal(f"{manifest.BASE}/{plan.path}", text, self.rights_of(plan.sources))
 
     def _drop_base(self, path: str) -> None:
-        if self.has_base(os.path.dirname(path)):
+        if self.has_base(path.rpartition("/")[0]):
             self._write_internal(f"{manifest.BASE}/{path}", None)
 
     def _manifest(self, status: PathStatus) -> None:

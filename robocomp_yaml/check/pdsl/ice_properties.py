@@ -19,7 +19,8 @@ _NEAR = 0.8  # similarity of a name that is surely misspelled; another may be on
 
 def check(program: Program) -> Iterator[Diagnostic]:
     for linked in sorted(program.values.values(), key=lambda values: values.document.path):
-        yield from of_document(linked)
+        part = "Ice properties", linked.document.path
+        yield from program.memory.result(part, (linked,), lambda: tuple(of_document(linked)))  # noqa: B023
 
 
 def of_document(linked: LinkedValues) -> Iterator[Diagnostic]:

@@ -21,7 +21,8 @@ from robocomp_yaml.source.tree import Mapping, Node, Scalar
 
 def check(program: Program) -> Iterator[Diagnostic]:
     for linked in sorted(program.values.values(), key=lambda values: values.document.path):
-        yield from check_document(linked, program)
+        part = "values", linked.document.path
+        yield from program.memory.result(part, (linked,), lambda: tuple(check_document(linked, program)))  # noqa: B023
 
 
 def check_document(linked: LinkedValues, program: Program, *, complete: bool = False) -> Iterator[Diagnostic]:

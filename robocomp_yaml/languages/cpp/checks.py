@@ -20,6 +20,7 @@ from robocomp_yaml.link.references import Identifier, exceptions_of, groups, kin
 from robocomp_yaml.model.interface import Enum, ExceptionType, Interface, Member, Method, Module, Struct, TypeRef
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.migrated import is_migrated
+from robocomp_yaml.source.recall import recalled
 
 _GENERATED = frozenset(("GenericWorker", "Parameters", "SpecificWorker", "Worker", "main"))
 
@@ -27,7 +28,13 @@ _GENERATED = frozenset(("GenericWorker", "Parameters", "SpecificWorker", "Worker
 def check(program: Program) -> Iterator[Diagnostic]:
     by_module = users(program, LANGUAGE)
     for linked in program.modules.values():
-        yield from _Module(linked, by_module[linked], program.disk).check()
+        users_of_it = by_module[linked]
+
+        def found(disk: Disk) -> tuple[Diagnostic, ...]:
+            return tuple(_Module(linked, users_of_it, disk).check())  # noqa: B023
+
+        part = "module in C++", linked.module.path
+        yield from recalled(program.memory, program.disk, part, (linked, *users_of_it), found)
 
 
 def has_taken(module: Module) -> bool:

@@ -13,10 +13,12 @@ from msgspec.structs import replace
 from conftest import Tree, write_tree
 from robocomp_yaml import api
 from robocomp_yaml.addresses.port_numbers import USUAL, default_port
+from robocomp_yaml.api.compile_stamps import CompileArguments
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import table
 from robocomp_yaml.diag.page import Files, Repeated
 from robocomp_yaml.network.network import Network
+from robocomp_yaml.transactions import stamp
 
 ROWS = [row for row in table().values() if row.command.startswith("check")]
 LONGEST = 100_000
@@ -104,6 +106,80 @@ def test_values_belong_to_a_component_as_long_as_any_deployment_uses_them_for_it
     found = [one.code for one in _is_as_fresh(living)]
     assert "RC3301" in found  # unknown parameter
     assert "RC3323" not in found  # these values belong to no component
+
+
+ARM = {
+    "rcyaml.yaml": "interfaces: [interfaces]\n",
+    "interfaces/Arm.idsl.yaml": "module: RoboCompArm\ninterfaces: {Arm: {methods: {move: {}}}}\n",
+    "interfaces/Eye.idsl.yaml": "module: RoboCompEye\ninterfaces: {Eye: {methods: {look: {}}}}\n",
+    "arm/arm.cdsl.yaml": "component: ArmComp\nlanguage: python\nimports: [Arm]\nimplements: [Arm]\n",
+    "arm/arm.pdsl.yaml": "component: arm.cdsl.yaml\nparameters: {speed: {type: float, default: 1}}\n",
+    "arm/etc/config.yaml": "component: ../arm.cdsl.yaml\nparameters: {speed: 2}\n",
+    "eye/eye.cdsl.yaml": "component: EyeComp\nlanguage: python\nimports: [Eye, Arm]\nrequires: [Arm]\nimplements: [Eye]\n",
+    "robot.ddsl.yaml": "deployment: Robot\ncomponents: {arm: {component: arm}, eye: {component: eye}}\n",
+}
+
+
+def _linked(workspace: api.Workspace) -> dict[str, object]:
+    program = workspace.analysis.program
+    tables = program.modules, program.components, program.parameters, program.values
+    return {os.path.relpath(real): linked for table in tables for real, linked in table.items()}
+
+
+@pytest.mark.parametrize(
+    ("edited", "others"),
+    [
+        ("interfaces/Eye.idsl.yaml", {"eye/eye.cdsl.yaml"}),
+        (
+            "interfaces/Arm.idsl.yaml",
+            {"arm/arm.cdsl.yaml", "arm/arm.pdsl.yaml", "arm/etc/config.yaml", "eye/eye.cdsl.yaml"},
+        ),
+        ("arm/arm.pdsl.yaml", {"arm/arm.cdsl.yaml", "arm/etc/config.yaml"}),
+        ("arm/arm.cdsl.yaml", {"arm/arm.pdsl.yaml", "arm/etc/config.yaml"}),
+        ("arm/etc/config.yaml", set()),
+        ("robot.ddsl.yaml", set()),
+    ],
+)
+@pytest.mark.parametrize("is_saved", [True, False])
+def test_what_does_not_refer_to_an_edited_document_is_the_same_linked_object(
+    edited: str, others: set[str], is_saved: bool
+) -> None:
+    write_tree(Path(), ARM)
+    living = api.follow()
+    before = _linked(living.load())
+    if is_saved:
+        write_tree(Path(), {edited: f"# more\n{ARM[edited]}"})
+    else:
+        living.edit(edited, f"# more\n{ARM[edited]}")
+    after = _linked(living.load())
+    assert after.keys() == before.keys()
+    changed = {path for path in after if after[path] is not before[path]}
+    assert changed == ({edited, *others} & after.keys())
+
+
+def test_a_recalled_compile_has_the_stamp_of_a_fresh_one() -> None:
+    write_tree(Path(), ARM)
+    living = api.follow()
+    living.load().compile().apply()
+    living.load().compile().apply()
+    write_tree(Path(), {"robot.ddsl.yaml": f"# more\n{ARM['robot.ddsl.yaml']}"})
+    living.load().compile().apply()
+    folder, name = CompileArguments((".",), ()).location()
+    recalled = stamp.load(folder, name)
+    assert recalled is not None and stamp.is_current(recalled)
+    api.load().compile().apply()
+    assert stamp.load(folder, name) == recalled
+
+
+def test_a_manifest_that_somebody_deletes_is_noticed() -> None:
+    """Then the user's flat config is his own, and its values document has no effect."""
+    write_tree(Path(), ARM)
+    living = api.follow()
+    living.load().compile().apply()
+    Path("arm/etc/config").write_text(Path("arm/etc/config").read_text().replace("speed=2", "speed=3"))
+    _is_as_fresh(living)
+    Path("arm/.rcyaml/manifest.json").unlink()
+    _is_as_fresh(living)
 
 
 def test_the_settings_of_a_deployment_that_names_no_document_are_reported_again() -> None:

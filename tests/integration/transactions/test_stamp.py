@@ -36,6 +36,7 @@ def run() -> stamp.RunStamp | None:
     Path("out/bin/run").chmod(0o755)
     Path("out/mine").write_text("mine")
     return stamp.create(
+        real=os.path.realpath,
         inputs={"docs/a.idsl.yaml": b"a", "docs/b.idsl.yaml": b"b", "docs/far/real.idsl.yaml": b"b"},
         states={"docs/c.idsl.yaml": NOTHING, "elsewhere/c.idsl.yaml": NOTHING, "docs": FOLDER},
         listed={"docs/far": ["real.idsl.yaml"], "nowhere": []},
@@ -185,7 +186,15 @@ def test_the_stamp_has_what_was_read_not_what_is_there_now() -> None:
     assert taken is not None
     Path("docs/a.idsl.yaml").write_text("a changed")
     late = stamp.create(
-        inputs={"docs/a.idsl.yaml": b"a"}, states={}, listed={}, names={}, walked={}, outputs={}, present=[], replay={}
+        inputs={"docs/a.idsl.yaml": b"a"},
+        real=os.path.realpath,
+        states={},
+        listed={},
+        names={},
+        walked={},
+        outputs={},
+        present=[],
+        replay={},
     )
     assert late is not None and not stamp.is_current(late)
 
