@@ -74,7 +74,7 @@ def create(
     read, `outputs` the digests of what was written: the disk may have changed since."""
     try:
         return RunStamp(
-            _own_tool(),
+            own_tool(),
             {
                 path: (real, f"{digest(data)} {_readers(os.stat(path)):o}")
                 for (path, data), real in zip(inputs.items(), _real_paths(inputs), strict=True)
@@ -148,7 +148,7 @@ def save(folder: str, name: str, stamp: RunStamp) -> None:
 
 
 @functools.cache
-def _own_tool() -> str:
+def own_tool() -> str:
     """The identity of the rcyaml that this process runs, which stays the same if another one is installed meanwhile."""
     return tool()
 
