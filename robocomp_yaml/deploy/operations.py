@@ -9,7 +9,7 @@ from contextlib import aclosing
 import msgspec
 from msgspec.structs import replace
 
-from robocomp_yaml.deploy import ice_ping, remains
+from robocomp_yaml.deploy import remains
 from robocomp_yaml.deploy.carry_out import GONE, ProcessEvent, Report, StartOutcome, carry_out, stop_all, undo
 from robocomp_yaml.deploy.engine import LOST, STOPPED, Engine, EngineHangs, Running, of_last_run
 from robocomp_yaml.deploy.introspection import OwnState
@@ -93,6 +93,8 @@ async def without_present(network: Network, running: Collection[str]) -> Network
 
 
 async def _is_present(process: Process) -> bool:
+    from robocomp_yaml.deploy import ice_ping  # unused without an IceStorm that may be running elsewhere
+
     return all([await ice_ping.answers(proxy, _PRESENT_WITHIN, process.pem) for proxy in process.unless])
 
 
