@@ -11,7 +11,6 @@ from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.source.nodes import (
-    TOP,
     Base,
     Mapping,
     Node,
