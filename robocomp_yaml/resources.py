@@ -44,8 +44,8 @@ def text(path: str) -> str:
 
 def read(path: str) -> str:
     """The text of a file of rcyaml."""
-    with open(path, encoding="utf-8") as file:
-        return file.read()
+    with open(path, "rb", buffering=0) as file:  # a compile reads a hundred: a text stream takes twice as long
+        return file.read().decode()
 
 
 def names(path: str) -> list[str]:

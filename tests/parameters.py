@@ -9,7 +9,7 @@ from robocomp_yaml.link.program import LinkedParameters, LinkedValues
 from robocomp_yaml.parameters.resolution.resolve import resolve
 from robocomp_yaml.parameters.specification import build as build_parameters
 from robocomp_yaml.parameters.types import Parameters
-from robocomp_yaml.parameters.writing.properties import Section
+from robocomp_yaml.parameters.writing.sections import Section
 from robocomp_yaml.source import schema
 from robocomp_yaml.source.tree import Mapping, Node, parse
 from robocomp_yaml.source.yaml_text import flow

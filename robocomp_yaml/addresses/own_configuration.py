@@ -17,7 +17,7 @@ from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.transactions.settings import unlike
 
 if TYPE_CHECKING:
-    from robocomp_yaml.parameters.writing.properties import Section
+    from robocomp_yaml.parameters.writing.sections import Section
 
 
 class OwnConfiguration(msgspec.Struct, frozen=True, eq=False):

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from robocomp_yaml.api.refusals import require
-from robocomp_yaml.building import builder, stamps
-from robocomp_yaml.building.inputs import Inputs
+from robocomp_yaml.building import builder
 from robocomp_yaml.building.job import FAILED, RELEASE, TYPES, BuildEvent, BuildResult, Job
 from robocomp_yaml.building.unit import Unit, unit_of
 from robocomp_yaml.deploy.outdated import outdated_components
@@ -94,17 +93,6 @@ def build_stale(
     for one in stale:
         by_type.setdefault(build_type or one.look.type or RELEASE, []).append(one.unit.document)
     return [build(analysis, paths, build_type=type_, report=report) for type_, paths in by_type.items()]
-
-
-def to_build(analysis: Analysis) -> list[str]:
-    """The names of the components whose programs exist, and are stale."""
-    inputs = Inputs()
-    built = [one for one in _components(analysis) if one.component.language.target.build]
-    return [
-        unit.name
-        for unit in units(analysis, built)
-        if (state := stamps.inspect(unit, inputs)).is_there and state.changed
-    ]
 
 
 def _cpu() -> float:

@@ -21,10 +21,8 @@ from robocomp_yaml.emit.options import EmitOptions
 from robocomp_yaml.emit.specific.review import Review, review
 from robocomp_yaml.link.documents import read_tree
 from robocomp_yaml.pipeline import Analysis
-from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.discover import documents_below
 from robocomp_yaml.source.disk import NOTHING
-from robocomp_yaml.source.regular import whole
 from robocomp_yaml.source.schema_names import OfferedNames
 from robocomp_yaml.source.tree import Node
 from robocomp_yaml.transactions import stamp, writer
@@ -98,9 +96,17 @@ class Compilation:
         return replace(outcome, to_build=self._to_build()) if outcome.dirty and self._output is None else outcome
 
     def _to_build(self) -> tuple[str, ...]:
-        from robocomp_yaml.api.building import to_build  # unused if nothing is written
+        """The names of the requested components with a stale program."""
+        program, of = self._analysis.program, self._analysis.workspaces.of
+        requested = (program.components[real] for real in program.requested_components())
+        built = [linked for linked in requested if linked.component.language.target.build]
+        if not built:
+            return ()
+        from robocomp_yaml.building.stamps import stale  # unused by languages without a build
+        from robocomp_yaml.building.unit import unit_of
 
-        return tuple(to_build(self._analysis))
+        built.sort(key=lambda linked: linked.component.path)
+        return tuple(unit.name for unit in stale(unit_of(one, of(one.component.path)) for one in built))
 
     def _prepare(self, own: Review, others: Sequence[str]) -> Changes:
         return writer.prepare(self._built.plans, adopt=self._adopt, others=others, merges=own.merges)
@@ -129,13 +135,10 @@ class Compilation:
             from robocomp_yaml.link import workspace_files  # a compile elsewhere (-o) has none
 
             try:
-                workspace_files.install(workspace.root, workspace.plugins, self._names_below(workspace.root))
+                names = self._names_below(workspace.root)
+                schemas |= workspace_files.install(workspace.root, workspace.plugins, names).schemas
             except OSError:
                 continue
-            for kind in workspace_files.GLOBS:
-                path = os.path.normpath(os.path.join(workspace.root, workspace_files.schema_path(kind)))
-                if os.path.lexists(path):  # it may be missing, with a plug-in
-                    schemas[path] = digest(whole(path)[0])
         return schemas
 
     def _names_below(self, root: str) -> OfferedNames:

@@ -70,11 +70,11 @@ class Deployment:
         self._network = network  # without what protects it
         self._engine, self._lock = make_engine(engine, network), ExitStack()
         self._diagnostics: list[Diagnostic] = []
-        if not lenient:
+        linked = analysis.program.deployments.get(os.path.realpath(path))
+        if not lenient and linked is not None and any(one.component for one in linked.instances.values()):
             from robocomp_yaml.check.flat.configs import replaced
             from robocomp_yaml.deploy.outdated import outdated
 
-            linked = analysis.program.deployments[os.path.realpath(path)]
             own = [one.component for one in linked.instances.values() if one.entry.config is None and one.component]
             self._diagnostics = analysis.with_more([*outdated(linked), *replaced(analysis.program, dict.fromkeys(own))])
 

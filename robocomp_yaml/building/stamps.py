@@ -50,6 +50,12 @@ class ProgramState(msgspec.Struct, frozen=True):
         return self.is_there and not self.changed
 
 
+def stale(units: Iterable[Unit]) -> list[Unit]:
+    """Those whose programs exist, but were built from other inputs."""
+    inputs = Inputs()
+    return [unit for unit in units if (state := inspect(unit, inputs)).is_there and state.changed]
+
+
 def inspect(unit: Unit, inputs: Inputs) -> ProgramState:
     program, stamp = state(unit.program), load(unit)
     type_ = stamp.type if stamp else ""

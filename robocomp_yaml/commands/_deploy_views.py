@@ -11,10 +11,9 @@ from robocomp_yaml.commands._origins import is_worth_a_line, origin, settings_da
 from robocomp_yaml.deploy import json_data
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import OWN, Line
-from robocomp_yaml.deploy.listing import ListedDeployment
 from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, Result, Status
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan
-from robocomp_yaml.diag.terminal import Shown, columns, cut, line, pad, paint, shown, table
+from robocomp_yaml.diag.terminal import Shown, columns, cut, line, pad, paint, shown
 from robocomp_yaml.network.network import Network
 
 if TYPE_CHECKING:
@@ -122,16 +121,6 @@ def _memory(size: int | None) -> str:
 
 def _cpu(seconds: float | None) -> str:
     return "unknown" if seconds is None else f"{seconds:.1f} s" if seconds < 100 else duration(seconds)
-
-
-def deployment_lines(found: Sequence[ListedDeployment]) -> list[Shown]:
-    """A table of deployments."""
-    rows = [("DEPLOYMENT", "STATE", "ENGINE", "HOSTS", "DOCUMENT")]
-    for one in found:
-        document = shown_path(one.document) + ("" if one.has_document else " (gone)")
-        state = f"{one.state}, installed" if one.installed else one.state
-        rows.append((one.name, state, one.engine, ", ".join(one.hosts), document))
-    return table(rows)
 
 
 def lost_lines(found: Sequence[Status]) -> list[Shown]:

@@ -21,7 +21,6 @@ from robocomp_yaml.commands._progress import Progress
 from robocomp_yaml.deploy import json_data, renamed
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import Line
-from robocomp_yaml.deploy.listing import listed
 from robocomp_yaml.deploy.operations import Choose, Result, reasons_to_stop
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
@@ -53,18 +52,6 @@ def open_session(
     if found := renamed.at_another_path(deployment.network):
         terminal.say(found, err=True)
     return DeploySession(ctx, deployment, format_)
-
-
-def list_running(ctx: click.Context, format_: str) -> NoReturn:
-    """Prints the user's list of deployments."""
-    found = listed()
-    if format_ == "json":
-        terminal.data(dumps({"deployments": msgspec.to_builtins(found)}), json=True)
-    elif found:
-        terminal.say(*views.deployment_lines(found))
-    else:
-        terminal.say("no deployment is running")
-    ctx.exit(0)
 
 
 class DeploySession(msgspec.Struct):

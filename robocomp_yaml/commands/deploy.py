@@ -126,7 +126,7 @@ def status(session: DeploySession, names: tuple[str, ...]) -> None:
 def list_(format_: str) -> None:
     """List the deployments that this user has started and not taken down, wherever their documents are. `status`,
     `logs` and `down` accept the names of this list instead of a document."""
-    from robocomp_yaml.commands._deploying import list_running
+    from robocomp_yaml.commands._listing import list_running
 
     list_running(click.get_current_context(), format_)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import functools
 import os
 import signal
 import time
@@ -12,7 +11,7 @@ from contextlib import contextmanager, suppress
 
 from robocomp_yaml.deploy.engine import STOP_WITHIN
 from robocomp_yaml.deploy.local import procfs, program
-from robocomp_yaml.deploy.local.kernel import die_with, tie
+from robocomp_yaml.deploy.local.kernel import death_with_this, tie
 
 _NUMBERS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 _TWICE = 0.3  # seconds in which a repeated signal counts as one: some tools signal a group and each process in it
@@ -73,7 +72,7 @@ class Foreground:
         found = program.find(command[0], folder, environment)
         child = await asyncio.create_subprocess_exec(
             *tie(), found, *command[1:], cwd=folder or "/", env={**environment, procfs.MARK: mark},
-            preexec_fn=None if tie() else functools.partial(die_with, os.getpid()),
+            preexec_fn=None if tie() else death_with_this(),
         )  # fmt: skip
         return cls(child, mark)
 

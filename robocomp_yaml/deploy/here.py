@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import socket
 from typing import TYPE_CHECKING
 
 from robocomp_yaml.network.network import LOOPBACK, NetworkHost, is_loopback
@@ -15,6 +14,8 @@ def is_local(address: str) -> bool:
     """Whether an address is one of this machine: only those can be bound. False if it cannot be resolved."""
     if address == LOOPBACK:
         return True
+    import socket  # most deployments are on one machine
+
     try:
         family, kind, protocol, _, target = socket.getaddrinfo(address, 0, type=socket.SOCK_STREAM)[0]
         with socket.socket(family, kind, protocol) as probe:

@@ -6,9 +6,7 @@ That is an answer, too.
 
 from __future__ import annotations
 
-from robocomp_yaml.deploy import ice_call
 from robocomp_yaml.network.network import Liveness
-from robocomp_yaml.wire import introspection, protocol
 
 START, READY = 60.0, 3
 """Seconds that a process has for its first answer after a start; and that many times the limit of `ready:`, if that is
@@ -18,8 +16,13 @@ longer."""
 def question(alive: Liveness | None, *, is_secured: bool = False) -> tuple[str, int, str] | None:
     """The host, port and message, in hexadecimal digits. None if nothing is asked, also because the process serves
     nothing over TCP. One that `is_secured` is asked over TLS."""
+    if alive is None:
+        return None
+    from robocomp_yaml.deploy import ice_call  # unused by programs
+    from robocomp_yaml.wire import introspection, protocol
+
     protocols = ice_call.SECURE if is_secured else ice_call.PLAIN
-    address = ice_call.address_of(alive.proxy, protocols) if alive else None
+    address = ice_call.address_of(alive.proxy, protocols)
     if address is None:
         return None
     identity, host, port = address

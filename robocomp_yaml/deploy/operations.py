@@ -5,14 +5,14 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Awaitable, Callable, Collection, Iterable, Mapping
 from contextlib import aclosing
+from typing import TYPE_CHECKING
 
 import msgspec
 from msgspec.structs import replace
 
-from robocomp_yaml.deploy import ice_ping, remains
+from robocomp_yaml.deploy import remains
 from robocomp_yaml.deploy.carry_out import GONE, ProcessEvent, Report, StartOutcome, carry_out, stop_all, undo
 from robocomp_yaml.deploy.engine import LOST, STOPPED, Engine, EngineHangs, Running, of_last_run
-from robocomp_yaml.deploy.introspection import OwnState
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, in_order, plan, with_dependents
 from robocomp_yaml.deploy.readiness import holds, own_state, unmet
 from robocomp_yaml.deploy.states import RUNNING, fault, state_of
@@ -21,6 +21,9 @@ from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.network.network import Network, Process
+
+if TYPE_CHECKING:
+    from robocomp_yaml.deploy.introspection import OwnState
 
 STOP_THEM, ROLL_BACK, KEEP_GOING = "stop", "rollback", "keep"
 
@@ -93,6 +96,8 @@ async def without_present(network: Network, running: Collection[str]) -> Network
 
 
 async def _is_present(process: Process) -> bool:
+    from robocomp_yaml.deploy import ice_ping  # unused without an IceStorm that may be running elsewhere
+
     return all([await ice_ping.answers(proxy, _PRESENT_WITHIN, process.pem) for proxy in process.unless])
 
 

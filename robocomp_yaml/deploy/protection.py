@@ -7,7 +7,6 @@ list of deployments, from which commands read it. It ends with `down`.
 from __future__ import annotations
 
 import os
-import secrets
 from contextlib import suppress
 
 from msgspec.structs import replace
@@ -48,7 +47,7 @@ def made_token(folder: str) -> str:
     """The token of the deployment in this folder, made if there is none. Raises OSError."""
     token = token_of(folder)
     if not token:
-        token = secrets.token_hex(32)
+        token = os.urandom(32).hex()  # as `secrets` does, which also imports OpenSSL
         try:
             whole_file.put(f"{registered.made_private(folder)}/{_FILE}", f"{token}\n".encode("ascii"), 0o600)
         except OSError:  # the user's folder is on a read-only disk

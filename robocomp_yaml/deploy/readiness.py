@@ -6,17 +6,18 @@ import asyncio
 import time
 from collections.abc import AsyncIterator, Awaitable, Callable, Collection
 from contextlib import aclosing, suppress
+from typing import TYPE_CHECKING
 
-from robocomp_yaml.deploy import ice_ping, introspection
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import OWN, DeployFailed, Engine, Line, Running, of_last_run
-from robocomp_yaml.deploy.introspection import OwnState
 from robocomp_yaml.deploy.patterns import PatternTooSlow, search
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.deploy.states import ENDED, GIVEN_UP, RUNNING, SILENT
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.terminal import typed
-from robocomp_yaml.wire.introspection import WAITING
+
+if TYPE_CHECKING:
+    from robocomp_yaml.deploy.introspection import OwnState
 
 SETTLED = 0.1
 """Seconds that a process without a condition must run before it counts as ready, unless the document sets more."""
@@ -151,7 +152,7 @@ async def _check(engine: Engine, spec: ProcessSpec, within: float) -> bool:
 async def until_it_serves(spec: ProcessSpec) -> None:
     """Waits until everything that a component serves answers a ping, also if the component waits for others."""
     for proxy in spec.process.ready.pings:
-        while not await ice_ping.answers(proxy, _ONE_TRY, spec.process.pem):
+        while not await _answers(proxy, _ONE_TRY, spec.process.pem):
             await asyncio.sleep(_LONGEST)
 
 
@@ -159,13 +160,15 @@ async def _serves(spec: ProcessSpec, within: float) -> bool:
     """Whether a component runs, as it says itself, and everything that it serves answers a ping."""
     pings, own = spec.process.ready.pings, spec.process.introspection
     if own:
+        from robocomp_yaml.deploy import introspection
+
         with suppress(introspection.NoFacet):
             state = await introspection.state(own, within, spec.process.pem)
             if state is None or not state.is_running:
                 return False
             pings = tuple(proxy for proxy in pings if proxy != own)
     for proxy in pings:
-        if not await ice_ping.answers(proxy, within, spec.process.pem):
+        if not await _answers(proxy, within, spec.process.pem):
             return False
     return True
 
@@ -173,9 +176,19 @@ async def _serves(spec: ProcessSpec, within: float) -> bool:
 async def own_state(spec: ProcessSpec, within: float = _ONE_TRY) -> OwnState | None:
     """What a component says of itself; None if it does not answer, or does not describe itself."""
     proxy = spec.process.introspection
+    if not proxy:
+        return None
+    from robocomp_yaml.deploy import introspection  # programs have none
+
     with suppress(introspection.NoFacet):
-        return await introspection.state(proxy, within, spec.process.pem) if proxy else None
+        return await introspection.state(proxy, within, spec.process.pem)
     return None
+
+
+async def _answers(proxy: str, within: float, pem: str) -> bool:
+    from robocomp_yaml.deploy import ice_ping  # programs serve nothing
+
+    return await ice_ping.answers(proxy, within, pem)
 
 
 async def listens(host: str, port: int, within: float) -> bool:
@@ -199,6 +212,8 @@ async def why_not(spec: ProcessSpec, running: Running | None) -> str:
         return f"it ended in the meantime: {running.end}"
     own = await own_state(spec) if spec.process.ready.pings else None
     if own is not None and not own.is_running:
+        from robocomp_yaml.wire.introspection import WAITING
+
         return f"it is {own.words}" + (f" ({own.why})" if own.state == WAITING and own.why else "")
     return await unmet(spec) or "it does not keep running"
 
@@ -207,7 +222,7 @@ async def unmet(spec: ProcessSpec) -> str:
     """Which part of the condition of a running process does not hold, '' without a condition."""
     ready = spec.process.ready
     if ready.pings:
-        checks = (ice_ping.answers(proxy, _ONE_TRY, spec.process.pem) for proxy in ready.pings)
+        checks = (_answers(proxy, _ONE_TRY, spec.process.pem) for proxy in ready.pings)
         silent = [proxy for proxy, is_it in zip(ready.pings, await asyncio.gather(*checks), strict=True) if not is_it]
         return "no answer from " + ", ".join(one.partition(":")[0].split()[0] for one in silent or ready.pings)
     if ready.port:

@@ -17,17 +17,8 @@ from robocomp_yaml.emit import config
 from robocomp_yaml.emit.layout import CONFIG
 from robocomp_yaml.link.flat_configs import flat_at, flat_config
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Port, Program
-from robocomp_yaml.parameters.writing.properties import (
-    CLASSIC,
-    Section,
-    dialect,
-    legacy_file,
-    properties,
-    property_text,
-    secret_keys,
-    section_text,
-)
-from robocomp_yaml.parameters.writing.write import Property
+from robocomp_yaml.parameters.writing.properties import legacy_file, properties, property_text
+from robocomp_yaml.parameters.writing.sections import CLASSIC, Property, Section, dialect, secret_keys, section_text
 from robocomp_yaml.semantics import connections, toml_lines
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.properties import read as properties_of

@@ -4,17 +4,19 @@ What is derived is one more layer on the base. For a values document, all layers
 does. A flat config that `config:` names stays unchanged, and what is derived follows it: of two lines for one property,
 Ice uses the last. Of the component's own `etc/config`, the lines are used that nothing overrides, and its values are
 judged as those of a values document.
+
+What judges and writes values is imported where it is used: programs have none.
 """
 
 from __future__ import annotations
 
 import os
 from collections.abc import Collection, Iterator
+from typing import TYPE_CHECKING
 
 import msgspec
 from msgspec.structs import astuple, replace
 
-from robocomp_yaml.addresses.flat_values import flat_values
 from robocomp_yaml.addresses.workspaces import Addresses
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -22,27 +24,17 @@ from robocomp_yaml.link.flat_configs import FlatConfig
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues, Program
 from robocomp_yaml.network.configuration_base import ConfigurationBase
 from robocomp_yaml.network.draft import Draft, LocatedText
-from robocomp_yaml.network.settings import ProcessSettings
-from robocomp_yaml.parameters.editing.settings import ShownSetting, run_time_defaults
-from robocomp_yaml.parameters.json_schema import EFFECTIVE, fits
-from robocomp_yaml.parameters.layers.effective import document_faults
-from robocomp_yaml.parameters.layers.merge import MergedValue, data_of, merged
-from robocomp_yaml.parameters.layers.overlay import overlay
-from robocomp_yaml.parameters.specification.document import ValuesDocument
-from robocomp_yaml.parameters.writing.properties import (
-    CLASSIC,
-    FLAT_TOML,
-    Section,
-    properties,
-    secret_keys,
-    section_text,
-)
-from robocomp_yaml.parameters.writing.write import Property, Writer
+from robocomp_yaml.parameters.writing.sections import CLASSIC, FLAT_TOML, Property, Section, secret_keys, section_text
 from robocomp_yaml.semantics import connections, references
 from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source.content import content
 from robocomp_yaml.source.properties import entry_line
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, mapping_at, text_at
+
+if TYPE_CHECKING:
+    from robocomp_yaml.parameters.editing.settings import ShownSetting
+    from robocomp_yaml.parameters.layers.merge import MergedValue
+    from robocomp_yaml.parameters.specification.document import ValuesDocument
 
 _PARAMETERS = "What the deployment sets"
 _TITLE = "Where this component and the others are"
@@ -150,9 +142,11 @@ class Configuration(msgspec.Struct):
         base = self.base.values
         if linked.broken or (base is not None and base.broken):
             return None
-        empty = ValuesDocument(self._file, mapping_at(self.draft.span, {}))
+        from robocomp_yaml.parameters.writing.properties import properties
+
+        empty = self._document(mapping_at(self.draft.span, {}))
         below = LinkedValues(empty, (base,) if base is not None else (), linked)
-        layer = replace(below, document=ValuesDocument(self._file, self._layer(linked, below)))
+        layer = replace(below, document=self._document(self._layer(linked, below)))
         values, found = self.program.effective(layer)
         self.diagnostics += found
         if values is None:
@@ -168,6 +162,9 @@ class Configuration(msgspec.Struct):
         """The lines of the component's own flat config that nothing overrides, and the other properties."""
         if linked.broken:
             return "", None
+        from robocomp_yaml.addresses.flat_values import flat_values
+        from robocomp_yaml.parameters.layers.merge import merged
+
         below = flat_values(flat, linked, self.draft.instance.component).layer
         if not self._judged(linked, below):
             return "", None
@@ -187,9 +184,12 @@ class Configuration(msgspec.Struct):
 
     def _judged(self, linked: LinkedParameters, below: LinkedValues) -> bool:
         """Whether the layers of `set:` and of the base have no problems."""
-        empty = ValuesDocument(self._file, mapping_at(self.draft.span, {}))
+        from robocomp_yaml.parameters.json_schema import EFFECTIVE, fits
+        from robocomp_yaml.parameters.layers.merge import data_of, merged
+
+        empty = self._document(mapping_at(self.draft.span, {}))
         whole = LinkedValues(empty, (below,), linked)
-        layer = self._layers = replace(whole, document=ValuesDocument(self._file, self._layer(linked, whole)))
+        layer = self._layers = replace(whole, document=self._document(self._layer(linked, whole)))
         if not linked.parameters.constraints and fits(
             linked, EFFECTIVE, data_of(merged(layer), linked.parameters.root)
         ):
@@ -203,7 +203,11 @@ class Configuration(msgspec.Struct):
         settings = self.draft.instance.entry.settings
         if settings is None:
             return []
-        layer = LinkedValues(ValuesDocument(self._file, self._parameters(linked, settings, below)), parameters=linked)
+        from robocomp_yaml.parameters.layers.effective import document_faults
+        from robocomp_yaml.parameters.layers.merge import data_of, merged
+        from robocomp_yaml.parameters.writing.write import Writer
+
+        layer = LinkedValues(self._document(self._parameters(linked, settings, below)), parameters=linked)
         self.diagnostics += document_faults(layer, linked)
         if any(fault.severity == "error" for fault in self.diagnostics):
             return []
@@ -215,6 +219,9 @@ class Configuration(msgspec.Struct):
 
     def settings(self) -> list[ShownSetting]:
         """The values of the configuration, with their origin."""
+        from robocomp_yaml.network.settings import ProcessSettings  # most commands show none
+        from robocomp_yaml.parameters.editing.settings import run_time_defaults
+
         made = ProcessSettings(self.draft, self.addresses, self.external)
         if self._layers is not None:
             found = made.of(self._layers, self.program.effective(self._layers)[0])
@@ -231,11 +238,18 @@ class Configuration(msgspec.Struct):
     def _file(self) -> str:
         return self.draft.instance.document.path
 
+    def _document(self, root: Mapping) -> ValuesDocument:
+        from robocomp_yaml.parameters.specification.document import ValuesDocument
+
+        return ValuesDocument(self._file, root)
+
     def _layer(self, linked: LinkedParameters, base: LinkedValues) -> Mapping:
         """What is derived, as a values document."""
         span, entries = self.draft.span, dict[str, tuple[Scalar, Node]]()
         settings = self.draft.instance.entry.settings
         if settings is not None:
+            from robocomp_yaml.parameters.layers.merge import merged
+
             below = merged(base) if base.extends else None
             entries |= self._parameters(linked, settings, below).entries
         else:
@@ -254,6 +268,8 @@ class Configuration(msgspec.Struct):
         return mapping_at(span, entries)
 
     def _parameters(self, linked: LinkedParameters, settings: Mapping, below: MergedValue | None) -> Mapping:
+        from robocomp_yaml.parameters.layers.overlay import overlay
+
         laid = overlay(settings, linked.parameters.root, below)
         self.diagnostics += [
             codes.NO_ENTRY.at(fault.key.span, path=fault.key.lexeme, problem=fault.problem) for fault in laid.faults

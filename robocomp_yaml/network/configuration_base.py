@@ -13,7 +13,7 @@ from robocomp_yaml.link.deployments import LinkedInstance
 from robocomp_yaml.link.flat_configs import FlatConfig, flat_at
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Program
 from robocomp_yaml.parameters.layers.settings import merged_entries
-from robocomp_yaml.parameters.writing.properties import CLASSIC, FLAT_TOML, dialect
+from robocomp_yaml.parameters.writing.sections import CLASSIC, FLAT_TOML, dialect
 from robocomp_yaml.semantics import connections
 from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source import tree

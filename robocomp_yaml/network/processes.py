@@ -25,7 +25,6 @@ from robocomp_yaml.network.network import (
     Process,
     RestartRule,
 )
-from robocomp_yaml.parameters.hidden import secrets_of
 from robocomp_yaml.source.disk import Disk
 
 
@@ -61,13 +60,22 @@ def of_draft(draft: Draft, text: str | None, disk: Disk, secrets: tuple[str, ...
         role=entry.role,
         is_secured=draft.protocol == SSL,
         settled=ready_when.settled(entry.ready, ready),
-        secrets=secrets_of(component.parameters) if component is not None else (),
+        secrets=_secrets(component),
         component=component.component.name if component is not None else "",
         build=_build(draft),
         introspection=liveness.introspection(draft),
         extra=_extra(draft),
         span=entry.span,
     )
+
+
+def _secrets(component: LinkedComponent | None) -> tuple[str, ...]:
+    """The names of the secret parameters."""
+    if component is None:
+        return ()
+    from robocomp_yaml.parameters.hidden import secrets_of  # programs have no parameters
+
+    return secrets_of(component.parameters)
 
 
 def _extra(draft: Draft) -> tuple[tuple[str, object], ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
+from typing import TYPE_CHECKING
 
 from robocomp_yaml import secrets
 from robocomp_yaml.addresses.workspaces import Addresses
@@ -10,11 +11,13 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.network.draft import Draft
 from robocomp_yaml.parameters.documents import LayeredValues
 from robocomp_yaml.parameters.editing.settings import DEFAULT, DERIVED, SET, OverriddenValue, ShownSetting
-from robocomp_yaml.parameters.editing.show import Value, shown
-from robocomp_yaml.parameters.layers.effective import Effective
 from robocomp_yaml.parameters.layers.settings import Setting, settings
 from robocomp_yaml.source.tree import Node, Scalar
 from robocomp_yaml.source.yaml_text import flow
+
+if TYPE_CHECKING:
+    from robocomp_yaml.parameters.editing.show import Value
+    from robocomp_yaml.parameters.layers.effective import Effective
 
 
 class ProcessSettings:
@@ -27,7 +30,11 @@ class ProcessSettings:
     def of(self, layers: LayeredValues, values: Effective | None) -> Iterator[ShownSetting]:
         for one in settings(layers):
             yield self._setting(one)
-        for row in shown(values, reveal=False) if values is not None else ():
+        if values is None:
+            return
+        from robocomp_yaml.parameters.editing.show import shown  # programs have no parameters
+
+        for row in shown(values, reveal=False):
             yield self._parameter(row)
 
     def derived(self, pairs: Iterable[tuple[str, str, Span]]) -> Iterator[ShownSetting]:

@@ -5,15 +5,17 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator
 from functools import lru_cache
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import msgspec
-from ruamel.yaml.nodes import MappingNode, ScalarNode, SequenceNode
-from ruamel.yaml.nodes import Node as YamlNode
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.digraph import reachable
 from robocomp_yaml.patterns import pattern
+
+if TYPE_CHECKING:
+    from ruamel.yaml.nodes import MappingNode, ScalarNode, SequenceNode
+    from ruamel.yaml.nodes import Node as YamlNode
 
 _Result = TypeVar("_Result")
 _INT = re.compile(r"[-+]?[0-9]+\Z")

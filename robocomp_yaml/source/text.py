@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import re
-
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.errors import reason_of
@@ -15,9 +13,11 @@ MAX_DOCUMENT = 16 << 20
 MAX_SCALAR = 1 << 20
 
 # The non-printable characters of YAML 1.2 (5.1): C0 except tab and line ends, DEL, C1 except NEL, surrogates, the byte
-# order mark inside of a text, and the two non-characters.
-_CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x84\x86-\x9f\ud800-\udfff\ufeff\ufffe\uffff]")
-
+# order mark inside of a text, and the two non-characters. To compile the whole pattern takes as long as reading a small
+# document; most are ASCII.
+_CONTROL_OF_ASCII = "\x00-\x08\x0b\x0c\x0e-\x1f\x7f"
+_ASCII_CONTROL = pattern(f"[{_CONTROL_OF_ASCII}]")
+_CONTROL = pattern(f"[{_CONTROL_OF_ASCII}-\x84\x86-\x9f\ud800-\udfff\ufeff\ufffe\uffff]")
 
 OF_NO_LINE = pattern("[\x00-\x1f\x7f-\x9f\u2028\u2029]")
 """Not allowed in a text of one line, as in the schemas: control characters, and all characters that end a line."""
@@ -48,7 +48,7 @@ def decode(path: str, raw: bytes) -> tuple[str | None, list[Diagnostic]]:
                 _at(path, before, len(before)), byte=f"0x{raw[error.start]:02X}", hint="save the file as UTF-8"
             )
         ]
-    control = _CONTROL.search(text)
+    control = (_ASCII_CONTROL if text.isascii() else _CONTROL).search(text)
     if control:
         return None, [codes.BINARY.at(_at(path, text, control.start()), byte=f"U+{ord(control[0]):04X}")]
     return text, []

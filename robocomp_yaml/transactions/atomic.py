@@ -38,7 +38,8 @@ class FileStep(msgspec.Struct, frozen=True):
     """The change of one file: from `before` (None: the file does not exist) to `after` (None: the file is deleted).
 
     `mode` are the permissions of an existing file, None for a new one; `rights` are the permissions that group and
-    others may have at most. `orig` is a name under which the existing file is kept.
+    others may have at most. `orig` is a name under which the existing file is kept. `hash` is the digest of `after`, if
+    it is known.
     """
 
     path: str
@@ -48,6 +49,7 @@ class FileStep(msgspec.Struct, frozen=True):
     mode: int | None = None
     orig: str = ""
     rights: int = ANYBODY
+    hash: str = ""
 
 
 def carry_out(steps: Mapping[str, Sequence[FileStep]]) -> None:
@@ -229,7 +231,7 @@ def _mark(step: FileStep, number: int) -> Mark:
         new=f"{name}.new" if step.after is not None else "",
         old=f"{name}.old" if step.before is not None else "",
         orig=step.orig,
-        hash=digest(step.after) if step.after is not None else "",
+        hash=step.hash or (digest(step.after) if step.after is not None else ""),
         created=step.before is None,
     )
 

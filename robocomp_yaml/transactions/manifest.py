@@ -40,6 +40,7 @@ class _Known(msgspec.Struct):
 
 
 _decoder = msgspec.json.Decoder(_Known)
+_encoder = json.JSONEncoder(ensure_ascii=False)
 
 
 class Manifest(msgspec.Struct, frozen=True):
@@ -104,4 +105,5 @@ def any_has(file: str, hash_: str) -> bool:
 
 def _json(value: object) -> str:
     """The JSON of a value, in which bytes of file names that are not UTF-8 are escaped."""
-    return json.dumps(value, ensure_ascii=False).encode("utf-8", "backslashreplace").decode()
+    text = _encoder.encode(value)
+    return text if text.isascii() else text.encode("utf-8", "backslashreplace").decode()

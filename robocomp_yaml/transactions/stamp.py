@@ -76,7 +76,7 @@ def create(
     since."""
     try:
         return RunStamp(
-            _own_tool(),
+            own_tool(),
             {path: (real(path), f"{digest(data)} {_readers(os.stat(path)):o}") for path, data in inputs.items()},
             dict(states),
             dict(listed),
@@ -147,7 +147,7 @@ def save(folder: str, name: str, stamp: RunStamp) -> None:
 
 
 @functools.cache
-def _own_tool() -> str:
+def own_tool() -> str:
     """The identity of the rcyaml that this process runs, which stays the same if another one is installed meanwhile."""
     return tool()
 

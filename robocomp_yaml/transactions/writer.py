@@ -159,15 +159,15 @@ class _RootPlanner:
         elif status.problem:
             self._refuse(plan.path, status)
         else:
-            self._write(plan, PathStatus(), changes.CREATE)
-            self._enter(plan.path, digest(text), once=True)
+            self._write(plan, PathStatus(), changes.CREATE, text, hash_ := digest(text))
+            self._enter(plan.path, hash_, once=True)
             self._keep_base(plan, text)
 
     def _merge(self, plan: FilePlan, status: PathStatus, merge: Merge, entry: ManifestEntry | None) -> None:
         if merge.text == status.data:
             self._note(plan.path, changes.KEPT)
         else:
-            self._write(plan, status, changes.MERGE, merge.text)
+            self._write(plan, status, changes.MERGE, merge.text, digest(merge.text))
         self._enter(plan.path, digest_of_merge(entry, merge), once=True)
         self._keep_base(plan, merge.base)
 
@@ -177,17 +177,18 @@ class _RootPlanner:
         if status.problem:
             self._refuse(plan.path, status)
             return
+        hash_ = digest(text)
         if not status.exists:
-            self._write(plan, status, changes.CREATE)
+            self._write(plan, status, changes.CREATE, text, hash_)
         elif status.data == text:
             rights = self.rights_of(plan.sources)
             is_open = bool(status.mode) and status.mode != atomic.limited(status.mode, rights)
             if is_open or (plan.executable and status.mode and not status.mode & 0o100):
-                self._write(plan, status, changes.UPDATE)
+                self._write(plan, status, changes.UPDATE, text, hash_)
             else:
                 self._note(plan.path, changes.UNCHANGED)
         elif self._is_written_inside(plan) or self._is_generated(plan.path, status.data or b"", entry):
-            self._write(plan, status, changes.UPDATE)
+            self._write(plan, status, changes.UPDATE, text, hash_)
         elif not self.adopt and plan.stated_in and self._has_same_settings(plan, status, text):
             self._keep_same_settings(plan, text)
             return
@@ -195,10 +196,10 @@ class _RootPlanner:
             self._users_settings(plan, entry)
             return
         elif not plan.stated_in and entry and not entry.once:
-            change = self._write(plan, status, changes.EDITED)
+            change = self._write(plan, status, changes.EDITED, text, hash_)
             self._warn_edited(plan.path, f"your version is kept as '{os.path.basename(change.orig)}'")
         elif self.adopt or plan.stated_in or plan.takes_over:
-            self._write(plan, status, changes.ADOPT)
+            self._write(plan, status, changes.ADOPT, text, hash_)
         else:
             self._note(plan.path, changes.REFUSED, status.data, text)
             adopt = typed("rcyaml", "compile", "--adopt", self._owner(plan.path))
@@ -206,8 +207,8 @@ class _RootPlanner:
             at = Span(self.root.shown(plan.path))
             self.diagnostics.append(codes.NOT_GENERATED.at(at, path=plan.path, hint=hint))
             return
-        self.settled[plan.path] = digest(text)
-        self._enter(plan.path, self.settled[plan.path])
+        self.settled[plan.path] = hash_
+        self._enter(plan.path, hash_)
         if plan.base:
             self._keep_base(plan, plan.base.encode())
         elif entry:
@@ -282,9 +283,8 @@ class _RootPlanner:
             self.steps.append(atomic.FileStep(path, status.data, None, orig=orig))
             self._warn_edited(path, f"it is no longer generated, and is kept as '{os.path.basename(orig)}'")
 
-    def _write(self, plan: FilePlan, status: PathStatus, action: str, text: bytes | None = None) -> Change:
-        """Writes the text of the plan, or `text`."""
-        text = plan.text.encode() if text is None else text
+    def _write(self, plan: FilePlan, status: PathStatus, action: str, text: bytes, hash_: str) -> Change:
+        """Writes a text with this digest."""
         orig = self._orig(plan.path) if action in (changes.EDITED, changes.ADOPT) else ""
         mode = status.mode or None
         if mode and plan.executable:
@@ -292,7 +292,7 @@ class _RootPlanner:
             mode |= (mode & 0o444) >> 2
         if not self._is_written_inside(plan):
             before, rights = status.data if status.exists else None, self.rights_of(plan.sources)
-            self.steps.append(atomic.FileStep(plan.path, before, text, plan.executable, mode, orig, rights))
+            self.steps.append(atomic.FileStep(plan.path, before, text, plan.executable, mode, orig, rights, hash_))
         return self._note(plan.path, action, status.data, text, orig)
 
     def _orig(self, path: str) -> str:

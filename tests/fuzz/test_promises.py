@@ -21,7 +21,7 @@ from robocomp_yaml.link import deployment_documents
 from robocomp_yaml.parameters.patterns import pattern
 from robocomp_yaml.parameters.resolution import resolve as parameters
 from robocomp_yaml.parameters.specification import expression
-from robocomp_yaml.source import syntax, text, tree, xml
+from robocomp_yaml.source import composed, syntax, text, xml
 
 SPEECH = "module: RoboCompSpeech\ninterfaces: {Speech: {methods: {say: {in: {text: string}}}}}\n"
 COMPONENT = "component: SpeechComp\nlanguage: python\nimports: [Speech]\nimplements: [Speech]\n"
@@ -180,7 +180,7 @@ def test_the_watch_sees(tmp_path: Path) -> None:
 LIMITS = {
     "a document": text.MAX_DOCUMENT >> 20, "a legacy file": reading.MAX_SOURCE >> 20, "one text in a document": text.MAX_SCALAR >> 20,
     "nesting of YAML": syntax.MAX_DEPTH, "nesting of XML": xml.MAX_DEPTH, "nesting of a legacy file": grammar.MAX_DEPTH,
-    "values that aliases repeat": tree.MAX_ALIASED, "elements of an XML file": xml.MAX_ELEMENTS,
+    "values that aliases repeat": composed.MAX_ALIASED, "elements of an XML file": xml.MAX_ELEMENTS,
     "attributes of one element of XML": xml.MAX_ATTRIBUTES,
     "plain values of a component's parameters": parameters.MAX_VALUES, "types inside of types": parameters.MAX_DEPTH,
     "a constraint": expression.MAX_LENGTH, "nesting of a constraint": expression.MAX_DEPTH, "a count in a `pattern:`": pattern.MAX_COUNT,

@@ -56,7 +56,7 @@ def _make(folder: str, report: Report) -> None:
             report(KEPT, path)
     for name in ("interfaces", "components"):
         os.makedirs(os.path.join(folder, name), exist_ok=True)
-    changed = workspace_files.install(folder)
+    changed = workspace_files.install(folder).changed
     schemas = [path for path in changed if os.path.basename(os.path.dirname(path)) == "schemas"]
     if schemas:
         report(WROTE, f"{os.path.dirname(schemas[0])}/ ({len(schemas)} file{'s' * (len(schemas) > 1)})")

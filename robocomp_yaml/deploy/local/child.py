@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import functools
 import os
 import signal
 import subprocess
@@ -13,7 +12,7 @@ from contextlib import suppress
 from typing import Any
 
 from robocomp_yaml.deploy.local import procfs, program
-from robocomp_yaml.deploy.local.kernel import OpenFiles, die_with, tie
+from robocomp_yaml.deploy.local.kernel import OpenFiles, death_with_this, tie
 from robocomp_yaml.deploy.local.log_file import LogFile
 from robocomp_yaml.deploy.states import ENDED, ENDS, GIVEN_UP, RUNNING, STOPPED, WAITING
 from robocomp_yaml.network import limit_words
@@ -217,7 +216,7 @@ class ChildProcess:
             started = subprocess.Popen(
                 [*tie(), *prefix, found, *command[1:]], cwd=folder or "/", env=environment, stdin=subprocess.DEVNULL,
                 stdout=written, stderr=written, start_new_session=True,
-                preexec_fn=None if tie() else functools.partial(die_with, os.getpid()),
+                preexec_fn=None if tie() else death_with_this(),
             )  # fmt: skip
         except BaseException:
             os.close(output)

@@ -7,7 +7,6 @@ import contextlib
 import os
 import signal
 from collections.abc import AsyncGenerator, Collection, Iterable, Iterator, Sequence
-from functools import partial
 from typing import Any
 
 from robocomp_yaml.deploy import folder as own_folder
@@ -17,7 +16,7 @@ from robocomp_yaml.deploy.engine import HALTED, KILLED, STOP_WITHIN, DeployFaile
 from robocomp_yaml.deploy.local import client, procfs, record
 from robocomp_yaml.deploy.local.channel import PROTOCOL
 from robocomp_yaml.deploy.local.client import Client, RequestFailed, SupervisorGone
-from robocomp_yaml.deploy.local.kernel import die_with
+from robocomp_yaml.deploy.local.kernel import death_with_this
 from robocomp_yaml.deploy.local.log_reader import LogReader, merged
 from robocomp_yaml.deploy.local.obstacles import (
     CheckedSpecs,
@@ -177,7 +176,7 @@ class LocalEngine:
             started = await asyncio.create_subprocess_exec(
                 *command, cwd=process.cwd or None, env=whole_environment_of(process), stdin=asyncio.subprocess.DEVNULL,
                 stdout=asyncio.subprocess.DEVNULL, stderr=asyncio.subprocess.DEVNULL, start_new_session=True,
-                preexec_fn=partial(die_with, os.getpid()),
+                preexec_fn=death_with_this(),
             )  # fmt: skip
         except OSError:
             return 127

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 
-import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml.diag.codes import values as codes
@@ -14,32 +13,17 @@ from robocomp_yaml.parameters.documents import LayeredValues
 from robocomp_yaml.parameters.layers.effective import Effective
 from robocomp_yaml.parameters.layers.settings import PREFIX, merged_entries, settings
 from robocomp_yaml.parameters.types import Parameters
-from robocomp_yaml.parameters.writing.write import Property, Writer
+from robocomp_yaml.parameters.writing.sections import CLASSIC, FLAT_TOML, Property, Section, dialect, section_text
+from robocomp_yaml.parameters.writing.write import Writer
 from robocomp_yaml.semantics.spellings import quotes_texts
 from robocomp_yaml.semantics.texts import unquoted
-from robocomp_yaml.source.properties import VALUES_HEAD, entry_line, unwritable
+from robocomp_yaml.source.properties import VALUES_HEAD, unwritable
 from robocomp_yaml.source.tree import Scalar
 
-CLASSIC, FLAT_TOML, TOML = "classic", "flat-toml", "toml"
 _TITLES = {
     "endpoints": "Where this component serves its interfaces", "proxies": "Where the components are that it requires",
     "topics": "Topics", "ice": "Ice", "properties": "Others",
 }  # fmt: skip
-
-
-class Section(msgspec.Struct, frozen=True):
-    """Related properties under a title."""
-
-    title: str
-    properties: list[Property] = []
-
-
-def dialect(values: LayeredValues) -> str:
-    """The dialect of the property file: CLASSIC, FLAT_TOML or TOML."""
-    for layer in reversed(values.layers()):
-        if found := text(layer.document.root.get("legacy"), "dialect"):
-            return found
-    return CLASSIC
 
 
 def legacy_file(values: LayeredValues) -> str:
@@ -98,18 +82,6 @@ def property_text(sections: list[Section], name: str, source: str) -> str:
     """The text of `etc/config` of a component. `source` is the path of the values document, relative to the file."""
     head = f"# Configuration of {name}, {VALUES_HEAD} {source}: change it there, and compile again."
     return f"{head}\n{section_text(sections)}"
-
-
-def section_text(sections: list[Section]) -> str:
-    lines = []
-    for section in sections:
-        lines += ["", f"# {section.title}.", *(entry_line(made.key, made.value) for made in section.properties)]
-    return "".join(f"{line}\n" for line in lines)
-
-
-def secret_keys(sections: list[Section]) -> tuple[str, ...]:
-    """The names of the secret properties."""
-    return tuple(sorted(made.key for section in sections for made in section.properties if made.secret))
 
 
 def _exact(made: Property, original: str | None) -> Property:

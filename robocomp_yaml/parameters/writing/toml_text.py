@@ -19,7 +19,8 @@ from robocomp_yaml.parameters.types import (
     Type,
     leaves,
 )
-from robocomp_yaml.parameters.writing.properties import CLASSIC, Section, dialect, legacy_file, properties
+from robocomp_yaml.parameters.writing.properties import legacy_file, properties
+from robocomp_yaml.parameters.writing.sections import CLASSIC, Section, dialect
 from robocomp_yaml.semantics import connections
 from robocomp_yaml.semantics.spellings import placeholders
 from robocomp_yaml.semantics.texts import unquoted

@@ -9,9 +9,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import msgspec
-from msgspec.structs import replace
 
-from robocomp_yaml import secrets
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
@@ -32,7 +30,7 @@ from robocomp_yaml.parameters.types import (
     is_secret,
     is_text,
 )
-from robocomp_yaml.secrets import HIDDEN
+from robocomp_yaml.parameters.writing.sections import Property
 from robocomp_yaml.semantics import spellings
 from robocomp_yaml.semantics.paths import Path, Step, escaped, in_words
 from robocomp_yaml.semantics.references import FILE, is_reference
@@ -43,21 +41,6 @@ from robocomp_yaml.source.properties import unwritable
 from robocomp_yaml.source.tree import Scalar
 
 _EMPTY_OPTIONAL = "an empty optional value would be read as a missing one"
-
-
-class Property(msgspec.Struct, frozen=True):
-    """One line of a property file. `read` returns the value that another text would have (None if the text is the
-    value), so that another spelling of the same value is possible. `secret`: the value is secret."""
-
-    key: str
-    value: str
-    span: Span | None = None
-    read: Callable[[str], Any] | None = None
-    secret: bool = False
-
-    def hidden(self) -> Property:
-        """The line as it may be shown."""
-        return replace(self, value=HIDDEN if self.secret else secrets.value(self.key, self.value))
 
 
 class _Position(msgspec.Struct, frozen=True):

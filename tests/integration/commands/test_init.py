@@ -18,6 +18,7 @@ Run = Callable[..., Result]
 OWN_FILES = {
     "rcyaml.yaml", ".gitignore", ".vscode/settings.json",
     *(f".rcyaml/schemas/{kind}.schema.json" for kind in ("idsl", "cdsl", "pdsl", "ddsl", "config", "workspace", "mock")),
+    ".rcyaml/stamps/.gitignore", ".rcyaml/stamps/schemas",
 }  # fmt: skip
 EXAMPLE = {"interfaces/Hello.idsl.yaml", "components/hellocomp/hellocomp.cdsl.yaml"}
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
@@ -14,12 +15,12 @@ KINDS = ("idsl", "cdsl", "pdsl", "ddsl", "config", "workspace", "mock")
 EVERYTHING = {*(f".rcyaml/schemas/{kind}.schema.json" for kind in KINDS), ".vscode/settings.json"}
 
 
-def relative(paths: list[str], folder: Path) -> set[str]:
+def relative(paths: Sequence[str], folder: Path) -> set[str]:
     return {os.path.relpath(path, folder) for path in paths}
 
 
 def test_a_new_workspace_gets_schemas_and_settings(tmp_path: Path) -> None:
-    assert relative(workspace_files.install(tmp_path), tmp_path) == EVERYTHING
+    assert relative(workspace_files.install(str(tmp_path)).changed, tmp_path) == EVERYTHING
     wired = json.loads((tmp_path / ".vscode/settings.json").read_text())["yaml.schemas"]
     assert all((tmp_path / schema).is_file() for schema in wired)
     assert wired[".rcyaml/schemas/cdsl.schema.json"] == ["*.cdsl.yaml", "cdsl.yaml"]
@@ -27,13 +28,26 @@ def test_a_new_workspace_gets_schemas_and_settings(tmp_path: Path) -> None:
 
 def test_nothing_is_written_twice(tmp_path: Path) -> None:
     workspace_files.install(tmp_path)
-    assert workspace_files.install(tmp_path) == []
+    assert not workspace_files.install(str(tmp_path)).changed
+
+
+def test_schemas_are_made_again_only_for_other_names(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    workspace_files.install(str(tmp_path))
+    made = list[str]()
+    schema_of = workspace_files.schema_of
+    monkeypatch.setattr(workspace_files, "schema_of", lambda kind, *rest: made.append(kind) or schema_of(kind, *rest))
+    workspace_files.install(str(tmp_path))
+    assert made == []
+    (tmp_path / "left.cdsl.yaml").write_text("component: Left\nlanguage: python\n")
+    changed = workspace_files.install(str(tmp_path)).changed
+    assert relative(changed, tmp_path) == {".rcyaml/schemas/ddsl.schema.json"}
+    assert set(made) == set(KINDS)
 
 
 def test_an_older_schema_is_brought_up_to_date(tmp_path: Path) -> None:
     workspace_files.install(tmp_path)
     (tmp_path / ".rcyaml/schemas/idsl.schema.json").write_text("{}")
-    assert relative(workspace_files.install(tmp_path), tmp_path) == {".rcyaml/schemas/idsl.schema.json"}
+    assert relative(workspace_files.install(str(tmp_path)).changed, tmp_path) == {".rcyaml/schemas/idsl.schema.json"}
 
 
 def test_the_users_settings_are_kept(tmp_path: Path) -> None:
@@ -54,7 +68,7 @@ def test_unreadable_settings_are_not_changed(tmp_path: Path, content: bytes, rea
     settings = tmp_path / ".vscode/settings.json"
     settings.parent.mkdir()
     settings.write_bytes(content)
-    assert relative(workspace_files.install(tmp_path), tmp_path) == EVERYTHING - {".vscode/settings.json"}
+    assert relative(workspace_files.install(str(tmp_path)).changed, tmp_path) == EVERYTHING - {".vscode/settings.json"}
     assert settings.read_bytes() == content
     assert reason in workspace_files.settings_problem(tmp_path)
 
