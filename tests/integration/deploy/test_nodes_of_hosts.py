@@ -64,6 +64,11 @@ def ensure(files: GridFiles, monkeypatch: pytest.MonkeyPatch) -> Ensure:
         monkeypatch.setattr(start_up, "until", until)
         monkeypatch.setattr(daemons, "write_script", lambda files, host, hosts, registry: f"/{host.name}.sh")
         any_grid: Any = grid
+        any_grid.files = files
+        for host in HOSTS:  # no node has lost its folder
+            folder = Path(files.root, "nodes", host.name)
+            folder.mkdir(parents=True, exist_ok=True)
+            Path(folder, "run").touch()
         return waited, start_up.ensure_nodes(any_grid, files, NETWORK, HOSTS)
 
     return run
