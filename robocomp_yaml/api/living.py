@@ -8,12 +8,11 @@ analysis.
 
 from __future__ import annotations
 
-import gc
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable
 
 from robocomp_yaml.api.workspace import Workspace
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.garbage import uncollected
 from robocomp_yaml.memory import Memory
 from robocomp_yaml.pipeline import alone
 from robocomp_yaml.source.disk import Disk, KeptFiles
@@ -45,19 +44,15 @@ class LivingWorkspace:
         """Files may have changed on the disk: they are read again, and `look` notices what has changed."""
         self._files.renew()
 
-    def forget(self) -> None:
-        """The next `load` reads all files, so that its result depends on nothing that was read before."""
-        self._files.forget()
-
     def look(self, *paths: str, on_read: Callable[[str], None] | None = None) -> Workspace:
         """The documents at these paths, which may be others than those of this workspace, and all that they refer to.
         Does not notice changes on the disk since the last `refresh` or `load`."""
-        with _uncollected():
+        with uncollected():
             return Workspace(paths, self.include, self.unsaved, on_read, self._memory, self._files)
 
     def glance(self, path: str) -> list[Diagnostic]:
         """The diagnostics of a document by itself, of its syntax and shape. Nothing else is read."""
-        with _uncollected():
+        with uncollected():
             return alone(path, self.unsaved, self._memory, self._files)
 
     def load(
@@ -73,15 +68,3 @@ class LivingWorkspace:
             self._memory.on_make = lambda: None
         self._memory.forget_unused()
         return workspace
-
-
-@contextmanager
-def _uncollected() -> Iterator[None]:
-    """Without the garbage collector, which would visit all kept documents while new ones are made."""
-    was_enabled = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_enabled:
-            gc.enable()

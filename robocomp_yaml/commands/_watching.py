@@ -23,6 +23,7 @@ from robocomp_yaml.api.workspace import Workspace
 from robocomp_yaml.diag import extras, terminal
 from robocomp_yaml.diag.errors import Faulty, Refused, reason_of
 from robocomp_yaml.diag.render import tell
+from robocomp_yaml.garbage import settle
 
 PAUSE, LONGEST = 100, 3000  # milliseconds
 _LOOK = 1.0  # seconds after which the watched folders are looked at
@@ -78,8 +79,7 @@ def watch(
         raise click.UsageError(f"--watch needs watchfiles: {extras.command('watch')}", ctx) from None
     loop = _Loop(paths, LivingWorkspace(paths, include), run, Queue(), watchfiles, os.getcwd())
     loop.run_once()
-    gc.collect()
-    gc.freeze()  # the collector need not visit the kept documents
+    settle()
     loop.watch()
     if ctx.obj.verbosity >= 0:
         terminal.say(f"watching {shown(loop.watcher.paths) or 'nothing'}; Ctrl-C ends it", err=True)

@@ -158,8 +158,9 @@ def _listed(outcome: Outcome, verbose: bool) -> Iterator[str]:
     if not listed:
         return
     from robocomp_yaml.emit.layout import GENERATED  # unused if nothing is written
+    from robocomp_yaml.source.relative import relative
 
-    tops = {file: _below(file.root, file.path).partition("/") for file in listed}
+    tops = {file: relative(file.path, file.root).partition("/") for file in listed}
     parted = {file.root for file, (top, _, _) in tops.items() if top == GENERATED}
     groups: dict[tuple[str, str, str], list[File]] = {}
     for file, (top, slash, _) in tops.items():
@@ -173,12 +174,6 @@ def _listed(outcome: Outcome, verbose: bool) -> Iterator[str]:
         for file in group:
             kept = f" (yours is {file.orig})" if file.orig else " (yours)" if action == "kept" else ""
             yield f"{words[action]:<{width}}  {file.path}{kept}"
-
-
-def _below(root: str, path: str) -> str:
-    """`os.path.relpath`, which takes as long as writing the file."""
-    head = f"{root}/"
-    return path[len(head) :] if path.startswith(head) else os.path.relpath(path, root)
 
 
 def _is_listed(file: File, changed: set[str], *, verbose: bool) -> bool:

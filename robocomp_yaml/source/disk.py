@@ -81,11 +81,6 @@ class KeptFiles(Files):
         answer: _Answer = self._answers[known]
         return answer
 
-    def forget(self) -> None:
-        self._answers.clear()
-        self.reals.forget()
-        self._version = object()
-
     def renew(self) -> None:
         """Repeats all requests."""
         is_same = True

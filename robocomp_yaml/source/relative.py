@@ -6,9 +6,9 @@ import os
 
 
 def relative(path: str, start: str) -> str:
-    """The path relative to a folder, as `os.path.relpath` returns it; '' is the working folder. Of two relative paths,
-    the working folder need not be known."""
-    if path[:1] == "/" or start[:1] == "/" or ".." in path or ".." in start:
+    """The path relative to a folder, as `os.path.relpath` returns it; '' is the working folder. Of two relative or two
+    absolute paths, the working folder need not be known, and less is computed."""
+    if (path[:1] == "/") != (start[:1] == "/") or ".." in path or ".." in start:
         return os.path.relpath(path or ".", start or ".")
     parts, above = _parts(path), _parts(start)
     common = 0
