@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -67,6 +68,18 @@ def test_a_missing_method_of_the_user(tmp_path: Path) -> None:
     (root / "all.cpp").write_text('#include "generated/main.cpp"\n#include "generated/genericworker.cpp"\n')
     done = subprocess.run([*SYNTAX, *slices(root), "all.cpp"], cwd=root, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
+
+
+def test_code_for_another_run_time(tmp_path: Path) -> None:
+    """The compiler refuses it, whatever builds it."""
+    root = build({"x.cdsl.yaml": "component: X\nlanguage: cpp\n"}, tmp_path)["X"].root
+    main = root / "generated" / "main.cpp"
+    command = [*SYNTAX, *slices(root), "generated/main.cpp"]
+    assert subprocess.run(command, cwd=root, capture_output=True, text=True).stderr == ""
+    main.write_text(re.sub('isVersion\\("[^"]*"', 'isVersion("another"', main.read_text()))
+    done = subprocess.run(command, cwd=root, capture_output=True, text=True)
+    assert done.returncode != 0
+    assert "this was generated for another run time than the one that it is built with: rcyaml compile" in done.stderr
 
 
 def test_a_method_that_no_longer_fits(tmp_path: Path) -> None:
