@@ -57,7 +57,10 @@ def choose(
         if has_errors(found[0].analysis.diagnostics):
             raise _faulty(found[0].analysis)
         return _with(found[0], overrides, folders)
-    broken = [analysis for path, analysis in analyses.items() if os.path.realpath(path) not in analysis.networks]
+    broken = [
+        analysis for path, analysis in analyses.items()
+        if os.path.realpath(path) not in analysis.networks or (deployment and has_errors(analysis.diagnostics))
+    ]  # fmt: skip
     if broken:
         raise _faulty(*broken)
     try:

@@ -306,12 +306,18 @@ groups:
         (["robot.ddsl.yaml"], 2, "which of its entries? `rcyaml run robot.ddsl.yaml NAME`"),
         (["robot.ddsl.yaml", "amr"], 2, "did you mean 'arm'?"),
         (["arm", "--alone", "--deployment", "robot.ddsl.yaml"], 2, "--alone and --deployment exclude each other"),
+        (
+            ["cam", "--deployment", "parts/bad.ddsl.yaml"],
+            1,
+            "error[RC4008]: 'cam' has instances, but no {i} in its name",
+        ),
         (["leg", "--deployment", "far.ddsl.yaml"], 1, "error[RC7008]: 'leg' runs on the host 'far' (192.0.2.9)"),
     ],
 )
 def test_what_is_refused(tmp_path: Path, rcyaml: Rcyaml, words: list[str], code: int, said: str) -> None:
     far = "deployment: Far\nhosts: {far: 192.0.2.9}\ncomponents: {leg: {program: 'true', host: far}}\n"
-    write_tree(tmp_path, {"robot.ddsl.yaml": MANY, "far.ddsl.yaml": far})
+    bad = "deployment: Bad\ncomponents: {cam: {program: 'true', instances: 2}}\n"
+    write_tree(tmp_path, {"robot.ddsl.yaml": MANY, "far.ddsl.yaml": far, "parts/bad.ddsl.yaml": bad})
     done = rcyaml("run", *words)
     assert (done.exit_code, said in done.stderr) == (code, True), done.stderr
 
