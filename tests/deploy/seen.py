@@ -59,16 +59,19 @@ def pings(proxy: str) -> bool:
         return answers(ice, proxy)
 
 
-def agreed(folder: str, ask: Callable[[], Told], told: Callable[[Told], Mapping[str, tuple[str, int]]]) -> Told:
+def agreed(
+    folder: str, ask: Callable[[], Told], told: Callable[[Told], Mapping[str, tuple[str, int]]], *there: str
+) -> Told:
     """The answer of `ask`, as soon as /proc agrees with it: what it says has a pid runs, with that pid and under its
-    name; of what it says has ended, nothing runs. `told` are the states and pids in an answer."""
+    name; of what it says has ended, nothing runs. `told` are the states and pids in an answer, `there`
+    the deployment's folders on hosts that have one of their own."""
     answer: list[Told] = []
 
     def faults() -> list[str]:
         answer[:] = [ask()]
         found = []
         for name, (state, pid) in told(answer[0]).items():
-            running = programs(folder, name)
+            running = [pid for each in (folder, *there) for pid in programs(each, name)]
             if (pid and pid not in running) or (state in (STOPPED, GIVEN_UP, ENDED) and running):
                 found.append(f"{name} is told to be {state} with pid {pid}, and /proc has {running}")
         return found

@@ -67,12 +67,13 @@ def arm(tmp_path: Path) -> Iterator[Deployment]:
                 "Mouth.idsl.yaml": INTERFACES, "mouth/mouth.cdsl.yaml": MOUTH,
             })  # fmt: skip
             (root / "gripper").chmod(0o755)
-            deployment = Deployment(hosts, root, {"XDG_STATE_HOME": str(tmp_path / "state")})
+            folder = f"{there}/.rcyaml/deployments/Talk"
+            deployment = Deployment(hosts, root, {"XDG_STATE_HOME": str(tmp_path / "state")}, (folder,))
             try:
                 deployment.rcyaml("compile")
                 yield deployment
             finally:
-                kill_left(f"{there}/.rcyaml/deployments/Talk")
+                kill_left(folder)
                 deployment.clean_up()
 
 

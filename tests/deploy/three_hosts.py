@@ -171,6 +171,8 @@ class Deployment:
     hosts: Hosts
     root: Path
     environment: dict[str, str] = field(default_factory=dict)
+    there: tuple[str, ...] = ()
+    """The deployment's folders on hosts that have one of their own."""
 
     @property
     def folder(self) -> str:
@@ -203,7 +205,7 @@ class Deployment:
             said = json.loads(self.deploy("status", "--format", "json", code=None))
             return {one["name"]: one for one in said["processes"]}
 
-        return agreed(self.folder, ask, states)
+        return agreed(self.folder, ask, states, *self.there)
 
     def pids(self) -> dict[str, int]:
         return {name: one["pid"] for name, one in self.status().items()}
