@@ -83,7 +83,7 @@ def test_an_unreadable_file(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.Mon
         def refuse(*args: object, **kwargs: object) -> None:
             raise PermissionError(13, "Permission denied")
 
-        monkeypatch.setattr(text, "open", refuse, raising=False)
+        monkeypatch.setattr(text, "whole", refuse)
     assert first_lines(rcyaml("check"))[0] == "error[RC0001]: cannot read this file: permission denied"
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -54,7 +55,10 @@ def modules_of(command: str, folder: Path) -> set[str]:
     """The modules that are imported when a command of rcyaml has ended."""
     code = f"import sys; from robocomp_yaml.cli import group; group({command.split()}, standalone_mode=False)"
     ended = "; print('', *sys.modules, file=sys.stderr)"
-    done = subprocess.run([sys.executable, "-c", code + ended], capture_output=True, text=True, check=True, cwd=folder)
+    own = {**os.environ, "XDG_STATE_HOME": str(folder / "state")}  # with a list of deployments of its own
+    done = subprocess.run(
+        [sys.executable, "-c", code + ended], capture_output=True, text=True, check=True, cwd=folder, env=own
+    )
     return set(done.stderr.split())
 
 
