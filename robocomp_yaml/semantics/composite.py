@@ -6,7 +6,7 @@ All values are immutable: lists become tuples, maps read-only mappings, records 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from types import MappingProxyType
 from typing import Any, Union
 
@@ -156,6 +156,14 @@ class RecordKind:
             object.__setattr__(made, member.attribute, self._member(member, raw, (*path, member.key), conversion))
         return made
 
+    def changed(self, record: Any, raw: Mapping[str, Any], keys: Collection[str], conversion: Conversion) -> Any:
+        """A copy of a record in which the members with these keys are converted from `raw`."""
+        made = self.made()
+        for key, member in self.members.items():
+            value = self._member(member, raw, (key,), conversion) if key in keys else getattr(record, member.attribute)
+            object.__setattr__(made, member.attribute, value)
+        return made
+
     def _member(self, member: RecordMember, raw: Mapping[str, Any], path: Path, conversion: Conversion) -> Any:
         if member.key in raw:
             return member.kind.convert(raw[member.key], path, conversion)
@@ -180,10 +188,15 @@ def data(kind: Kind, value: Any) -> Any:
     """A value as plain data: dictionaries, lists, numbers, texts. Missing optional members are omitted. References that
     are not resolved are as documents spell them."""
     if isinstance(kind, RecordKind):
-        pairs = ((member, getattr(value, member.attribute)) for member in kind.members.values())
-        return {member.key: data(member.kind, item) for member, item in pairs if item is not None}
+        return members_data(kind, value, kind.members)
     if isinstance(kind, ListKind):
         return [data(kind.element, item) for item in value]
     if isinstance(kind, MapKind):
         return {name: data(kind.element, item) for name, item in value.items()}
     return dict(value.data) if isinstance(value, Unresolved) else value
+
+
+def members_data(kind: RecordKind, record: Any, keys: Collection[str]) -> dict[str, Any]:
+    """Those members of a record that have these keys, as plain data."""
+    pairs = ((member, getattr(record, member.attribute)) for key, member in kind.members.items() if key in keys)
+    return {member.key: data(member.kind, item) for member, item in pairs if item is not None}

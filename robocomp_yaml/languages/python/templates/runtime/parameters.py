@@ -12,7 +12,7 @@ from typing import Any, Callable
 
 from generated.runtime.editing import Entry, at, differences, flat, plain_values, put
 from generated.runtime.semantics import texts
-from generated.runtime.semantics.composite import Record, RecordKind, data
+from generated.runtime.semantics.composite import Record, RecordKind, members_data
 from generated.runtime.semantics.constraints import Constraint
 from generated.runtime.semantics.paths import Path, dotted, in_words, parse
 from generated.runtime.semantics.plain import Conversion, PlainKind
@@ -128,11 +128,13 @@ class Store:
     def change(self, values: Mapping[str, Any]) -> None:
         with self._lock:
             conversion = Conversion()
-            changed = data(self.kind, self.values)
+            steps = {path: parse(path) for path in values}
+            keys = {each[0] for each in steps.values() if each}  # only these members are converted again
+            changed = members_data(self.kind, self.values, keys)
             for path, value in values.items():
-                if not put(self.kind, changed, parse(path), value):
+                if not put(self.kind, changed, steps[path], value):
                     conversion.reject((), f"unknown parameter '{path}'")
-            made = self.kind.convert(changed, (), conversion) if not conversion.problems else None
+            made = self.kind.changed(self.values, changed, keys, conversion) if not conversion.problems else None
             self._replace(made, conversion)
         self._notify()
 
