@@ -208,6 +208,27 @@ def test_a_killed_guard_of_a_node_has_a_successor(place: Place, rcyaml: Rcyaml, 
 
 @pytest.mark.slow
 @needs_icegrid
+def test_a_killed_guard_of_the_registry_has_a_successor(place: Place, rcyaml: Rcyaml, grid: str) -> None:
+    registry = Path(place.folder, "state/icegrid/registry")
+
+    def guard() -> int:
+        return int((registry / "pid").read_text())
+
+    for _ in range(2):
+        killed = guard()
+        os.kill(killed, signal.SIGKILL)
+        until(lambda killed=killed: guard() != killed, "a successor")
+    (program,) = those(place, is_program("icegridregistry"))
+    os.kill(program, signal.SIGKILL)
+    until(lambda: not is_alive(program) and len(those(place, is_program("icegridregistry"))) == 1, "a registry")
+    assert rcyaml("deploy", "status", grid).exit_code == 0
+    os.kill(guard(), signal.SIGKILL)
+    assert rcyaml("deploy", "down", grid).exit_code == 0
+    until(lambda: not procfs.marked(place.folder), lambda: str([*map(procfs.command, procfs.marked(place.folder))]))
+
+
+@pytest.mark.slow
+@needs_icegrid
 def test_a_program_that_nobody_asks_is_told_with_icegrid(place: Place, rcyaml: Rcyaml, grid: str) -> None:
     (pid,) = programs(place.folder, "base")
     halt(pid)

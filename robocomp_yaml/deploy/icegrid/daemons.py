@@ -15,6 +15,7 @@ import signal
 import socket
 import subprocess
 from collections.abc import Collection, Mapping, Sequence
+from contextlib import suppress
 
 import msgspec
 
@@ -25,8 +26,11 @@ from robocomp_yaml.deploy.icegrid import settings
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry
 from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.own_address import own_address
+from robocomp_yaml.deploy.time_limit import until
 from robocomp_yaml.network.network import LOOPBACK, NetworkHost
 from robocomp_yaml.source.properties import entry_line
+
+_BEGINS_WITHIN = 5.0  # seconds
 
 
 def as_text(properties: Mapping[str, str]) -> str:
@@ -41,8 +45,23 @@ def start_registry(files: GridFiles, registry: Registry) -> None:
     text = as_text(settings.of_registry(files, registry))
     own_folder.write(files.folder, "state/icegrid/registry/settings", text)
     own_folder.write(files.folder, "state/icegrid/registry/guard", resources.text("templates/icegrid/guard"))
-    command = ["bash", f"{own}/guard", own, "icegridregistry", f"--Ice.Config={own}/settings"]
-    start_detached(command, files.folder)
+    start_detached(["bash", f"{own}/guard", *_registry_program(files)], files.folder)
+
+
+def succeed_guard(files: GridFiles) -> None:
+    """Starts a successor of the registry's guard, if that was killed. Returns when it runs. Raises OSError."""
+    own = files.registry_folder
+    pid = _pid(own, "pid")
+    if pid is not None and f"{own}/guard" not in procfs.command(pid):
+        command = ["bash", f"{own}/guard", "--watch", "killed", *_registry_program(files)]
+        start_detached(command, files.folder)
+        until(lambda: _pid(own, "pid") != pid, _BEGINS_WITHIN)
+
+
+def _registry_program(files: GridFiles) -> list[str]:
+    """The folder and the command that the registry's guard is given."""
+    own = files.registry_folder
+    return [own, "icegridregistry", f"--Ice.Config={own}/settings"]
 
 
 def start_detached(command: Sequence[str], folder: str, **environment: str) -> int:
@@ -74,13 +93,19 @@ def end_hung(folder: str) -> None:
 
 def _signal(folder: str, file_name: str, word: str, number: int) -> None:
     """Sends a signal to the process whose pid is in the file, if this word is in its command: a pid can be reused."""
+    pid = _pid(folder, file_name)
+    if pid is not None and word in procfs.command(pid):
+        with suppress(OSError):
+            os.kill(pid, number)
+
+
+def _pid(folder: str, file_name: str) -> int | None:
+    """The pid in the file, None without one."""
     try:
         with open(f"{folder}/{file_name}", encoding="ascii") as file:
-            pid = int(file.read())
-        if word in procfs.command(pid):
-            os.kill(pid, number)
+            return int(file.read())
     except (OSError, ValueError):
-        return
+        return None
 
 
 def last_words(folder: str) -> str:

@@ -3,7 +3,7 @@
 A process that ends is restarted on its own host, by `run`, without the registry. The keeper does what `run` cannot do,
 because the node or `run` itself was killed: it starts each desired process that neither runs nor has ended for good,
 with a delay that doubles while this fails. It also ends processes that were moved away from a host which did not answer
-at that time.
+at that time. And it starts a successor of the registry's guard, if that was killed.
 """
 
 from __future__ import annotations
@@ -12,13 +12,14 @@ import signal
 import sys
 import threading
 import time
+from contextlib import suppress
 from typing import Any
 
 import Ice
 import IceGrid
 
 from robocomp_yaml.deploy.here import is_near
-from robocomp_yaml.deploy.icegrid import leftovers
+from robocomp_yaml.deploy.icegrid import daemons, leftovers
 from robocomp_yaml.deploy.icegrid.grid import GridFailed, GridSession, Unreachable
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles
 from robocomp_yaml.deploy.icegrid.status import is_over
@@ -99,6 +100,8 @@ class Keeper:
             if not self.over.is_set():
                 self._restart(grid)
                 leftovers.end_all(grid)
+                with suppress(OSError):  # tried again
+                    daemons.succeed_guard(self.files)
 
     def _pause(self) -> float:
         now = time.monotonic()
