@@ -143,8 +143,9 @@ def properties(path: str) -> dict[str, str]:
     callers verify the name or the address that they call."""
     return {
         "Ice.Plugin.IceSSL": "IceSSL:createIceSSL",
-        "IceSSL.CertFile": path,
-        "IceSSL.CAs": path,
+        "IceSSL.DefaultDir": os.path.dirname(path),
+        "IceSSL.CertFile": (name := os.path.basename(path)),  # a list of paths for Ice
+        "IceSSL.CAs": name,
         "IceSSL.VerifyPeer": "2",
         "IceSSL.CheckCertName": "1",
         "IceSSL.Protocols": "tls1_2, tls1_3",

@@ -15,6 +15,7 @@ import msgspec
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.deployment import CONFIG, PLAIN, TLS, TOKEN, ResourceLimits
 from robocomp_yaml.model.located import Located
+from robocomp_yaml.source.properties import config_option
 
 if TYPE_CHECKING:
     from robocomp_yaml.parameters.editing.settings import ShownSetting
@@ -253,6 +254,8 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
     def words(self, config: str) -> tuple[str, ...]:
         """The program and its arguments, with the path of its configuration, `config`."""
         program, *arguments = self.command
+        if self.kind == ICESTORM and config:
+            return program, config_option(config)
         return program, *(word.replace(CONFIG, config) for word in arguments)
 
 

@@ -137,6 +137,14 @@ def entry_line(key: str, value: str) -> str:
     return f"{name}={blank * before}{_escaped(inner)}{blank * after}"
 
 
+def config_option(path: str) -> str:
+    """The option with which an Ice program reads this file. Ice takes a list of files, separated by commas."""
+    if any(char in path for char in "'\",#"):
+        quoted = path.replace('"', '\\"')
+        path = _escaped(f'"{quoted}"')
+    return f"--Ice.Config={path}"
+
+
 def _escaped(text: str) -> str:
     return text.replace("\\", "\\\\").replace("#", "\\#")
 

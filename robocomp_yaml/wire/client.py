@@ -12,6 +12,7 @@ import msgspec
 
 from robocomp_yaml.diag.errors import Refused
 from robocomp_yaml.patterns import pattern
+from robocomp_yaml.source.properties import config_option
 from robocomp_yaml.wire.interfaces import Operation
 
 _PROPERTIES = {
@@ -117,7 +118,7 @@ def client(
     Ice cannot be initialized with it."""
     data = Ice.InitializationData()
     try:
-        data.properties = Ice.createProperties([f"--Ice.Config={config}"] if config else [])
+        data.properties = Ice.createProperties([config_option(config)] if config else [])
         for name, value in {**_PROPERTIES, **(properties or {})}.items():
             if not data.properties.getProperty(name):
                 data.properties.setProperty(name, value)

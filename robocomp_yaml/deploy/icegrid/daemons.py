@@ -28,7 +28,7 @@ from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.own_address import own_address
 from robocomp_yaml.deploy.time_limit import until
 from robocomp_yaml.network.network import LOOPBACK, NetworkHost
-from robocomp_yaml.source.properties import entry_line
+from robocomp_yaml.source.properties import config_option, entry_line
 
 _BEGINS_WITHIN = 5.0  # seconds
 
@@ -61,7 +61,7 @@ def succeed_guard(files: GridFiles) -> None:
 def _registry_program(files: GridFiles) -> list[str]:
     """The folder and the command that the registry's guard is given."""
     own = files.registry_folder
-    return [own, "icegridregistry", f"--Ice.Config={own}/settings"]
+    return [own, "icegridregistry", config_option(f"{own}/settings")]
 
 
 def start_detached(command: Sequence[str], folder: str, **environment: str) -> int:
@@ -88,7 +88,7 @@ def kill(folder: str) -> None:
 
 def end_hung(folder: str) -> None:
     """Kills the daemon of this folder, which does not answer. Its guard starts it again."""
-    _signal(folder, "program", f"--Ice.Config={folder}/settings", signal.SIGKILL)
+    _signal(folder, "program", config_option(f"{folder}/settings"), signal.SIGKILL)
 
 
 def _signal(folder: str, file_name: str, word: str, number: int) -> None:
@@ -124,6 +124,7 @@ def write_script(files: GridFiles, host: NetworkHost, hosts: Collection[NetworkH
     facts = {
         "folder": files.on(host.name).folder,
         "host": host.name,
+        "config": config_option(f"{files.on(host.name).root}/nodes/{host.name}/settings"),
         "owner": f"{who} {files.folder}, registry {registry.address}:{registry.port}",
         "certificate": _text(files.certificate),
         "key": _text(files.key),

@@ -25,8 +25,7 @@ from robocomp_yaml.deploy.icegrid.grid_files import KEEPER, GridFiles
 from robocomp_yaml.deploy.local.procfs import MARK
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.network import limit_words
-from robocomp_yaml.network.network import ICESTORM, Process
-from robocomp_yaml.source import properties
+from robocomp_yaml.network.network import Process
 
 LONGEST_CONFIG = 100_000
 """The maximum size in bytes of a configuration for another host: Linux limits a variable to 128 KiB."""
@@ -45,7 +44,6 @@ for process in /proc/[0-9]*; do
 done
 exit 0
 """
-_SERVICE = "IceBox.Service."
 _AFTER_KILL = 10  # seconds that IceGrid itself waits, after what `run` waits
 
 
@@ -53,7 +51,6 @@ def server(files: GridFiles, spec: ProcessSpec, user: str, number: int, *, is_lo
     """The descriptor of a process. For another host it contains the configuration. `number` is the number of its
     restart rule."""
     process = spec.process
-    is_storm = process.kind == ICESTORM and process.config is not None
     words = [process.name, files.folder, *(f"f{path}" for path in process.folders)]
     ports = {one.port for one in process.endpoints if one.port and one.protocol != "udp"}
     environment = [
@@ -68,11 +65,7 @@ def server(files: GridFiles, spec: ProcessSpec, user: str, number: int, *, is_lo
         else:  # in the environment, because the words of a command are visible to everybody
             words.append(f"e{place}")
             environment.append(f"RCYAML_ENTRY_{place}={encoded(f'{variable.name}={variable.value}')}")
-    command = spec.command
-    if is_storm:
-        words.append("k")  # IceGrid writes the configuration of an IceBox and its services itself
-        command = command[:1]
-    elif process.config and not is_local:
+    if process.config and not is_local:
         words += [f"n{name}" for name in interfaces.names_of(process, spec.address)]
         words.append(f"c{spec.config_path}")
         environment.append(f"RCYAML_CONFIG={encoded(process.config.text)}")
@@ -80,17 +73,13 @@ def server(files: GridFiles, spec: ProcessSpec, user: str, number: int, *, is_lo
         words.append(f"c{files.folder}/{process.config.pem_path}")
         environment.append(f"RCYAML_PEM={encoded(process.config.pem)}")
     words += [f"l{word}" for word in limit_words.words(msgspec.to_builtins(process.limits))]
-    words += [f"={part}" for part in command]
-    facts = _facts(
+    words += [f"={part}" for part in spec.command]
+    return IceGrid.ServerDescriptor(**_facts(
         process.name, "setpriv", ["--pdeathsig", "KILL", "--", "${node.data}/../run", *map(_literal, words)],
         pwd=_literal(process.cwd), envs=environment, user=user, activation="manual",
         logs=[_literal(files.log(process.name)), _literal(files.status(process.name))],
         deactivationTimeout=f"{STOP_WITHIN + _AFTER_KILL:g}",
-    )  # fmt: skip
-    if is_storm:
-        assert process.config
-        return IceGrid.IceBoxDescriptor(**facts, services=list(_services(process.config.text)))
-    return IceGrid.ServerDescriptor(**facts)
+    ))  # fmt: skip
 
 
 def keeper(files: GridFiles, user: str) -> Any:
@@ -175,21 +164,6 @@ _QUIET = {"Ice.Admin.Enabled": "0", "Ice.Plugin.IceSSL": "IceSSL:createIceSSL"}
 def _literal(text: str) -> str:
     """A text in which IceGrid replaces no variable."""
     return re.sub(r"(\$+)\{", lambda found: found[1] * 2 + "{", text)
-
-
-def _services(text: str) -> Iterable[Any]:
-    """The services in the configuration of an IceBox."""
-    values = properties.read(text).values
-    own = {key: value for key, value in values.items() if not key.startswith("IceBox.")}
-    for key, entry in values.items():
-        if key.startswith(_SERVICE):
-            service = IceGrid.ServiceDescriptor(
-                adapters=[], propertySet=_property_set({**_QUIET, **own}), dbEnvs=[], logs=[], description="",
-                name=key.removeprefix(_SERVICE), entry=_literal(entry),
-            )  # fmt: skip
-            yield IceGrid.ServiceInstanceDescriptor(
-                template="", parameterValues={}, descriptor=service, propertySet=_property_set({})
-            )
 
 
 def _facts(name: str, exe: str, options: list[str], **facts: Any) -> dict[str, Any]:

@@ -38,7 +38,10 @@ class GridSession:
         data.properties = Ice.createProperties()
         for key, value in settings.of_client(files).items():
             data.properties.setProperty(key, value)
-        self.communicator = Ice.initialize(data)
+        try:
+            self.communicator = Ice.initialize(data)
+        except Ice.Exception as error:
+            raise Unreachable(in_words(error)) from error
         atexit.register(self.communicator.destroy)  # also if a command fails before it closes the session
         try:
             proxy = self.communicator.stringToProxy(settings.registry_proxy(registry))

@@ -27,6 +27,9 @@ from robocomp_yaml.network.network import NetworkHost, is_loopback
 KEEPER = "rcyaml.keeper"
 """The id of the keeper's server. No process can have this name."""
 
+KEY, CERTIFICATE = "key.pem", "certificate.pem"
+"""The names of the files with the deployment's key and certificate."""
+
 Kind = TypeVar("Kind")
 Missing = TypeVar("Missing")
 
@@ -80,11 +83,11 @@ class GridFiles(msgspec.Struct, frozen=True):
 
     @property
     def key(self) -> str:
-        return f"{self.root}/key.pem"
+        return f"{self.root}/{KEY}"
 
     @property
     def certificate(self) -> str:
-        return f"{self.root}/certificate.pem"
+        return f"{self.root}/{CERTIFICATE}"
 
     def status(self, name: str) -> str:
         return f"{self.root}/status/{name}"

@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 
 from robocomp_yaml.deploy import openssl
-from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry
+from robocomp_yaml.deploy.icegrid.grid_files import CERTIFICATE, KEY, GridFiles, Registry
 
 INSTANCE = "rcyaml"
 _EXTENSIONS = """\
@@ -36,13 +36,15 @@ def make_key(files: GridFiles) -> None:
         os.replace(f"{work}/certificate", files.certificate)
 
 
-def secured(key: str, certificate: str) -> dict[str, str]:
-    """The Ice properties for TLS with the deployment's certificate only."""
+def _secured(folder: str) -> dict[str, str]:
+    """The Ice properties for TLS with the deployment's key and certificate in a folder only. Ice takes each path of
+    `CertFile` and `KeyFile` as a list, in which quotes and colons have a meaning."""
     return {
         "Ice.Plugin.IceSSL": "IceSSL:createIceSSL",
-        "IceSSL.CertFile": certificate,
-        "IceSSL.KeyFile": key,
-        "IceSSL.CAs": certificate,
+        "IceSSL.DefaultDir": folder,
+        "IceSSL.CertFile": CERTIFICATE,
+        "IceSSL.KeyFile": KEY,
+        "IceSSL.CAs": CERTIFICATE,
         "IceSSL.VerifyPeer": "2",
     }
 
@@ -50,7 +52,7 @@ def secured(key: str, certificate: str) -> dict[str, str]:
 def of_registry(files: GridFiles, registry: Registry) -> dict[str, str]:
     own = f"ssl -h {registry.address}"
     return {
-        **secured(files.key, files.certificate),
+        **_secured(files.root),
         **_PATIENCE,
         "IceGrid.Registry.Client.ThreadPool.SizeMax": "64",
         "IceGrid.InstanceName": INSTANCE,
@@ -69,7 +71,7 @@ def of_registry(files: GridFiles, registry: Registry) -> dict[str, str]:
 def of_node(files: GridFiles, host: str, address: str, registry: Registry) -> dict[str, str]:
     own = f"{files.root}/nodes/{host}"
     return {
-        **secured(f"{own}/key.pem", f"{own}/certificate.pem"),
+        **_secured(own),
         **_PATIENCE,
         "Ice.Default.Locator": f"{INSTANCE}/Locator:{_endpoint(registry)}",
         "IceGrid.Node.Name": host,
@@ -83,7 +85,7 @@ def of_node(files: GridFiles, host: str, address: str, registry: Registry) -> di
 
 def of_client(files: GridFiles) -> dict[str, str]:
     return {
-        **secured(files.key, files.certificate),
+        **_secured(files.root),
         **_PATIENCE,
         "Ice.Default.InvocationTimeout": "30000",
         "Ice.RetryIntervals": "-1",

@@ -48,10 +48,12 @@ final class Tls {
         } catch (ClassNotFoundException error) {
             throw new StartError("IceSSL for Java, which TLS needs, is missing beside Ice (icessl-3.7*.jar)");
         }
-        SSLContext context = context(own, properties.getPropertyWithDefault("IceSSL.CAs", own));
+        Path folder = Path.of(properties.getProperty("IceSSL.DefaultDir"));
+        String authorities = properties.getPropertyWithDefault("IceSSL.CAs", own);
+        SSLContext context = context(folder.resolve(own), folder.resolve(authorities));
         properties.setProperty("Ice.Plugin.IceSSL.java", FACTORY);
         properties.setProperty("Ice.InitPlugins", "0"); // not before it has the context
-        for (String name : new String[] {"CertFile", "KeyFile", "CAs", "Protocols"}) {
+        for (String name : new String[] {"CertFile", "DefaultDir", "KeyFile", "CAs", "Protocols"}) {
             properties.setProperty("IceSSL." + name, ""); // with other meanings in Java
         }
         return context;
@@ -71,9 +73,9 @@ final class Tls {
         communicator.getPluginManager().initializePlugins();
     }
 
-    private static SSLContext context(String own, String authorities) {
+    private static SSLContext context(Path own, Path authorities) {
         try {
-            String text = Files.readString(Path.of(own), StandardCharsets.US_ASCII);
+            String text = Files.readString(own, StandardCharsets.US_ASCII);
             Certificate[] chain = certificates(text);
             KeyStore keys = KeyStore.getInstance("PKCS12");
             keys.load(null, PASSWORD);
@@ -83,7 +85,7 @@ final class Tls {
 
             KeyStore trusted = KeyStore.getInstance("PKCS12");
             trusted.load(null, PASSWORD);
-            Certificate[] all = certificates(Files.readString(Path.of(authorities), StandardCharsets.US_ASCII));
+            Certificate[] all = certificates(Files.readString(authorities, StandardCharsets.US_ASCII));
             for (int number = authorities.equals(own) ? 1 : 0; number < all.length; number++) {
                 trusted.setCertificateEntry("authority" + number, all[number]);
             }
