@@ -9,6 +9,8 @@ import signal
 from collections.abc import AsyncGenerator, Collection, Iterable, Iterator, Sequence
 from typing import Any
 
+from msgspec.structs import replace
+
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy import liveness, registered
 from robocomp_yaml.deploy.differences import shown_path
@@ -30,6 +32,7 @@ from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
 from robocomp_yaml.diag.errors import reason_of
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.network.network import PEM, Network
 
 
@@ -51,8 +54,6 @@ class LocalEngine:
 
     async def open(self, network: Network, *, create: bool) -> bool:
         self._network = network
-        if diagnostic := elsewhere(network):
-            raise DeployFailed(diagnostic)
         if record.continue_halted(network.folder):
             self.notes.append(deploying.NOT_SUPERVISED.at(Span(network.path), what=HALTED))
         try:
@@ -65,6 +66,8 @@ class LocalEngine:
                         deploying.NOT_SUPERVISED.at(Span(network.path), what=KILLED, more="\n".join(left))
                     )
             if connection is None and create:
+                if found := elsewhere(network):
+                    raise DeployFailed(found)
                 own_folder.make(network.folder)
                 connection = await client.start(network.folder, tied=self._is_tied)
             if connection is None:
@@ -116,6 +119,10 @@ class LocalEngine:
 
     async def obstacles(self, specs: Sequence[ProcessSpec], leaving: Collection[str]) -> list[Diagnostic]:
         own: set[int] = set()
+        if specs and (far := elsewhere(self._network)):
+            down = typed("rcyaml", "deploy", "down", shown_path(self._network.path))
+            keeps = f"it runs with the engine local: `{down}`, then `up` starts it with icegrid"
+            return [replace(far, hint=keeps) if self._client else far]
         if self._client:
             for entry in (await self._ask("", "observe"))["processes"]:
                 if entry["spec"]["process"]["name"] in leaving:
