@@ -272,7 +272,9 @@ class DeploySession(msgspec.Struct):
             if on_interrupt is None:
                 stop = terminal.typed("rcyaml", "deploy", "down", self.deployment.path)
                 on_interrupt = f"interrupted: running processes keep running; `{stop}` stops them"
-            if on_interrupt:
+            if on_interrupt and self.format_ == "json":
+                self._print_json({"interrupted": on_interrupt}, self.deployment.diagnostics)
+            elif on_interrupt:
                 terminal.say(on_interrupt, err=True)
             self.ctx.exit(_signals.code_of(error))
 

@@ -15,10 +15,10 @@ import msgspec
 from robocomp_yaml.deploy.circles import Circles, circles_in
 from robocomp_yaml.deploy.engine import DeployFailed, Engine, Running
 from robocomp_yaml.deploy.levels import in_the_way, levels
-from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, PlanStep, in_order
+from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, PlanStep, ill, in_order
 from robocomp_yaml.deploy.readiness import RECENT, State, holds, until_it_serves, until_ready, why_not
 from robocomp_yaml.deploy.spec import ProcessSpec
-from robocomp_yaml.deploy.states import ALIVE, RUNNING, SILENT, fault, is_done, is_unstable
+from robocomp_yaml.deploy.states import ALIVE, RUNNING, SILENT, fault, is_done
 from robocomp_yaml.deploy.time_limit import TimeLimit
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -322,8 +322,8 @@ class _Starts(msgspec.Struct):
             running = None
         self._since.setdefault(step.name, time.monotonic())
         where, how = step.spec.process.span, running.end if running else why
-        if running and is_unstable(running):
-            self._fail(step.name, deploying.UNSTABLE.at(where, name=step.name, how=running.last_exit))
+        if found := running and ill(running, where):
+            self._fail(step.name, found)
         elif running is None or running.state not in ALIVE:
             self._fail(step.name, deploying.ENDED_EARLY.at(where, name=step.name, how=how, hint=""))
         else:

@@ -11,12 +11,14 @@ from collections.abc import Collection, Iterable, Mapping
 
 import msgspec
 
-from robocomp_yaml.deploy.differences import Difference, differences
+from robocomp_yaml.deploy.differences import Difference, differences, shown_path
 from robocomp_yaml.deploy.engine import RUNNING, STOPPED, Running
 from robocomp_yaml.deploy.spec import ProcessSpec, spec_of
 from robocomp_yaml.deploy.states import fault, is_unstable
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.digraph import postorder, reachable
 from robocomp_yaml.network.network import Network, Process
 
@@ -75,14 +77,23 @@ def plan(
     return Plan(steps)
 
 
-def unstable(plan: Plan) -> list[Diagnostic]:
-    """A diagnostic for each process that goes on although it ends again and again: no step of a plan helps it."""
-    kept = [(step, step.running, step.spec) for step in plan.of(CHANGE, KEEP)]
-    return [
-        deploying.UNSTABLE.at(spec.process.span, name=step.name, how=running.last_exit)
-        for step, running, spec in kept
-        if running and spec and is_unstable(running)
-    ]
+def unhealthy(plan: Plan) -> list[Diagnostic]:
+    """A diagnostic for each process that goes on although it ends again and again, or is not alive: no step of a plan
+    helps it."""
+    kept = [(step.running, step.spec.process.span) for step in plan.of(CHANGE, KEEP) if step.running and step.spec]
+    return [found for running, where in kept if (found := ill(running, where))]
+
+
+def ill(running: Running, where: Span) -> Diagnostic | None:
+    """A diagnostic for a process that runs, and ends again and again or is not alive."""
+    if is_unstable(running):
+        return deploying.UNSTABLE.at(where, name=running.name, how=running.last_exit)
+    if running.state != RUNNING or not running.not_alive:
+        return None
+    again = typed("rcyaml", "deploy", "restart", *([shown_path(where.file)] if where.file else []), running.name)
+    return deploying.NOT_ALIVE.at(
+        where, name=running.name, why=running.not_alive, hint=f"`{again}` starts it again"
+    )  # fmt: skip
 
 
 def with_dependences(network: Network, names: Iterable[str]) -> set[str]:

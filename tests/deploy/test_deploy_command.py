@@ -295,6 +295,16 @@ def test_an_interrupted_up_leaves_processes_running(robot: Path, place: Place) -
     assert all(place.pids().values())
 
 
+def test_an_interrupted_up_is_said_in_json(robot: Path, place: Place) -> None:
+    write_tree(robot, {"robot.ddsl.yaml": NEVER})
+    up = start(robot, "up", "robot.ddsl.yaml", "--format", "json", stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+    until(lambda: place.pids().get("arm"), "arm is started")
+    up.send_signal(signal.SIGINT)
+    with up.stdout as rest:
+        assert "running processes keep running" in json.loads(rest.read())["interrupted"]
+    assert up.wait(20) == 130
+
+
 def test_up_after_a_killed_up(robot: Path, place: Place, rcyaml: Rcyaml) -> None:
     up = coming_up(robot)
     up.kill()

@@ -87,6 +87,22 @@ def test_a_program_that_nobody_asks_is_told(place: Place) -> None:
     assert place.status(sleeper("a"))["a"].is_ready and programs(place.folder, "a") == [pid]
 
 
+def test_plan_and_up_name_what_is_halted(place: Place, rcyaml: Rcyaml) -> None:
+    ready = 'role: server, ready: {command: ["true"], within: 1 s}}'
+    write_tree(place.root, {"robot.ddsl.yaml": DOCUMENT.replace("role: server}", ready)})
+    assert rcyaml("deploy", "up").exit_code == 0
+    (pid,) = until(lambda: programs(place.folder, "base"), "it runs")
+    halt(pid)
+    until(lambda: not goes_on(pid), "it is halted")
+    for command in ("plan", "up"):
+        said = rcyaml("deploy", command)
+        assert said.exit_code == 1 and "error[RC7042]: 'base' runs and is not alive: it is halted" in said.stderr
+        assert "`rcyaml deploy restart robot.ddsl.yaml base` starts it again" in said.stderr
+    assert rcyaml("deploy", "restart", "robot.ddsl.yaml", "base").exit_code == 0
+    assert rcyaml("deploy", "plan").exit_code == 0
+    assert programs(place.folder, "base") != [pid] and rcyaml("deploy", "down").exit_code == 0
+
+
 @pytest.fixture
 def grid(place: Place, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
     """The path of the document of a network that IceGrid runs on this machine."""

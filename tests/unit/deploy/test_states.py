@@ -7,7 +7,7 @@ from msgspec.structs import replace
 
 from engine_in_memory import network, process, running
 from robocomp_yaml.deploy.operations import Status
-from robocomp_yaml.deploy.plan import KEEP, START, plan, unstable
+from robocomp_yaml.deploy.plan import KEEP, START, plan, unhealthy
 from robocomp_yaml.deploy.states import ENDED, GIVEN_UP, LOST, RUNNING, STOPPED, WAITING, fault, is_unstable, state_of
 from robocomp_yaml.network.network import (
     ALWAYS,
@@ -110,5 +110,5 @@ def test_a_plan_names_what_is_unstable_and_leaves_it() -> None:
     assert (made.steps["motors"].action, made.steps["motors"].reason) == (
         KEEP, "it ends again and again: SIGSEGV",
     )  # fmt: skip
-    assert [one.code for one in unstable(made)] == ["RC7040"]
+    assert [one.code for one in unhealthy(made)] == ["RC7040"]
     assert not Status("motors", "", True, now, True).is_as_desired
