@@ -61,6 +61,9 @@ def test_its_parts(tmp_path: Path) -> None:
 
 
 def test_it_is_packaged_without_the_libraries(installed: Path) -> None:
+    version = node("node", "-p", "process.versions.node", folder=installed).stdout.strip()
+    if int(version.partition(".")[0]) < 20:
+        pytest.skip(f"vsce needs Node 20, and this is {version}")
     done = node("npm", "run", "package", folder=installed)
     assert done.returncode == 0, done.stdout + done.stderr
     with zipfile.ZipFile(installed / "rcyaml.vsix") as package:
