@@ -128,7 +128,7 @@ def add(server: Server) -> None:
             told = _of_schema(params)
             count = len(set(known.names.uses.get(one.key, ())))
             uses = "not used" if not count else "used once" if count == 1 else f"used {count} times"
-            parts = [f"```\n{one.says}\n```", one.doc, *described(known.analysis, one), uses]
+            parts = [f"```\n{one.says}\n```", one.doc, *described(known.analysis, one), f"{uses} in documents"]
             text = "\n\n".join(part for part in parts if part)
             return _markdown(f"{text}\n\n---\n\n{told[0]}" if told is not None else text, where)
 
