@@ -17,23 +17,19 @@ from robocomp_yaml.deploy.attached import Attached, attached
 from robocomp_yaml.deploy.carry_out import Report
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import DeployFailed, Line
-from robocomp_yaml.deploy.engines import ENGINES, ICEGRID, LOCAL, make_engine
+from robocomp_yaml.deploy.engines import ENGINES, LOCAL, engine_of, make_engine
 from robocomp_yaml.deploy.install import installed
-from robocomp_yaml.deploy.listing import runs
-from robocomp_yaml.deploy.local.obstacles import elsewhere
 from robocomp_yaml.deploy.log_filter import LogFilter, selected
 from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, STOP_THEM, Choose, Result, Status
 from robocomp_yaml.deploy.patterns import PatternTooSlow
 from robocomp_yaml.deploy.plan import RESTART, START, STOP, Plan, unhealthy, with_dependences
 from robocomp_yaml.deploy.plan import plan as make_plan
 from robocomp_yaml.deploy.preparing import prepared
-from robocomp_yaml.deploy.registered import RegisteredDeployment
 from robocomp_yaml.deploy.time_limit import TimeLimit
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import ERROR, WARNING, Diagnostic, has_errors
 from robocomp_yaml.diag.errors import Faulty, Refused, reason_of
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.network.network import Network
 from robocomp_yaml.pipeline import Analysis
 
@@ -66,7 +62,7 @@ class Deployment:
 
             network, engine = stand_in(path) or (None, engine)
         elif network and (known := registered.of_folder(network.folder)):
-            engine = _engine_of(known, network, engine)
+            engine = engine_of(known, network, engine)
         if network is None or (has_errors(analysis.diagnostics) and not lenient):
             raise Faulty(analysis.diagnostics, analysis.program.documents)
         self.network: Network = network
@@ -387,18 +383,6 @@ class Deployment:
         where, span = shown_path(self.network.folder), Span(self.network.path)
         self._diagnostics.append(deploying.FOLDER.at(span, path=where, reason=reason))
         raise Faulty(self.diagnostics)
-
-
-def _engine_of(known: RegisteredDeployment, network: Network, chosen: str | None) -> str:
-    """The engine of a deployment that was started before: while it runs, the one with which it runs. Raises Refused if
-    another one is chosen: it would run twice."""
-    engine = chosen or (ICEGRID if known.engine == LOCAL and elsewhere(network) else known.engine)
-    if engine == known.engine or not runs(known):
-        return engine
-    if chosen:
-        down = typed("rcyaml", "deploy", "down", shown_path(network.path))
-        raise Refused(f"{known.name} runs with the engine {known.engine}: leave out `--engine`, or run `{down}` first")
-    return known.engine
 
 
 def _ignore(event: object) -> None:

@@ -351,7 +351,10 @@ def test_names_are_found_across_documents_and_in_unsaved_texts(ws: Path) -> None
         ]  # fmt: skip
         shown = await editor.client.text_document_hover_async(types.HoverParams(named, there))
         assert shown is not None and isinstance(shown.contents, types.MarkupContent)
-        assert "interface RoboCompSpeech.Speech" in shown.contents.value and "used once in documents" in shown.contents.value
+        assert (
+            "interface RoboCompSpeech.Speech" in shown.contents.value
+            and "used once in documents" in shown.contents.value
+        )
         assert (
             await editor.client.text_document_definition_async(types.DefinitionParams(named, types.Position(0, 0)))
             is None

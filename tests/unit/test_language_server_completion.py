@@ -76,6 +76,38 @@ def test_what_is_offered(file: str, marked: str, expected: list[str], end: str) 
     assert sorted(f"{one.text} +{one.imports}" if one.imports else one.text for one in found) == sorted(expected)
 
 
+@pytest.mark.parametrize(
+    ("typed", "columns", "expected"),
+    [
+        ("  - speed < |", (13, 13), {"speed", "camera", "camera.width", "len"}),
+        ("  - sp| < 3", (5, 7), {"speed", "camera", "camera.width", "all"}),
+        ("  - {that: speed-ca|, else: no}", (18, 20), {"speed", "camera.width"}),
+        ('  - {that: "speed < 3 and camera.w|", else: no}', (27, 35), {"camera.width"}),
+        ("  - that: all(j.|", (15, 17), {"j.n"}),
+    ],
+)
+def test_in_constraints(typed: str, columns: tuple[int, int], expected: set[str]) -> None:
+    """The word alone is replaced; what begins otherwise is filtered by the editor."""
+    files = WORKSPACE | {
+        "arm/arm.pdsl.yaml": f"types: {{Joint: {{struct: {{n: int}}}}}}\n{WORKSPACE['arm/arm.pdsl.yaml']}constraints: [speed < 9]\n"
+    }
+    analysis = analysed(files)
+    before, _, behind = typed.partition("|")
+    place = typed_at(f"{WORKSPACE['arm/arm.pdsl.yaml']}constraints:\n{before}{behind}\n", 6, len(before) + 1)
+    assert place is not None and (place.column, place.end_column) == columns
+    found = {
+        one.text for one in proposals(f"{ROOT}/arm/arm.pdsl.yaml", place, names_of(analysis), [], analysis.program)
+    }
+    assert expected <= found
+
+
+def test_modules_that_no_folder_of_the_search_path_has() -> None:
+    place = typed_at("component: C\nlanguage: python\nimports: [../interfaces/Arm, ]\n", 3, 30)
+    assert place is not None
+    found = [one.text for one in proposals(f"{ROOT}/leg/leg.cdsl.yaml", place, NAMES, ["Pose"], ANALYSIS.program)]
+    assert found == ["Pose", "../interfaces/Eye"]
+
+
 def test_the_word_at_the_cursor_is_replaced() -> None:
     place = typed_at("module: RoboCompA\ntypes: {P: {sequence: Pose.Po}}\n", 2, 26)
     assert place is not None and place.keys == ("types", "P", "sequence")

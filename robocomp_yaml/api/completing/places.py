@@ -13,6 +13,7 @@ from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
 
 MARK = "rcyaml0cursor"
 _BEFORE, _BEHIND = re.compile(r"[\w./-]*\Z"), re.compile(r"[\w./-]*")
+_OPERAND = re.compile(r"[\w.]*\Z")
 _LINE_END = re.compile("\r\n|\r|\n")
 _OPENED = {"[": "]", "{": "}"}
 _PIECE = re.compile(
@@ -25,7 +26,8 @@ _FAR, _MOST = 40, 5  # lines above, and ways to close them
 class TypedPlace(msgspec.Struct, frozen=True):
     """`keys` are the keys around the cursor, with '' for an item of a list; `is_key` says that a key is typed there,
     and not a value: one with a colon, in braces, or in a line of its own below a key. The word at the cursor is in
-    these columns of the line; if it is in a text with blanks, that is the whole text, without its quotes. `quote` is
+    these columns of the line; if it is in a text with blanks, that is the whole text, without its quotes, unless the
+    text is an expression (`is_in_expression`). `quote` is
     the quote before it, or ''; `word` is what is typed before the cursor. `around` is the mapping in which a key is
     typed, or the list in which an element is; `has_colon`: the key has its colon already. `root` is the document with a
     mark instead of the word, and `text` its text."""
@@ -41,6 +43,14 @@ class TypedPlace(msgspec.Struct, frozen=True):
     word: str = ""
     around: Mapping | Sequence | None = None
     has_colon: bool = False
+
+    @property
+    def is_in_expression(self) -> bool:
+        return not self.is_key and _is_expression(self.keys)
+
+
+def _is_expression(keys: tuple[str, ...]) -> bool:
+    return keys in (("constraints", ""), ("constraints", "", "that"))
 
 
 def typed_at(text: str, line: int, column: int) -> TypedPlace | None:
@@ -74,7 +84,10 @@ def typed_at(text: str, line: int, column: int) -> TypedPlace | None:
             is_key = is_key or (not own.strip() and steps[-1:] != ("",))
             start, size = begin.start() - starts[line - 1] + 1, end.end() - begin.start()
             stop = start + size
-            if node.lexeme != MARK:
+            if _is_expression(steps) and not is_key:
+                operand = _OPERAND.search(text, starts[line - 1], index)
+                start = operand.start() - starts[line - 1] + 1 if operand else start
+            elif node.lexeme != MARK:
                 start = node.span.column + node.quoted
                 stop = node.span.end_column - node.quoted - len(MARK) + size
             quote = attempt[node.start] if node.quoted else ""

@@ -7,7 +7,7 @@ from __future__ import annotations
 import json
 import os
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from itertools import chain
 
 from msgspec.structs import replace
@@ -25,6 +25,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import LinkedParameters, Program
 from robocomp_yaml.naming import names
 from robocomp_yaml.naming.names import DefinedName, Names
+from robocomp_yaml.parameters.specification.expression import FUNCTIONS
 from robocomp_yaml.parameters.types import RecordType
 from robocomp_yaml.parameters.words import label
 from robocomp_yaml.source.discover import KINDS, WORKSPACE_FILE, kind_of
@@ -46,7 +47,7 @@ _OF_TYPES = ("struct", "sequence", "map", "in", "out", "returns", "type")
 
 
 def proposals(
-    path: str, place: TypedPlace, known: Names, importable: Iterable[str], program: Program | None = None, *,
+    path: str, place: TypedPlace, known: Names, importable: Collection[str], program: Program | None = None, *,
     with_schema: bool = False,
 ) -> list[Proposal]:  # fmt: skip
     """What can stand at a place of a document, each once. `with_schema`: also what its schema says."""
@@ -59,7 +60,11 @@ def proposals(
         case "cdsl":
             found = chain(_in_component(path, place, known, importable), machines.proposals(place))
         case "pdsl":
-            found = chain(_in_parameters(place, known), _component_paths(path, place, known, "component"))
+            found = chain(
+                _in_parameters(place, known),
+                _in_constraint(path, place, known),
+                _component_paths(path, place, known, "component"),
+            )
         case "ddsl":
             found = chain(_in_deployment(path, place, known), _set_values(path, place, program))
             found = chain(found, _ports_of_entry(path, place, program), _of_groups(place, program, path))
@@ -241,16 +246,19 @@ def kind_at(path: str, disk: Disk | None = None) -> str:
     return "workspace" if name == WORKSPACE_FILE else name.removesuffix(".yaml").rpartition(".")[2]
 
 
-def _imports(path: str, place: TypedPlace, importable: Iterable[str]) -> Iterator[Proposal]:
-    own = os.path.basename(path).removesuffix(_SUFFIX)
-    present = set(_items(place.root, "imports"))
-    return (Proposal(name, names.MODULE) for name in importable if name != own and name not in present)
+def _imports(path: str, place: TypedPlace, known: Names, importable: Collection[str]) -> Iterator[Proposal]:
+    """Modules by their names, and by relative paths those that no folder of the search path has."""
+    found, folder = set(importable), os.path.dirname(path)
+    far = (one for one in known.of_kinds(names.MODULE) if _stem(one) not in found and one.span.file != path)
+    paths = (os.path.relpath(one.span.file, folder).removesuffix(_SUFFIX) for one in far)
+    own = {os.path.basename(path).removesuffix(_SUFFIX), *_items(place.root, "imports")}
+    return (Proposal(name, names.MODULE) for name in (*importable, *paths) if name not in own)
 
 
-def _in_interfaces(path: str, place: TypedPlace, known: Names, importable: Iterable[str]) -> Iterator[Proposal]:
+def _in_interfaces(path: str, place: TypedPlace, known: Names, importable: Collection[str]) -> Iterator[Proposal]:
     keys = place.keys
     if keys[:1] == ("imports",) and not place.is_key:
-        yield from _imports(path, place, importable)
+        yield from _imports(path, place, known, importable)
     elif not place.is_key and len(keys) > 2 and keys[0] in ("interfaces", "topics", "types", "exceptions", "constants"):
         is_exception = "throws" in keys[3:]
         if keys[-1] == "default" or (keys[0], keys[-1]) == ("constants", "value"):
@@ -288,10 +296,10 @@ def _enumerators(place: TypedPlace, known: Names) -> Iterator[Proposal]:
             yield Proposal(one.name, VALUE, one.says, one.doc)
 
 
-def _in_component(path: str, place: TypedPlace, known: Names, importable: Iterable[str]) -> Iterator[Proposal]:
+def _in_component(path: str, place: TypedPlace, known: Names, importable: Collection[str]) -> Iterator[Proposal]:
     keys = place.keys
     if keys[:1] == ("imports",) and not place.is_key:
-        yield from _imports(path, place, importable)
+        yield from _imports(path, place, known, importable)
     elif keys and keys[0] in _PORTS and not place.is_key and (len(keys) < 4 or keys[3] == "interface"):
         kind = _PORTS[keys[0]]
         for _, one in _of_imported(place, known, kind):
@@ -309,6 +317,26 @@ def _in_parameters(place: TypedPlace, known: Names) -> Iterator[Proposal]:
         yield from _enumerators(place, known)
     if not place.is_key and place.keys[-1:] in (("type",), ("list",), ("map",)):
         yield from (Proposal(name, names.TYPE, "type of this document") for name in _keys(place.root, "types"))
+
+
+def _in_constraint(path: str, place: TypedPlace, known: Names) -> Iterator[Proposal]:
+    """Parameters by their paths, functions, and, behind a dot, members of records (`m.min` of `for m in motors`)."""
+    if not place.is_in_expression:
+        return
+    defined = {one.key: one for one in known.in_document(path)}
+
+    def dotted(one: DefinedName) -> str:
+        outer = defined.get(one.inside)
+        return f"{dotted(outer)}.{one.name}" if outer and outer.kind == names.PARAMETER else one.name
+
+    head, dot, _ = place.word.rpartition(".")
+    for one in defined.values():
+        if one.kind == names.PARAMETER:
+            yield Proposal(dotted(one), one.kind, one.says, one.doc)
+        elif one.kind == names.PARAMETER_MEMBER and dot:
+            yield Proposal(f"{head}.{one.name}", one.kind, one.says, one.doc)
+    if not dot:
+        yield from (Proposal(name, VALUE, "function", snippet=f"{name}(") for name in FUNCTIONS)
 
 
 def _in_deployment(path: str, place: TypedPlace, known: Names) -> Iterator[Proposal]:
