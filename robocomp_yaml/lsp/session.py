@@ -310,7 +310,11 @@ class Session:
         return _as_now(workspace, code)
 
     def names_everywhere(self) -> list[KnownNames]:
-        return [self.names_around(path) for path in {self.root_of(path): path for path in self.open}.values()]
+        """Those of all workspaces that are open: as a folder, or with a document."""
+        marks = filter(os.path.isfile, (os.path.join(folder, WORKSPACE_FILE) for folder in self.folders))
+        return [
+            self.names_around(path) for path in {self.root_of(path): path for path in (*marks, *self.open)}.values()
+        ]
 
     def of_workspace(self, root: str, is_cancelled: Callable[[], bool] = lambda: False) -> Found:
         """All diagnostics of a workspace, also of documents that had some before. Raises Cancelled."""

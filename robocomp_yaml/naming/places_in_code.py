@@ -25,7 +25,7 @@ def places_in_code(
 ) -> list[tuple[Span, bool]]:
     """The places, and whether each defines a method. None if the code cannot be followed."""
     try:
-        made = renamed(analysis, names, defined, f"{defined.name}{_ANOTHER}", analyse)
+        made = renamed(analysis, names, defined, f"{defined.name}{_ANOTHER}", analyse, is_trial=True)
     except Refused:
         return []
     found = []

@@ -55,9 +55,12 @@ def renamed(
     defined: DefinedName,
     name: str,
     analyse: Callable[[Mapping[str, bytes]], Analysis],
+    *,
+    is_trial: bool = False,
 ) -> RenamedTexts:
     """The renaming of a name. `analyse` returns the analysis with other contents of some files. Raises NotRenamed
-    with the reason, if the name is taken, or the documents would not mean the same."""
+    with the reason, if the name is taken, or the documents would not mean the same. A trial is not judged: only its
+    edits matter."""
     if not name or name != name.strip() or "\n" in name:
         raise NotRenamed("a name has at least one character, and no blanks around it")
     if name == defined.name:
@@ -68,8 +71,9 @@ def renamed(
     before = {path: _content(analysis, path) for path in {one.span.file for one in edits}}
     after = {path: _applied(before[path], path, edits) for path in before}
     then = analyse(after)
-    _refuse_new(analysis.diagnostics, then.diagnostics)
-    _refuse_other_meaning(names, names_of(then), defined, name)
+    if not is_trial:
+        _refuse_new(analysis.diagnostics, then.diagnostics)
+        _refuse_other_meaning(names, names_of(then), defined, name)
     codes = dict(_codes(analysis))
     in_code: list[NameEdit] = []
     left: list[Span] = []
@@ -79,9 +83,10 @@ def renamed(
             continue
         made = list(code.edits(linked, partial(_moved, code, defined, name)))
         texts = _texts_after(code, made)
-        _refuse_new(code.faults(code.linked, code.texts), code.faults(linked, texts))
+        if not is_trial:
+            _refuse_new(code.faults(code.linked, code.texts), code.faults(linked, texts))
+            left += _left(code, defined, {one.span for one in made}, names)
         in_code += [NameEdit(replaced(one.span, code), one.text, True) for one in made]
-        left += _left(code, defined, {one.span for one in made}, names)
         for path in {one.span.file for one in made}:
             before[code.shown(path)] = code.texts[path].encode()
             after[code.shown(path)] = texts[path].encode()

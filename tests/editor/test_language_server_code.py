@@ -10,11 +10,13 @@ pytest.importorskip("pygls")
 
 from lsprotocol import types
 from pygls import uris
+from pygls.exceptions import JsonRpcException
 
 from conftest import write_tree
 from editor.editing import Editor, edited
 from editor.speaking import DOCUMENTS, PARAMETERS, ROBOT, at, worker
 from robocomp_yaml import api
+from robocomp_yaml.addresses.port_numbers import default_port
 
 pytestmark = pytest.mark.processes
 
@@ -52,6 +54,31 @@ def test_references_lead_into_code(ws: Path) -> None:
         made = await editor.client.text_document_implementation_async(types.ImplementationParams(named, there))
         assert _places(made, ws) == [(code, at(4, 8, 18))]
         assert not editor.messages
+
+    edited(test)
+
+
+def test_references_of_what_cannot_be_renamed(ws: Path) -> None:
+    """Instances cannot share the port that their configuration would then set for the interface."""
+    robot = "deployment: Robot\ncomponents: {'m{i}': {component: speech, instances: 2}}\n"
+    config = f"Speech.Endpoints=tcp -p {default_port('SpeechComp', 'Speech')}\n"
+    write_tree(ws, {"robot.ddsl.yaml": robot, "speech/etc/config": config, "speech/speech.pdsl.yaml": ""})
+    (ws / "speech/speech.pdsl.yaml").unlink()
+    write_tree(ws, worker("Speech_say(self, text: str) -> None:", "print(self.Speech_say)"))
+    interface = ws / "interfaces/Speech.idsl.yaml"
+    named, there = types.TextDocumentIdentifier(interface.as_uri()), types.Position(2, 4)
+
+    async def test(editor: Editor) -> None:
+        await editor.start(ws)
+        symbols = await editor.client.workspace_symbol_async(types.WorkspaceSymbolParams("spcomp"))
+        assert [one.name for one in symbols or ()] == ["SpeechComp"], "also before a document is open"
+        editor.open(interface)
+        found = await editor.client.text_document_references_async(
+            types.ReferenceParams(types.ReferenceContext(False), named, there)
+        )
+        assert {"speech/etc/config", "speech/src/specificworker.py"} <= {path for path, _ in _places(found, ws)}
+        with pytest.raises(JsonRpcException, match="RC3331"):
+            await editor.client.text_document_rename_async(types.RenameParams(named, there, "Voice"))
 
     edited(test)
 

@@ -19,7 +19,7 @@ from robocomp_yaml.api.completing.proposal import CODE, PATH, VALUE, Proposal
 from robocomp_yaml.api.schemas import names_offered
 from robocomp_yaml.check.pdsl.values import port_names
 from robocomp_yaml.diag.codes import table
-from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
 from robocomp_yaml.diag.fix import IMPORT, Edit
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import LinkedParameters, Program
@@ -234,6 +234,7 @@ def codes_at(line: str, column: int, found: Iterable[Diagnostic], number: int) -
         return None
     here = {one.code: one.message for one in found if one.span.line in (number, number + 1)}
     known = {**here, **{id_: code.message for id_, code in table().items() if id_ not in here}}
+    known = {id_: text for id_, text in known.items() if table()[id_].severity != ERROR}  # errors cannot be allowed
     made = [Proposal(id_, CODE, text, "reported here" if id_ in here else "") for id_, text in known.items()]
     return typed.start("code") + 1, made
 
@@ -248,11 +249,16 @@ def kind_at(path: str, disk: Disk | None = None) -> str:
 
 def _imports(path: str, place: TypedPlace, known: Names, importable: Collection[str]) -> Iterator[Proposal]:
     """Modules by their names, and by relative paths those that no folder of the search path has."""
-    found, folder = set(importable), os.path.dirname(path)
-    far = (one for one in known.of_kinds(names.MODULE) if _stem(one) not in found and one.span.file != path)
-    paths = (os.path.relpath(one.span.file, folder).removesuffix(_SUFFIX) for one in far)
+    far = (_as_import(one, path, importable) for one in known.of_kinds(names.MODULE) if one.span.file != path)
     own = {os.path.basename(path).removesuffix(_SUFFIX), *_items(place.root, "imports")}
-    return (Proposal(name, names.MODULE) for name in (*importable, *paths) if name not in own)
+    return (Proposal(name, names.MODULE) for name in dict.fromkeys((*importable, *far)) if name not in own)
+
+
+def _as_import(one: DefinedName, path: str, importable: Collection[str]) -> str:
+    """How a document imports the module that defines a name."""
+    stem = _stem(one)
+    far = os.path.relpath(one.span.file, os.path.dirname(path)).removesuffix(_SUFFIX)
+    return stem if stem in importable else far
 
 
 def _in_interfaces(path: str, place: TypedPlace, known: Names, importable: Collection[str]) -> Iterator[Proposal]:
@@ -305,11 +311,10 @@ def _in_component(path: str, place: TypedPlace, known: Names, importable: Collec
         for _, one in _of_imported(place, known, kind):
             yield Proposal(one.name, kind, one.says, one.doc)
         stems = {stem for stem, _ in _of_imported(place, known, names.MODULE)}
-        can_be_imported = set(importable)
         for one in known.of_kinds(kind):
-            stem = _stem(one)
-            if stem not in stems and stem in can_be_imported:
-                yield Proposal(one.name, kind, f"{one.says}, imports {stem}", one.doc, stem)
+            if _stem(one) not in stems:
+                module = _as_import(one, path, importable)
+                yield Proposal(one.name, kind, f"{one.says}, imports {module}", one.doc, module)
 
 
 def _in_parameters(place: TypedPlace, known: Names) -> Iterator[Proposal]:
